@@ -1,4 +1,4 @@
-/** <alpha-calibrator>: the α's of a log, how well they are known, and whether the model is any good. */
+/** <alpha-calibrator>: α's fitted to a log, with confidence intervals and goodness of fit. */
 
 import { html } from 'lit';
 import { asObject } from '../../figure/checks.ts';
@@ -29,10 +29,10 @@ import { captionOf, judgementOf, legText, reasonOf, pathText } from './words.ts'
 import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
-/** Log of the reader or of the page, with the fit that the service has made, and the settings of the fit. */
+/** Log of the reader or of the page, with the fit by the service, and the settings of the fit. */
 interface OpenedLog {
   log: CalibrationLog;
-  /** Notes of the logs that leave the α's doubtful. */
+  /** Notes on the logs that make the α's doubtful. */
   warnings: Warning[];
   config: Machine['config'];
   fit: Uint8Array;
@@ -62,7 +62,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   service = new LogService('alpha-calibrator');
   #predicted: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();
-  /** Log that was given; null for the simulated one. */
+  /** Log of the reader or of the page; null for the simulated log. */
   #given: OpenedLog | null = null;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) =>
@@ -89,18 +89,18 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     this.service.end();
   }
 
-  /** Leg that is shown, from 0; −1 if there is none. */
+  /** Index of the leg that is shown; −1 if there is none. */
   get chosen() {
     return legOf(this.reading, this.state.own.leg);
   }
 
-  /** Predicted cloud and end of the leg that is shown, by the latest complete fit; null without a leg. */
+  /** Predicted cloud and ends of the leg that is shown, by the latest complete fit; null without a leg. */
   get predicted() {
     const { chosen, machine, reading: { config } } = this;
     return chosen < 0 || !machine ? null : this.#predicted.of([config, chosen], () => machine.leg(chosen));
   }
 
-  /** Bins of squared residuals against the motion that is chosen; empty without legs. */
+  /** Bins of squared residuals against the chosen regressor; empty without legs. */
   get panels() {
     const { machine, reading: { stats, legs }, state: { own: { driver } } } = this;
     return legs.count > 0 && machine ? this.#panels.of([stats, driver], () => machine.panels(driver)) : [];
@@ -155,8 +155,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   };
 
   /**
-   * Replaces the log once it is fitted. A log that `check` refuses by an error leaves the present one. Null is the simulated log.
-   * `warnings` are the notes of the logs that leave the α's doubtful.
+   * Replaces the log after it has been fitted; null is the simulated log. If `check` throws, the present log stays. `warnings` are notes on
+   * the log that make the α's doubtful.
    */
   async open(log: CalibrationLog | null, warnings: Warning[], check?: (machine: Machine) => void) {
     const config = this.settings.pick(this.settings.present) as Machine['config'];
@@ -173,7 +173,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /** Fits the present log under settings that are pending. The figure shows the former fit until then. */
+  /** Fits the present log with the pending settings. The figure shows the previous fit until then. */
   async #follow() {
     const { log, service } = this;
     if (!log || service.isBusy) return;
@@ -191,7 +191,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     this.settings.assign(this.reading.fitted);
   }
 
-  /** Notes of the logs that leave the α's doubtful. */
+  /** Notes on the logs that make the α's doubtful. */
   get warnings() {
     return this.#given?.warnings ?? [];
   }

@@ -13,7 +13,7 @@ import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 export function legControls(figure: Figure) {
   const { reading: { legs, worst }, chosen } = figure;
   const say = words.calibrator.leg;
-  // If the selected leg is one of them, the button selects the next one.
+  // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
   const nextLeg = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
   return html`<fieldset class="leg">
       <legend class="visually-hidden">${say.name}</legend>

@@ -76,7 +76,7 @@ function largestResiduals(figure: Figure) {
   </div>`;
 }
 
-/** Smallest squared distance or rotation of an axis: of a millimetre, or of a thousandth of a radian. */
+/** Minimum squared distance or rotation at the end of an axis: the square of a millimetre, or of a thousandth of a radian. */
 const MIN_REGRESSOR = 1e-6;
 
 /** Returns the plots of the squared residuals of the three noises against their regressors. */
@@ -96,7 +96,7 @@ export function regressionPanels(figure: Figure) {
     <figcaption>${formatMarkup(say.caption)}</figcaption></figure>`;
 }
 
-/** Returns the plot of a panel, with the name of its noise and of its axis of squared motion. */
+/** Returns the plot of a panel, with the names of its noise component and of its regressor axis. */
 function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): import('../../ui/plot.ts').Plot {
   const say = words.calibrator.panels;
   const maxRegressor = Math.max(0, ...x);
@@ -130,8 +130,8 @@ function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fit
 }
 
 /**
- * Returns the range of an axis of squares: all bins, the highest square of the line, and half as much again for error bars. The bar of a
- * single leg would leave the others no room.
+ * Returns the range of an axis of squares. It contains all bins, the highest point of the line, and up to half as much again for error
+ * bars: the long error bar of a single leg must not compress all others.
  */
 function axisOfSquares(squares: number[], error: number[], line: number): { from: number, to: number } {
   const [lowest, highest] = [Math.min(0, ...squares), Math.max(0, line, ...squares)];

@@ -28,10 +28,10 @@ const MIN_PLAIN_NUMBER = 1e-6;
 
 const MOST_DECIMALS = 12;
 
-/** Smallest magnitude of whole numbers with an exponent: times since 1970 are below. */
+/** Magnitude from which whole numbers are printed with an exponent. Times since 1970 are below it. */
 const MAX_PLAIN_NUMBER = 1e15;
 
-/** Largest plausible α: an error as large as the motion, or of one radian per metre. */
+/** Largest plausible α. With it the error is as large as the motion, or one radian per metre. */
 const MAX_PLAUSIBLE_ALPHA = 1;
 
 /** Text for a missing number. */
@@ -46,12 +46,12 @@ export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distan
 /** Rules of the motion models of Nav2. */
 const NAV2_RULES = ['nav2', 'omni'];
 
-/** Checks whether Nav2 moves its particles by a rule. */
+/** Returns true if Nav2 has the motion model of a rule. */
 export const isOfNav2 = (model: string, rule: string): boolean => model !== 'odometry' || NAV2_RULES.includes(rule);
 
 export const toText = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? withPointInMantissa(String(Number(value.toPrecision(digits)))) : NO_NUMBER);
 
-/** Adds a point to an exponent, without which YAML 1.1 reads a text. */
+/** Adds a decimal point before an exponent. Without the point, YAML 1.1 would read a string. */
 const withPointInMantissa = (number: string) => number.replace(/^(-?\d)e/, '$1.0e');
 
 /** Adds decimals to a whole number, which Nav2 refuses for its doubles. */
@@ -70,7 +70,7 @@ export function fixed(value: number | null, interval: Interval | undefined) {
 /** Prints an interval; empty if an end is not finite. */
 export const formatInterval = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
 
-/** Checks whether an α is 0 in the digits of its interval. A printed zero would look like a result. */
+/** Returns true if an α prints as 0 with the digits that its interval allows. A printed 0 would look like a result. */
 export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(fixed(alpha, interval)) === 0;
 
 export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${toText(100 * fraction)} %` : NO_NUMBER);
@@ -89,15 +89,15 @@ export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, mo
   return { lack, drive: model === 'velocity' ? byCommands : drive };
 }
 
-/** Returns the motion of which a log has too little to distinguish an α from 0. The first α has index 0. */
+/** Returns the kind of motion of which a log has too little to distinguish an α (index from 0) from 0. */
 export function missingMotion(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
   const isOfRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;
   return isOfRotation ? 'insufficient-rotation' : 'insufficient-translation';
 }
 
 /**
- * Returns the lines with the recommended α's, and the fitted ones in comments. There are none if Nav2 has no such model, or no α's are
- * recommended.
+ * Returns the YAML lines with the recommended α's, and with the fitted α's in comments. Returns no lines if Nav2 has no such model, or if
+ * no α's are recommended.
  */
 export function nav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog, say: Words): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
@@ -133,8 +133,8 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
 export const failedOf = <Check extends { name: string, passed: boolean, message: string }>(checks: Check[]) => checks.filter(({ passed }) => !passed);
 
 /**
- * Returns a sentence that says how to correct the robot's odometry, or none. It has scales that were corrected, and that differ from 1 beyond
- * their intervals: AMCL gets the odometry as the robot reports it. `print` writes the numbers of the sentence.
+ * Returns a sentence (or none) that says how to correct the robot's odometry, because AMCL gets the odometry as the robot reports it. The
+ * sentence has the scales that were corrected and differ from 1 beyond their intervals. `print` formats its numbers.
  */
 export function correctFirst(systematicErrors: any, say: Words, print = (number: string) => number): string[] {
   const [distance, turn] = ['distanceScale', 'turnScale'].map((key) => {

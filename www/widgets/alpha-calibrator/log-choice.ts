@@ -78,7 +78,7 @@ function roleSelect(opener: LogOpener, { recordings, roles, plan }: ChosenFiles,
   return selectField(`log-role-${index}`, name, ownRole ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
     const role = value as Role;
     const changedRoles = new Map(roles).set(index, role);
-    // The other one of two files has the other role.
+    // If there are two files, the other file gets the other role.
     if (recordings.length === 2 && optionsOf(recordings[1 - index]).length === 1) changedRoles.set(1 - index, role === 'odometry' ? 'reference' : 'odometry');
     opener.change({ roles: changedRoles });
   }, say.open);
@@ -124,7 +124,7 @@ function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | 
 
 const idOf = ({ file, ask: { what } }: OpenQuestion) => `log-${what}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
-/** Moves the focus to the chooser of a question, unless it is in one. Returns whether there is one. */
+/** Moves the focus to the chooser of a question, unless a chooser already has the focus. Returns true if there is a chooser. */
 export function focusChooser({ renderRoot }: AlphaCalibratorElement, asked: OpenQuestion): boolean {
   const { what, role = 'odometry' }: Question = asked.ask;
   const targets = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['what'], string>>;
@@ -138,12 +138,12 @@ export function focusChooser({ renderRoot }: AlphaCalibratorElement, asked: Open
 /** Size of the picture, CSS pixels, and its margin for the width of lines. */
 const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
 
-/** Maximum number of points of a path: several for each pixel. */
+/** Maximum number of points of a path, several for each pixel. */
 const MAX_POINTS = 1500;
 
 /** Returns what was read of each drive, shown while it is fitted and below the result. */
 export function logSummary({ chosen, say, host }: LogOpener) {
-  // The page may have given another log since.
+  // The page may have set another log in the meantime.
   if (!chosen?.drives || !say || (chosen.log && chosen.log !== host.log)) return nothing;
   const { drives } = chosen;
   return html`<details class="found" open>
@@ -171,7 +171,7 @@ function tableOf({ odometry, reference }: Drive, caption: string, { choose, foun
   </table>`;
 }
 
-/** Returns a picture of both paths, of which the odometry is aligned with the reference. */
+/** Returns a picture of both paths, with the odometry aligned to the reference. */
 function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
   const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_POINTS)));
   const odometryPath = aligned(driven, truth);

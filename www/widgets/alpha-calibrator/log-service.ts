@@ -26,19 +26,19 @@ export class LogFailure extends Error {
   }
 }
 
-/** Checks whether a request was aborted, which needs no message. */
+/** Returns true if a request was aborted, which needs no message. */
 export const isStopped = (error: unknown) => error instanceof DOMException && error.name === 'AbortError';
 
 /** Client of the worker: one request at a time. */
 export class LogService {
   #tag: string;
   #link: Promise<WorkerLink> | undefined;
-  /** Number of the latest request: other answers are ignored. */
+  /** Number of the latest request. Answers to earlier requests are ignored. */
   #number = 0;
   #fail: ((error: unknown) => void) | undefined;
-  /** True while the worker has the recordings that were opened last. */
+  /** True while the worker holds the recordings that were opened last. */
   isOpen = false;
-  /** Odometry of the drives that the worker has. */
+  /** Odometry of the drives that the worker holds. */
   #held: Trajectory[] | undefined;
 
   /** Creates the service for a tag. The worker shares the module of that tag. */
@@ -133,7 +133,7 @@ async function connectService(tag: string): Promise<WorkerLink> {
   return (await startLogWorker(core)) ?? linkInPage(core);
 }
 
-/** Starts a worker; undefined where there is none, or the page's policy or origin forbids it. */
+/** Starts a worker; returns undefined if the browser has no workers, or if the page's policy or origin forbids them. */
 async function startLogWorker(core: SharedCore): Promise<WorkerLink | undefined> {
   try {
     const worker = startWorker();

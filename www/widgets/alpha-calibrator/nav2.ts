@@ -1,4 +1,4 @@
-/** Exports of the Alpha Calibrator: lines of nav2_params.yaml, and everything as JSON. */
+/** Exports of the Alpha Calibrator: lines for nav2_params.yaml, and all results as JSON. */
 
 import { html } from 'lit';
 import { save } from '../../figure/export.ts';
@@ -17,7 +17,7 @@ function yamlOf({ reading, logName, warnings }: Figure): string {
   return nav2Lines(fittedLog, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 
-/** Returns all results as JSON, with typed arrays as plain ones. */
+/** Returns all results as JSON, with typed arrays as plain arrays. */
 function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
   const allResults = { log: logName, date: new Date().toISOString(), settings: fitted, ...stats, ...(truth && { truth }), legs };
   return JSON.stringify(allResults, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);

@@ -20,7 +20,7 @@ type Reader = Awaited<ReturnType<typeof loadReader>>;
 /** Question about a file, which the reader has answered or has to answer. */
 export interface OpenQuestion { file: string; ask: Question }
 
-/** Files with their recordings, the reader's choices, and what was read by them. */
+/** Files with their recordings, the reader's choices, and the drives that were read by these choices. */
 export interface ChosenFiles {
   files: File[];
   recordings: Recording[];
@@ -29,11 +29,11 @@ export interface ChosenFiles {
   /** Options of files by their names. */
   answers: Record<string, OpenOptions>;
   questions: OpenQuestion[];
-  /** Choices of the reader; what is missing is guessed. */
+  /** Choices of the reader. Missing choices are guessed. */
   wishes: Pick<Wishes, Role>;
   /** Roles that the reader chose for recordings with one log, by the index of the recording. */
   roles: Map<number, Role>;
-  /** Plan of what is read; undefined while a question is open. */
+  /** Plan for reading the drives; undefined while a question is open. */
   plan?: Plan;
   drives?: Drive[];
   /** Log that the figure has taken. */
@@ -68,7 +68,7 @@ export class LogOpener extends FileOpener<Figure> {
     return this.reader?.[language === 'de' ? 'de' : 'en'];
   }
 
-  /** Reads the files again where another model prefers another odometry of them. */
+  /** Reads the files again if the model has changed and prefers another odometry in them. */
   hostUpdated() {
     const { chosen } = this;
     if (!chosen?.log || chosen.log !== this.host.log || this.share !== undefined || this.#preferred === this.kind) return;
@@ -141,7 +141,7 @@ export class LogOpener extends FileOpener<Figure> {
     });
   }
 
-  /** Plans what is read. A file with one log is paired with the file before it, if that has one log too. */
+  /** Plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
   async #plan(chosen: ChosenFiles, reader: Reader): Promise<Plan> {
     try {
       return planOf(reader, chosen, this.kind);
@@ -206,7 +206,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.service.stop();
     this.#preferred = this.kind;
     this.share = 0;
-    // A question leaves its room when it is answered, so that the figure does not move up.
+    // An answered question keeps its height, so that the figure does not move up.
     this.#zone.style.minHeight = `${this.#zone.offsetHeight}px`;
     const isLatest = await this.run(async () => work(this.reader ??= await loadReader()));
     if (isLatest) this.#setIdle();

@@ -1,6 +1,6 @@
 /**
- * Path of the robot, leg by leg. A hundred thousand legs change only with the log, the view or the colours: they are drawn on a layer of
- * their own.
+ * Path of the robot, leg by leg. There may be a hundred thousand legs. They are drawn on a cached layer, because they change only with the
+ * log, the view or the colours.
  */
 
 import { strokePath, type Brush } from '../../scene/canvas.ts';
@@ -15,10 +15,10 @@ export type PathStyle = { colour: string, width: number, dash: number[] };
 /** Maximum number of legs that are drawn directly. The drawing of more legs is cached in another canvas, which takes memory. */
 const MAX_UNCACHED_LEGS = 2000;
 
-/** Number of strokes of a new log in a frame, which take about 10 ms. */
+/** Number of strokes of a new log that are drawn in a frame, in about 10 ms. */
 const STROKES_PER_FRAME = 4;
 
-/** Side of squares (CSS pixels) in each of which only one of the shorter steps is drawn, because others would not be visible. */
+/** Side of grid squares, CSS pixels. Of the steps that end in one square only one is drawn, because others would not be visible. */
 const FINE_SQUARE = 1;
 
 /** Side of the squares in which overlapping legs are counted, CSS pixels. */
@@ -49,8 +49,8 @@ export class PathLayer {
   #legs: CalibrationLegs | undefined;
 
   /**
-   * Draws the legs, the most usual classes first. Returns true if the next frame has more to draw: many legs of another log take several
-   * frames. Another view of them, and paper, have all at once.
+   * Draws the legs, the most usual classes first. Returns true if there are more to draw in the next frame: many legs of a new log take
+   * several frames. After a change of the view, and in print, all legs are drawn at once.
    */
   draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]): boolean {
     const { context, highlight, handles } = brush;
@@ -67,7 +67,7 @@ export class PathLayer {
 
 function* drawPath(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
   if (overlays.includes('odometry')) yield* strokeMany(brush.context, odometryLines(brush.view, legs), pathStyle(brush, 'odometry'));
-  // While the coverage by legs grows from 1 to 2, lines get thinner little by little, so that nothing jumps when a plot is resized.
+  // While the coverage by legs grows from 1 to 2, lines get gradually thinner, so that nothing jumps when the picture is resized.
   const thickening = Math.max(0, Math.min(1, 2 - pathCoverage(brush.view, legs.reference)));
   for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
@@ -95,8 +95,8 @@ export function drawRings(brush: Painter, points: [number, number][]) {
 }
 
 /**
- * Returns the coverage: the area of the legs at the usual line width, relative to that of the squares in which they end. Above 1 wide lines
- * would hide each other, while as hairlines each class covers its share of the legs.
+ * Returns the coverage: the area of the legs at the usual line width, divided by the area of the squares in which they end. Above 1, wide
+ * lines would hide each other; as hairlines, each class covers an area in proportion to its number of legs.
  */
 function pathCoverage(view: Painter['view'], reference: Float64Array) {
   const endSquares: Set<number> = new Set();
@@ -110,7 +110,7 @@ function pathCoverage(view: Painter['view'], reference: Float64Array) {
   return (coveredLength * LINE_STYLES.likely.width) / (endSquares.size * COARSE_SQUARE ** 2);
 }
 
-/** Returns the odometry from the first pose of the reference on, in pieces. It drifts away, and each leg is compared by itself. */
+/** Returns the path of the odometry as lines, from the first pose of the reference on. It drifts away from the reference. */
 function* odometryLines(view: Painter['view'], { count, odometry, reference }: CalibrationLegs) {
   const frameRotation = reference[2] - odometry[2];
   const [cos, sin] = [Math.cos(frameRotation), Math.sin(frameRotation)];

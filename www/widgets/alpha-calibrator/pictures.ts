@@ -35,7 +35,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     const box = extentAround(reference, 3);
     this.view.release();
     this.view.fit(extentOf(reference.length > 0 ? [box.xMin, box.yMin, box.xMax, box.yMax] : [0, 0], 1));
-    // No animation, which would draw all legs in each frame.
+    // The view is not animated, because an animation would draw all legs in each frame.
     this.view.ease(0, true);
   }
 

@@ -16,7 +16,7 @@ export type Reading = ReturnType<typeof fitOf> & {
   isPending: boolean;
 };
 
-/** Reads the machine for pictures and readouts, once a change. The fit and the true values are copied only if they are not those before. */
+/** Reads the machine for pictures and readouts, once per change. The fit and the true values are copied only if they have changed. */
 export function readingOf(machine: Machine, log: CalibrationLog | null, before: Reading | undefined): Reading {
   const { config, fittedConfig: fitted, fits, isPending } = machine.read();
   const isSameMachine = before?.machine === machine;
@@ -25,7 +25,7 @@ export function readingOf(machine: Machine, log: CalibrationLog | null, before: 
   return { ...fit, truth, log, config, fitted, isPending };
 }
 
-/** Returns the fit of a machine with its number, and choices of legs. */
+/** Returns the fit of a machine with its number, and the legs to show. */
 function fitOf(machine: Machine, fits: number, { duration, distance }: Machine['config']) {
   const { stats, legs } = machine;
   return {
@@ -70,8 +70,8 @@ function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
 }
 
 /**
- * Returns the leg with the largest residual that is no outlier and as long as `distance`; −1 where there is none. An outlier is no evidence
- * against the model, and a turn on the spot shows no cloud.
+ * Returns the leg with the largest residual that is not an outlier and has at least the length `distance`; −1 if there is none. An outlier
+ * is no evidence against the model, and a turn on the spot shows no cloud.
  */
 function openingLegOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
   const isFullLeg = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
@@ -82,6 +82,6 @@ function openingLegOf({ squared, outliers, odometry }: CalibrationLegs, distance
 /** Returns the leg that is shown; −1 if there is none. */
 export const legOf = ({ opening, legs }: Reading, chosen: number | null) => (chosen !== null && chosen < legs.count ? chosen : opening);
 
-/** Checks whether the true α's are of the rule and the legs of the present fit. */
+/** Returns true if the true α's belong to the rule and the leg length of the present fit. */
 export const truthApplies = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<Reading, 'truth' | 'fitted'>) =>
   truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED_LEGS.distance && angle === SIMULATED_LEGS.angle && duration === 0;

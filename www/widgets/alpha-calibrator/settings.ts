@@ -7,7 +7,7 @@ import type { AlphaCalibratorSettings } from '../../types.d.ts';
 /** Dash of the odometry, CSS pixels. */
 const ODOMETRY_DASH = [2.5, 3.5];
 
-/** Styles of the lines and marks in the pictures: the classes of legs, the most usual first, then the rest. */
+/** Styles of the lines and marks in the pictures: first the classes of legs, the most usual first, then all others. */
 export const LINE_STYLES = {
   likely: { role: 'truth', width: 1.5, dash: [] },
   plausible: { role: 'truth', width: 2, dash: [] },
@@ -42,7 +42,7 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
 /** Models with their rules: two settings, but one choice. */
 const MODEL_RULES = ['thrun', 'nav2', 'beluga', 'omni', 'velocity'] as const;
 
-/** Legs of the simulated log: those that the element opens with. */
+/** Leg length to which the true α's of the simulated log apply, and with which the element opens. */
 export const SIMULATED_LEGS = { distance: 0.25, angle: 0.2 };
 
 export type ModelRule = (typeof MODEL_RULES)[number];

@@ -10,7 +10,7 @@ import { systematicTexts } from './systematic.ts';
 import { captionOf, reasonOf } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-/** Layout in pixels: the path at the left, the α's next to it, and sentences below. */
+/** Size in pixels. The path is at the left, the α's are next to it, and sentences below. */
 const [WIDTH, HEIGHT] = [720, 560];
 const PATH_SIZE = { width: 430, height: 344 };
 

@@ -15,7 +15,7 @@ type SystematicError = Reading['stats']['systematicErrors']['mountYaw' | 'leverA
 /** Maximum number of decimals of a systematic error: a micrometre. */
 const MAX_DECIMALS = 6;
 
-/** Returns the systematic errors in two sentences: those that were corrected, and those that the α's include. */
+/** Returns two sentences: one on the systematic errors that were corrected, and one on those that the α's include as noise. */
 export function systematicTexts({ stats: { systematicErrors: errors } }: Reading) {
   const say = words.calibrator.systematic;
   const textsOf = (corrected: boolean) => SYSTEMATIC_ERRORS.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
@@ -23,14 +23,14 @@ export function systematicTexts({ stats: { systematicErrors: errors } }: Reading
   return [...(corrected ? [say.removed(corrected)] : []), ...(left ? [say.left(left)] : [])];
 }
 
-/** Names the systematic errors that differ from 0, or a scale from 1, but are not to be corrected; empty if there are none. */
+/** Returns a sentence on significant systematic errors that the settings leave uncorrected; empty if there are none. */
 export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }: Reading): string {
   const say = words.calibrator.systematic;
   const uncorrected = SYSTEMATIC_ERRORS.filter((key) => !fitted[key] && isSignificant(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
   return uncorrected.length > 0 ? say.matters(uncorrected.join('; ')) : '';
 }
 
-/** Checks whether an error differs from 0, or a scale from 1, beyond its interval. */
+/** Returns true if the interval of an error excludes 0, or that of a scale excludes 1. */
 function isSignificant(key: string, { interval }: SystematicError) {
   const neutralValue = key.endsWith('Scale') ? 1 : 0;
   return intervalsOf(interval).some((ends) => ends && (ends[0] > neutralValue || ends[1] < neutralValue));
@@ -70,7 +70,7 @@ export function systematicTable(figure: Figure) {
 
 const stackedTexts = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
-/** Prints an error as far as it is determined: its values, two for a lever arm, and half the width of each interval. */
+/** Formats an error with its significant digits: its values (two for a lever arm), and half the width of each interval. */
 function printedError({ value, interval }: SystematicError) {
   const halfWidths = intervalsOf(interval).map((each) => each && (each[1] - each[0]) / 2);
   return {

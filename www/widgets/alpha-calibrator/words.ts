@@ -17,8 +17,8 @@ type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'read
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
 /**
- * Returns the rating of the α's, the finding in a sentence, and what to do, which can be long. A warning, as that of a localizer as
- * reference, makes consistent α's questionable.
+ * Returns the rating of the α's, the finding in a sentence, and a text on what to do. A warning makes consistent α's questionable, for
+ * example that the reference is a localizer.
  */
 export function judgementOf(reading: Reading, given: Warning[]) {
   const { stats: { diagnostics: { verdict, checks }, systematicErrors, recommended }, legs } = reading;
@@ -49,7 +49,7 @@ export function expectedOf({ name, expected: [low, high] }: CalibrationCheck) {
   return low === 0 ? `≤ ${checkText(name, high)}` : words.calibrator.alphas.between(checkText(name, low), checkText(name, high));
 }
 
-/** Returns why the recommended α's are what they are. */
+/** Returns the reason for the recommended α's. */
 export function reasonOf({ stats: { recommended, diagnostics: { checks, windows } } }: Reading) {
   const say = words.calibrator.recommended;
   if (!recommended) return say.none;

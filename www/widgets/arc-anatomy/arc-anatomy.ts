@@ -34,10 +34,10 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   #picture = new ArcPicture();
   pictures = [this.#picture];
-  /** The final pose is on top if both poses are in one place. */
+  /** Handles of both poses. The handle of the final pose is on top if both poses are at the same place. */
   #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view, () => POSE_BOUNDS));
 
-  /** Animation of every arc in the same time. The duration of the command is displayed next to it. */
+  /** Animation of the arcs, which always takes the same time. The duration of the command is displayed next to it. */
   player: Player<'underway'> = new Player(this, { underway: { to: UNDERWAY_AT_END, duration: 2000, whole: true } });
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.pick(state));

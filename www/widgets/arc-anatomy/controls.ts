@@ -25,7 +25,7 @@ export function likelihoodControls(figure: Figure) {
     ${map === 'none' ? nothing : html`<p class="legend contours">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);
 }
 
-/** Returns an icon with a text that screen readers read instead. */
+/** Returns an icon, with a text for screen readers. */
 const icon = (seen: string, heard: string) => html`<span aria-hidden="true">${seen}</span><span class="visually-hidden">${heard}</span>`;
 
 export function lineStepper(figure: Figure) {

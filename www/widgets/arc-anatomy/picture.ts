@@ -126,8 +126,8 @@ function keyOf(brush: Brush, { overlays, config: { map } }: Scene) {
 }
 
 /**
- * Draws the centre of an arc, both radii and the turn between them. `side` is that to which the first radius makes room for another on the
- * same line.
+ * Draws the centre of an arc, both radii and the turn between them. `side` (±1) is the direction in which the first radius is shifted, so
+ * that another radius on the same line stays visible.
  */
 function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }: Bend, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
   if (!center) return;
@@ -146,8 +146,8 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
     addLine(context, [[x, y - CROSS_HALF], [x, y + CROSS_HALF]]);
   });
   strokeAngle(context, [x, y], [fromX, fromY], turn, { colour, width: 1.5 });
-  // The labels are behind the robot, away from the arc. If the centre is outside the picture, they are ahead: the picture may end behind
-  // the robot.
+  // The labels are behind the robot, away from the arc. If the centre is outside the picture, they are ahead of the robot, because the
+  // picture may end behind it.
   const labelSide = Math.sign(arcLength) * (visibleShare === 1 ? -1 : 1);
   const drawArcLabel = (text: string, share: number) => {
     const labelPoint = [fromX + share * (x - fromX) + 10 * labelSide * ahead.x, fromY + share * (y - fromY) + 10 * labelSide * ahead.y];
@@ -164,7 +164,7 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   drawArcLabel(`${words.anatomy.centreAt(distance)}, ${angle}`, visibleShare);
 }
 
-/** Draws an arrow at a point in a direction (rad), downwards from the right. */
+/** Draws an arrow at a point in a direction (rad, clockwise from the right). */
 function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], way: number) {
   strokePath(context, { colour, width: 2.25 }, () => {
     for (const wingAngle of [2.6, -2.6]) addLine(context, [[x + ARROW_LENGTH * Math.cos(way + wingAngle), y + ARROW_LENGTH * Math.sin(way + wingAngle)], [x, y]]);
@@ -178,7 +178,7 @@ function visibleFractionOf({ left, right, top, bottom }: import('../../scene/vie
   return Math.min(fractionAlong(fromX, x, left, right), fractionAlong(fromY, y, top, bottom));
 }
 
-/** Draws the last turn in radians, by which the final heading differs from that of the arc. */
+/** Draws a wedge for the last turn (rad), by which the final heading differs from the heading at the end of the arc. */
 function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: string) {
   const [x, y] = view.toPixel(next.x, next.y);
   context.beginPath();
@@ -189,11 +189,11 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
   context.globalAlpha = 0.32;
   context.fill();
   context.globalAlpha = 1;
-  // The side of the wedge that has the heading at the end of the arc.
+  // Side of the wedge in the direction of the heading at the end of the arc.
   strokeLine(context, view.ray({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
 }
 
-/** Returns the place of the wedge's label, which covers nothing of the wedge, CSS pixels. */
+/** Returns a place for the wedge's label that does not cover the wedge, CSS pixels. */
 function wedgeLabelPlace({ view }: Brush, next: Pose, turn: number): { x: number, y: number, towards: number } {
   const ahead = view.direction(next.theta - turn / 2);
   return { x: view.toPixelX(next.x) + (WEDGE_RADIUS + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE_RADIUS + 20) * ahead.y, towards: ahead.x };
@@ -254,7 +254,7 @@ class SurfaceLayer {
   #surface: Memo<AnatomySurface | null> = new Memo();
   #coloured: Memo<void> = new Memo();
 
-  /** Draws the surface for a configuration, which is another object after every change. */
+  /** Draws the surface for `config`, which is a new object after every change. */
   draw(brush: Brush, machine: ArcAnatomy, config: import('../../types.d.ts').ArcAnatomySettings) {
     const { palette, view: { extent: { xMin, yMin, xMax, yMax } } } = brush;
     const surface = this.#surface.of([config, xMin, yMin, xMax, yMax], () => machine.surface(xMin, yMin, xMax, yMax));

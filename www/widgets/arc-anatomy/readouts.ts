@@ -11,7 +11,7 @@ import { TABLE_LINES } from './settings.ts';
 import { densityText, isTiny, shareText, type Reading } from './words.ts';
 import type { Factor, FormErrors, Motion } from '../../types.d.ts';
 
-/** Scale of the bars: standard deviations to either side, and pixels for each. */
+/** Scale of the bars: number of standard deviations to either side, and pixels per standard deviation. */
 const BAR_SCALE = { most: 4, pixels: 22 };
 const BAR_MIDDLE = BAR_SCALE.most * BAR_SCALE.pixels + 4;
 
@@ -100,7 +100,7 @@ export function tableLines(reading: Reading, lit: number) {
     <p class="about">${formatMarkup(say.sign)}</p>`;
 }
 
-/** Range of errors in the plot, m: from below the last digit of the distance to more than all of it. */
+/** Range of errors in the plot, m: from less than the last digit of the distance to more than the whole distance. */
 const ERROR_RANGE = { from: 1e-18, to: 1 };
 
 /** Cache of the errors of the forms, which depend on no setting. */

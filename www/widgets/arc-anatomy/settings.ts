@@ -19,7 +19,7 @@ export const LINE_STYLES = {
   twist: { role: 'posterior', width: 2, dash: [7, 3] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-/** Styles of the contours, which do not depend on which of the two is the image. */
+/** Styles of the contours. They do not depend on the quantity that is shown as an image. */
 export const CONTOUR_STYLES = {
   prob: { role: 'ink', width: 1, dash: [5, 4] },
   density: { role: 'ink', width: 1, dash: [] },

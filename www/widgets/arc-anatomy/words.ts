@@ -8,7 +8,7 @@ import type { ArcAnatomy, Pose } from '../../types.d.ts';
 
 addEnglish({ anatomy: en });
 
-/** Values that the picture and the readouts need of the machine. */
+/** Values of the machine that the picture and the readouts need. */
 export type Reading = ReturnType<ArcAnatomy['read']>;
 
 /** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
@@ -19,7 +19,7 @@ function powerText(value: number) {
   return `${fixed(mantissa, 1)}·${powerOfTen(exponent)}`;
 }
 
-/** Checks whether a number is printed as a power of ten. */
+/** Returns true if a number is printed as a power of ten. */
 export const isTiny = (value: number) => value > 0 && value < MIN_DECIMAL;
 
 export const shareText = (share: number) => (isTiny(share) ? powerText(share) : percent(share));

@@ -39,7 +39,7 @@ const EXECUTED_COLUMNS = {
   odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
 };
 
-/** Number of points of the skew chart's curve: fewer would draw the fall of the skew across ω = 0 as a kinked line. */
+/** Number of points of the skew chart's curve. With fewer, the steep fall of the skew at ω = 0 would have visible corners. */
 const CURVE_POINTS = 241;
 
 /** Allowed heights of the skew chart, so that its axis does not change with every step of a drag. */
@@ -91,8 +91,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const pinned = this.#pinned;
     const { overlays, morph } = this.state.own;
     const shownOverlays = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
-    // There are no callouts while a cloud grows or is dragged, because outlines move, nor away from the floor, where their sentences are
-    // wrong.
+    // There are no callouts while a cloud grows or is dragged, because outlines move. During a morph their sentences would be wrong.
     const isMoving = this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.previousReading);
     const otherOverlays = OVERLAYS.filter((name) => name !== 'command' && shownOverlays[name] && hasLength(reading.contours[name]));
     const callouts = isMoving || morph > 0 || otherOverlays.join() !== 'ellipse,exponential' ? [] : calloutsOf(reading);
@@ -148,7 +147,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return { ...super.withDerivedFields(present, given), alphas: { ...present.alphas, ...alphas } };
   }
 
-  /** Place of the end of the commanded arc, in the view's world. */
+  /** Position at which the end of the commanded arc is drawn, in the view's world. */
   get seenEnd() {
     const { v, omega, dt } = this.currentReading.config.command;
     return morphedPoint([v * dt, 0, omega * dt], this.state.own.morph);
@@ -262,7 +261,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
     const say = words.banana;
     const { min, max, step } = sliderSpecs.omega;
-    // The curve depends on some of the settings only.
+    // The curve depends only on some of the settings.
     const curve = this.#curve.of([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
     const maxSkew = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
     const chartHeight = CHART_HEIGHTS.find((each) => each >= maxSkew) ?? maxSkew;

@@ -16,7 +16,7 @@ export function commandControls(figure: Figure) {
 export function modelControls(figure: Figure) {
   const { model, alphas, isolate } = figure.reading.config;
   const say = words.banana;
-  // The index of the α begins at 1; the other model may have fewer.
+  // The number of the α counts from 1; the other model may have fewer α's.
   const isolatedAlpha = Math.min(figure.state.own.isolateChoice, alphas.length);
   return group(say.modelGroup, html`${radios(figure, 'model', say.models)} ${radios(figure, 'noise', words.noises)}
     ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', say.reverseAware) : nothing}
@@ -27,7 +27,7 @@ export function modelControls(figure: Figure) {
     })}`);
 }
 
-/** Indices of the α's by which driving straight turns the robot. They bend the cloud, and their slider is always in sight. */
+/** Index of the α, by model, that adds turn noise to a straight drive. It bends the cloud, and its slider is always visible. */
 const BENDING_ALPHAS: Record<string, number> = { velocity: 2, odometry: 1 };
 
 export const bendingControl = (figure: Figure) => alphaGroup(figure, (index) => index === BENDING_ALPHAS[figure.reading.config.model], 'single');

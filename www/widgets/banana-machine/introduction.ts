@@ -18,7 +18,7 @@ function isFirstInSession() {
     sessionStorage.setItem(STORAGE_KEY, 'yes');
     return wasShown === null;
   } catch {
-    // Without storage it would be shown again and again.
+    // Without storage the introduction would be shown again and again.
     return false;
   }
 }
@@ -27,7 +27,7 @@ function isFirstInSession() {
 export class IntroducedCloud extends Cloud {
   /** Time at which the first robot started, ms. */
   #began: number | undefined;
-  /** Phase of the introduction: robots drive; then the ring of the handle pulses while the cloud grows. */
+  /** Phase of the introduction: first robots drive, then the ring of the handle pulses while the cloud grows. */
   #phase: 'none' | 'driving' | 'asking' = 'none';
 
   /** True while the ring asks to be dragged. */
@@ -53,7 +53,7 @@ export class IntroducedCloud extends Cloud {
     for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });
   }
 
-  /** Ends the introduction: it is over, or the reader does something else. */
+  /** Ends the introduction when it is over, or when the reader does something else. */
   skip = () => {
     this.#phase = 'none';
     for (const event of ['pointerdown', 'keydown']) removeEventListener(event, this.skip, { capture: true });

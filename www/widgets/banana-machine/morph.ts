@@ -35,7 +35,7 @@ export function morphedPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<num
 export const lineMorphOf = (motion: Motion, { config: { command } }: Reading, morph: number) => (line: Float64Array) =>
   morph === 0 ? line : motion.unbendLine(line, command.omega * command.dt, morph);
 
-/** Returns the outlines after a morph. Those on the floor are transformed point by point, that in exponential coordinates is computed anew. */
+/** Returns the outlines after a morph. The outlines on the floor are transformed point by point; the exponential one is computed anew. */
 export function outlinesAt(motion: Motion, reading: Reading, morph: number): Outlines {
   const { contours, stats } = reading;
   if (morph === 0) return contours;
@@ -53,7 +53,7 @@ export function outlinesAt(motion: Motion, reading: Reading, morph: number): Out
 /** Sizes of the rings around the cloud that callouts avoid, relative to the outline of two standard deviations. */
 const RING_SIZES = [0.5, 1, 1.5];
 
-/** Returns outlines on the floor of the Gaussian in exponential coordinates, with nearly the whole cloud inside of the largest. */
+/** Returns outlines, on the floor, of the Gaussian in exponential coordinates. The largest contains nearly the whole cloud. */
 export function confidenceRings(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: Reading) {
   if (contours.exponential.length === 0) return [];
   return RING_SIZES.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((each) => size ** 2 * each)]), 0));
@@ -134,7 +134,7 @@ const CHORDS_PER_LINE = 32;
 
 /** Draws the grid of exponential coordinates at a morph. `end` is the view at the end of the morph. */
 export function drawMorphGrid({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
-  // It becomes visible early in the morph, and ends as the straight grid of the axes.
+  // The grid becomes visible early in the morph, and ends as the straight grid of the axes.
   context.globalAlpha = 0.7 * Math.min(1, 5 * morph);
   const drawGridLine = (at: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
     const [along, heading] = at(i / CHORDS_PER_LINE);

@@ -18,8 +18,8 @@ import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, strokePath, type Brush } from '../../scene/canvas.ts';
 
 /**
- * Scene of both pictures. Outlines are transformed by the present morph. `morphedEllipse` is the ellipse after a complete morph. Callouts, and the
- * rings that they avoid, are on the floor.
+ * Scene of both pictures. Outlines are transformed by the present morph. `morphedEllipse` is the ellipse after a complete morph. Callouts,
+ * and the rings that they avoid, have coordinates of the floor.
  */
 export interface Scene extends Reading {
   machine: BananaMachine;
@@ -39,10 +39,10 @@ export interface Scene extends Reading {
 /** Number of robots above which a cloud is drawn as a density: dots would be indistinguishable, and take longer than a frame. */
 const MAX_DOTS = 1000;
 
-/** Number of rays of a fan of headings: more look no different. */
+/** Maximum number of rays in a fan of headings. More would look the same. */
 const MAX_RAYS = 400;
 
-/** Standard deviation (pixels) below which a cloud is drawn as one place. */
+/** Standard deviation (pixels) below which a cloud is drawn as one point. */
 const MIN_CLOUD_DEVIATION = 0.6;
 
 /** Number of standard deviations around the mean that a view shows. */
@@ -68,13 +68,13 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     return machine.nearest(this.morph, ...this.around(x, y, PICK_RADIUS));
   }
 
-  /** Returns the places of the robots that are drawn as dots, with the headings that the morph leaves of them. */
+  /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
   places({ machine, stats }: Scene): Float64Array {
     const { morph } = this;
     return this.#places.of([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.twists, morph)));
   }
 
-  /** Draws the robots, which cover an area in square pixels. */
+  /** Draws the robots. `area` is the area that they cover, in square pixels. */
   paintCloud(brush: Brush, scene: Scene, area: number) {
     const { morph } = this;
     const { palette } = brush;
@@ -253,15 +253,15 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   }
 }
 
-/** Returns robots that are all in one place, with the headings of the first. */
+/** Returns the common position of robots that are all at one point, with the headings of the first robots. */
 function robotHeap(poses: Float64Array, shown: number) {
   const headings = [...poses.subarray(0, 3 * MAX_RAYS)].filter((_, i) => i % 3 === 2);
   return { x: poses[0], y: poses[1], headings, label: words.banana.robotsHere(shown, integer(shown)) };
 }
 
 /**
- * Returns the moments in exponential coordinates: the model's and the sample's. If neither are defined, they are replaced by the commanded
- * twist, with the variance of the whole position as that along the track.
+ * Returns the moments of the model and of the samples in exponential coordinates. If neither are defined, they are replaced by the
+ * commanded twist, with the total variance of the position as the variance along the track.
  */
 function twistMoments({ config, stats, table }: Scene): Moments[] {
   const definedMoments = [table.tangent, stats.exponential].filter((moments) => moments !== null);
@@ -273,10 +273,10 @@ function twistMoments({ config, stats, table }: Scene): Moments[] {
   return [{ mean: [v * dt, 0, omega * dt], cov: [[alongVariance, 0, 0], [0, 0, 0], [0, 0, cov[2][2]]] }];
 }
 
-/** Returns the place of the middle of the cloud at a morph. */
+/** Returns the middle of the cloud at a morph. */
 const morphedMiddle = (scene: Scene, morph: number) => morphedPoint(twistMoments(scene)[0].mean, morph);
 
-/** Returns points around what there is to see in exponential coordinates. */
+/** Returns points around everything that is visible in exponential coordinates. */
 function pointsOfTwists(scene: Scene) {
   const { v, omega, dt } = scene.config.command;
   const points = [v * dt, omega * dt];

@@ -6,7 +6,7 @@ import type { BananaMachine as Machine, BananaMachineSettings as Settings, Stats
 
 export type Reading = ReturnType<typeof readingOf>;
 
-/** Standard deviation (m or rad) below which there is no noise: the quadrature rounds by as much. */
+/** Standard deviation (m or rad) that counts as no noise, because it may be rounding of the quadrature. */
 const NO_SPREAD = 1e-9;
 
 export function readingOf(machine: Machine) {
@@ -26,8 +26,8 @@ export function readingOf(machine: Machine) {
 }
 
 /**
- * Returns the gain of the Gaussian in exponential coordinates. Where its covariance is singular, the gain over (x, y, θ) is unbounded: then
- * it is the gain of the arc's own coordinates over (x, y).
+ * Returns the gain of the Gaussian in exponential coordinates over that in (x, y, θ). If its covariance is singular, that gain is
+ * unbounded, and the gain of arc coordinates over (x, y) is returned.
  */
 function gainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
   const isUnbounded = exact.likelihoodGain.pose === Infinity;
@@ -36,8 +36,8 @@ function gainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Ta
 }
 
 /**
- * Returns the commanded length and its deviation where robots end on both sides of the start: the noise of the turn makes most of the
- * deviation, which is larger than the length. Null otherwise.
+ * Returns the commanded length and its standard deviation if robots end on both sides of the start: the deviation is larger than the
+ * length, and mostly due to the turn. Otherwise returns null.
  */
 function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAware }: Settings) {
   const [a1, a2, a3, a4] = alphas.map((alpha, i) => (isolate === null || isolate === i + 1 ? alpha : 0));
@@ -48,7 +48,7 @@ function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAw
   }
   const turn = omega * dt;
   const chordLength = Math.abs(v * dt * (turn === 0 ? 1 : Math.sin(turn / 2) / (turn / 2)));
-  // Half of the turn is before the drive and half after it. In reverse, by the table, each is half a turn minus that.
+  // Half of the turn is before the drive and half after it. In reverse, the table counts each rotation as π minus that half.
   const tableRotation = v < 0 && !reverseAware ? Math.PI - Math.abs(turn) / 2 : turn / 2;
   const [straight, turning] = [a3 * chordLength * chordLength, 2 * a4 * tableRotation * tableRotation];
   const deviation = Math.sqrt(straight + turning);
@@ -61,19 +61,19 @@ export const alphaName = (index: number) => `α${subscriptOf(index)}`;
 /** Speed that each α of a model multiplies, squared: v or ω. */
 const ALPHA_CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;
 
-/** Returns a sentence on an isolated α (index from 0) without effect: its factor in the command is 0. */
+/** Returns a sentence on an isolated α (index from 0) that has no effect because the speed that it multiplies is 0. */
 function silentAlphaText(model: Settings['model'], index: number) {
   const { alphaIsSilent, nothingToMultiply, settings } = words.banana;
   const speedName = ALPHA_CAUSES[model][index] as 'v' | 'ω';
   return alphaIsSilent(alphaName(index), nothingToMultiply[model][speedName], speedName, settings.alphas.effects[model][index][2]);
 }
 
-/** Returns the standard deviation of a variance, which may round to less than 0. */
+/** Returns the standard deviation of a variance. Rounding may have made the variance slightly negative. */
 export function deviation(variance: number) {
   return Math.sqrt(Math.max(0, variance));
 }
 
-/** Returns the kind of spread by the exact covariance: one pose, one place with many headings, or a cloud. */
+/** Returns the kind of spread according to the exact covariance: one pose, one position with many headings, or a cloud. */
 export function spreadKind({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
   if (deviation(Math.max(cov[0][0], cov[1][1])) > NO_SPREAD) return 'cloud';
   return deviation(cov[2][2]) > NO_SPREAD ? 'headings' : 'point';

@@ -13,8 +13,8 @@ import type { Reading } from './reading.ts';
 const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
 
 /**
- * Returns the three figures of the message: the floor that the ellipse wastes, the gain of the other coordinates, and the lean of the
- * cloud. Those of a pinned cloud stand beside them.
+ * Returns the three main numbers: the area ratio of the ellipse, the gain of exponential coordinates, and the skew of the cloud. The
+ * numbers of a pinned cloud are next to them.
  */
 export function readouts(reading: Reading, pinned?: Reading) {
   const say = words.banana.readouts;
@@ -60,7 +60,7 @@ export function otherReadouts({ config, stats, table }: Reading) {
   ]);
 }
 
-/** Returns the field of the marked robot, with the arc that reaches its place if a robot is marked. */
+/** Returns the field with the number of the marked robot, and the motion of that robot. */
 export function markedRobot(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
   const { robot, markHint } = words.banana;
   const { shown } = figure.reading;

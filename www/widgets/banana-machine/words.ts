@@ -61,11 +61,11 @@ export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain,
   return `${floor}: ${ellipseIs[fit]}`;
 }
 
-/** Returns the callouts of the floor, at places that the ellipse alone covers. */
+/** Returns the callouts of the floor, at points that only the ellipse covers. */
 export const calloutsOf = ({ gaps }: Reading): Callout[] =>
   words.banana.callouts.slice(0, gaps.length / 2).map((text, i) => ({ text, at: [gaps[2 * i], gaps[2 * i + 1]] }));
 
-/** Returns a sentence on the bend of the cloud. The exact skew determines the side; the skew of the samples, whether it is significant. */
+/** Returns a sentence on the bend of the cloud. The exact skew determines its side, and the skew of the samples its significance. */
 function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio }, exactSkew, bowTie, table, gain }: Pick<Reading, 'stats' | 'exactSkew' | 'bowTie' | 'table' | 'gain'>) {
   if (Number.isNaN(skew)) return '';
   const say = words.banana.bend;

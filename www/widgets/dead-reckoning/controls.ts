@@ -14,7 +14,7 @@ export function pathControls(figure: Figure) {
   </div>`;
 }
 
-/** Returns the settings of the same path in another number of steps, with the selected step at the same place. */
+/** Returns the settings for the same path in another number of steps, with the selected step at the same point of the path. */
 function pathInSteps({ command, steps: before, step }: Record<string, any>, steps: number) {
   return { steps, step: Math.max(1, Math.round((step * steps) / before)), command: { ...command, dt: (command.dt * before) / steps } };
 }

@@ -45,7 +45,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   #rollout: Memo<Float64Array> = new Memo();
   #straight: Memo<Machine['straightGrowth']> = new Memo();
 
-  // The machine starts empty: robots appear visibly, and the first frame need not wait for them.
+  // The machine starts without robots: the reader sees them appear, and the first frame does not wait for them.
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.DeadReckoning.empty(), state);
 
   withDerivedFields(present: Values, given: Values) {
@@ -80,7 +80,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
 
   announcement = (reading: Reading) => announcementOf(reading, this.state.own.overlays);
 
-  /** Poses of the selected robot after each step, if it is among those driven. */
+  /** Poses of the selected robot after each step, if that robot has been driven. */
   get #marked() {
     const { machine, reading, cloud: { isMarked, index } } = this;
     return isMarked && machine ? this.#rollout.of([reading.stats, index], () => machine.rollout(index)) : undefined;

@@ -16,7 +16,7 @@ export type Scene = import('./reading.ts').Reading & { marked: Float64Array | un
 /** Number of standard deviations of a cloud that a view shows. */
 const SHOWN_DEVIATIONS = 3.2;
 
-/** Dots of the clouds of steps that are not selected: maximum number, radius in CSS pixels, and opacity. */
+/** Dots of the clouds at milestones: maximum number, radius in CSS pixels, and opacity. */
 const PAST_DOTS = { most: 200, radius: 1.3, alpha: 0.4 };
 
 export type OutlineName = keyof typeof OUTLINE_STYLES;
@@ -65,7 +65,7 @@ export class PathPicture extends SamplesPicture<Scene> {
 /** Half the size of the mark at the commanded end, CSS pixels. */
 const END_MARK_RADIUS = 4;
 
-/** Marks the end of the command after the step: small, so that the cloud is seen around it. */
+/** Marks the commanded position after the step. The mark is small, so that the cloud around it is visible. */
 function drawEndMark({ context, view, palette }: Brush, [x, y]: Float64Array) {
   drawDisc(context, view.toPixel(x, y), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
 }
@@ -121,7 +121,7 @@ export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>)
   return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > NOTICEABLE_RATIO ? significant(by, by < 10 ? 2 : 1) : ''));
 }
 
-/** Returns the names of the axes. The upper one has the factor by which an axis is stretched: next to the lower one it would hide ticks. */
+/** Returns the names of the axes. The upper name has the factor by which an axis is stretched, which would hide ticks near the lower name. */
 function axesOf(view: View) {
   const { axisAlong: x, axisLateral, stretched } = words.reckoning;
   const [along, lateral] = stretchesOf(view);

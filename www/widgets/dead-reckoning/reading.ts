@@ -22,7 +22,7 @@ export function readingOf(machine: Machine) {
   };
 }
 
-/** Returns the curve of a component; ratios are three a step. */
+/** Returns the curve of a component. `ratios` has three numbers for each step. */
 function axisCurve(ratios: Float64Array, relativeErrors: Float64Array, axis: number) {
   const componentOf = (triples: Float64Array) => triples.filter((_, i) => i % 3 === axis);
   const axisRatios = componentOf(ratios);
@@ -30,7 +30,7 @@ function axisCurve(ratios: Float64Array, relativeErrors: Float64Array, axis: num
 }
 
 /**
- * Returns the reason for which the ratios are undefined or uncertain: no robots, no spread, no covariance at the end, or too few robots.
+ * Returns the reason why the ratios are undefined or uncertain: no robots, no spread, no covariance at the end, or too few robots.
  * Returns 'certain' if there is none.
  */
 function ratioCondition({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Machine['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'certain' {

@@ -16,7 +16,7 @@ import type { Misses } from '../../types.d.ts';
 /** Allowed heights of the plot, so that its axis does not change with every step of a drag. */
 const CHART_HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
 
-/** Relative error of a predicted variance that counts as right. */
+/** Relative error up to which a predicted variance counts as correct. */
 const TOLERANCE = 0.05;
 
 /** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */
@@ -58,7 +58,7 @@ function curveStyle(name: keyof typeof CURVE_STYLES, highlight: string | null) {
   return { role, dash: dash?.join(' '), lit };
 }
 
-/** Returns the ratio at the selected step that is furthest from 1, as the message of the figure. */
+/** Returns the headline of the figure: the ratio at the selected step that is furthest from 1. */
 export function headline(reading: Reading, overlays: string[]) {
   const say = words.reckoning;
   const { ratio, component } = worstComponentAt(reading, overlays);
@@ -82,7 +82,7 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
       curves: [
         { name: say.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
         { name: say.across, role: 'prediction', x, y: acrossFirstOrder },
-        // Both exact curves, with a gap in between.
+        // Both exact curves in one, separated by a gap.
         { name: say.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
       marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(crossingText) }] : [],
@@ -111,7 +111,7 @@ export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
   });
 }
 
-/** Returns the field of the marked robot, with its place at the step if a robot is marked. */
+/** Returns the field with the number of the marked robot, and the position of that robot at the step. */
 export function markedRobot(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
   const { robot, markHint, markedAt } = words.reckoning;
   const { config: { step }, shown } = figure.reading;

@@ -28,7 +28,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   const shownComponents = shownComponentsOf(overlays);
   const missIfShown = (miss: number, axis: number) => (shownComponents.includes(COMPONENTS[axis]) ? miss : NaN);
   if (recursionMisses.every(({ first }) => first === null)) return say.right(integer(n));
-  // Components whose ratio is furthest from 1, at the end and at any step.
+  // The component whose ratio is furthest from 1 at the end, and the one whose ratio is furthest from 1 at any step.
   const endAxis = greatestMiss(recursionMisses.map(({ end }, axis) => missIfShown(Math.abs(end), axis)));
   const worstAxis = greatestMiss(curves.map(({ ratio }, axis) => missIfShown(ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0), axis)));
   const ratioList = ratiosAtSteps(Array.from(curves[worstAxis].ratio));
@@ -42,7 +42,7 @@ const greatestMiss = (misses: number[]): number => misses.reduce((most, miss, i)
 const ratiosAtSteps = (ratios: number[]) =>
   CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
 
-/** Returns the components whose curves are shown; all where none is. */
+/** Returns the components whose curves are shown, or all components if no curve is shown. */
 export function shownComponentsOf(overlays: string[]): readonly (typeof COMPONENTS)[number][] {
   const selectedComponents = COMPONENTS.filter((name) => overlays.includes(name));
   return selectedComponents.length > 0 ? selectedComponents : COMPONENTS;

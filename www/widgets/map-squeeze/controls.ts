@@ -19,7 +19,7 @@ const EXAMPLE_PLAN = `{
   ]
 }`;
 
-/** Returns the buttons of start positions in the current map. The presets are in the apartment, and are offered there only. */
+/** Returns the buttons of start positions in the current map. The presets are only offered in the apartment. */
 export function startControls(figure: Figure) {
   const { map, left } = figure;
   const { own, pasted } = words.squeeze;
@@ -48,7 +48,7 @@ export function motionControls(figure: Figure) {
     ${group(words.noise, settingSlider(figure, 'noise'), 'single')} ${cloudControls(figure, SAMPLE_COUNTS)}`;
 }
 
-/** Returns the controls that are changed less often, with that of unknown cells if the map has any. */
+/** Returns the controls that are changed less often. One of them is for unknown cells, if the map has any. */
 export function robotAndMap(figure: Figure, hasUnknown: boolean) {
   const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
   return group(heading, html`${settingSlider(figure, 'clearance')} ${settingCheckbox(figure, 'conditioned', condition)}

@@ -42,7 +42,7 @@ function* measureCost(machine: MapSqueeze, sampler: SamplerName, parts: number):
         }
         timedRuns.sort((one, other) => one.elapsed - other.elapsed);
         const { draws, wallTests, elapsed } = timedRuns[(RUNS_PER_COST - 1) / 2];
-        // A shorter run means that only the warm-up was long, as on a busy device: then more samples are needed.
+        // On a busy device only the warm-up may have been long. If the run was shorter, more samples are needed.
         if (elapsed >= MIN_RUN_MS / 2 || sampleCount === maxCount) {
           return { micros: (1000 * elapsed) / sampleCount, draws: draws / sampleCount, wallTests: wallTests / sampleCount };
         }
@@ -65,7 +65,7 @@ export class CostMeter extends FigureController {
   costs: Partial<Record<SamplerName, SampleCost | 'wedged' | 'few'>> = {};
   /** True if the costs are those of the present settings. */
   current = false;
-  /** Settings that were measured, or will be. */
+  /** Settings that were measured or will be measured, as JSON. */
   #settings = '';
   #timer: ReturnType<typeof setTimeout> | undefined;
 

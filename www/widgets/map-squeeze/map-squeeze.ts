@@ -48,13 +48,13 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   dropped = this.#opener;
   #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
   #wallHandles = new WallHandles(this);
-  /** Treatment of unknown cells that the picture was made for. */
+  /** Treatment of unknown cells for which the picture was made. */
   #unknown = '';
   /** Path of the selected sample. */
   #path: Memo<Float64Array> = new Memo();
   /** Cache of the grid of a machine's map, whose copy takes long. */
   #grid: { of: Machine, grid: Cells | null } | undefined;
-  /** The reader's map that was left last, with the start pose in it. A button returns to it. */
+  /** The reader's map that was left last, with the start pose in it. A button returns to this map. */
   left: { map: MapData, start: Pose } | null = null;
   /** Free pose at which the robot was put last. */
   #freePose: Pose | undefined;
@@ -156,7 +156,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.reflection.setProperty('map', isNameless ? { ...map, name: '' } : map, (given) => {
       if (given === null) {
         this.#leave();
-        // The robot may have no room where it is.
+        // The start pose may not be free in the new map.
         if (this.machine && !this.machine.startFree) this.settings.assign({ start: OPENING_START });
       } else {
         this.#enter(ownMapOf(given));
@@ -167,7 +167,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   /**
-   * A byte an attempt: 1 where its end is free, 2 where its path is, 4 where it is accepted.
+   * One byte for each attempt: the sum of 1 if its end is free, 2 if its path is free, and 4 if it is accepted.
    *
    * @public
    */
@@ -195,15 +195,15 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   /**
-   * Returns a pose in the open for a robot that comes into a map. In an occupancy grid it is used even where the robot has room: a free
-   * place may lie outside of all that was mapped.
+   * Returns a free start pose for a robot that enters a map. In an occupancy grid it is used even if the present pose is free, because that
+   * pose may be outside the mapped area.
    */
   #findFreePose({ openPlace, config, plan }: Machine): Pose {
     const [left, bottom, right, top] = plan.bounds;
     return (this.#freePose = openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 });
   }
 
-  /** Leaves the reader's map, as the reader asked. It is kept for a return. */
+  /** Leaves the reader's map, as the reader asked. The map is kept, so that the reader can return to it. */
   leaveMap() {
     this.runtime.attempt(() => this.#leave());
     this.go(OPENING_START);
@@ -224,7 +224,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /** Makes moved walls a map of the reader. Few samples follow in the same frame, many when the walls have come to rest. */
+  /** Makes the plan with moved walls a map of the reader. Few samples are drawn in the same frame; many are drawn when the walls rest. */
   moveWalls(walls: Float64Array) {
     const { bounds } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
@@ -249,8 +249,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   /**
-   * Puts the robot into another map, at a place if that is known. Another machine tries it: the present one stays if the map, or the place
-   * in it, is refused.
+   * Puts the robot into another map, at the pose `start` if given. A new machine tries the map first; the present machine stays if the map
+   * or the pose is refused.
    */
   #enter({ name, start, apply }: OwnMap & { start?: Pose }) {
     const { motion, settings } = this;

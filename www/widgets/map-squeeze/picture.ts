@@ -25,13 +25,13 @@ export interface Scene extends Reading {
 /** Half a cross, CSS pixels. */
 const CROSS_HALF = 2.6;
 
-/** Dot of a sample: radius in CSS pixels, by the width of the picture, and opacity. */
+/** Dot of a sample: minimum and maximum radius (CSS pixels), width of the picture per pixel of the radius, and opacity. */
 const SAMPLE_DOT = { least: 2, most: 3, per: 240, alpha: 0.4 };
 
-/** Leader from a label to the wall that it is about, CSS pixels. */
+/** Vector of the leader from a wall to the label about it, CSS pixels. */
 const LEADER_OFFSET = { x: 46, y: 30 };
 
-/** Area shown around the end of the command: a multiple of its length, and at least some metres. */
+/** Half-size of the area shown around the end of the command: a multiple of the command's length, and a minimum in metres. */
 const END_ROOM = 0.8;
 const MIN_END_ROOM = 0.8;
 
@@ -41,7 +41,7 @@ const PATH_MARGIN = 0.45;
 /** Margin around the map, relative to its longer side. */
 const MAP_MARGIN = 0.025;
 
-/** Cells of the density: sides in CSS pixels for many and for few samples, and the number of samples with the middle side. */
+/** Cells of the density: minimum and maximum side (CSS pixels), and number of samples at which the side is half the maximum. */
 const DENSITY_CELL = { least: 2, most: 5, samples: 40_000 };
 
 /** Maximum number of paths that are drawn over a density: more would hide it. */
@@ -121,7 +121,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     });
   }
 
-  /** Returns the part of the plan of which something is known, as long as the robot is in it; otherwise all of it. */
+  /** Returns the known part of the plan if the robot is inside it, and the whole plan otherwise. */
   mapped({ x, y }: { x: number, y: number }) {
     const [xMin, yMin, xMax, yMax] = this.plan.bounds;
     const box = extentAround(this.#known, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
@@ -138,7 +138,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const { accepted, through, rejected, commanded: command } = lineStyles(brush, LINE_STYLES);
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
     clipToPlot(brush, () => {
-      // Paths through a wall must not hide it.
+      // The walls are drawn after the paths, so that a path through a wall does not hide the wall.
       if (sorted) {
         if (showsLine('through')) drawPaths(brush, paths, through.colour);
         if (showsLine('accepted')) drawSamples(brush, sorted.free, accepted.colour);

@@ -35,15 +35,15 @@ export function outcomeIndex(verdict: number) {
 }
 
 /**
- * Returns how many of the accepted motions went through a wall, with the interval of their share. There is no interval if the
- * sampler excludes such motions (`certain`), or if the machine gave up: when it gives up depends on chance.
+ * Returns a text on the accepted motions that went through a wall: their number, and their share with its interval. There is no interval if
+ * the sampler excludes such motions (`certain`), or if the machine gave up, because giving up depends on chance.
  */
 export function throughText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, certain: boolean) {
   const interval = certain || gaveUp ? '' : `${fixed(100 * low, 1)}\u2060–\u2060${percent(high)}`;
   return words.squeeze.throughOf(throughWall, integer(throughWall), percent(throughWallRate), interval);
 }
 
-/** Returns a sentence on a robot that gets nowhere; empty for an ordinary cloud. */
+/** Returns a sentence on a robot that cannot move; empty for an ordinary cloud. */
 function stuckNote(config: SqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
   const { wedged, nothing, noRoom } = words.squeeze;
   const { accepted } = stats;

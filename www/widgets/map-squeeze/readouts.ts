@@ -56,10 +56,10 @@ function costText({ draws, wallTests, micros }: SampleCost) {
   return [fixed(draws, 2), fixed(wallTests, 2), rounded(micros, 2), cpuShare];
 }
 
-/** Largest fraction of the map's area in a close view that has an overview. */
+/** Maximum fraction of the map's area that a close view with an overview shows. */
 const MAX_SHOWN_FRACTION = 0.6;
 
-/** Returns the overview, or nothing where the picture shows most of the map. */
+/** Returns the overview, or nothing if the picture already shows most of the map. */
 export function overviewMap(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./reading.ts').Reading) {
   const { xMin, yMin, xMax, yMax } = picture.mapped(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];

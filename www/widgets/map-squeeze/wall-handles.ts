@@ -1,4 +1,4 @@
-/** Handles of walls: edges of doorways are moved along their walls, and walls across, with the pointer or keys. */
+/** Handles of walls, for the pointer or keys: edges of doorways move along their walls, and whole walls move across their direction. */
 
 import { html, nothing } from 'lit';
 import { swatch } from '../../figure/overlays.ts';
@@ -17,7 +17,7 @@ const KEY_STEP = 0.05;
 /** Largest number of walls with handles. */
 const MAX_HANDLED_WALLS = 50;
 
-/** Distance of the grip of an end from that end, pixels, and the largest share of the wall: grips in a narrow doorway stay apart. */
+/** Distance of the grip of a wall's end from that end, pixels, and its maximum as a share of the wall. Grips in a doorway stay apart. */
 const GRIP_INSET = 12;
 const MAX_GRIP_INSET = 1 / 6;
 
@@ -62,7 +62,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     return html`<span class="toggle grips">${swatch({ role: 'truth', mark: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
   }
 
-  /** Places new elements: they come after the picture. */
+  /** Places new elements, which are rendered after the picture. */
   hostUpdated() {
     this.#place(this.host.picture.view);
   }
@@ -121,7 +121,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const steps = stepsOfKey(event);
     if (!steps) return false;
     const [dx, dy] = steps;
-    // Keys across the axis have the same effect as keys along it, as with every slider.
+    // Arrow keys across the axis have the same effect as keys along it, as with every slider.
     return this.#move(grip, (_, [ux, uy]) => KEY_STEP * (dx * ux + dy * uy || (dx + dy) * (ux + uy)));
   }
 

@@ -1,4 +1,4 @@
-/** Geometry of walls: the one that a path touches, and walls that are moved. Lengths in metres. */
+/** Geometry of walls: the point at which a path touches a wall, and moving of walls. Lengths in metres. */
 
 import { extentAround } from '../../scene/view.ts';
 import type { Plan } from '../../types.d.ts';
@@ -9,7 +9,7 @@ const TOUCH_DISTANCE = 1e-6;
 /** Minimum gap between the end of a wall and the next wall, and minimum length of a wall, m. */
 const MIN_GAP = 0.05;
 
-/** Least distance at which a path touches a wall, and the tested points of a path in such a distance. */
+/** Minimum distance (m) at which a path counts as touching a wall, and number of tested points of a path in such a distance. */
 const MIN_TOUCH_RADIUS = 0.02;
 const POINTS_PER_RADIUS = 4;
 
@@ -23,7 +23,7 @@ function nearestWallPoint(walls: ArrayLike<number>, k: number, x: number, y: num
   return { point: wallPoint, distance: Math.hypot(x - wallPoint[0], y - wallPoint[1]) };
 }
 
-/** Returns the point of a wall that a robot of a radius touches first on a path of x, y pairs; undefined for none. */
+/** Returns the first point of a wall that a robot with this radius touches on a path of x, y pairs; undefined for none. */
 export function wallContact(path: ArrayLike<number>, walls: Float64Array, radius: number) {
   const touchRadius = Math.max(radius, MIN_TOUCH_RADIUS);
   const pathBox = extentAround(path, 2);
@@ -80,7 +80,7 @@ export function wallGrips({ bounds, walls }: Plan): (Grip | undefined)[] {
   return grips;
 }
 
-/** Returns whether an end of a wall touches no other wall. */
+/** Returns true if an end of a wall touches no other wall. */
 function isFreeEnd(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
   for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestWallPoint(walls, k, x, y).distance < TOUCH_DISTANCE) return false;
   return true;

@@ -55,7 +55,7 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
 export function captionOf({ config: { conditioned, sampler }, stats, note }: Reading) {
   const { accepted, attempts, gaveUp } = stats;
   const say = words.squeeze;
-  // For a robot that cannot move, the note contains the number of motions.
+  // If the robot cannot move, the note contains the number of motions.
   if (note && (accepted === 0 || gaveUp)) return note;
   if (attempts === 0) return `${say.headline.untried}.`;
   const testedText = say.tested[conditioned ? sampler : 'off'](integer(accepted), integer(attempts));

@@ -9,7 +9,7 @@ const ARROW_HEAD = { half: 4, length: 9 };
 /** Angle of a chord of a drawn arc, radians. */
 const CHORD_ANGLE = 0.1;
 
-/** Returns the directions, rad, from a heading to its turn by some radians. */
+/** Returns evenly spaced directions (rad) from a heading to the heading after a turn. */
 export function turnDirections(heading: number, turn: number) {
   const count = Math.max(1, Math.ceil(Math.abs(turn) / CHORD_ANGLE));
   return Array.from({ length: count + 1 }, (_, i) => heading + (turn * i) / count);
@@ -57,7 +57,7 @@ export function drawFan(brush: Brush, middle: Pose, deviation: number, radius: n
   context.globalAlpha = 1;
 }
 
-/** Draws a standard deviation (m) to either side of a place along its heading, as a bar with ends. */
+/** Draws a standard deviation (m) as a bar with ends, along the heading of a pose and to either side of its position. */
 export function drawBar({ context, view }: Brush, pose: Pose, deviation: number, colour: string) {
   if (deviation === 0) return;
   const barDirection = view.direction(pose.theta);

@@ -1,4 +1,4 @@
-/** <odometry-decomposer>: what odometry read as rotate, drive, rotate, and what localizers make of its noise. */
+/** <odometry-decomposer>: an odometry reading as rotate, drive, rotate, and the noise that localizers add to it. */
 
 import { html } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
@@ -42,7 +42,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   #legs = new LegsPicture();
   #world = new WorldPicture();
   pictures = [this.#legs, this.#world];
-  /** The second pose is on top if both poses are in one place. */
+  /** Handles of both poses. The handle of the second pose is on top if both poses are at the same place. */
   #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legs.view, () => POSE_BOUNDS));
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, new motion.OdometryDecomposer(), state);

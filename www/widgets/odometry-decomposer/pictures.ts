@@ -1,4 +1,4 @@
-/** The Odometry Decomposer's two pictures: the three legs in the odometry frame, and the same in the world. */
+/** The Odometry Decomposer's two pictures: the three legs in the odometry frame, and both odometry poses in the world. */
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
@@ -22,7 +22,7 @@ export type Scene = import('./reading.ts').Reading & { marked: Float64Array | un
 /** Radius of the robot, m. */
 export const ROBOT_RADIUS = 0.11;
 
-/** Margins around the robots, and around a standard deviation of the outcomes. */
+/** Margins around the robots (m), and around the outcomes (in standard deviations). */
 const MARGINS = { metres: 0.3, deviations: 2.4 };
 
 /** Maximum number of outcomes that are drawn with headings: more would be indistinguishable. */
@@ -43,7 +43,7 @@ const MIN_LABELLED_DRIVE = 24;
 /** Turn, rad, below which it has no arc. */
 const MIN_DRAWN_TURN = 0.005;
 
-/** Candidate ends of a leader on the arc of a turn, as fractions of it. */
+/** Candidate ends of a leader on the arc of a turn, as fractions of the turn. */
 const LEADER_ENDS = [0.5, 0.3, 0.7, 0.1, 0.9];
 
 const AXIS_NAMES = { x: 'x (m)', y: 'y (m)' };
@@ -108,7 +108,7 @@ export class LegsPicture extends OutcomesPicture {
       });
       return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
-    // The arcs, whose size is in pixels, fit at half the scale of the world alone.
+    // The arcs have a fixed size in pixels. They fit at half of the scale at which the positions alone would fit.
     let maxScale = view.scaleFor(extentOf(worldPoints, 1.2));
     let low = maxScale / 2;
     for (let i = 0; i < SCALE_BISECTIONS; i++) {
@@ -161,7 +161,7 @@ export class LegsPicture extends OutcomesPicture {
       text: `${fixed(legs[sub], 2)}${deviations[sub] > 0 ? ` ± ${fixed(deviations[sub], 2)}` : ''} ${unit}`,
       colour,
     });
-    // The place of an arc that is nearest to the labels, and inside of the axes.
+    // The point of an arc that is nearest to the labels, and inside the axes.
     const leaderEnd = ({ x, y, theta }: Pose, by: number, reach: number) => {
       const endCandidates = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * by }, reach)[1])
         .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))

@@ -1,4 +1,4 @@
-/** Files of the reader, chosen or dropped on a figure. A disclosure shows the result, and a notice why dropped files were refused. */
+/** Files of the reader, chosen or dropped on a figure. A disclosure shows the result, and a notice says why dropped files were refused. */
 
 import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
@@ -39,7 +39,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     this.#latest++;
   }
 
-  /** Runs an attempt to open files, which takes the place of an earlier one. Returns false if a later one has taken its place. */
+  /** Runs an attempt to open files, which replaces an earlier attempt. Returns false if a later attempt has replaced this one. */
   async run(work: (isLatest: () => boolean) => Promise<void>) {
     const attempt = ++this.#latest;
     const isLatest = () => attempt === this.#latest;
@@ -114,9 +114,9 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   }
 }
 
-/** Returns what was dropped, with the files of folders and their paths in them. */
+/** Returns the dropped files, and the files in dropped folders with their paths in the folders. */
 async function droppedFiles({ items }: DataTransfer): Promise<File[]> {
-  // All entries are read synchronously: the list is empty afterwards.
+  // All entries are read synchronously, because the browser empties the list afterwards.
   const droppedItems = [...items].filter(({ kind }) => kind === 'file').map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
   const files = await Promise.all(droppedItems.map(({ entry, file }) => (entry?.isDirectory ? filesIn(entry as FileSystemDirectoryEntry) : file ? [file] : [])));
   return files.flat();

@@ -1,4 +1,4 @@
-/** Animation of a slider: from its current value, or from 0 if it is at its end. */
+/** Animation of a slider from its current value to its end. A slider that is at its end starts from 0. */
 
 import { nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
@@ -19,7 +19,7 @@ export class Player<Key extends string> extends FigureController {
   /** Key of the animated setting. */
   #key: Key | undefined;
   #played;
-  /** Remainder of the last movement that a setting with whole steps could not take. */
+  /** Fraction of a step that remains from the last movement of a setting with whole steps. */
   #beyond = 0;
 
   constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, PlayedSetting>) {

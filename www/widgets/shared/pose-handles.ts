@@ -48,7 +48,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
       key: (event) => {
         const steps = stepsOfKey(event);
-        // To the left is counter-clockwise, as for a driver.
+        // The left arrow turns counter-clockwise, as a driver would steer.
         return this.#turnBy(turnsOfKey(event) ?? (steps && steps[1] - steps[0]));
       },
     });

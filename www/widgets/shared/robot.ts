@@ -28,7 +28,7 @@ export function drawHeldRobot(brush: Brush, pose: Pose, radius: number, colour: 
   drawHandle(brush, { x: turn[0], y: turn[1], radius: TURN_HANDLE_RADIUS, colour });
 }
 
-/** Draws the dashed outline of a robot where a command would bring it; lengths in metres. */
+/** Draws the dashed outline of a robot at the position to which a command would move it; lengths in metres. */
 export function drawRobotOutline({ context, view }: Brush, x: number, y: number, radius: number, colour: string) {
   drawDisc(context, view.toPixel(x, y), radiusInPixels(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
 }

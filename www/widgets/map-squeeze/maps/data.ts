@@ -25,7 +25,7 @@ export function cellsOf({ grid }: MapSqueeze): Cells | null {
   return grid && { ...grid, unknown: grid.unknown.includes(1) ? grid.unknown : undefined };
 }
 
-/** Returns the map of a machine, frozen: a page that changes it gives another map. */
+/** Returns the map of a machine as a frozen object: a page must set a new object to change the map. */
 export function mapData(machine: MapSqueeze, name: string, grid: Cells | null): MapData {
   if (grid) {
     const { columns, rows, resolution, origin } = grid;
@@ -72,7 +72,7 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
   renamingFields(GRID_KEYS, () => machine.setGrid(gridDescription, pgmImage));
 }
 
-/** Calls a machine with fields of a map. In an error of the machine, the field gets its name in the map. */
+/** Calls a machine with fields of a map. In an error of the machine, the field is renamed to its name in the map. */
 function renamingFields(keys: string[], take: () => void) {
   try {
     take();
@@ -83,7 +83,7 @@ function renamingFields(keys: string[], take: () => void) {
   }
 }
 
-/** Returns cells as a PGM image. Rows of an image begin at the top, those of a grid at the bottom; negated, white is occupied. */
+/** Returns cells as a PGM image. The first row of an image is the top one, that of a grid the bottom one. With `negate`, white is occupied. */
 function imageOf(columns: number, rows: number, occupiedBits: Uint8Array, unknownBits: Uint8Array) {
   const pgmHeader = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED_SHADE}\n`);
   const pgmImage = new Uint8Array(pgmHeader.length + columns * rows);
@@ -96,7 +96,7 @@ function imageOf(columns: number, rows: number, occupiedBits: Uint8Array, unknow
   return pgmImage;
 }
 
-/** Returns cells of 0 or 1 as base64 of eight a byte, the first one highest. */
+/** Returns cells of 0 or 1 as base64, with eight cells in a byte, the first one in the highest bit. */
 function packBits(cells: Uint8Array): string {
   const packedBytes = new Uint8Array(Math.ceil(cells.length / 8));
   for (let i = 0; i < cells.length; i++) packedBytes[i >> 3] |= cells[i] << (7 - (i & 7));

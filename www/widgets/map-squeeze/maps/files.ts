@@ -94,7 +94,7 @@ export async function readPlan(name: string, text: string): Promise<OwnMap> {
   };
 }
 
-/** Parses a plan. The browser parses JSON fifty times as fast as the YAML library, which also reads text that is not quite JSON. */
+/** Parses a plan. The browser parses JSON fifty times as fast as the YAML library, which also reads slightly invalid JSON. */
 async function parsePlan(name: string, text: string) {
   try {
     return JSON.parse(text);
@@ -110,8 +110,8 @@ function isObject(value: unknown): value is Record<string, unknown> {
 }
 
 /**
- * Parses a text by the library for YAML, which reads JSON too. It forgives a trailing comma or a comment in a plan written by hand, and
- * knows the line of a mistake. It is loaded with the first map that needs it.
+ * Parses a text with the YAML library, which also reads JSON. The library accepts a trailing comma or a comment in a plan written by hand,
+ * and reports the line of a mistake. It is loaded with the first map that needs it.
  */
 async function parseYamlOrJson(name: string, text: string, language: 'JSON' | 'YAML') {
   const { YAMLException, parseYaml } = await import('./yaml.ts');
@@ -169,7 +169,7 @@ function numberFromText(value: unknown): unknown {
 
 /** Parses a description as leniently as map_server does. */
 async function readDescription(name: string, text: string) {
-  // YAML forbids tabs as indentation, and the fields have none.
+  // YAML forbids tabs as indentation, and the fields need no indentation.
   const description = await parseYamlOrJson(name, text.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), 'YAML');
   if (!isObject(description)) throw new MapFileError(name, (say, file) => say.fields(file));
   const yamlFields = { ...description };

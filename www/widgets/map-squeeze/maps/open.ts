@@ -25,7 +25,7 @@ export class MapOpener extends FileOpener<import('../map-squeeze.ts').MapSqueeze
       this.isReading = true;
       this.host.announcer.announce(words.squeeze.own.reading);
       this.host.requestUpdate();
-      // Two frames: the message is on the screen when the first has been drawn.
+      // Waits for two frames, because the message is on the screen only after the first one was drawn.
       for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
     }
     await this.#open(({ readMapFiles }) => readMapFiles(files, decodePng));

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { alphaOrBound, formatInterval as ends, fixed, nav2Lines, toText } from '../../www/widgets/alpha-calibrator/lines.ts';
+import { cornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
 import { classesOf, truthApplies } from '../../www/widgets/alpha-calibrator/reading.ts';
 import { SIMULATED_LEGS } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { localized } from '../../www/widgets/alpha-calibrator/words.ts';
@@ -100,4 +101,11 @@ test('legs of the simulated log are those that the settings open with', () => {
   assert.deepEqual(SIMULATED_LEGS, { distance: config.distance, angle: config.angle });
   const holds = (/** @type {object} */ change) => truthApplies(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...change } }));
   assert.deepEqual([holds({}), holds({ distance: 0.3 }), holds({ angle: 0.3 }), holds({ duration: 1 }), holds({ rule: 'nav2' })], [true, false, false, false, false]);
+});
+
+test('the picture of the path has room for the odometry, as far as the reference keeps half of it', () => {
+  const corners = (/** @type {number[]} */ ...odometry) => cornersOf([0, 0, 0, 10, 4, 0], odometry);
+  assert.deepEqual(corners(), [0, 0, 10, 4]);
+  assert.deepEqual(corners(5, -2, 12, 3), [0, -2, 12, 4]);
+  assert.deepEqual(corners(-40, -50, 60, 70), [-5, -5, 15, 9]);
 });

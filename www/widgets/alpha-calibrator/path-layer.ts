@@ -6,6 +6,7 @@
 import { strokePath, type Brush } from '../../scene/canvas.ts';
 import { lineStyles } from '../../scene/draw.ts';
 import { LINES_PER_STROKE, Layer, drawStrokes, strokeMany, type Painter } from '../../scene/layer.ts';
+import { Memo } from '../../scene/memo.ts';
 import { colourChannels } from '../../ui/theme.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName } from './settings.ts';
 import type { CalibrationLegs } from '../../types.d.ts';
@@ -47,6 +48,23 @@ export class PathLayer {
   #layer = new Layer();
   /** Legs that were drawn last. */
   #legs: CalibrationLegs | undefined;
+  #odometry: Memo<Float64Array> = new Memo();
+
+  /** Returns the ends of the legs by odometry (x, y pairs), from the first pose of the reference on. The path drifts away from the reference. */
+  odometryOf(legs: CalibrationLegs): Float64Array {
+    return this.#odometry.of([legs], () => {
+      const { count, odometry, reference } = legs;
+      const frameRotation = reference[2] - odometry[2];
+      const [cos, sin] = [Math.cos(frameRotation), Math.sin(frameRotation)];
+      const ends = new Float64Array(2 * count);
+      for (let leg = 0; leg < count; leg++) {
+        const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
+        ends[2 * leg] = reference[0] + cos * dx - sin * dy;
+        ends[2 * leg + 1] = reference[1] + sin * dx + cos * dy;
+      }
+      return ends;
+    });
+  }
 
   /**
    * Draws the legs, the most usual classes first. Returns true if there are more to draw in the next frame: many legs of a new log take
@@ -54,19 +72,19 @@ export class PathLayer {
    */
   draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]): boolean {
     const { context, highlight, handles } = brush;
-    if ('vector' in context || legs.count <= MAX_UNCACHED_LEGS) return drawStrokes(drawPath(brush, legs, classes, overlays));
+    if ('vector' in context || legs.count <= MAX_UNCACHED_LEGS) return drawStrokes(drawPath(brush, legs, this.odometryOf(legs), classes, overlays));
     const isOtherLog = legs !== this.#legs;
     this.#legs = legs;
     return this.#layer.draw(brush, [legs, overlays, highlight], (painter) => {
-      const strokes = drawPath(painter, legs, classes, overlays);
+      const strokes = drawPath(painter, legs, this.odometryOf(legs), classes, overlays);
       if (!isOtherLog) drawStrokes(strokes);
       return strokes;
     }, handles ? Infinity : STROKES_PER_FRAME);
   }
 }
 
-function* drawPath(brush: Painter, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
-  if (overlays.includes('odometry')) yield* strokeMany(brush.context, odometryLines(brush.view, legs), pathStyle(brush, 'odometry'));
+function* drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
+  if (overlays.includes('odometry')) yield* strokeMany(brush.context, odometryLines(brush.view, odometry), pathStyle(brush, 'odometry'));
   // While the coverage by legs grows from 1 to 2, lines get gradually thinner, so that nothing jumps when the picture is resized.
   const thickening = Math.max(0, Math.min(1, 2 - pathCoverage(brush.view, legs.reference)));
   for (const [index, name] of LEG_CLASSES.entries()) {
@@ -110,14 +128,11 @@ function pathCoverage(view: Painter['view'], reference: Float64Array) {
   return (coveredLength * LINE_STYLES.likely.width) / (endSquares.size * COARSE_SQUARE ** 2);
 }
 
-/** Returns the path of the odometry as lines, from the first pose of the reference on. It drifts away from the reference. */
-function* odometryLines(view: Painter['view'], { count, odometry, reference }: CalibrationLegs) {
-  const frameRotation = reference[2] - odometry[2];
-  const [cos, sin] = [Math.cos(frameRotation), Math.sin(frameRotation)];
+/** Returns the path of the odometry as lines between the ends of its legs. */
+function* odometryLines(view: Painter['view'], ends: Float64Array) {
   let [last, line] = [NaN, [] as number[][]];
-  for (let leg = 0; leg < count; leg++) {
-    const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
-    const legEnd = view.toPixel(reference[0] + cos * dx - sin * dy, reference[1] + sin * dx + cos * dy);
+  for (let at = 0; at < ends.length; at += 2) {
+    const legEnd = view.toPixel(ends[at], ends[at + 1]);
     const square = squareOf(...legEnd);
     if (square === last) continue;
     last = square;

@@ -19,6 +19,19 @@ const LEG_LINE_WIDTH = 2.25;
 /** Space around the mark of an end, as a share of the leg. */
 const MARK_ROOM = 0.08;
 
+/**
+ * Returns the corners of an area around both paths. Where the odometry drifts far away, the reference still has at least half of the width.
+ *
+ * @param reference poses
+ * @param odometry points
+ */
+export function cornersOf(reference: ArrayLike<number>, odometry: ArrayLike<number>): number[] {
+  const box = extentAround(reference, 3);
+  const both = extentAround(odometry, 2, box);
+  const room = Math.max(box.xMax - box.xMin, box.yMax - box.yMin) / 2;
+  return [Math.max(both.xMin, box.xMin - room), Math.max(both.yMin, box.yMin - room), Math.min(both.xMax, box.xMax + room), Math.min(both.yMax, box.yMax + room)];
+}
+
 /** The floor from above, in the frame of the reference. */
 export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
@@ -31,10 +44,9 @@ export class PathPicture extends SamplesPicture<Scene> {
     this.view = new View({ top });
   }
 
-  fit({ legs: { reference } }: Scene) {
-    const box = extentAround(reference, 3);
+  fit({ legs, overlays }: Scene) {
     this.view.release();
-    this.view.fit(extentOf(reference.length > 0 ? [box.xMin, box.yMin, box.xMax, box.yMax] : [0, 0], 1));
+    this.view.fit(extentOf(legs.count > 0 ? cornersOf(legs.reference, overlays.includes('odometry') ? this.#layer.odometryOf(legs) : []) : [0, 0], 1));
     // The view is not animated, because an animation would draw all legs in each frame.
     this.view.ease(0, true);
   }

@@ -55,6 +55,12 @@ test('the meaning of each α stands beside it, apart from the numbers, also on a
     if (spacing === 0 && width !== 920) for (const row of await rows(widget).all()) expect((await boxOf(row)).height, `${width} px`).toBeLessThan(34);
     expect(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${spacing} em`).toBeLessThanOrEqual(width);
   }
+  // Labels of the axis are apart, where it is at its narrowest.
+  await page.setViewportSize({ width: 640, height: 900 });
+  await page.evaluate(() => void (document.body.style.letterSpacing = '0.1em'));
+  const boxes = await Promise.all((await widget.locator('.scale > span').filter({ visible: true }).all()).map(boxOf));
+  expect(boxes.length).toBeGreaterThan(1);
+  for (const [i, { x, width }] of boxes.slice(0, -1).entries()) expect(x + width).toBeLessThan(boxes[i + 1].x);
 });
 
 test('outliers are ringed, and decide the fit where they are not set aside', async ({ page }) => {

@@ -231,6 +231,7 @@ export const styles = css`
   }
 
   .alphas .scale {
+    container-type: inline-size;
     position: relative;
     flex: 1;
     height: 1.1em;
@@ -241,6 +242,19 @@ export const styles = css`
   .scale > span {
     position: absolute;
     translate: -50%;
+  }
+
+  /* The first and the last label of an axis have room on any screen. */
+  @container (width < 9em) {
+    .scale > span:not(:first-child, :last-child) {
+      visibility: hidden;
+    }
+  }
+
+  @container (width < 16em) {
+    .scale:has(> :nth-child(4)) > span:not(:first-child, :last-child) {
+      visibility: hidden;
+    }
   }
 
   .alphas .unknown {

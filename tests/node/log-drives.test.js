@@ -186,6 +186,10 @@ test('one path given as both logs is refused, in another frame and in other file
   };
   const same = await sentenceOf(drivesOf({ 'odom.csv': table(400, (i) => curve(i)), 'truth.csv': table(400, (i) => curve(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
   assert.equal(same, 'truth.csv: it has the same motion as odom.csv; give two independent measurements of one drive.');
+  const spiral = (/** @type {number} */ i, scale = 1) => [i / 20, scale * i * 0.08 * Math.cos(i / 50), scale * i * 0.08 * Math.sin(i / 50), 0];
+  const rounded = (/** @type {number} */ scale) => ({ 'odom.csv': table(400, (i) => spiral(i)), 'truth.csv': table(400, (i) => spiral(i, scale).map((value) => Number(value.toFixed(2)))) });
+  assert.equal(await sentenceOf(drivesOf(rounded(1))), same);
+  assert.equal((await drivesOf(rounded(1.001))).length, 1);
   const commands = ['t,x,y,yaw,v,omega', ...Array.from({ length: 99 }, (_, i) => `${i / 20},${i / 40},0,0,0.5,0`)].join('\n');
   const [one, other] = await openRecordings([new File([commands], 'log.csv'), new File([commands], 'log.csv')]);
   assert.match(await sentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /^log\.csv: it is given twice;/);

@@ -20,6 +20,9 @@ const [COMPARED_ROWS, MIN_EQUAL_ROWS] = [500, 10];
 /** Largest difference in m and rad between copies of one path: the rounding to six digits. */
 const COPY_TOLERANCE = 1e-5;
 
+/** Steps in m to which positions of a file may be rounded, and minimum length of a rounded path, in steps: no odometry is as exact that far. */
+const [ROUNDING_STEPS, MIN_ROUNDED_LENGTH] = [[1e-2, 1e-3, 1e-4], 2000];
+
 /** Minimum motion, in m and rad, of paths that are compared. */
 const MIN_MOTION = 0.1;
 
@@ -113,7 +116,10 @@ export function logOf(drives: Drive[]): Pick<CalibrationLog, Role> {
   return drives.length === 1 ? { odometry: odometry[0], reference: reference[0] } : { odometry, reference };
 }
 
-/** Checks whether two logs are copies of one path. Rows of equal times then have the same motion since the first of them, in any frames. */
+/**
+ * Checks whether two logs are copies of one path. Rows of equal times then have the same motion since the first of them, in any frames, or
+ * positions of one log are those of the other, rounded.
+ */
 export function isSamePath(one: Log, two: Log): boolean {
   const [poses, other] = [one.data, two.data];
   const { t } = poses;
@@ -126,6 +132,9 @@ export function isSamePath(one: Log, two: Log): boolean {
     const [dx, dy, cos, sin] = [x[to] - x[from], y[to] - y[from], Math.cos(theta[from]), Math.sin(theta[from])];
     return [cos * dx + sin * dy, cos * dy - sin * dx, theta[to] - theta[from]];
   };
+  const isRoundedTo = (step: number) => [poses, other].some(({ x, y }) => [x, y].every((all) => all.every((value) => Math.abs(value / step - Math.round(value / step)) < 1e-6)));
+  const step = ROUNDING_STEPS.find((each) => one.summary.distance > MIN_ROUNDED_LENGTH * each && isRoundedTo(each)) ?? 0;
+  let [isMoved, isRounded] = [true, step > 0];
   let first: [number, number] | undefined;
   let [rows, moved] = [0, 0];
   for (let i = 0; i < t.length; i += every) {
@@ -135,7 +144,9 @@ export function isSamePath(one: Log, two: Log): boolean {
     const [own, its] = [motion(poses, first[0], i), motion(other, first[1], j)];
     const distance = Math.hypot(own[0], own[1]);
     const turn = Math.abs(Math.sin((own[2] - its[2]) / 2));
-    if (Math.hypot(own[0] - its[0], own[1] - its[1]) > COPY_TOLERANCE * (1 + distance) || turn > COPY_TOLERANCE) return false;
+    isMoved &&= Math.hypot(own[0] - its[0], own[1] - its[1]) <= COPY_TOLERANCE * (1 + distance) && turn <= COPY_TOLERANCE;
+    isRounded &&= Math.max(Math.abs(poses.x[i] - other.x[j]), Math.abs(poses.y[i] - other.y[j])) < 0.5 * step + COPY_TOLERANCE;
+    if (!isMoved && !isRounded) return false;
     rows += 1;
     moved = Math.max(moved, distance, Math.abs(Math.sin(own[2] / 2)));
   }

@@ -32,7 +32,7 @@ export async function writePython() {
 
 /** @returns {Promise<string>} a module of Python */
 export async function elements() {
-  const { GLOBAL } = await importTypeScript('www/named.ts');
+  const { GLOBAL_ATTRIBUTES: GLOBAL } = await importTypeScript('www/named.ts');
   const { classes } = await comments();
   const all = (await widgets()).map(({ tag, machine, attributes, properties }) => {
     const documented = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];

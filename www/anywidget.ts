@@ -10,7 +10,7 @@ import './de.ts';
 import './widgets/index.ts';
 import { COMMON_ATTRS } from './figure/attributes.ts';
 import { includesFields } from './figure/checks.ts';
-import { GLOBAL, elementNamed, sorry } from './named.ts';
+import { GLOBAL_ATTRIBUTES, elementNamed, errorParagraph } from './named.ts';
 
 export interface Model {
   /** Returns the value of a trait; undefined if the model does not have it. */
@@ -21,36 +21,36 @@ export interface Model {
   save_changes: () => void;
 }
 
-/** @returns what takes the figure away again */
-function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) | undefined {
+/** Renders the widget of a model. @returns a function that removes it again */
+function renderWidget({ model, el }: { model: Model, el: HTMLElement }): (() => void) | undefined {
   let element: any;
   try {
     element = elementNamed(model.get('widget'));
   } catch (error) {
-    el.append(sorry('This cell', error));
+    el.append(errorParagraph('This cell', error));
     return;
   }
-  // Digits and letters that are typed in a figure are no shortcuts of JupyterLab, by which it would change the cell.
+  // Without this, JupyterLab would treat letters and digits typed in a figure as shortcuts, and change the cell.
   element.dataset.lmSuppressShortcuts = 'true';
   // JupyterLab's themes change the background of a cell's output but leave its text black. This variable has the theme's text colour.
   element.style.color = 'var(--jp-content-font-color1, inherit)';
 
-  let unsaved = false;
+  let hasUnsavedChanges = false;
   const put = (trait: string, value: unknown) => {
-    const current = model.get(trait);
-    if (current === undefined || includesFields(current, value)) return;
-    unsaved = true;
+    const currentValue = model.get(trait);
+    if (currentValue === undefined || includesFields(currentValue, value)) return;
+    hasUnsavedChanges = true;
     model.set(trait, value);
   };
-  const save = () => {
-    if (!unsaved) return;
-    unsaved = false;
+  const saveSoon = () => {
+    if (!hasUnsavedChanges) return;
+    hasUnsavedChanges = false;
     withoutKernel(() => model.save_changes());
   };
 
   const traits = traitsOf(element);
   let isScheduled = false;
-  let writing = false;
+  let isWriting = false;
   /** Writes the figure's values into the model, once after several changes. */
   const sendValues = () => {
     if (isScheduled) return;
@@ -59,15 +59,15 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
       isScheduled = false;
       // The element was removed. The model already has the values that it showed last.
       if (!element.machine) return;
-      const ours = traits.filter(([, property]) => !GLOBAL.includes(property));
-      const values = ours.map(([trait, property]) => [trait, plain(element[property])] as [string, unknown]);
-      // Nulls come last: a null (no preset, for example) follows from the other values, and another view applies them in this order.
-      writing = true;
-      for (const none of [false, true]) for (const [trait, value] of values) if ((value === null) === none) put(trait, value);
-      writing = false;
-      // All values of one moment, with the number of the last request that was applied: the kernel can tell which requests are newer.
-      put('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(values.filter(([trait]) => model.get(trait) !== undefined)) });
-      save();
+      const ownTraits = traits.filter(([, property]) => !GLOBAL_ATTRIBUTES.includes(property));
+      const traitValues = ownTraits.map(([trait, property]) => [trait, jsonValue(element[property])] as [string, unknown]);
+      // Nulls come last, because a null (no preset, for example) follows from the other values, and other views apply values in this order.
+      isWriting = true;
+      for (const none of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === none) put(trait, value);
+      isWriting = false;
+      // All values at one time, with the number of the last applied request, from which the kernel knows which requests are newer.
+      put('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(traitValues.filter(([trait]) => model.get(trait) !== undefined)) });
+      saveSoon();
     });
   };
 
@@ -75,7 +75,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
     if (model.get('error') === undefined) return;
     event.preventDefault();
     put('error', event.message);
-    save();
+    saveSoon();
   });
   element.addEventListener('load', sendValues);
   element.addEventListener('change', () => {
@@ -84,27 +84,27 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   });
   element.addEventListener('stats', ({ detail }: CustomEvent) => {
     if (model.get('stats') === undefined) return;
-    put('stats', plain(detail));
-    save();
+    put('stats', jsonValue(detail));
+    saveSoon();
   });
 
-  const heard = traits.map(([trait, property]) => {
-    const take = () => {
-      if (writing) return;
+  const stopListening = traits.map(([trait, property]) => {
+    const takeTrait = () => {
+      if (isWriting) return;
       put('error', '');
-      // Global attributes are texts, and a missing one is the empty text.
-      element[property] = model.get(trait) ?? (GLOBAL.includes(property) ? '' : null);
+      // Global attributes are texts. A missing attribute is the empty text.
+      element[property] = model.get(trait) ?? (GLOBAL_ATTRIBUTES.includes(property) ? '' : null);
       sendValues();
     };
     const value = model.get(trait);
     if (value !== undefined && value !== null) element[property] = value;
-    model.on(`change:${trait}`, take);
-    return () => model.off(`change:${trait}`, take);
+    model.on(`change:${trait}`, takeTrait);
+    return () => model.off(`change:${trait}`, takeTrait);
   });
   el.append(element);
 
   return () => {
-    for (const end of heard) withoutKernel(end);
+    for (const end of stopListening) withoutKernel(end);
     element.remove();
   };
 }
@@ -118,25 +118,25 @@ function withoutKernel(work: () => void) {
   }
 }
 
-/** Returns all spellings of traits with their properties. Properties that others depend on come first. */
+/** Returns all spellings of traits with their properties. Properties on which others depend come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
   const { properties, own } = element.constructor.definition;
-  const entries: Record<string, { property?: string }> = { ...properties, ...own, ...COMMON_ATTRS, ...Object.fromEntries(GLOBAL.map((name) => [name, {}])) };
+  const entries: Record<string, { property?: string }> = { ...properties, ...own, ...COMMON_ATTRS, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };
   return Object.entries(entries).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];
-    const inPython = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
+    const pythonName = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
     // With the underscore of a keyword, as in `from_`.
-    const spellings = new Set([name, property, inPython, `${inPython}_`]);
+    const spellings = new Set([name, property, pythonName, `${pythonName}_`]);
     return [...spellings].map((trait) => [trait, property] as [string, string]);
   });
 }
 
 /** Returns a value as JSON can represent it: lists for typed arrays, null for numbers that are not finite. */
-function plain(value: unknown): unknown {
+function jsonValue(value: unknown): unknown {
   if (typeof value === 'number') return Number.isFinite(value) ? value : null;
   if (typeof value !== 'object' || value === null) return value;
-  if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value as ArrayLike<unknown>, plain);
-  return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, plain(each)]));
+  if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value as ArrayLike<unknown>, jsonValue);
+  return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, jsonValue(each)]));
 }
 
-export default { render };
+export default { render: renderWidget };

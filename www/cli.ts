@@ -21,9 +21,9 @@ process.exitCode = await run(process.argv.slice(2), {
   version: JSON.parse(readFileSync(new URL('../package.json', import.meta.url), 'utf8')).version,
   isColored: stdout.isTTY && !process.env.NO_COLOR,
   onProgress(share) {
-    const percent = share === undefined ? -1 : Math.floor(100 * share);
-    if (!stderr.isTTY || percent === shownPercent) return;
-    shownPercent = percent;
-    stderr.write(share === undefined ? '\r\x1b[K' : `\rreading ${percent} %`);
+    const newPercent = share === undefined ? -1 : Math.floor(100 * share);
+    if (!stderr.isTTY || newPercent === shownPercent) return;
+    shownPercent = newPercent;
+    stderr.write(share === undefined ? '\r\x1b[K' : `\rreading ${newPercent} %`);
   },
 });

@@ -17,30 +17,30 @@ let requestedSource: Source | undefined;
 type BundledCore = typeof bundled.motion;
 
 /** Modules that are compiled or compiling. */
-const compiling: Map<BundledCore, Promise<WebAssembly.Module>> = new Map();
+const modules: Map<BundledCore, Promise<WebAssembly.Module>> = new Map();
 /** Tags of the widgets that external.js has found in the page. */
 export const knownTags: Set<string> = new Set();
-let loading: Promise<Motion> | undefined;
+let loadingCore: Promise<Motion> | undefined;
 
 /**
  * Returns the core, ready to use. Later calls get the same core, and a call after a failed one tries again.
  *
  * `source` is the module as bytes, an address, or compiled. By default it is the module of the bundle. For external.js that is the file
- * `motion.wasm` next to it, or if the file cannot be fetched, the copy embedded in a script. The first caller with a source decides for the
- * page. A script may import the elements first if it then calls `load(source)` without waiting.
+ * `motion.wasm` next to it, or if the file cannot be fetched, the copy embedded in a script. The first caller with a source determines the
+ * source for the page. A script may import the elements before it calls `load(source)`, but must not wait in between.
  */
 export function load(source?: Source): Promise<Motion> {
   requestedSource ??= source;
-  loading ??= instantiate().catch((error) => {
-    loading = undefined;
+  loadingCore ??= instantiate().catch((error) => {
+    loadingCore = undefined;
     throw error;
   });
-  return loading;
+  return loadingCore;
 }
 
 /**
- * Returns a further core from the same compiled module, with its own memory. A trap in it harms no other, and its memory is freed with
- * the last reference to it.
+ * Returns another core from the same compiled module, with its own memory. A trap in it does not affect other cores. Its memory is freed
+ * with the last reference to it.
  */
 export function instantiate(source?: Source): Promise<Motion> {
   requestedSource ??= source;
@@ -56,10 +56,10 @@ export async function instantiateFor(name: string): Promise<Motion> {
   try {
     // Elements are defined before the script that imports them can call `load(source)`.
     await null;
-    const [module, { default: makeCore }] = await found(name);
+    const [module, { default: makeCore }] = await moduleAndGlue(name);
     motion = await makeCore(module);
   } catch (error) {
-    if (!forbidden()) throw error;
+    if (!isWasmForbidden()) throw error;
     throw new Error(
       "This page's Content-Security-Policy forbids WebAssembly: its script-src directive lacks 'wasm-unsafe-eval'.",
       { cause: error },
@@ -77,7 +77,7 @@ export interface SharedCore {
 
 /** Returns the module and glue of a widget's core for another thread. */
 export async function sharedCore(name: string): Promise<SharedCore> {
-  const [module] = await found(name);
+  const [module] = await moduleAndGlue(name);
   const core = bundledCoreOf(name);
   return { module, glue: Object.keys(bundled).find((key) => bundled[key] === core) ?? 'motion' };
 }
@@ -94,68 +94,68 @@ export function abandon(machine: { free(): void }) {
 }
 
 /** True after a module could not be fetched. */
-let unreachable = false;
+let isUnreachable = false;
 
 /** Returns the compiled module and the glue for a widget, or the embedded ones if the module cannot be fetched. */
-async function found(name: string): Promise<[WebAssembly.Module, Awaited<ReturnType<BundledCore['glue']>>]> {
-  const named = requestedSource;
+async function moduleAndGlue(name: string): Promise<[WebAssembly.Module, Awaited<ReturnType<BundledCore['glue']>>]> {
+  const sourceAtStart = requestedSource;
   const core = bundledCoreOf(name);
   try {
-    return await Promise.all([compiled(core), core.glue()]);
+    return await Promise.all([compiledModule(core), core.glue()]);
   } catch (error) {
-    if (named !== undefined || !bundled.embedded || core === bundled.embedded || forbidden()) throw error;
-    unreachable = true;
-    const embedded = await found(name).catch(() => {
-      unreachable = false;
+    if (sourceAtStart !== undefined || !bundled.embedded || core === bundled.embedded || isWasmForbidden()) throw error;
+    isUnreachable = true;
+    const embeddedModule = await moduleAndGlue(name).catch(() => {
+      isUnreachable = false;
       throw error;
     });
     console.warn(`motion-widgets: the module embedded in a script is used. ${(error as Error).message}`);
-    return embedded;
+    return embeddedModule;
   }
 }
 
-/** Returns the bundled core of a widget. Pages with several kinds of widgets use the core of all, which is smaller than one for each kind. */
+/** Returns the bundled core of a widget. Pages with several kinds of widgets use the common core, which is smaller than several cores. */
 function bundledCoreOf(name: string) {
-  const own = bundled[name];
-  const core = own && (compiling.has(own) || (requestedSource === undefined && knownTags.size < 2)) ? own : bundled.motion;
-  return bundled.embedded && requestedSource === undefined && (unreachable || !core.source()) ? bundled.embedded : core;
+  const ownCore = bundled[name];
+  const core = ownCore && (modules.has(ownCore) || (requestedSource === undefined && knownTags.size < 2)) ? ownCore : bundled.motion;
+  return bundled.embedded && requestedSource === undefined && (isUnreachable || !core.source()) ? bundled.embedded : core;
 }
 
-function compiled(core: BundledCore): Promise<WebAssembly.Module> {
-  let module = compiling.get(core);
+function compiledModule(core: BundledCore): Promise<WebAssembly.Module> {
+  let module = modules.get(core);
   if (!module) {
     module = compile(requestedSource ?? core.source()).catch((error) => {
       requestedSource = undefined;
-      compiling.delete(core);
+      modules.delete(core);
       throw error;
     });
-    compiling.set(core, module);
+    modules.set(core, module);
   }
   return module;
 }
 
-/** Advice to an author whose site has no module. */
-const CURE =
+/** Advice for the author of a site without the module. */
+const ADVICE =
   "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out.";
 
-/** Maximum number of characters of an address in a message: a data URL has millions. */
-const LONGEST = 200;
+/** Maximum number of characters of an address in a message. A data URL may have millions. */
+const MAX_ADDRESS_LENGTH = 200;
 
 async function compile(given: Source | Promise<BufferSource> | undefined) {
   const source = await given;
   if (source instanceof WebAssembly.Module) return source;
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
   if (source instanceof URL || typeof source === 'string') {
-    const file = fileAt(source);
-    return file ? WebAssembly.compile(await file) : streamed(source);
+    const fileContents = readNodeFile(source);
+    return fileContents ? WebAssembly.compile(await fileContents) : compileStreamed(source);
   }
   throw new TypeError(
     `load: source is of the type ${typeof source}; allowed are the module's bytes, a URL or string, and a WebAssembly.Module.`,
   );
 }
 
-/** Checks whether a Content-Security-Policy forbids an empty module. WebKit then refuses to instantiate it, other browsers to compile it. */
-function forbidden() {
+/** Returns true if a Content-Security-Policy forbids an empty module: WebKit then does not instantiate it, other browsers do not compile it. */
+function isWasmForbidden() {
   try {
     return !new WebAssembly.Instance(new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0)));
   } catch {
@@ -164,31 +164,31 @@ function forbidden() {
 }
 
 /** Compiles a module while it downloads; after the download if its MIME type is not application/wasm. */
-async function streamed(source: URL | string) {
-  const response = await fetch(source).catch((error) => {
+async function compileStreamed(source: URL | string) {
+  const moduleResponse = await fetch(source).catch((error) => {
     throw new Error(
-      `load: ${String(source).slice(0, LONGEST)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src. ${CURE}`,
+      `load: ${String(source).slice(0, MAX_ADDRESS_LENGTH)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src. ${ADVICE}`,
       { cause: error },
     );
   });
-  const url = response.url.slice(0, LONGEST);
-  if (!response.ok) throw new Error(`load: ${url} answers ${response.status}. ${CURE}`);
-  const type = response.headers.get('content-type') ?? 'something without a type';
+  const url = moduleResponse.url.slice(0, MAX_ADDRESS_LENGTH);
+  if (!moduleResponse.ok) throw new Error(`load: ${url} answers ${moduleResponse.status}. ${ADVICE}`);
+  const contentType = moduleResponse.headers.get('content-type') ?? 'something without a type';
   try {
-    if (/^application\/wasm\s*$/i.test(type)) return await WebAssembly.compileStreaming(response);
-    return await WebAssembly.compile(await response.arrayBuffer());
+    if (/^application\/wasm\s*$/i.test(contentType)) return await WebAssembly.compileStreaming(moduleResponse);
+    return await WebAssembly.compile(await moduleResponse.arrayBuffer());
   } catch (error) {
     const reason = (error as Error).message;
-    throw new Error(`load: ${url} answers with ${type}, which is no WebAssembly module: ${reason}. ${CURE}`, { cause: error });
+    throw new Error(`load: ${url} answers with ${contentType}, which is no WebAssembly module: ${reason}. ${ADVICE}`, { cause: error });
   }
 }
 
 /** Reads a file in Node, whose `fetch` refuses file: addresses and paths. Returns undefined for addresses that `fetch` can read. */
-function fileAt(source: URL | string): Promise<BufferSource> | undefined {
+function readNodeFile(source: URL | string): Promise<BufferSource> | undefined {
   if (/^(https?|data|blob):/.test(String(source))) return undefined;
   // An import of node:fs would fail in bundlers for browsers.
-  const files = globalThis.process?.getBuiltinModule?.('node:fs/promises');
-  return files?.readFile(String(source).startsWith('file:') ? new URL(source) : source);
+  const nodeFiles = globalThis.process?.getBuiltinModule?.('node:fs/promises');
+  return nodeFiles?.readFile(String(source).startsWith('file:') ? new URL(source) : source);
 }
 
 /**
@@ -201,9 +201,9 @@ function makeDisposable(name: string, prototype: any) {
   prototype.free = prototype[Symbol.dispose] = function () {
     if (!Object.getOwnPropertyDescriptor(this, '__wbg_ptr')?.value) return;
     free.call(this);
-    const refuse = () => {
+    const throwFreed = () => {
       throw new TypeError(`this ${name} was freed; create a new one.`);
     };
-    Object.defineProperty(this, '__wbg_ptr', { get: refuse });
+    Object.defineProperty(this, '__wbg_ptr', { get: throwFreed });
   };
 }

@@ -5,17 +5,17 @@
  */
 
 import './de.ts';
-import { GLOBAL, elementNamed, sorry } from './named.ts';
+import { GLOBAL_ATTRIBUTES, elementNamed, errorParagraph } from './named.ts';
 
 /** Returns the widget that a query describes. Throws an error that names the parameter and what is allowed. */
 function widgetOf(query: URLSearchParams) {
   const widget = elementNamed(query.get('widget'));
-  const name = widget.localName;
-  const known = [...(widget.constructor as any).observedAttributes, ...GLOBAL];
+  const tagName = widget.localName;
+  const knownNames = [...(widget.constructor as any).observedAttributes, ...GLOBAL_ATTRIBUTES];
   for (const [key, value] of query) {
     if (key === 'widget') continue;
-    if (!known.includes(key)) {
-      throw new Error(`${key} is an unknown parameter of ${name}; allowed are ${known.sort().join(', ')}`);
+    if (!knownNames.includes(key)) {
+      throw new Error(`${key} is an unknown parameter of ${tagName}; allowed are ${knownNames.sort().join(', ')}`);
     }
     if (query.getAll(key).length > 1) throw new Error(`${key} is given more than once; allowed is once`);
     widget.setAttribute(key, value);
@@ -23,7 +23,7 @@ function widgetOf(query: URLSearchParams) {
   return widget;
 }
 
-function tellHeight() {
+function postHeight() {
   const height = Math.ceil(document.body.getBoundingClientRect().height);
   // Any page may know the height of a frame that it embeds.
   parent.postMessage({ type: 'motion-widgets:height', height }, '*');
@@ -32,6 +32,6 @@ function tellHeight() {
 try {
   document.body.append(widgetOf(new URLSearchParams(location.search)));
 } catch (error) {
-  document.body.append(sorry('This address', error));
+  document.body.append(errorParagraph('This address', error));
 }
-new ResizeObserver(tellHeight).observe(document.body);
+new ResizeObserver(postHeight).observe(document.body);

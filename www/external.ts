@@ -19,21 +19,21 @@ addEnglish({ ...en, ...Object.fromEntries(messageKeys.map((key) => [key, {}])) }
 export const isFigureTag = (tag: string) => tag in widgets;
 
 /** Tags that the page has not contained yet. */
-const waiting = new Set(Object.keys(widgets).filter((tag) => !customElements.get(tag)));
+const undefinedTags = new Set(Object.keys(widgets).filter((tag) => !customElements.get(tag)));
 
-/** @param root a document, a shadow root, or an element with all that is in it */
-function meet(root: ParentNode) {
+/** Loads the widgets whose tags are in `root`. @param root a document, a shadow root, or an element with its descendants */
+function defineWidgetsIn(root: ParentNode) {
   for (const element of [root, ...root.querySelectorAll('*')]) {
     if (!(element instanceof Element)) continue;
     const { localName } = element;
-    if (waiting.delete(localName)) {
+    if (undefinedTags.delete(localName)) {
       knownTags.add(localName);
       widgets[localName]();
     }
     // The contents of a widget have no other widgets.
     else if (localName in widgets) continue;
-    else if (element.shadowRoot) watch(element.shadowRoot);
-    else if (!element.matches(':defined')) customElements.whenDefined(localName).then(() => element.shadowRoot && watch(element.shadowRoot));
+    else if (element.shadowRoot) watchRoot(element.shadowRoot);
+    else if (!element.matches(':defined')) customElements.whenDefined(localName).then(() => element.shadowRoot && watchRoot(element.shadowRoot));
   }
 }
 
@@ -42,25 +42,25 @@ const observer: MutationObserver | undefined =
     ? undefined
     : new MutationObserver((changes) => {
         for (const { addedNodes } of changes) {
-          for (const node of addedNodes) if (node instanceof Element) meet(node);
+          for (const node of addedNodes) if (node instanceof Element) defineWidgetsIn(node);
         }
-        if (waiting.size === 0) observer?.disconnect();
+        if (undefinedTags.size === 0) observer?.disconnect();
       });
 
-const watched: WeakSet<Node> = new WeakSet();
+const watchedRoots: WeakSet<Node> = new WeakSet();
 
-function watch(root: Document | ShadowRoot) {
-  if (waiting.size === 0 || watched.has(root)) return;
-  watched.add(root);
+function watchRoot(root: Document | ShadowRoot) {
+  if (undefinedTags.size === 0 || watchedRoots.has(root)) return;
+  watchedRoots.add(root);
   observer?.observe(root, { childList: true, subtree: true });
-  meet(root);
+  defineWidgetsIn(root);
 }
 
-// Without a DOM, as in Node, no tag is met.
+// Without a DOM, as in Node, there are no tags.
 if (observer) {
   // Space is reserved, so that nothing moves when the elements are defined.
-  const sheet = new CSSStyleSheet();
-  sheet.replaceSync(preUpgradeCss());
-  document.adoptedStyleSheets.push(sheet);
-  watch(document);
+  const reservedHeights = new CSSStyleSheet();
+  reservedHeights.replaceSync(preUpgradeCss());
+  document.adoptedStyleSheets.push(reservedHeights);
+  watchRoot(document);
 }

@@ -4,10 +4,10 @@ import { settings } from './settings.js';
 
 const TAGS = Object.keys(settings);
 
-/** Attributes of every HTML element that a widget may heed. */
-export const GLOBAL = ['dir', 'lang'];
+/** Attributes of every HTML element that affect a widget. */
+export const GLOBAL_ATTRIBUTES = ['dir', 'lang'];
 
-/** Returns a widget that is on no page yet. Throws an error that names what is allowed. */
+/** Creates a widget that is not in a page yet. Throws an error that lists the allowed names. */
 export function elementNamed(name: unknown): HTMLElement {
   const tag = TAGS.find((each) => each === name);
   if (tag) return document.createElement(tag);
@@ -15,7 +15,7 @@ export function elementNamed(name: unknown): HTMLElement {
 }
 
 /** Returns a paragraph with the error instead of a figure. `who` names the page or cell that requested the figure. */
-export function sorry(who: string, error: unknown) {
+export function errorParagraph(who: string, error: unknown) {
   const sentence = document.createElement('p');
   sentence.setAttribute('role', 'alert');
   sentence.textContent = `${who} shows no figure: ${(error as Error).message}.`;

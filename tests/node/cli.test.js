@@ -10,8 +10,8 @@ import { fileURLToPath } from 'node:url';
 import { load } from '../../dist/core.js';
 import { TRUTH } from '../../scripts/example-log.mjs';
 import { HELP } from '../../www/cli/options.ts';
-import { plotOf } from '../../www/cli/plot.ts';
-import { textOf } from '../../www/cli/report.ts';
+import { drivesSvg } from '../../www/cli/plot.ts';
+import { reportText } from '../../www/cli/report.ts';
 import { run } from '../../www/cli/run.ts';
 import { warningsOf } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
@@ -286,7 +286,7 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
     return { odometry: log('odom', 0, way.map(() => 7), way), reference: log('truth', 0.5, way, way.map(() => 2)) };
   };
   const legs = { count: 3, times: [1, 3, 4, 6, 21, 23], outliers: [0, 1, 0] };
-  const svg = plotOf([drive(0), drive(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
+  const svg = drivesSvg([drive(0), drive(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
   const [, ...panels] = svg.split('<title>');
   assert.deepEqual(panels.map((panel) => panel.split('<')[0]), ['odom0.csv and truth0.csv: 2 legs, 1 outlier', 'odom20.csv and truth20.csv: 1 legs, 0 outliers']);
   for (const panel of panels) {
@@ -373,7 +373,7 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const { odometry: own, reference, ...options } = await callOf(FILES);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: own, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
-  const printed = (/** @type {any} */ change, other = {}) => textOf({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, begins: [10, 1000], date: '' });
+  const printed = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, begins: [10, 1000], date: '' });
   const checks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
   const failed = printed({ diagnostics: { ...diagnostics, verdict: 'questionable', checks } });
   assert.match(failed, /^\nQuestionable: one check failed \(enough-legs\)\. .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);

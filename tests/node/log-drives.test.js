@@ -7,7 +7,7 @@ import { planDrives, readDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { pairLogs } from '../../www/logs/pairs.ts';
-import { summarize } from '../../www/logs/summary.ts';
+import { summarySentences } from '../../www/logs/summary.ts';
 import { refusalOf, sentenceOf } from './log-support.js';
 
 /** @import { Recording } from '../../www/logs/log.ts' */
@@ -161,8 +161,8 @@ test('two logs get one start, and none in common is noted', async () => {
   assert.deepEqual([[...both.odometry.data.t], [...both.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
   const [other] = await drivesOf({ 'odom.csv': own, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
   assert.deepEqual([other.odometry.start, [...other.odometry.data.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
-  assert.match(summarize(other.reference, english.found).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
-  assert.equal(summarize(other.reference, german.found).length, summarize(both.reference, german.found).length + 1);
+  assert.match(summarySentences(other.reference, english.found).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
+  assert.equal(summarySentences(other.reference, german.found).length, summarySentences(both.reference, german.found).length + 1);
 });
 
 test('names of a localizer, and swapped ones, are noted', async () => {
@@ -253,7 +253,7 @@ test('a summary has the distance driven, units and how they were judged, dropped
   const rows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
   const [{ reference }] = await drivesOf({ 'odom.csv': along((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...rows].join('\n') });
   assert.equal(reference.summary.distance.toFixed(1), '2.0');
-  assert.deepEqual(summarize(reference, english.found), [
+  assert.deepEqual(summarySentences(reference, english.found), [
     '199 of 200 rows, 12.9 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m, yaw in degrees (by name)',
     'left out: 1 row, line 11: a value that is not finite', 'gaps: 1, the first 5.00 s after the start, the longest of 3.05 s',
   ]);

@@ -10,7 +10,7 @@ import { UNSUPPORTED_FORMATS, english } from '../../www/logs/en.ts';
 import { unlz4 } from '../../www/logs/formats/lz4.ts';
 import type { Choice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
-import { summarize } from '../../www/logs/summary.ts';
+import { summarySentences } from '../../www/logs/summary.ts';
 import { odometry, recordingOf, transform, type Message } from '../mcap.js';
 import { refusalOf, sentenceOf } from './log-support.js';
 
@@ -34,7 +34,7 @@ async function open(...sources: Source[]): Promise<Recording> {
   return recordings[0];
 }
 
-const sentences = (log: Log) => summarize(log, english.found).join('. ');
+const sentences = (log: Log) => summarySentences(log, english.found).join('. ');
 
 /** Odometry and reference of the drive, from its tables. */
 const tables = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => fileOf(bytesOf(name), name)))).map((table) => table.read([{ series: '' }]));

@@ -6,7 +6,7 @@ import { planDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
 import { readAhead } from '../../www/logs/formats/container.ts';
 import { openRecordings } from '../../www/logs/open.ts';
-import { summarize } from '../../www/logs/summary.ts';
+import { summarySentences } from '../../www/logs/summary.ts';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 import { generator } from '../random.js';
 import { readLog, sentenceOf } from './log-support.js';
@@ -96,7 +96,7 @@ test('a clock that begins at 0 has stamps; messages without stamps have the time
   const rows = async (/** @type {(i: number) => number} */ stamp) => {
     const messages = wheels(100, (i) => odometry(stamp(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
     const log = await readLog(file(await recordingOf(messages)), { series: '/odom' });
-    return { ...log, sentences: summarize(log, english.found).join(' ') };
+    return { ...log, sentences: summarySentences(log, english.found).join(' ') };
   };
   const simulated = await rows((i) => i / 10);
   assert.deepEqual([simulated.start, simulated.summary.rows, simulated.data.t[0], simulated.data.t[99]], [0, 100, 0, 9.9]);

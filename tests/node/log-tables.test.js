@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { openRecordings } from '../../www/logs/open.ts';
 import { german } from '../../www/logs/de.ts';
 import { english } from '../../www/logs/en.ts';
-import { summarize } from '../../www/logs/summary.ts';
+import { summarySentences } from '../../www/logs/summary.ts';
 
 /**
  * @import { Choice, OpenOptions } from '../../www/logs/log.ts'
@@ -152,8 +152,8 @@ for (const { name, text, kind = 'poses', start = 0, series = [''], choice, optio
       // Other units and quaternions round values up to 1.25 in the last place.
       for (const field of fields) assert.ok(Math.abs(columns[field][row.i] - row[field]) <= Number.EPSILON, `${field} ${columns[field][row.i]} ${row[field]}`);
     }
-    const sentences = summarize(log, english.found);
+    const sentences = summarySentences(log, english.found);
     if (says) assert.match(sentences.join('\n'), says);
-    assert.equal(summarize(log, german.found).length, sentences.length);
+    assert.equal(summarySentences(log, german.found).length, sentences.length);
   });
 }

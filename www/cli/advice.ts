@@ -1,22 +1,22 @@
-/** Options that answer the questions of errors. */
+/** Options of the command line that answer the questions in errors. */
 
 import { LogError, cut } from '../logs/log-error.ts';
 import { UNITS } from '../logs/log.ts';
 
 /** Returns a text quoted as one argument of a shell command. */
-export const quoted = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+export const shellQuoted = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 /** Returns a sentence with the option that answers the question of an error. */
-export function adviceOf({ ask, message }: LogError): string {
+export function optionAdvice({ ask, message }: LogError): string {
   if (!ask || message.includes(' --')) return '';
   const { what, role = 'odometry', choices } = ask;
   if (what === 'other') return ' Name both, with --odometry FILE and --reference FILE.';
-  const option = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
+  const optionText = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
   if (what in UNITS) {
     const [usual, ...others] = UNITS[what as keyof typeof UNITS];
-    const unit = choices.find((each) => each !== usual) ?? others[others.length - 1];
-    return ` Choose with ${option}, as in ${option} ${unit}; if odometry and reference differ, with --odometry FILE --reference FILE ${option} ${usual},${unit}.`;
+    const otherUnit = choices.find((each) => each !== usual) ?? others[others.length - 1];
+    return ` Choose with ${optionText}, as in ${optionText} ${otherUnit}; if odometry and reference differ, with --odometry FILE --reference FILE ${optionText} ${usual},${otherUnit}.`;
   }
   const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];
-  return ` Choose with ${option}${first === undefined ? '' : `, as in ${option} ${quoted(cut(first))}`}.`;
+  return ` Choose with ${optionText}${first === undefined ? '' : `, as in ${optionText} ${shellQuoted(cut(first))}`}.`;
 }

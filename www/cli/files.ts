@@ -6,21 +6,21 @@ import { basename, join, relative, resolve } from 'node:path';
 import { LogError } from '../logs/log-error.ts';
 import type { Recording, Source } from '../logs/log.ts';
 import { openRecordings } from '../logs/open.ts';
-import type { Input } from './options.ts';
+import type { InputPath } from './options.ts';
 
 /** Opens a file or a folder; rejects with a LogError. In a folder other files than logs are skipped, each with a call of `onSkip`. */
-export async function recordingsOf({ path, open }: Input, onSkip: (error: LogError) => void): Promise<Recording[]> {
-  return openRecordings(await sourcesOf(path), open, onSkip);
+export async function recordingsOf({ path, open }: InputPath, onSkip: (error: LogError) => void): Promise<Recording[]> {
+  return openRecordings(await openSources(path), open, onSkip);
 }
 
-async function sourcesOf(path: string): Promise<Source[]> {
+async function openSources(path: string): Promise<Source[]> {
   const name = basename(resolve(path));
   try {
-    if (!(await stat(path)).isDirectory()) return [await sourceOf(path, name)];
-    const found = await readdir(path, { withFileTypes: true, recursive: true });
-    const files = found.filter((entry) => entry.isFile() && !entry.name.startsWith('.')).map((entry) => join(entry.parentPath, entry.name)).toSorted();
-    if (files.length === 0) throw Object.assign(new Error(), { code: 'an empty folder' });
-    return await Promise.all(files.map((file) => sourceOf(file, basename(file), join(name, relative(path, file)).replaceAll('\\', '/'))));
+    if (!(await stat(path)).isDirectory()) return [await openSource(path, name)];
+    const folderEntries = await readdir(path, { withFileTypes: true, recursive: true });
+    const paths = folderEntries.filter((entry) => entry.isFile() && !entry.name.startsWith('.')).map((entry) => join(entry.parentPath, entry.name)).toSorted();
+    if (paths.length === 0) throw Object.assign(new Error(), { code: 'an empty folder' });
+    return await Promise.all(paths.map((file) => openSource(file, basename(file), join(name, relative(path, file)).replaceAll('\\', '/'))));
   } catch (error) {
     const { code } = error as NodeJS.ErrnoException;
     if (error instanceof LogError || code === undefined) throw error;
@@ -29,6 +29,6 @@ async function sourcesOf(path: string): Promise<Source[]> {
 }
 
 /** Returns a file whose bytes are read when they are needed. */
-async function sourceOf(file: string, name: string, path?: string): Promise<Source> {
+async function openSource(file: string, name: string, path?: string): Promise<Source> {
   return Object.assign(new File([await openAsBlob(file)], name), path !== undefined && { path });
 }

@@ -6,7 +6,7 @@ import type { Wishes } from '../logs/drives.ts';
 import { cut } from '../logs/log-error.ts';
 import { ROLES, UNITS, type Frames, type OpenOptions, type Role } from '../logs/log.ts';
 import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/lines.ts';
-import { quoted } from './advice.ts';
+import { shellQuoted } from './advice.ts';
 
 /** Error about the options; its message is a sentence. */
 export class UsageError extends Error {}
@@ -82,18 +82,18 @@ const OPTION_BY_FIELD: Record<string, string> = {
   positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',
 };
 
-/** Returns an error message of the core with the option in place of the field at its beginning; undefined if it begins with no field. */
+/** Replaces the field at the beginning of an error message of the core by the option; undefined if the message begins without a field. */
 export function withOption(message: string): string | undefined {
   const [field] = message.split(' ');
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
 }
 
 /** File or folder, and the options to open it with. */
-export interface Input { path: string; open: OpenOptions }
+export interface InputPath { path: string; open: OpenOptions }
 
-export interface Calibrate {
+export interface CalibrateArguments {
   command: 'calibrate';
-  inputs: { recording: Input[]; odometry: Input[]; reference: Input[] };
+  inputs: { recording: InputPath[]; odometry: InputPath[]; reference: InputPath[] };
   wishes: Wishes;
   /** Options of `calibrate` of the core. */
   fit: Record<string, any>;
@@ -102,43 +102,43 @@ export interface Calibrate {
   plot: string | undefined;
 }
 
-interface Inspect {
+interface InspectArguments {
   command: 'inspect';
-  inputs: Input[];
+  inputs: InputPath[];
   /** Options about units and columns. */
   stated: [name: string, value: string][];
   isJson: boolean;
 }
 
 /** Parses the arguments; throws a UsageError. */
-export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'version' {
-  const { values, positionals: [command, ...paths] } = parsed(args);
+export function optionsOf(args: string[]): CalibrateArguments | InspectArguments | 'help' | 'version' {
+  const { values, positionals: [command, ...paths] } = parseArguments(args);
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
   const columns = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((each) => each.trim());
-  const open = (role?: Role, names = columns('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
+  const openAs = (role?: Role, names = columns('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
   if (command === 'inspect') {
-    const all = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
-    if (all.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
-    refuseRepeated(all);
-    const other = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
-    if (other !== undefined) throw new UsageError(`--${other} is an option of calibrate; inspect has ${alternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
-    const stated = Object.entries(values).filter((each): each is [string, string] => typeof each[1] === 'string');
-    return { command, inputs: all.map((path) => ({ path, open: open() })), stated, isJson: values.json ?? false };
+    const allPaths = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
+    if (allPaths.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
+    refuseRepeated(allPaths);
+    const uselessOption = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
+    if (uselessOption !== undefined) throw new UsageError(`--${uselessOption} is an option of calibrate; inspect has ${listOfAlternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
+    const statedOptions = Object.entries(values).filter((each): each is [string, string] => typeof each[1] === 'string');
+    return { command, inputs: allPaths.map((path) => ({ path, open: openAs() })), stated: statedOptions, isJson: values.json ?? false };
   }
   if (command !== 'calibrate') {
     const path = paths[0] ?? (isPath(command) ? command : 'run.bag');
-    throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”), as in npx motion-widgets inspect ${quoted(path)}; --help has examples.`);
+    throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”), as in npx motion-widgets inspect ${shellQuoted(path)}; --help has examples.`);
   }
-  const number = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
+  const numberOf = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
     const value = values[name];
     if (value === undefined) return undefined;
-    const parsed = value.trim() === '' ? NaN : Number(value);
-    if (Number.isFinite(parsed)) return parsed;
-    const point = /^-?\d*,\d+$/.test(value) ? ` with a decimal point, ${value.replace(',', '.')}` : '';
-    throw new UsageError(`--${name} must be a number${point} (got “${cut(value)}”).`);
+    const parseArguments = value.trim() === '' ? NaN : Number(value);
+    if (Number.isFinite(parseArguments)) return parseArguments;
+    const decimalHint = /^-?\d*,\d+$/.test(value) ? ` with a decimal point, ${value.replace(',', '.')}` : '';
+    throw new UsageError(`--${name} must be a number${decimalHint} (got “${cut(value)}”).`);
   };
-  const [distance, angle, duration] = [number('update-min-d'), number('update-min-a'), number('duration')];
+  const [distance, angle, duration] = [numberOf('update-min-d'), numberOf('update-min-a'), numberOf('duration')];
   if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
   if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${cut(values.plot)}”).`);
   if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
@@ -155,20 +155,20 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
   for (const role of ROLES) {
     if (values[`${role}-columns`] !== undefined && !values[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
   }
-  const wish = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: framesOf(`${role}-frames`, values[`${role}-frames`]) });
-  const inputs = (all: string[], role?: Role) => all.map((path) => ({ path, open: open(role, role && columns(`${role}-columns`)) }));
+  const wishOf = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
+  const inputsOf = (all: string[], role?: Role) => all.map((path) => ({ path, open: openAs(role, role && columns(`${role}-columns`)) }));
   return {
     command,
-    inputs: { recording: inputs(recording), odometry: inputs(odometry, 'odometry'), reference: inputs(reference, 'reference') },
-    wishes: { odometry: wish('odometry'), reference: wish('reference'), ...(values.model === 'velocity' && { kind: 'commands' }) },
+    inputs: { recording: inputsOf(recording), odometry: inputsOf(odometry, 'odometry'), reference: inputsOf(reference, 'reference') },
+    wishes: { odometry: wishOf('odometry'), reference: wishOf('reference'), ...(values.model === 'velocity' && { kind: 'commands' }) },
     fit: withoutUndefined({
       legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
       model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),
       rule: values.rule,
       outliers: values.outliers,
-      correct: correctOf(values['no-correct'], values.correct),
-      positionStd: number('reference-position-std'),
-      yawStd: number('reference-yaw-std'),
+      correct: corrections(values['no-correct'], values.correct),
+      positionStd: numberOf('reference-position-std'),
+      yawStd: numberOf('reference-yaw-std'),
     }),
     output: values.json ? 'json' : values.yaml ? 'yaml' : 'text',
     plot: values.plot,
@@ -177,77 +177,77 @@ export function optionsOf(args: string[]): Calibrate | Inspect | 'help' | 'versi
 
 /** Throws a UsageError if a path is given twice. */
 function refuseRepeated(paths: string[]): void {
-  const all = paths.map((path) => resolve(path));
-  const repeated = paths.find((_, i) => all.indexOf(all[i]) < i);
-  if (repeated !== undefined) throw new UsageError(`“${cut(repeated)}” is given twice; give two independent measurements of one drive, odometry and reference.`);
+  const resolvedPaths = paths.map((path) => resolve(path));
+  const repeatedPath = paths.find((_, i) => resolvedPaths.indexOf(resolvedPaths[i]) < i);
+  if (repeatedPath !== undefined) throw new UsageError(`“${cut(repeatedPath)}” is given twice; give two independent measurements of one drive, odometry and reference.`);
 }
 
-/** Returns the units that the options state for a log. Of two units of a quantity, the role of the log chooses one. */
+/** Returns the units that the options state for a log. If an option has two units, the role of the log selects one. */
 function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?: string }, role: Role | undefined): OpenOptions {
   return Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((of) => {
-    const given = values[`${of}-unit`];
-    if (given === undefined) return [];
-    const units = given.split(',').map((unit) => unit.trim());
-    if (units.length > 2 || !units.every((unit) => (UNITS[`${of}Unit`] as readonly string[]).includes(unit))) {
-      throw new UsageError(`--${of}-unit must be ${alternatives(UNITS[`${of}Unit`])}, or two of these for odometry and reference (got “${cut(given)}”).`);
+    const givenUnits = values[`${of}-unit`];
+    if (givenUnits === undefined) return [];
+    const unitNames = givenUnits.split(',').map((unit) => unit.trim());
+    if (unitNames.length > 2 || !unitNames.every((unit) => (UNITS[`${of}Unit`] as readonly string[]).includes(unit))) {
+      throw new UsageError(`--${of}-unit must be ${listOfAlternatives(UNITS[`${of}Unit`])}, or two of these for odometry and reference (got “${cut(givenUnits)}”).`);
     }
-    if (units.length > 1 && !role) throw new UsageError(`--${of}-unit ${cut(given)} has two units; give the files with --odometry and --reference.`);
-    return [[`${of}Unit`, role === 'reference' ? units.at(-1) : units[0]]];
+    if (unitNames.length > 1 && !role) throw new UsageError(`--${of}-unit ${cut(givenUnits)} has two units; give the files with --odometry and --reference.`);
+    return [[`${of}Unit`, role === 'reference' ? unitNames.at(-1) : unitNames[0]]];
   }));
 }
 
 /** Returns an object without keys that are undefined. */
 const withoutUndefined = <T extends object>(all: T): T => Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined)) as T;
 
-const alternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
+const listOfAlternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
 
 /** Returns true for systematic errors that are corrected, and false for those that are not. Single names override `all`. */
-function correctOf(left?: string, corrected?: string): Record<string, boolean> | undefined {
-  const lists = [namesOf('no-correct', left), namesOf('correct', corrected)];
-  const [all, single] = [true, false].map((isAll) => lists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
+function corrections(left?: string, corrected?: string): Record<string, boolean> | undefined {
+  const nameLists = [errorNames('no-correct', left), errorNames('correct', corrected)];
+  const [all, single] = [true, false].map((isAll) => nameLists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
   const entries = [...all.flatMap(([, is]) => SYSTEMATIC_ERRORS.map((name) => [name, is] as const)), ...single];
   return entries.length ? Object.fromEntries(entries) : undefined;
 }
 
-function namesOf(option: string, value?: string): string[] {
+function errorNames(option: string, value?: string): string[] {
   const names = value?.split(',').map((name) => name.trim()) ?? [];
-  const unknown = names.find((name) => name !== 'all' && !(SYSTEMATIC_ERRORS as readonly string[]).includes(name));
-  if (unknown === undefined) return names;
-  throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${cut(unknown)}”).`);
+  const unknownName = names.find((name) => name !== 'all' && !(SYSTEMATIC_ERRORS as readonly string[]).includes(name));
+  if (unknownName === undefined) return names;
+  throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${cut(unknownName)}”).`);
 }
 
-function parsed(args: string[]) {
+function parseArguments(args: string[]) {
   try {
     return parseArgs({ args, options: OPTIONS, allowPositionals: true });
   } catch (error) {
     const { code, message } = error as NodeJS.ErrnoException;
     const [, name] = (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION' && /'--?([^']*)'/.exec(message)) || [];
     if (name === undefined) throw new UsageError(message.replaceAll('\n', ' '));
-    const at = args.findIndex((arg) => arg.replace(/^-+|=.*/g, '') === name);
-    const value = /=(.*)/.exec(args[at])?.[1] ?? args[at + 1];
-    const hint = nearestOptions(name) || (isPath(value) ? `files need no option, as in calibrate ${quoted(value)}, ` : '');
-    throw new UsageError(`unknown option --${cut(name)}; ${hint}--help lists all.`);
+    const argumentIndex = args.findIndex((arg) => arg.replace(/^-+|=.*/g, '') === name);
+    const value = /=(.*)/.exec(args[argumentIndex])?.[1] ?? args[argumentIndex + 1];
+    const argumentHint = nearestOptions(name) || (isPath(value) ? `files need no option, as in calibrate ${shellQuoted(value)}, ` : '');
+    throw new UsageError(`unknown option --${cut(name)}; ${argumentHint}--help lists all.`);
   }
 }
 
-/** Checks whether an argument has an extension or is in a folder. */
+/** Returns true if an argument has an extension or is in a folder. */
 const isPath = (argument = '') => /\.\w+$|\//.test(argument);
 
-/** Returns a hint at the options that begin or end with a name, or have the most pairs of letters in common with it. */
+/** Returns a hint at the options that begin or end with a name, or have most pairs of letters in common with it. */
 function nearestOptions(name: string): string {
-  const pairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
-  const own = pairs(name);
-  const scores = Object.keys(OPTIONS).map((option) => {
-    const other = pairs(option);
-    const common = own.filter((pair) => other.includes(pair)).length / Math.max(own.length, other.length);
-    return { option, score: option.startsWith(name) ? 1 + common : option.endsWith(`-${name}`) ? 1 : common };
+  const letterPairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
+  const ownPairs = letterPairs(name);
+  const optionScores = Object.keys(OPTIONS).map((option) => {
+    const uselessOption = letterPairs(option);
+    const commonFraction = ownPairs.filter((pair) => uselessOption.includes(pair)).length / Math.max(ownPairs.length, uselessOption.length);
+    return { option, score: option.startsWith(name) ? 1 + commonFraction : option.endsWith(`-${name}`) ? 1 : commonFraction };
   });
-  const best = Math.max(0.4, ...scores.map(({ score }) => score));
-  const nearest = scores.filter(({ score }) => score === best).map(({ option }) => `--${option}`);
-  return nearest.length ? `the nearest ${nearest.length > 1 ? 'are' : 'is'} ${new Intl.ListFormat('en').format(nearest)}, ` : '';
+  const bestScore = Math.max(0.4, ...optionScores.map(({ score }) => score));
+  const closest = optionScores.filter(({ score }) => score === bestScore).map(({ option }) => `--${option}`);
+  return closest.length ? `the nearest ${closest.length > 1 ? 'are' : 'is'} ${new Intl.ListFormat('en').format(closest)}, ` : '';
 }
 
-function framesOf(name: string, value: string | undefined): Frames | undefined {
+function parseFrames(name: string, value: string | undefined): Frames | undefined {
   if (value === undefined) return undefined;
   const [parent, child, ...more] = value.split(',').map((each) => each.trim());
   if (parent && child && more.length === 0) return { parent, child };

@@ -2,10 +2,10 @@
 
 import { bisectLeft, extent, ticks } from 'd3-array';
 import type { Drive } from '../logs/drives.ts';
-import { aligned, pathOf, poseAt, type Path } from '../logs/path.ts';
+import { alignedPath, pathOf, poseAt, type Path } from '../logs/path.ts';
 import { escapeXml } from '../scene/svg.ts';
 
-/** Width of a panel, its greatest height, and its margins for title and axes, in pixels. */
+/** Width and maximum height of a panel, and its margins for title and axes, in pixels. */
 const [WIDTH, HEIGHT, MARGIN] = [800, 800, { top: 64, right: 24, bottom: 56, left: 64 }];
 
 /** Minimum length of a step of a line, px. Shorter steps are left out. */
@@ -20,74 +20,74 @@ const LINE_STYLES = { reference: 'stroke="#1f1e1b" stroke-width="1.5"', odometry
 const [INK, MUTED] = ['#1f1e1b', '#57564f'];
 
 /** Returns the picture, with a panel for each drive. */
-export function plotOf(drives: Drive[], calibration: any): string {
+export function drivesSvg(drives: Drive[], calibration: any): string {
   let top = 0;
-  const panels = drives.map((drive) => {
-    const { svg, height } = panelOf(drive, calibration);
+  const panelSvgs = drives.map((drive) => {
+    const { svg, height } = drivePanel(drive, calibration);
     top += height;
     return `<g transform="translate(0 ${top - height})">${svg}</g>`;
   });
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${WIDTH} ${top}" width="${WIDTH}" height="${top}" font-family="sans-serif" font-size="13">
 <rect width="100%" height="100%" fill="#fff"/>
-${panels.join('\n')}
+${panelSvgs.join('\n')}
 </svg>
 `;
 }
 
-function panelOf({ odometry, reference }: Drive, { legs, systematicErrors }: any): { svg: string; height: number } {
-  const truth = pathOf(reference.data);
+function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: any): { svg: string; height: number } {
+  const referencePath = pathOf(reference.data);
   // Legs have the times of the odometry.
-  const offset = systematicErrors.clockOffset.value ?? 0;
-  const odometryPath = aligned(pathOf(odometry.data), truth, offset);
+  const clockOffset = systematicErrors.clockOffset.value ?? 0;
+  const odometryPath = alignedPath(pathOf(odometry.data), referencePath, clockOffset);
   const [from, to] = [odometry.data.t[0], odometry.data.t[odometry.data.t.length - 1]];
   const driveLegs = Array.from({ length: legs.count }, (_, leg) => ({ from: legs.times[2 * leg], to: legs.times[2 * leg + 1], isOutlier: legs.outliers[leg] === 1 })).filter((leg) => leg.from >= from && leg.to <= to);
-  const outliers = driveLegs.filter(({ isOutlier }) => isOutlier);
+  const outlierLegs = driveLegs.filter(({ isOutlier }) => isOutlier);
 
-  const all = [...truth.poses, ...odometryPath.poses];
-  const [[left, right], [bottom, ceiling]] = [0, 1].map((axis) => extent(all, (pose) => pose[axis]) as [number, number]);
+  const allPoses = [...referencePath.poses, ...odometryPath.poses];
+  const [[left, right], [bottom, ceiling]] = [0, 1].map((axis) => extent(allPoses, (pose) => pose[axis]) as [number, number]);
   const [spanX, spanY] = [Math.max(right - left, 0.1), Math.max(ceiling - bottom, 0.1)];
-  const scale = Math.min((WIDTH - MARGIN.left - MARGIN.right - 2 * INSET_PX) / spanX, (HEIGHT - MARGIN.top - MARGIN.bottom - 2 * INSET_PX) / spanY);
-  const height = Math.round(MARGIN.top + MARGIN.bottom + 2 * INSET_PX + spanY * scale);
-  const x = (value: number) => MARGIN.left + INSET_PX + (value - left) * scale;
-  const y = (value: number) => height - MARGIN.bottom - INSET_PX - (value - bottom) * scale;
-  const pixel = (value: number) => value.toFixed(1);
-  const line = ({ poses, breaks }: Pick<Path, 'poses' | 'breaks'>) => {
+  const pixelsPerMetre = Math.min((WIDTH - MARGIN.left - MARGIN.right - 2 * INSET_PX) / spanX, (HEIGHT - MARGIN.top - MARGIN.bottom - 2 * INSET_PX) / spanY);
+  const height = Math.round(MARGIN.top + MARGIN.bottom + 2 * INSET_PX + spanY * pixelsPerMetre);
+  const x = (value: number) => MARGIN.left + INSET_PX + (value - left) * pixelsPerMetre;
+  const y = (value: number) => height - MARGIN.bottom - INSET_PX - (value - bottom) * pixelsPerMetre;
+  const pixelText = (value: number) => value.toFixed(1);
+  const pathData = ({ poses, breaks }: Pick<Path, 'poses' | 'breaks'>) => {
     let d = '';
-    let last: [x: number, y: number] | undefined;
+    let lastPoint: [x: number, y: number] | undefined;
     for (const [i, pose] of poses.entries()) {
-      const at: typeof last = [x(pose[0]), y(pose[1])];
-      const isBroken = !last || breaks.has(i);
-      if (!isBroken && i < poses.length - 1 && last && Math.hypot(at[0] - last[0], at[1] - last[1]) < MIN_STEP_PX) continue;
-      d += `${isBroken ? 'M' : 'L'}${pixel(at[0])} ${pixel(at[1])}`;
-      last = at;
+      const at: typeof lastPoint = [x(pose[0]), y(pose[1])];
+      const isBroken = !lastPoint || breaks.has(i);
+      if (!isBroken && i < poses.length - 1 && lastPoint && Math.hypot(at[0] - lastPoint[0], at[1] - lastPoint[1]) < MIN_STEP_PX) continue;
+      d += `${isBroken ? 'M' : 'L'}${pixelText(at[0])} ${pixelText(at[1])}`;
+      lastPoint = at;
     }
     return d;
   };
-  const dots = driveLegs.map((leg) => poseAt(truth, leg.to + offset)).map((pose) => `M${pixel(x(pose[0]))} ${pixel(y(pose[1]))}h0`).join('');
-  const marked = outliers.map((leg) => {
-    const [first, last] = [bisectLeft(truth.t, leg.from + offset), bisectLeft(truth.t, leg.to + offset)];
-    return line({ poses: truth.poses.slice(first, last + 1), breaks: new Set() });
+  const legEndDots = driveLegs.map((leg) => poseAt(referencePath, leg.to + clockOffset)).map((pose) => `M${pixelText(x(pose[0]))} ${pixelText(y(pose[1]))}h0`).join('');
+  const outlierPaths = outlierLegs.map((leg) => {
+    const [first, last] = [bisectLeft(referencePath.t, leg.from + clockOffset), bisectLeft(referencePath.t, leg.to + clockOffset)];
+    return pathData({ poses: referencePath.poses.slice(first, last + 1), breaks: new Set() });
   }).join('');
-  const axis = (isX: boolean) => ticks(isX ? left : bottom, isX ? right : ceiling, 6).map((value) => {
+  const axisSvg = (isX: boolean) => ticks(isX ? left : bottom, isX ? right : ceiling, 6).map((value) => {
     const [at, label] = [isX ? x(value) : y(value), String(Number(value.toPrecision(6))).replace('-', '−')];
     return isX
-      ? `<path d="M${pixel(at)} ${height - MARGIN.bottom}v5" stroke="${MUTED}"/><text x="${pixel(at)}" y="${height - MARGIN.bottom + 19}" text-anchor="middle">${label}</text>`
-      : `<path d="M${MARGIN.left} ${pixel(at)}h-5" stroke="${MUTED}"/><text x="${MARGIN.left - 9}" y="${pixel(at + 4)}" text-anchor="end">${label}</text>`;
+      ? `<path d="M${pixelText(at)} ${height - MARGIN.bottom}v5" stroke="${MUTED}"/><text x="${pixelText(at)}" y="${height - MARGIN.bottom + 19}" text-anchor="middle">${label}</text>`
+      : `<path d="M${MARGIN.left} ${pixelText(at)}h-5" stroke="${MUTED}"/><text x="${MARGIN.left - 9}" y="${pixelText(at + 4)}" text-anchor="end">${label}</text>`;
   }).join('');
-  const key = ([['reference, with the ends of legs', 'reference'], ['odometry, aligned', 'odometry'], ...(outliers.length ? [['outliers', 'outlier'] as const] : [])] as const)
+  const keyEntries = ([['reference, with the ends of legs', 'reference'], ['odometry, aligned', 'odometry'], ...(outlierLegs.length ? [['outliers', 'outlier'] as const] : [])] as const)
     .map(([label, name], i) => `<path d="M${MARGIN.left + 260 * i} 46h24" ${LINE_STYLES[name]}/><text x="${MARGIN.left + 260 * i + 30}" y="50" fill="${INK}">${label}</text>`);
-  const title = `${odometry.name} and ${reference.name}: ${driveLegs.length} legs, ${outliers.length} ${outliers.length === 1 ? 'outlier' : 'outliers'}`;
-  const svg = `<title>${escapeXml(title)}</title>
-<text x="${MARGIN.left}" y="26" font-size="16" fill="${INK}">${escapeXml(title)}</text>
-${key.join('')}
-<g fill="${MUTED}"><g fill="none" stroke="${MUTED}"><path d="M${MARGIN.left} ${MARGIN.top}V${height - MARGIN.bottom}H${WIDTH - MARGIN.right}"/></g>${axis(true)}${axis(false)}
+  const panelTitle = `${odometry.name} and ${reference.name}: ${driveLegs.length} legs, ${outlierLegs.length} ${outlierLegs.length === 1 ? 'outlier' : 'outliers'}`;
+  const svg = `<title>${escapeXml(panelTitle)}</title>
+<text x="${MARGIN.left}" y="26" font-size="16" fill="${INK}">${escapeXml(panelTitle)}</text>
+${keyEntries.join('')}
+<g fill="${MUTED}"><g fill="none" stroke="${MUTED}"><path d="M${MARGIN.left} ${MARGIN.top}V${height - MARGIN.bottom}H${WIDTH - MARGIN.right}"/></g>${axisSvg(true)}${axisSvg(false)}
 <text x="${(MARGIN.left + WIDTH - MARGIN.right) / 2}" y="${height - 14}" text-anchor="middle">x (m)</text>
 <text transform="translate(18 ${(MARGIN.top + height - MARGIN.bottom) / 2}) rotate(-90)" text-anchor="middle">y (m)</text></g>
 <g fill="none" stroke-linejoin="round">
-<path d="${line(odometryPath)}" ${LINE_STYLES.odometry}/>
-<path d="${line(truth)}" ${LINE_STYLES.reference}/>
-<path d="${dots}" stroke="${INK}" stroke-width="4" stroke-linecap="round"/>
-<path d="${marked}" ${LINE_STYLES.outlier}/>
+<path d="${pathData(odometryPath)}" ${LINE_STYLES.odometry}/>
+<path d="${pathData(referencePath)}" ${LINE_STYLES.reference}/>
+<path d="${legEndDots}" stroke="${INK}" stroke-width="4" stroke-linecap="round"/>
+<path d="${outlierPaths}" ${LINE_STYLES.outlier}/>
 </g>`;
   return { svg, height };
 }

@@ -12,7 +12,7 @@ type Interval = [number, number] | null;
 /** Log with its summary, as numbers and as sentences. */
 interface ReadLog { name: string; summary: Summary; sentences: string[] }
 
-export interface Result {
+export interface CalibrationResult {
   /** Result of the core. */
   calibration: any;
   /** Options of `calibrate`. */
@@ -27,7 +27,7 @@ export interface Result {
 }
 
 /** Systematic errors: key in the result, name in the report, and unit. */
-const SYSTEMATIC: [string, string, string][] = [
+const SYSTEMATIC_ROWS: [string, string, string][] = [
   ['clockOffset', 'clock offset', 's'],
   ['mountYaw', 'mount yaw', 'rad'],
   ['leverArm', 'lever arm', 'm'],
@@ -35,7 +35,7 @@ const SYSTEMATIC: [string, string, string][] = [
   ['turnScale', 'turn scale', ''],
 ];
 
-/** Causes for which the core drops legs, as texts of the report. */
+/** Texts of the report for the causes of lost legs. */
 const LOST_LEG_CAUSES: Record<string, string> = {
   withoutReference: 'without reference', acrossBreaks: 'across jumps or missing rows', acrossPauses: 'across pauses', standing: 'of a standing robot',
 };
@@ -46,70 +46,70 @@ const DECISIVE_CHECKS = ['reference-matches', 'enough-legs', 'inflation-bounded'
 /** Number of outliers that are listed. */
 const MAX_LISTED_OUTLIERS = 5;
 
-/** Returns the summaries of the logs, odometry and reference in turns, without the result of the fit. */
+/** Returns the summaries of the logs (odometry and reference of each drive), without the result of the fit. */
 export const logSummaries = (logs: ReadLog[]): string =>
   logs.map(({ name, sentences }, i) => `${[`${english.choose.roles[ROLES[i % 2]]}: ${name}`, ...sentences].join('\n  ')}\n`).join('');
 
 /** Returns the report after the summary of the logs. */
-export function textOf({ calibration, options, logs, start, begins, date }: Result, isColored = false): string {
+export function reportText({ calibration, options, logs, start, begins, date }: CalibrationResult, isColored = false): string {
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
-  const failed = failedOf(checks);
-  const causes = Object.entries(LOST_LEG_CAUSES).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
-  const apart = [...(causes.length ? [`lost legs: ${causes.join(', ')}`] : []), ...outliersOf(legs, begins)];
-  const text = [
+  const failedChecks = failedOf(checks);
+  const lossTexts = Object.entries(LOST_LEG_CAUSES).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
+  const excludedLegs = [...(lossTexts.length ? [`lost legs: ${lossTexts.join(', ')}`] : []), ...outlierLines(legs, begins)];
+  const reportLines = [
     '',
     ...verdictLines({ calibration, logs }),
     '',
-    `${legs.count} legs ${lengthOf(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
+    `${legs.count} legs ${legLengthText(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
-    ...alphasOf(calibration, model),
+    ...alphaTable(calibration, model),
     '',
-    ...aligned([['', 'value', '95 %', ''], ...noiseRows(calibration, options), ...SYSTEMATIC.map((each) => systematicRow(each, calibration)), persistenceRow(calibration)]),
+    ...aligned([['', 'value', '95 %', ''], ...noiseRows(calibration, options), ...SYSTEMATIC_ROWS.map((each) => systematicRow(each, calibration)), persistenceRow(calibration)]),
     '',
     ...aligned([['check', 'value', 'expected', ''], ...checks.map(checkRow)]),
-    ...failed.map(({ name, message }) => `${name}: ${message}`),
+    ...failedChecks.map(({ name, message }) => `${name}: ${message}`),
     '',
-    ...(apart.length ? [...apart, ''] : []),
+    ...(excludedLegs.length ? [...excludedLegs, ''] : []),
     ...aligned([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windows.map(windowRow)]),
     '',
-    ...nav2Of({ calibration, options, logs, start, begins, date }),
+    ...nav2Section({ calibration, options, logs, start, begins, date }),
     '',
   ].join('\n');
-  return isColored ? text.replaceAll(/^Consistent|\bok$/gm, painted(GREEN)).replace(/^Questionable/m, painted(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, painted(RED)) : text;
+  return isColored ? reportLines.replaceAll(/^Consistent|\bok$/gm, inColor(GREEN)).replace(/^Questionable/m, inColor(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, inColor(RED)) : reportLines;
 }
 
 /** Colours of a terminal. */
 const [RED, GREEN, YELLOW] = [31, 32, 33];
 
-const painted = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
+const inColor = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
 /** Returns the verdict, and warnings of the logs. */
-export const verdictLines = ({ calibration, logs }: Pick<Result, 'calibration' | 'logs'>): string[] => [
+export const verdictLines = ({ calibration, logs }: Pick<CalibrationResult, 'calibration' | 'logs'>): string[] => [
   verdictSentence(calibration),
   ...warningsOf(logs).map((name) => en.nav2[name]),
   ...(calibration.recommended ? correctFirst(calibration.systematicErrors, en.nav2) : []),
 ];
 
-/** Returns the verdict and what to do. */
+/** Returns the verdict with the advice. */
 function verdictSentence({ diagnostics: { verdict, checks } }: any): string {
-  const failed = failedOf(checks);
+  const failedChecks = failedOf(checks);
   if (verdict === 'consistent') return 'Consistent: all checks passed. Use the recommended α’s with legs of this length.';
   if (verdict === 'questionable') {
-    const count = failed.length === 1 ? 'one check' : `${failed.length} of ${checks.length} checks`;
-    return `Questionable: ${count} failed (${failed.map(({ name }) => name).join(', ')}). If the log cannot be improved, use the recommended α’s.`;
+    const failedText = failedChecks.length === 1 ? 'one check' : `${failedChecks.length} of ${checks.length} checks`;
+    return `Questionable: ${failedText} failed (${failedChecks.map(({ name }) => name).join(', ')}). If the log cannot be improved, use the recommended α’s.`;
   }
-  const message = failed.find(({ name }) => DECISIVE_CHECKS.includes(name))?.message ?? 'It does not identify any α: see below what to drive.';
-  return `Unusable: no α’s are recommended from this log. ${message}`;
+  const checkMessage = failedChecks.find(({ name }) => DECISIVE_CHECKS.includes(name))?.message ?? 'It does not identify any α: see below what to drive.';
+  return `Unusable: no α’s are recommended from this log. ${checkMessage}`;
 }
 
-function lengthOf({ distance, angle, duration }: { distance?: number; angle?: number; duration?: number }): string {
+function legLengthText({ distance, angle, duration }: { distance?: number; angle?: number; duration?: number }): string {
   return duration === undefined ? en.nav2.moved(toText(distance ?? null), toText(angle ?? null)) : en.nav2.lasted(toText(duration));
 }
 
 /** Returns the table of the α's, the reason for the inflation, and what to drive for those that are not identifiable. */
-function alphasOf({ alphas, intervals, notIdentifiable, recommended, diagnostics }: any, model: string): string[] {
-  const rows = alphas.map((alpha: number | null, i: number) => [
+function alphaTable({ alphas, intervals, notIdentifiable, recommended, diagnostics }: any, model: string): string[] {
+  const alphaRows = alphas.map((alpha: number | null, i: number) => [
     `alpha${i + 1}`,
     alpha === null ? 'not identifiable' : alphaOrBound(alpha, intervals[i]),
     formatInterval(intervals[i]),
@@ -117,34 +117,34 @@ function alphasOf({ alphas, intervals, notIdentifiable, recommended, diagnostics
     shared.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i],
   ]);
   const { lacking } = en.alphas;
-  // Driving differently does not help where the reference is another drive's, or has other units.
+  // Driving differently does not help if the reference is of another drive, or has other units.
   const referenceMatches = diagnostics.checks.every(({ name, passed }: any) => passed || name !== 'reference-matches');
   const advice = !referenceMatches ? [] : (Object.keys(lacking) as (keyof typeof lacking)[]).flatMap((reason) => {
-    const names = notIdentifiable.flatMap((each: string | null, i: number) => (each === reason ? [`alpha${i + 1}`] : []));
+    const alphaNames = notIdentifiable.flatMap((each: string | null, i: number) => (each === reason ? [`alpha${i + 1}`] : []));
     const { lack, drive } = adviceOf(lacking, model, reason);
-    return names.length ? [`${new Intl.ListFormat('en').format(names)} not identifiable: ${lack}; ${drive}`] : [];
+    return alphaNames.length ? [`${new Intl.ListFormat('en').format(alphaNames)} not identifiable: ${lack}; ${drive}`] : [];
   });
-  return [...aligned([['', 'fitted', '95 %', 'recommended', ''], ...rows]), ...advice, ...(recommended ? [recommended.reason] : [])];
+  return [...aligned([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...advice, ...(recommended ? [recommended.reason] : [])];
 }
 
-function noiseRows({ referenceNoise }: any, options: Result['options']): string[][] {
-  const row = (name: string, key: 'positionStd' | 'yawStd', unit: string) => {
+function noiseRows({ referenceNoise }: any, options: CalibrationResult['options']): string[][] {
+  const noiseRow = (name: string, key: 'positionStd' | 'yawStd', unit: string) => {
     const { value, interval } = referenceNoise[key];
     const isStated = options[key] !== undefined;
     return [name, `${fixed(value, interval)} ${unit}`, isStated ? '' : formatInterval(interval), isStated ? 'as stated' : 'estimated'];
   };
-  return [row('reference position σ', 'positionStd', 'm'), row('reference yaw σ', 'yawStd', 'rad')];
+  return [noiseRow('reference position σ', 'positionStd', 'm'), noiseRow('reference yaw σ', 'yawStd', 'rad')];
 }
 
 function systematicRow([key, name, unit]: [string, string, string], { systematicErrors }: any): string[] {
   const { value, interval, constant, corrected } = systematicErrors[key];
   const [values, intervals] = Array.isArray(value) ? [value, interval] : [[value], [interval]];
   if (values.includes(null)) return [name, 'not identifiable'];
-  const list = (print: (one: any, its: Interval) => string) => values.map((one: any, i: number) => print(one, intervals[i])).join(', ');
+  const texts = (print: (one: any, its: Interval) => string) => values.map((one: any, i: number) => print(one, intervals[i])).join(', ');
   return [
     name,
-    list((one, its) => fixed(one, its) + (unit && ` ${unit}`)),
-    list((_, its) => formatInterval(its)),
+    texts((one, its) => fixed(one, its) + (unit && ` ${unit}`)),
+    texts((_, its) => formatInterval(its)),
     `${corrected ? 'corrected' : 'not corrected'}${constant ? '' : ', not a constant'}`,
   ];
 }
@@ -154,8 +154,8 @@ function persistenceRow({ persistence: { correlation: { value, interval }, lengt
 }
 
 function checkRow({ name, value, expected: [low, high], passed }: any): string[] {
-  const range = low === -Infinity ? `≤ ${toText(high)}` : high === Infinity ? `≥ ${toText(low)}` : `${toText(low)} to ${toText(high)}`;
-  return [name, value === Infinity ? '∞' : toText(value), range, passed ? 'ok' : 'FAILED'];
+  const bounds = low === -Infinity ? `≤ ${toText(high)}` : high === Infinity ? `≥ ${toText(low)}` : `${toText(low)} to ${toText(high)}`;
+  return [name, value === Infinity ? '∞' : toText(value), bounds, passed ? 'ok' : 'FAILED'];
 }
 
 function windowRow({ length, count, coverage, nees }: any): string[] {
@@ -163,40 +163,40 @@ function windowRow({ length, count, coverage, nees }: any): string[] {
 }
 
 /** Lists outliers by their times after the start of the odometry. */
-function outliersOf({ count, times, outliers }: any, begins: number[]): string[] {
-  const found = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
-  const list = found.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
-    const begin = Math.max(...begins.filter((each) => each <= times[2 * leg]));
-    return `${(times[2 * leg] - begin).toFixed(2)} s${begins.length > 1 ? ` of drive ${begins.indexOf(begin) + 1}` : ''}`;
+function outlierLines({ count, times, outliers }: any, begins: number[]): string[] {
+  const outlierLegs = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
+  const texts = outlierLegs.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
+    const driveBegin = Math.max(...begins.filter((each) => each <= times[2 * leg]));
+    return `${(times[2 * leg] - driveBegin).toFixed(2)} s${begins.length > 1 ? ` of drive ${begins.indexOf(driveBegin) + 1}` : ''}`;
   }).join(', ');
-  return found.length ? [`outliers: ${found.length} of ${count} legs, at ${list}${found.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
+  return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${count} legs, at ${texts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
 }
 
-function nav2Of(result: Result): string[] {
-  const { yaml, reason } = nav2YamlOf(result);
+function nav2Section(result: CalibrationResult): string[] {
+  const { yaml, reason } = nav2Yaml(result);
   return reason ? [reason] : [...ruleWarning(result), '# nav2_params.yaml', yaml.trimEnd()];
 }
 
 /** Returns a warning if the α's are of another rule than that of Nav2's AMCL. */
-export const ruleWarning = ({ options: { model = 'odometry', rule = 'thrun' } }: Pick<Result, 'options'>): string[] =>
+export const ruleWarning = ({ options: { model = 'odometry', rule = 'thrun' } }: Pick<CalibrationResult, 'options'>): string[] =>
   (isOfNav2(model, rule) ? [] : ['Warning: fitted by another rule than Nav2’s; give --rule nav2.']);
 
 /** Returns the lines for nav2_params.yaml, or the reason why there are none. */
-export function nav2YamlOf({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: Result): { yaml: string; reason?: string } {
+export function nav2Yaml({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: CalibrationResult): { yaml: string; reason?: string } {
   if (calibration.recommended === null) return { yaml: '', reason: 'No lines for nav2_params.yaml: the log is unusable.' };
-  const log = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
-  const lines = nav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log, warnings: warningsOf(logs), date }, en.nav2);
-  return lines.length ? { yaml: `${lines.join('\n')}\n` } : { yaml: '', reason: 'No lines for nav2_params.yaml: Nav2 has no velocity model.' };
+  const logNames = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
+  const yamlLines = nav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log: logNames, warnings: warningsOf(logs), date }, en.nav2);
+  return yamlLines.length ? { yaml: `${yamlLines.join('\n')}\n` } : { yaml: '', reason: 'No lines for nav2_params.yaml: Nav2 has no velocity model.' };
 }
 
 /** Aligns the columns of a table. */
 export function aligned(rows: string[][]): string[] {
-  const widths = rows[0].map((_, column) => Math.max(...rows.map((row) => (row[column] ?? '').length)));
-  return rows.map((row) => row.map((cell, column) => cell.padEnd(widths[column])).join('  ').trimEnd());
+  const columnWidths = rows[0].map((_, column) => Math.max(...rows.map((row) => (row[column] ?? '').length)));
+  return rows.map((row) => row.map((cell, column) => cell.padEnd(columnWidths[column])).join('  ').trimEnd());
 }
 
-/** Returns everything as JSON, with typed arrays as plain ones. */
-export function jsonOf({ calibration, options, logs, start, date }: Result): string {
-  const plain = (_: string, value: unknown) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value);
-  return `${JSON.stringify({ date, options, logs, start, ...calibration }, plain, 1)}\n`;
+/** Returns the result as JSON, with typed arrays as plain arrays. */
+export function resultJson({ calibration, options, logs, start, date }: CalibrationResult): string {
+  const plainValue = (_: string, value: unknown) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value);
+  return `${JSON.stringify({ date, options, logs, start, ...calibration }, plainValue, 1)}\n`;
 }

@@ -9,13 +9,13 @@ const COMMAND_NAMES = [/(^|[/_.])cmd_?vel[/_.]?$/i, /cmd|command|twist/i];
 /** Names of measurements from outside. */
 const MEASUREMENT_NAMES = /truth|(^|[^a-z])(gt|ref|true)([^a-z]|$)|mocap|vicon|optitrack|qualisys|vrpn|motive|natnet|phasespace|reference|station|leica|prism|tracker/i;
 
-/** Names of estimates by localizers, whose errors follow the odometry where they use it. */
+/** Names of estimates by localizers. Their errors follow those of the odometry if they use it. */
 const LOCALIZER_NAMES = /slam|amcl|locali[sz]|carto|tracked_pose|icp|loam|scan_?match|pose_graph/i;
 
 /** Names of filters over the odometry. */
 const FILTER_NAMES = /odometry[/_]filtered|ekf|ukf|odom_combined/i;
 
-/** Names of topics that are no path of the robot. */
+/** Names of topics with poses that are not a path of the robot. */
 export const GOAL_NAMES = /goal|initial_?pose|waypoint|target|setpoint|clicked_?point/i;
 
 /** Names of frames on a robot, and of fixed frames for each role, the likeliest first. */
@@ -24,10 +24,10 @@ const FIXED_FRAMES = { odometry: [/(^|[/_])odom(etry)?$/], reference: [/mocap|vi
 
 const ODOMETRY_FILE_NAMES = /odom|wheel|encoder|cmd/i;
 
-/** Checks whether a recording is a table, which has groups of columns in the place of topics. */
+/** Returns true if a recording is a table, which has groups of columns instead of topics. */
 export const isTable = ({ format }: Pick<Recording, 'format'>): boolean => !['mcap', 'rosbag', 'sqlite'].includes(format);
 
-/** Checks by name and frames whether a log is the estimate of a localizer, or of a filter over the odometry. */
+/** Returns true if, by its name and frames, a log is the estimate of a localizer, or of a filter over the odometry. */
 export const isLocalizer = (name: string, frames?: Frames): boolean => frames?.parent === 'map' || ((LOCALIZER_NAMES.test(name) || FILTER_NAMES.test(name)) && !MEASUREMENT_NAMES.test(name));
 
 /** Returns the role that is in the name of a file; undefined if there is none. */
@@ -37,45 +37,45 @@ export function roleByName(name: string): Role | undefined {
 }
 
 /** Returns the series that can be read. A topic needs two messages. */
-export const usefulSeries = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (isTable(recording) || count > 1));
+export const readableSeries = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (isTable(recording) || count > 1));
 
-/** Returns the series of a name, which may be typed without the separators at its ends. */
+/** Returns the series with a name. The name may lack the separators at its ends. */
 export function seriesNamed(series: Series[], wanted: string): Series | undefined {
-  const bare = (name: string) => name.replaceAll(/^[/_.]+|[/_.]+$/g, '');
-  return series.find(({ name }) => name === wanted) ?? series.find(({ name }) => bare(name) !== '' && bare(name) === bare(wanted));
+  const trimmed = (name: string) => name.replaceAll(/^[/_.]+|[/_.]+$/g, '');
+  return series.find(({ name }) => name === wanted) ?? series.find(({ name }) => trimmed(name) !== '' && trimmed(name) === trimmed(wanted));
 }
 
 /** Returns the names of the series that could be the log of a role, the likeliest first. */
 export function namesFor(recording: Recording, role: Role): string[] {
-  const useful = usefulSeries(recording).filter(({ kind }) => role === 'odometry' || kind !== 'commands');
-  return [...new Set([...candidates(recording, role).flat().map(({ series }) => series), ...useful.map(({ name }) => name)])];
+  const usableSeries = readableSeries(recording).filter(({ kind }) => role === 'odometry' || kind !== 'commands');
+  return [...new Set([...candidates(recording, role).flat().map(({ series }) => series), ...usableSeries.map(({ name }) => name)])];
 }
 
-/** Returns the logs that a role could have, in groups of equal likelihood, the likeliest first. A group of several is ambiguous. */
+/** Returns the logs that could have a role, in groups of equal likelihood, the likeliest first. A group of several logs is ambiguous. */
 export function candidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): Choice[][] {
   const isOfTable = isTable(recording);
-  const useful = usefulSeries(recording).filter(({ name }) => !GOAL_NAMES.test(name));
-  const paths = useful.filter((each) => each.kind === 'poses');
-  const chains = useful.flatMap(({ name, frames = [] }) => likeliest(frames, role).map((each) => ({ series: name, frames: each })));
+  const useful = readableSeries(recording).filter(({ name }) => !GOAL_NAMES.test(name));
+  const poseSeries = useful.filter((each) => each.kind === 'poses');
+  const chains = useful.flatMap(({ name, frames = [] }) => likeliestFrames(frames, role).map((each) => ({ series: name, frames: each })));
   if (role === 'reference') {
-    const others = paths.filter(({ name }) => !FILTER_NAMES.test(name) && !ODOMETRY_NAMES[0].test(name));
-    return [...tiers(paths, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choices(others, 'poses'), ...(isOfTable && useful.length === 1 ? [choices(paths, 'poses')] : []), chains];
+    const unfilteredPaths = poseSeries.filter(({ name }) => !FILTER_NAMES.test(name) && !ODOMETRY_NAMES[0].test(name));
+    return [...tiersByName(poseSeries, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choicesOf(unfilteredPaths, 'poses'), ...(isOfTable && useful.length === 1 ? [choicesOf(poseSeries, 'poses')] : []), chains];
   }
   // The type of the message is a sign that it is odometry.
-  const wheels = paths.filter(({ name, type }) => !MEASUREMENT_NAMES.test(name) && !LOCALIZER_NAMES.test(name) && (isOfTable || /Odometry$/.test(type)));
-  const poses = [...tiers(wheels, ODOMETRY_NAMES), choices(wheels), chains];
-  const commands = useful.filter((each) => each.kind === 'commands' || (isOfTable && each.hasCommands));
-  const driven = [...tiers(commands, COMMAND_NAMES, 'commands'), choices(commands, 'commands')];
-  return kind === 'commands' ? [...driven, ...poses] : isOfTable ? [...poses, ...driven] : poses;
+  const wheelPaths = poseSeries.filter(({ name, type }) => !MEASUREMENT_NAMES.test(name) && !LOCALIZER_NAMES.test(name) && (isOfTable || /Odometry$/.test(type)));
+  const poseTiers = [...tiersByName(wheelPaths, ODOMETRY_NAMES), choicesOf(wheelPaths), chains];
+  const commandSeries = useful.filter((each) => each.kind === 'commands' || (isOfTable && each.hasCommands));
+  const commandTiers = [...tiersByName(commandSeries, COMMAND_NAMES, 'commands'), choicesOf(commandSeries, 'commands')];
+  return kind === 'commands' ? [...commandTiers, ...poseTiers] : isOfTable ? [...poseTiers, ...commandTiers] : poseTiers;
 }
 
-const choices = (series: Series[], kind?: LogKind): Choice[] => series.map(({ name }) => ({ series: name, ...(kind && { kind }) }));
+const choicesOf = (series: Series[], kind?: LogKind): Choice[] => series.map(({ name }) => ({ series: name, ...(kind && { kind }) }));
 
-const tiers = (series: Series[], names: RegExp[], kind?: LogKind): Choice[][] => names.map((pattern) => choices(series.filter(({ name }) => pattern.test(name)), kind));
+const tiersByName = (series: Series[], names: RegExp[], kind?: LogKind): Choice[][] => names.map((pattern) => choicesOf(series.filter(({ name }) => pattern.test(name)), kind));
 
 /** Returns the likeliest pairs of frames for a role, by the names of the frames. */
-export function likeliest(frames: Frames[], role: Role): Frames[] {
-  const first = (some: Frames[], names: RegExp[], end: keyof Frames) => names.map((name) => some.filter((each) => name.test(each[end]))).find(({ length }) => length);
-  const fixed = first(frames, FIXED_FRAMES[role], 'parent') ?? [];
-  return first(fixed, BASE_FRAMES, 'child') ?? fixed;
+export function likeliestFrames(frames: Frames[], role: Role): Frames[] {
+  const firstNamed = (some: Frames[], names: RegExp[], end: keyof Frames) => names.map((name) => some.filter((each) => name.test(each[end]))).find(({ length }) => length);
+  const fixedParents = firstNamed(frames, FIXED_FRAMES[role], 'parent') ?? [];
+  return firstNamed(fixedParents, BASE_FRAMES, 'child') ?? fixedParents;
 }

@@ -9,7 +9,7 @@ interface Column {
   /** Index, from 0. */
   at: number;
   name: string;
-  /** Unit in the name, of time, length or angle. Speeds have the unit of their length or angle. */
+  /** Unit of time, length or angle in the name. A speed has the unit of its length or angle. */
   unit?: string;
   /** Priority among columns of the same field. The column with the lowest number is used. */
   rank: number;
@@ -47,7 +47,7 @@ const HEADER = '(?:header\\.)?';
  * Patterns of the names of each field, best first, in lower case with dots between their parts. A part before the pattern is the prefix of a
  * group. The first pattern that matches a name determines its field.
  */
-const NAMES: [Field, string[]][] = [
+const FIELD_PATTERNS: [Field, string[]][] = [
   ['child', ['child\\.frame\\.id']],
   ['frame', [`${HEADER}frame\\.id`]],
   ['nanoseconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:nano?secs?|nsecs?|nanoseconds?)`, '(?:nano?secs?|nsecs?|nanoseconds?)']],
@@ -68,17 +68,17 @@ const NAMES: [Field, string[]][] = [
 /**
  * Patterns with a prefix. The prefix is matched lazily, so that the name of a message belongs to the field and not to the prefix.
  */
-const PATTERNS = NAMES.flatMap(([field, names]) => names.map((name, rank) => ({ field, rank, pattern: new RegExp(`^(?:(.*?)\\.)??(?:${name})$`, 'u') })));
+const PREFIXED_PATTERNS = FIELD_PATTERNS.flatMap(([field, names]) => names.map((name, rank) => ({ field, rank, pattern: new RegExp(`^(?:(.*?)\\.)??(?:${name})$`, 'u') })));
 
-/** Name with a field before its group: x_gt, yaw_odom, x1. */
-const SUFFIXED = /^((?:pos\.|position\.)?[xy]|yaw|theta|heading|q\.?[xyzw]|t|time|v|omega)\.?(\d+|(?<=\.)(?!rate|dot)\p{L}.*)$/u;
+/** Name in which the field comes before the group: x_gt, yaw_odom, x1. */
+const SUFFIXED_NAME = /^((?:pos\.|position\.)?[xy]|yaw|theta|heading|q\.?[xyzw]|t|time|v|omega)\.?(\d+|(?<=\.)(?!rate|dot)\p{L}.*)$/u;
 
-/** Parts of column names that are no pose, velocity or time: uncertainty, acceleration, vectors of an IMU, goals. */
+/** Parts of the names of columns without a pose, velocity or time: uncertainty, acceleration, vectors of an IMU, goals. */
 const OTHER_QUANTITIES = /(^|\.)(cov(ariance)?|std(dev)?|sigma|var(iance)?|err(or)?|residual|acc(el(eration)?)?|force|torque|effort|bias|mag(netic)?|dot|linear|angular|lin|ang|vel(ocity)?|twist|goal|setpoint|euler|rpy)(\.|\d|$)|^[vabw]\./;
 
-type Unit = { of: 'time' | 'length' | 'angle'; unit: TimeUnit | LengthUnit | AngleUnit; isRate: boolean };
+type ParsedUnit = { of: 'time' | 'length' | 'angle'; unit: TimeUnit | LengthUnit | AngleUnit; isRate: boolean };
 
-const UNIT_WORDS: [RegExp, Unit['of'], Unit['unit']][] = [
+const UNIT_WORDS: [RegExp, ParsedUnit['of'], ParsedUnit['unit']][] = [
   [/^(s|secs?|seconds?)$/, 'time', 's'],
   [/^(ms|m?secs?|millisecs?|milliseconds?)$/, 'time', 'ms'],
   [/^(us|µs|μs|usecs?|microsecs?|microseconds?)$/, 'time', 'us'],
@@ -93,66 +93,66 @@ const UNIT_WORDS: [RegExp, Unit['of'], Unit['unit']][] = [
 /** Division by a second: "m/s", "m s^-1", "m_s", "mps". */
 const PER_SECOND = /(\/|[ ._*]|p|per)\.?s(ec(ond)?)?(\^?-1)?$/;
 
-/** Texts in brackets that name no unit. */
-const NO_UNIT = /^(|-|1|quat(ernion)?|unitless|none)$/;
+/** Texts in brackets that are not a unit. */
+const EMPTY_UNIT = /^(|-|1|quat(ernion)?|unitless|none)$/;
 
 /** Unit at the end of a name: in brackets, or as MATLAB converts a name such as "x [m]". */
-const BRACKETS = /\s*[[({]([^\])}]*)[\])}]\s*$/;
-const LAST_PART = /[._ ]+((?:m|mm|cm|rad|deg)[._ /]s|[^._ /]+)_?$/;
+const UNIT_IN_BRACKETS = /\s*[[({]([^\])}]*)[\])}]\s*$/;
+const UNIT_AT_END = /[._ ]+((?:m|mm|cm|rad|deg)[._ /]s|[^._ /]+)_?$/;
 
-function unitOf(text: string): Unit | undefined {
-  const small = text.trim().toLowerCase().replace(/^dps$/, 'deg/s');
-  const rate = small.replace(PER_SECOND, '');
-  const isRate = rate !== small && rate !== '' && !/^(p|m|u|n)$/.test(small.replace(/s$/, ''));
-  const [, of, unit] = UNIT_WORDS.find(([pattern]) => pattern.test(isRate ? rate : small)) ?? [];
+function unitOf(text: string): ParsedUnit | undefined {
+  const lowerText = text.trim().toLowerCase().replace(/^dps$/, 'deg/s');
+  const withoutPerSecond = lowerText.replace(PER_SECOND, '');
+  const isRate = withoutPerSecond !== lowerText && withoutPerSecond !== '' && !/^(p|m|u|n)$/.test(lowerText.replace(/s$/, ''));
+  const [, of, unit] = UNIT_WORDS.find(([pattern]) => pattern.test(isRate ? withoutPerSecond : lowerText)) ?? [];
   return of && unit ? { of, unit, isRate } : undefined;
 }
 
 /** Quantity of each field, and true if it is a rate. */
-const UNITS_OF: Partial<Record<Field, [Unit['of'], boolean]>> = {
+const UNITS_OF: Partial<Record<Field, [ParsedUnit['of'], boolean]>> = {
   t: ['time', false], x: ['length', false], y: ['length', false], z: ['length', false], yaw: ['angle', false], v: ['length', true], omega: ['angle', true],
 };
 
 /** Returns a name in lower case, with dots between its parts. */
 function dottedName(name: string): string {
-  const parts = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
-  return parts.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
+  const spacedName = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
+  return spacedName.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
 }
 
 interface ColumnMeaning { field: Field; rank: number; prefix: string; unit?: string }
 
 /** Returns the field of a column, or undefined for another quantity. */
 function readName(name: string): ColumnMeaning | undefined {
-  const [bracketed, inside] = BRACKETS.exec(name) ?? [];
-  if (bracketed !== undefined && inside !== undefined && !NO_UNIT.test(inside.trim())) {
+  const [bracketed, inside] = UNIT_IN_BRACKETS.exec(name) ?? [];
+  if (bracketed !== undefined && inside !== undefined && !EMPTY_UNIT.test(inside.trim())) {
     const unit = unitOf(inside);
     const reading = fieldOf(dottedName(name.slice(0, -bracketed.length)));
     return reading && canHaveUnit(reading.field, unit) ? { ...reading, unit: unit?.unit ?? inside.trim() } : undefined;
   }
-  const bare = bracketed === undefined ? name : name.slice(0, -bracketed.length);
-  const path = dottedName(bare);
-  const whole = fieldOf(path);
-  // Times of rostopic are in nanoseconds, also those of a simulation, which are small.
-  if (whole?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...whole, unit: 'ns' };
+  const nameWithoutUnit = bracketed === undefined ? name : name.slice(0, -bracketed.length);
+  const dottedPath = dottedName(nameWithoutUnit);
+  const wholeMeaning = fieldOf(dottedPath);
+  // Times of rostopic are always in nanoseconds, also the small times of a simulation.
+  if (wholeMeaning?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...wholeMeaning, unit: 'ns' };
   // Clocks of microcontrollers are named after their unit.
-  if (whole) return { ...whole, ...(/millis$/.test(path) ? { unit: 'ms' } : /micros$/.test(path) ? { unit: 'us' } : /nanos$/.test(path) ? { unit: 'ns' } : {}) };
-  const [last, word] = LAST_PART.exec(bare) ?? [];
+  if (wholeMeaning) return { ...wholeMeaning, ...(/millis$/.test(dottedPath) ? { unit: 'ms' } : /micros$/.test(dottedPath) ? { unit: 'us' } : /nanos$/.test(dottedPath) ? { unit: 'ns' } : {}) };
+  const [last, word] = UNIT_AT_END.exec(nameWithoutUnit) ?? [];
   const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
-  const reading = last !== undefined && unit ? fieldOf(dottedName(bare.slice(0, -last.length))) : undefined;
+  const reading = last !== undefined && unit ? fieldOf(dottedName(nameWithoutUnit.slice(0, -last.length))) : undefined;
   if (reading && unit && canHaveUnit(reading.field, unit)) return { ...reading, unit: unit.unit };
-  const [, front, suffix] = SUFFIXED.exec(path) ?? [];
-  const fronted = front === undefined ? undefined : fieldOf(front);
-  return fronted && suffix !== undefined && !OTHER_QUANTITIES.test(suffix) ? { ...fronted, prefix: suffix } : undefined;
+  const [, front, suffix] = SUFFIXED_NAME.exec(dottedPath) ?? [];
+  const frontMeaning = front === undefined ? undefined : fieldOf(front);
+  return frontMeaning && suffix !== undefined && !OTHER_QUANTITIES.test(suffix) ? { ...frontMeaning, prefix: suffix } : undefined;
 }
 
 /** Checks that a field can have a unit. Unknown units pass, and are refused when the column is read. */
-function canHaveUnit(field: Field, unit: Unit | undefined): boolean {
+function canHaveUnit(field: Field, unit: ParsedUnit | undefined): boolean {
   const [of, isRate] = UNITS_OF[field] ?? [];
   return unit === undefined || (unit.of === of && unit.isRate === isRate);
 }
 
 function fieldOf(path: string): ColumnMeaning | undefined {
-  for (const { field, rank, pattern } of PATTERNS) {
+  for (const { field, rank, pattern } of PREFIXED_PATTERNS) {
     const [found, prefix = ''] = pattern.exec(path) ?? [];
     if (found === undefined) continue;
     return OTHER_QUANTITIES.test(prefix) || /^[vabw]\..*\.[xyzw]$/.test(path) ? undefined : { field, rank, prefix };
@@ -179,41 +179,41 @@ export function groupsOf(names: string[], isTime: (at: number) => boolean = () =
     // If there are headings in radians and degrees, those in radians were recorded, and those in degrees are derived.
     const column = { at, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
     if (field === 't') group.times.push(column);
-    const known = group.columns[field];
-    if (!known || column.rank < known.rank) {
+    const knownColumn = group.columns[field];
+    if (!knownColumn || column.rank < knownColumn.rank) {
       group.columns[field] = column;
       delete group.twice[field];
-    } else if (column.rank === known.rank) group.twice[field] ??= column;
+    } else if (column.rank === knownColumn.rank) group.twice[field] ??= column;
   }
-  const all = [...groups.values()];
-  const clocks = new Map(all.map((group) => [group, clocksOf(group)]));
-  const shared = groups.get('') ? (clocks.get(groups.get('') as Group) ?? []) : [];
-  const only = all.flatMap((group) => clocks.get(group) ?? []);
-  for (const group of all) {
-    group.clocks = [...new Set([...(clocks.get(group) ?? []), ...shared])].slice(0, 2);
+  const allGroups = [...groups.values()];
+  const clocksByGroup = new Map(allGroups.map((group) => [group, clocksOf(group)]));
+  const sharedClocks = groups.get('') ? (clocksByGroup.get(groups.get('') as Group) ?? []) : [];
+  const allClocks = allGroups.flatMap((group) => clocksByGroup.get(group) ?? []);
+  for (const group of allGroups) {
+    group.clocks = [...new Set([...(clocksByGroup.get(group) ?? []), ...sharedClocks])].slice(0, 2);
     // If a table has only one clock, all of its groups use it.
-    if (group.clocks.length === 0 && only.length === 1) group.clocks = only;
+    if (group.clocks.length === 0 && allClocks.length === 1) group.clocks = allClocks;
     const has = (...fields: Field[]) => fields.every((field) => group.columns[field]);
     group.hasCommands = has('v', 'omega');
     group.kind = has('x', 'y') ? (has('yaw') || has('qz', 'qw') ? 'poses' : 'positions') : group.hasCommands ? 'commands' : null;
     if (group.clocks.length === 0) group.kind = null;
     if (group.kind === 'positions' && group.hasCommands) group.kind = 'commands';
   }
-  return all.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw).map((group) => ({ ...group, name: nameOf(group, names) }));
+  return allGroups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw).map((group) => ({ ...group, name: groupName(group, names) }));
 }
 
 /** Returns the clocks of a group. The stamp of the message comes first, because the other clock may be the time of recording. */
 function clocksOf({ columns: { seconds, nanoseconds }, times }: Group): Clock[] {
-  const inOne = times.toSorted((one, other) => one.rank - other.rank).map((column) => ({ name: column.name, columns: [column], ...unitOfClock(column) }) as Clock);
-  if (seconds && nanoseconds) return [{ name: `${seconds.name}, ${nanoseconds.name}`, columns: [seconds, nanoseconds], unit: 's' }, ...inOne];
-  if (inOne.length > 0) return inOne;
+  const singleClocks = times.toSorted((one, other) => one.rank - other.rank).map((column) => ({ name: column.name, columns: [column], ...unitOfClock(column) }) as Clock);
+  if (seconds && nanoseconds) return [{ name: `${seconds.name}, ${nanoseconds.name}`, columns: [seconds, nanoseconds], unit: 's' }, ...singleClocks];
+  if (singleClocks.length > 0) return singleClocks;
   return [...(seconds ? [{ name: seconds.name, columns: [seconds], unit: 's' } as Clock] : []), ...(nanoseconds ? [{ name: nanoseconds.name, columns: [nanoseconds], unit: 'ns' } as Clock] : [])];
 }
 
 const unitOfClock = ({ unit }: Column) => (unit === undefined ? {} : { unit: unit as TimeUnit });
 
-/** Returns the common prefix or suffix of a group's columns, as it is in the table; of a group with neither, the names of its columns. */
-function nameOf({ name, columns }: Group, names: string[]): string {
+/** Returns the common prefix or suffix of a group's columns, as written in the table. Without either, returns the names of the columns. */
+function groupName({ name, columns }: Group, names: string[]): string {
   if (name === '') return '';
   const { x, v, yaw, omega } = columns;
   const [first] = [x, v, yaw, omega].filter((column) => column !== undefined);
@@ -237,7 +237,7 @@ export interface Layout {
 }
 
 /**
- * Returns the columns of a group that a log is read from.
+ * Returns the columns of a group from which a log is read.
  *
  * @param wanted kind of the log: `commands` prefers commands to poses, and `poses` excludes commands; by default poses come first
  * @throws {LogError} if a field is missing, or two columns can be the same field
@@ -251,24 +251,24 @@ export function layoutOf(group: Group | undefined, names: string[], place: Place
   if (clocks.length === 0) throw new LogError(place, (say) => say.noTime(all), ask);
   const takesCommands = group.hasCommands && wanted !== 'poses' && (wanted === 'commands' || group.kind === 'commands');
   if (!takesCommands && !has('x', 'y')) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', all), ask);
-  const heading: Field[] = has('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : has('yaw') ? ['yaw'] : has('qz', 'qw') ? ['qz', 'qw'] : [];
-  const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...heading];
+  const headingFields: Field[] = has('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : has('yaw') ? ['yaw'] : has('qz', 'qw') ? ['qz', 'qw'] : [];
+  const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {
     const [one, other] = [columns[field], twice[field]];
     if (one && other) throw new LogError(place, (say) => say.twice(field, cut(one.name), cut(other.name)));
   }
-  const read = fields.map((field) => columns[field] as Column);
-  const [length, ...others] = new Set((takesCommands ? read.slice(0, 1) : read.slice(0, 2)).map(({ unit }) => unit));
-  const angle = takesCommands ? columns.omega?.unit : heading[0] === 'yaw' ? columns.yaw?.unit : undefined;
-  const isUnknown = (unit: string | undefined, known: readonly string[]) => unit !== undefined && !known.includes(unit);
-  const unknown = [length, ...others].find((unit) => isUnknown(unit, UNITS.lengthUnit)) ?? (isUnknown(angle, UNITS.angleUnit) ? angle : undefined);
-  if (unknown !== undefined) throw new LogError(place, (say) => say.unknownUnit(cut(unknown)));
+  const readColumns = fields.map((field) => columns[field] as Column);
+  const [length, ...others] = new Set((takesCommands ? readColumns.slice(0, 1) : readColumns.slice(0, 2)).map(({ unit }) => unit));
+  const angle = takesCommands ? columns.omega?.unit : headingFields[0] === 'yaw' ? columns.yaw?.unit : undefined;
+  const isUnknownUnit = (unit: string | undefined, known: readonly string[]) => unit !== undefined && !known.includes(unit);
+  const unknownUnit = [length, ...others].find((unit) => isUnknownUnit(unit, UNITS.lengthUnit)) ?? (isUnknownUnit(angle, UNITS.angleUnit) ? angle : undefined);
+  if (unknownUnit !== undefined) throw new LogError(place, (say) => say.unknownUnit(cut(unknownUnit)));
   if (others.length > 0) throw new LogError(place, (say) => say.unknownUnit([length, ...others].map((unit) => unit ?? '–').join(', ')));
   return {
-    kind: takesCommands ? 'commands' : heading.length > 0 ? 'poses' : 'positions',
-    clocks, columns: read, fields, length: length as LengthUnit | undefined, angle: angle as AngleUnit | undefined,
+    kind: takesCommands ? 'commands' : headingFields.length > 0 ? 'poses' : 'positions',
+    clocks, columns: readColumns, fields, length: length as LengthUnit | undefined, angle: angle as AngleUnit | undefined,
   };
 }
 
-/** Checks for a header, which has names in some cells. */
+/** Returns true for a header, which has names in some cells. */
 export const isHeader = (cells: string[]) => cells.some((cell) => /\p{L}/u.test(cell) && !/^[+-]?(nan|inf(inity)?|[\d.,]+e[+-]?\d+)$/i.test(cell.trim()));

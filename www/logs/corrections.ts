@@ -11,7 +11,7 @@ type Motion = [forward: number, left: number, turn: number];
 const DEGREE = Math.PI / 180;
 
 /** Corrections of poses. */
-const CORRECTIONS = {
+const POSE_CORRECTIONS = {
   mirroredX: ([x, y, heading]: Pose): Pose => [-x, y, heading],
   mirroredY: ([x, y, heading]: Pose): Pose => [x, -y, heading],
   mirroredYaw: ([x, y, heading]: Pose): Pose => [x, y, -heading],
@@ -22,11 +22,11 @@ const CORRECTIONS = {
 };
 
 /** All corrections, each for one of the two logs. */
-const ALL_CORRECTIONS = (Object.keys(CORRECTIONS) as (keyof typeof CORRECTIONS)[]).flatMap((name) => [[name, 'reference'], [name, 'odometry']] as [typeof name, Role][]);
+const ALL_CORRECTIONS = (Object.keys(POSE_CORRECTIONS) as (keyof typeof POSE_CORRECTIONS)[]).flatMap((name) => [[name, 'reference'], [name, 'odometry']] as [typeof name, Role][]);
 
 /** Correction that makes two logs of a drive agree. */
 export interface Correction {
-  name: keyof typeof CORRECTIONS | 'lengths';
+  name: keyof typeof POSE_CORRECTIONS | 'lengths';
   /** Role of the log that needs the correction. */
   at: Role;
   /** Correlation of the corrected motions. */
@@ -39,9 +39,9 @@ export interface Correction {
 const [MAX_STEPS, MIN_DURATION, MIN_STEPS] = [4000, 0.25, 40];
 
 /** Maximum offset of the clocks (s) that is tried, as in the first scan of the core. */
-const MAX_OFFSET = 10;
+const MAX_CLOCK_OFFSET = 10;
 
-/** Score above which logs agree, minimum score after a correction, and maximum fraction of the disagreement that a correction leaves. */
+/** Score above which logs agree, minimum score after a correction, and maximum fraction of the disagreement that may remain after it. */
 const [AGREEMENT, MIN_SCORE, MAX_REMAINING_FRACTION] = [0.9, 0.8, 0.3];
 
 /** Returns true for a scale that wheels can have, as in the core. */
@@ -56,24 +56,24 @@ const JUMP_FACTOR = 4;
 /** Agreement of two logs: correlation of their motions (−1 to 1), and best scales of the reference's lengths and angles. */
 interface Agreement { score: number; length: number; angle: number }
 
-/** Returns the correction after which two logs of a drive agree; undefined if they agree already, or after none. */
+/** Returns the correction that makes two logs of a drive agree; undefined if they agree already, or if no correction helps. */
 export function correctionOf(odometry: Log, reference: Log): Correction | undefined {
   const logs = { odometry, reference };
-  const spans = ROLES.map((role) => logs[role].data.t);
-  const [from, to] = [Math.max(...spans.map((t) => t[0])), Math.min(...spans.map((t) => t[t.length - 1]))];
+  const timesByRole = ROLES.map((role) => logs[role].data.t);
+  const [from, to] = [Math.max(...timesByRole.map((t) => t[0])), Math.min(...timesByRole.map((t) => t[t.length - 1]))];
   const step = Math.max(MIN_DURATION, (to - from) / MAX_STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
-  const count = Math.floor((to - from) / step);
-  if (!(count >= MIN_STEPS)) return undefined;
-  const plain = { odometry: motionsOf(odometry, from, step, count), reference: motionsOf(reference, from, step, count) };
-  const { score, length: factor, angle } = agreement(plain, step, true);
-  const tried = score >= AGREEMENT ? [] : ALL_CORRECTIONS.map(([name, at]) => {
-    const corrected = { ...plain, [at]: motionsOf(logs[at], from, step, count, CORRECTIONS[name]) };
-    // A correction of the wrong log can give both logs the same error. Neither robot then drives along its heading.
-    return { name, at, factor, ...agreement(corrected, step), straight: straightness(corrected.odometry) + straightness(corrected.reference) };
+  const stepCount = Math.floor((to - from) / step);
+  if (!(stepCount >= MIN_STEPS)) return undefined;
+  const plainMotions = { odometry: motionsOf(odometry, from, step, stepCount), reference: motionsOf(reference, from, step, stepCount) };
+  const { score, length: factor, angle } = bestAgreementOf(plainMotions, step, true);
+  const triedCorrections = score >= AGREEMENT ? [] : ALL_CORRECTIONS.map(([name, at]) => {
+    const correctedMotions = { ...plainMotions, [at]: motionsOf(logs[at], from, step, stepCount, POSE_CORRECTIONS[name]) };
+    // A correction of the wrong log can give both logs the same error. The robot then does not drive along its heading in either log.
+    return { name, at, factor, ...bestAgreementOf(correctedMotions, step), straight: forwardness(correctedMotions.odometry) + forwardness(correctedMotions.reference) };
   });
-  const minimum = Math.max(MIN_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
-  const best = greatest(tried.filter((each) => each.score >= minimum && isPlausible(each.length) && isPlausible(each.angle)), (each) => each.score + each.straight);
-  if (best) return best;
+  const minScore = Math.max(MIN_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
+  const bestCorrection = greatest(triedCorrections.filter((each) => each.score >= minScore && isPlausible(each.length) && isPlausible(each.angle)), (each) => each.score + each.straight);
+  if (bestCorrection) return bestCorrection;
   if (score < MIN_SCORE) return undefined;
   if (!isPlausible(factor)) return { name: 'lengths', at: 'reference', score, factor };
   return isPlausible(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor };
@@ -82,35 +82,35 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
 /** Returns the motions of a log in steps after a time. */
 function motionsOf({ data }: Log, from: number, step: number, count: number, correct = (pose: Pose) => pose): Motion[] {
   const path = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
-  const corrected = { ...path, poses: path.poses.map(correct) };
-  const poses = Array.from({ length: count + 1 }, (_, i) => poseAt(corrected, from + i * step));
+  const correctedPath = { ...path, poses: path.poses.map(correct) };
+  const poses = Array.from({ length: count + 1 }, (_, i) => poseAt(correctedPath, from + i * step));
   return poses.slice(1).map(([x, y, heading], i) => {
     const [dx, dy, turn] = [x - poses[i][0], y - poses[i][1], wrapped(heading - poses[i][2])];
-    const middle = poses[i][2] + turn / 2;
-    return [dx * Math.cos(middle) + dy * Math.sin(middle), dy * Math.cos(middle) - dx * Math.sin(middle), turn];
+    const middleHeading = poses[i][2] + turn / 2;
+    return [dx * Math.cos(middleHeading) + dy * Math.sin(middleHeading), dy * Math.cos(middleHeading) - dx * Math.sin(middleHeading), turn];
   });
 }
 
 /**
- * Returns the agreement of two logs at the smallest offset of their clocks at which they agree, or else at the best one.
+ * Returns the agreement of two logs at the smallest clock offset at which they agree, or at the best offset if they do not agree.
  *
  * @param anyYaw true if the reference may have any mount yaw
  */
-function agreement({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
-  const maxLag = Math.round(MAX_OFFSET / step);
+function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
+  const maxLag = Math.round(MAX_CLOCK_OFFSET / step);
   const [odo, ref] = [withoutJumps(odometry), withoutJumps(reference)];
-  let best: Agreement = { score: -1, length: 1, angle: 1 };
-  for (let i = 0; i <= 2 * maxLag && best.score < AGREEMENT; i++) {
-    const found = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag, anyYaw);
-    if (found.score > best.score) best = found;
+  let bestCorrection: Agreement = { score: -1, length: 1, angle: 1 };
+  for (let i = 0; i <= 2 * maxLag && bestCorrection.score < AGREEMENT; i++) {
+    const agreementAtLag = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag, anyYaw);
+    if (agreementAtLag.score > bestCorrection.score) bestCorrection = agreementAtLag;
   }
-  return best;
+  return bestCorrection;
 }
 
 /** Returns motions with jumps replaced by zeros. */
 function withoutJumps(motions: Motion[]): Motion[] {
-  const limitOf = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(STANDSTILL, quantile(Float64Array.from(motions, size), 0.9));
-  const [drive, spin] = [limitOf(([forward, left]) => Math.hypot(forward, left)), limitOf(([, , turn]) => Math.abs(turn))];
+  const maxStep = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(STANDSTILL, quantile(Float64Array.from(motions, size), 0.9));
+  const [drive, spin] = [maxStep(([forward, left]) => Math.hypot(forward, left)), maxStep(([, , turn]) => Math.abs(turn))];
   return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= drive && Math.abs(motion[2]) <= spin ? motion : [0, 0, 0]));
 }
 
@@ -137,7 +137,7 @@ function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count
 }
 
 /** Returns the degree to which a robot drives along its heading: 1 if always, 0 if in all directions. */
-function straightness(motions: Motion[]): number {
+function forwardness(motions: Motion[]): number {
   let [along, all] = [0, 0];
   for (const [forward, left] of motions) {
     along += forward ** 2 - left ** 2;

@@ -23,7 +23,7 @@ export interface Format {
   hasUnknownAxis?: boolean;
 }
 
-/** Number of lines that the format is detected from. */
+/** Number of lines from which the format is detected. */
 const SAMPLED_LINES = 50;
 
 /** Names of the columns in tables without a header. The number of cells in a row identifies the table. */
@@ -55,20 +55,20 @@ const CARMEN_RECORDS: [tag: string, series: string, names: string[]][] = [
 /** Number of columns of rows without times: poses of KITTI, and geometry_msgs/Twist. */
 const [KITTI_WIDTH, TWIST_WIDTH] = [12, 6];
 
-/** Patterns of the first line of texts that are no tables, with the name of their notation. */
-const OTHER_TEXTS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
+/** Patterns of the first line of texts that are not tables, with the name of their notation. */
+const OTHER_NOTATIONS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
 
-/** Splits a line into cells, of which only `needed` may be returned. A separator in quotes does not count. */
+/** Splits a line into cells. May return only the first `needed` cells. A separator in quotes does not count. */
 export function cellsOf(line: string, separator: string, needed = Infinity): string[] {
   if (separator === ' ') return line.trim().split(/[ \t]+/);
   if (!line.includes('"')) {
     // A loop takes half as long as `split`.
-    const plain: string[] = [];
-    for (let from = 0, to = 0; to >= 0 && plain.length < needed; from = to + 1) {
+    const plainCells: string[] = [];
+    for (let from = 0, to = 0; to >= 0 && plainCells.length < needed; from = to + 1) {
       to = line.indexOf(separator, from);
-      plain.push(to < 0 ? line.slice(from) : line.slice(from, to));
+      plainCells.push(to < 0 ? line.slice(from) : line.slice(from, to));
     }
-    return plain;
+    return plainCells;
   }
   const cells = [''];
   let isQuoted = false;
@@ -89,22 +89,22 @@ export function carmenCells(line: string): string[] {
 const DECIMAL_COMMA = /^\s*[+-]?\d*,\d+(e[+-]?\d+)?\s*$/i;
 const isNumber = (cell: string) => cell.trim() !== '' && (numberOf(cell) !== undefined || DECIMAL_COMMA.test(cell) || dateOf(cell) !== undefined);
 
-/** Checks for a row of data: at least two cells, and half of those that are not empty, are numbers or dates. */
-function isRow(cells: string[]): boolean {
-  const filled = cells.filter((cell) => cell.trim() !== '');
-  const numbers = filled.filter(isNumber).length;
-  return numbers >= 2 && 2 * numbers >= filled.length;
+/** Returns true for a row of data: at least two cells, and at least half of the cells that are not empty, are numbers or dates. */
+function isDataRow(cells: string[]): boolean {
+  const filledCells = cells.filter((cell) => cell.trim() !== '');
+  const numberCount = filledCells.filter(isNumber).length;
+  return numberCount >= 2 && 2 * numberCount >= filledCells.length;
 }
 
-/** Returns the separator with which lines have most numbers, or if they have none, most cells. */
+/** Returns the separator that splits lines into most numbers, or, if there are no numbers, into most cells. */
 function separatorOf(lines: string[]): string {
-  const declared = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((each) => each !== undefined);
-  if (declared) return declared;
-  const score = (separator: string) => {
-    const all = lines.map((line) => cellsOf(line, separator));
-    return all.filter(isRow).flat().filter(isNumber).length || all.flat().length / 1e6;
+  const declaredSeparator = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((each) => each !== undefined);
+  if (declaredSeparator) return declaredSeparator;
+  const scoreOf = (separator: string) => {
+    const cellRows = lines.map((line) => cellsOf(line, separator));
+    return cellRows.filter(isDataRow).flat().filter(isNumber).length || cellRows.flat().length / 1e6;
   };
-  return [';', '\t', ',', ' '].map((separator) => ({ separator, score: score(separator) })).reduce((best, each) => (each.score > best.score ? each : best)).separator;
+  return [';', '\t', ',', ' '].map((separator) => ({ separator, score: scoreOf(separator) })).reduce((best, each) => (each.score > best.score ? each : best)).separator;
 }
 
 /**
@@ -115,55 +115,55 @@ function separatorOf(lines: string[]): string {
  * @throws {LogError} where the columns are not clear
  */
 export function formatOf(lines: string[], file: string, columns: string[] | undefined): Format {
-  const filled = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
+  const filledCells = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
-  const texts = filled.filter((each) => !isComment(each));
-  if (texts.length === 0) throw new LogError({ file }, (say) => say.empty);
-  const [, notation] = OTHER_TEXTS.find(([pattern]) => pattern.test(texts[0].line)) ?? [];
+  const textLines = filledCells.filter((each) => !isComment(each));
+  if (textLines.length === 0) throw new LogError({ file }, (say) => say.empty);
+  const [, notation] = OTHER_NOTATIONS.find(([pattern]) => pattern.test(textLines[0].line)) ?? [];
   if (notation !== undefined) throw new LogError({ file }, (say) => say.noTable(notation));
-  const tags = CARMEN_RECORDS.filter(([tag]) => texts.some(({ line }) => line.startsWith(`${tag} `)));
-  if (tags.length > 0 && texts.every(({ line }) => /^[A-Z_0-9]+ /.test(line))) return carmenFormat(tags, filled[0].number);
+  const records = CARMEN_RECORDS.filter(([tag]) => textLines.some(({ line }) => line.startsWith(`${tag} `)));
+  if (records.length > 0 && textLines.every(({ line }) => /^[A-Z_0-9]+ /.test(line))) return carmenFormat(records, filledCells[0].number);
 
-  const separator = separatorOf(texts.slice(0, SAMPLED_LINES).map(({ line }) => line.trim()));
+  const separator = separatorOf(textLines.slice(0, SAMPLED_LINES).map(({ line }) => line.trim()));
   const cells = (line: string) => cellsOf(line, separator);
-  const first = texts.find(({ line }, i) => isRow(cells(line)) && (i + 1 === texts.length || isRow(cells(texts[i + 1].line)))) ?? texts.findLast(({ line }) => isRow(cells(line)));
-  const rows = first ? texts.filter(({ number }) => number >= first.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];
-  const hasCommas = (separator !== ',' || rows.some((_, i) => texts[i].line.includes('"'))) && rows.flat().some((cell) => DECIMAL_COMMA.test(cell));
-  const width = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
-  const common = { name: 'csv' as const, separator, hasCommas, firstLine: first?.number ?? (filled.at(-1)?.number ?? 0) + 1, isSparse: false };
-  const place = { file, line: first?.number ?? filled[0].number };
-  const noLog = () => new LogError({ file }, (say) => say.noLog);
+  const first = textLines.find(({ line }, i) => isDataRow(cells(line)) && (i + 1 === textLines.length || isDataRow(cells(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cells(line)));
+  const rows = first ? textLines.filter(({ number }) => number >= first.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];
+  const hasCommas = (separator !== ',' || rows.some((_, i) => textLines[i].line.includes('"'))) && rows.flat().some((cell) => DECIMAL_COMMA.test(cell));
+  const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
+  const commonFormat = { name: 'csv' as const, separator, hasCommas, firstLine: first?.number ?? (filledCells.at(-1)?.number ?? 0) + 1, isSparse: false };
+  const errorPlace = { file, line: first?.number ?? filledCells[0].number };
+  const noLogError = () => new LogError({ file }, (say) => say.noLog);
 
   if (columns) {
-    if (first && columns.length !== width) throw new LogError(place, (say) => say.given(width, columns.length));
-    return { ...common, names: columns, groups: grouped(columns, rows[0]) };
+    if (first && columns.length !== rowWidth) throw new LogError(errorPlace, (say) => say.given(rowWidth, columns.length));
+    return { ...commonFormat, names: columns, groups: columnGroups(columns, rows[0]) };
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
-  if (2 * rows.filter(isRow).length < rows.length) throw noLog();
-  const above = filled.filter(({ number }) => number < common.firstLine);
-  const motive = above.length > 0 && /^"?Format Version/.test(above[0].line) ? motiveFormat(above.map(({ line }) => cells(line)), place) : undefined;
-  if (motive) return { ...common, ...motive };
+  if (2 * rows.filter(isDataRow).length < rows.length) throw noLogError();
+  const linesAbove = filledCells.filter(({ number }) => number < commonFormat.firstLine);
+  const motiveInfo = linesAbove.length > 0 && /^"?Format Version/.test(linesAbove[0].line) ? motiveFormat(linesAbove.map(({ line }) => cells(line)), errorPlace) : undefined;
+  if (motiveInfo) return { ...commonFormat, ...motiveInfo };
 
-  const header = headerOf(above, separator, width, rows[0]);
+  const header = headerOf(linesAbove, separator, rowWidth, rows[0]);
   if (header) {
     const { names, number } = header;
     // Rows with decimal commas between commas have more cells than the header.
-    if (width > names.length) throw new LogError({ file, line: first?.number }, (say) => say.wide(width, names.length, number));
-    const groups = grouped(names, rows[0]);
-    if (!first && groups.every(({ kind }) => kind === null)) throw noLog();
-    return { ...common, names, header: lines[number - 1], groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
+    if (rowWidth > names.length) throw new LogError({ file, line: first?.number }, (say) => say.wide(rowWidth, names.length, number));
+    const groups = columnGroups(names, rows[0]);
+    if (!first && groups.every(({ kind }) => kind === null)) throw noLogError();
+    return { ...commonFormat, names, header: lines[number - 1], groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
   }
-  if (!first) throw noLog();
-  const names = withoutHeader(rows);
-  if (names) return { ...common, name: names === TUM_COLUMNS ? 'tum' : 'csv', names, groups: grouped(names, rows[0]) };
-  if (width === KITTI_WIDTH) throw new LogError(place, (say) => say.kitti);
-  if (width === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(place, (say) => say.twists);
-  const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[width] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, width - 4))}`;
-  throw new LogError(place, (say) => say.noHeader(width, cut(first.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, width) });
+  if (!first) throw noLogError();
+  const names = columnsByContent(rows);
+  if (names) return { ...commonFormat, name: names === TUM_COLUMNS ? 'tum' : 'csv', names, groups: columnGroups(names, rows[0]) };
+  if (rowWidth === KITTI_WIDTH) throw new LogError(errorPlace, (say) => say.kitti);
+  if (rowWidth === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(errorPlace, (say) => say.twists);
+  const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
+  throw new LogError(errorPlace, (say) => say.noHeader(rowWidth, cut(first.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
 }
 
-/** Groups columns. A column without a name has times if the first row has a date or a fraction there. A whole number is a row number. */
-function grouped(names: string[], row: string[] | undefined): Group[] {
+/** Groups columns. A column without a name has times if its first cell is a date or a fraction. A whole number there is a row number. */
+function columnGroups(names: string[], row: string[] | undefined): Group[] {
   return groupsOf(names, (at) => {
     const cell = row?.[at]?.trim() ?? '';
     return dateOf(cell) !== undefined || /^\d+[.,]\d+$/.test(cell) || unitOfSize(Number(cell)) !== undefined;
@@ -175,14 +175,14 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
   for (const { line, number } of above.toReversed()) {
     const text = line.trim().replace(/^\/\//, '');
     const isComment = /^#|^%(?!time)/.test(text) || text !== line.trim();
-    const bare = text.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
+    const commentText = text.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
     // A commented header may have another separator than the rows.
-    const splits = [cellsOf(bare, separator), ...(isComment ? [bare.split(/[\s,;]+(?![[(])/)] : [])];
-    const names = splits.find((each) => each.length === width) ?? splits[0];
+    const possibleCells = [cellsOf(commentText, separator), ...(isComment ? [commentText.split(/[\s,;]+(?![[(])/)] : [])];
+    const names = possibleCells.find((each) => each.length === width) ?? possibleCells[0];
     if (!isHeader(names)) continue;
-    const fields = grouped(names, row).flatMap(({ columns }) => Object.keys(columns));
-    if (isComment && (fields.length < 3 || (names.length !== width && fields.length < 4))) continue;
-    if (isComment || fields.length > 0 || !above.some((each) => each.number < number && !/^\s*["#%]?sep=/i.test(each.line) && grouped(cellsOf(each.line, separator), row).length > 0)) {
+    const fieldNames = columnGroups(names, row).flatMap(({ columns }) => Object.keys(columns));
+    if (isComment && (fieldNames.length < 3 || (names.length !== width && fieldNames.length < 4))) continue;
+    if (isComment || fieldNames.length > 0 || !above.some((each) => each.number < number && !/^\s*["#%]?sep=/i.test(each.line) && columnGroups(cellsOf(each.line, separator), row).length > 0)) {
       return { names: names.map((name) => name.trim().replace(/^"(.*)"$/, '$1')), number };
     }
   }
@@ -190,7 +190,7 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
 }
 
 /** Returns the columns of a table without a header, by their number and content. */
-function withoutHeader(rows: string[][]): string[] | undefined {
+function columnsByContent(rows: string[][]): string[] | undefined {
   const [row] = rows;
   const isQuaternion = (from: number) => Math.abs(Math.hypot(...row.slice(from, from + 4).map((cell) => Number(cell.replace(',', '.')))) - 1) < 0.1;
   if (row.length === TUM_COLUMNS.length && row.every(isNumber)) return TUM_COLUMNS;
@@ -208,23 +208,23 @@ function carmenFormat(tags: typeof CARMEN_RECORDS, firstLine: number): Format {
 
 /** Returns the format of Motive: a group for each rigid body, with its position and quaternion. Throws a LogError for Euler angles. */
 function motiveFormat(above: string[][], place: Place): Pick<Format, 'names' | 'groups' | 'hasUnknownAxis'> | undefined {
-  const rowOf = (name: string) => above.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
+  const rowNamed = (name: string) => above.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
   const [last, quantities] = above.toReversed();
-  const bodies = rowOf('Name');
-  if (!bodies || !quantities) return undefined;
-  const settings = new Map(above[0].flatMap((cell, i) => (i % 2 === 0 ? [[cell.trim(), above[0][i + 1]?.trim() ?? '']] : [])));
-  const rotation = settings.get('Rotation Type') ?? 'Quaternion';
-  if (rotation !== 'Quaternion') throw new LogError(place, (say) => say.euler(cut(rotation)));
-  const unit = (settings.get('Length Units') ?? settings.get('Units') ?? 'Meters').toLowerCase();
-  const types = rowOf('Type');
+  const bodyNames = rowNamed('Name');
+  if (!bodyNames || !quantities) return undefined;
+  const exportSettings = new Map(above[0].flatMap((cell, i) => (i % 2 === 0 ? [[cell.trim(), above[0][i + 1]?.trim() ?? '']] : [])));
+  const rotationType = exportSettings.get('Rotation Type') ?? 'Quaternion';
+  if (rotationType !== 'Quaternion') throw new LogError(place, (say) => say.euler(cut(rotationType)));
+  const unit = (exportSettings.get('Length Units') ?? exportSettings.get('Units') ?? 'Meters').toLowerCase();
+  const bodyTypes = rowNamed('Type');
   const names = last.map((axis, i) => {
     if (/^Time/.test(axis.trim())) return 't [s]';
-    const isBody = types === undefined || types[i]?.trim() === 'Rigid Body';
-    const body = bodies[i]?.trim() ?? '';
-    if (!isBody || body === '') return '-';
-    const small = axis.trim().toLowerCase();
-    if (quantities[i]?.trim() === 'Rotation') return `${body}/q${small}`;
-    return quantities[i]?.trim() === 'Position' ? `${body}/${small} [${unit}]` : '-';
+    const isBody = bodyTypes === undefined || bodyTypes[i]?.trim() === 'Rigid Body';
+    const bodyName = bodyNames[i]?.trim() ?? '';
+    if (!isBody || bodyName === '') return '-';
+    const axisName = axis.trim().toLowerCase();
+    if (quantities[i]?.trim() === 'Rotation') return `${bodyName}/q${axisName}`;
+    return quantities[i]?.trim() === 'Position' ? `${bodyName}/${axisName} [${unit}]` : '-';
   });
   return { names, groups: groupsOf(names), hasUnknownAxis: true };
 }

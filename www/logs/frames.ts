@@ -2,38 +2,38 @@
 
 import type { Message } from './formats/container.ts';
 import { framesText, type Frames } from './log.ts';
-import { poseOf, withoutSlash, type Edge, type Sample, type Transform } from './messages.ts';
-import { product, rotated } from './quaternion.ts';
+import { sampleOfPose, withoutSlash, type Edge, type Sample, type Transform } from './messages.ts';
+import { hamiltonProduct, rotateVector } from './quaternion.ts';
 
 /** Maximum number of links between frames: a robot has some dozens. */
 const MAX_LINKS = 10_000;
 
-/** Minimum motion, in m, of a frame that travels. Joints only turn, and suspensions move less. */
+/** Minimum motion (m) of a frame that counts as travelling. Joints only turn, and suspensions move less. */
 const MIN_TRAVEL = 0.05;
 
-/** Usual names of a robot's own frame, which is fixed to one that travels. */
+/** Usual names of a robot's own frame, which may be fixed to a frame that travels. */
 const BASE_FRAME = /base|body|chassis|robot/i;
 
-interface Link extends Frames {
+interface FrameLink extends Frames {
   isStatic: boolean;
   origin: Transform;
   /** Largest distance from the origin. */
   travelled: number;
 }
 
-/** Links between frames. A frame may have several parents, as one in the map and one in the odometry. */
+/** Links between frames. A frame may have several parents, for example the map and the odometry frame. */
 export class FrameTree {
-  #links = new Map<string, Link>();
-  #linksByChild = new Map<string, Link[]>();
+  #links = new Map<string, FrameLink>();
+  #linksByChild = new Map<string, FrameLink[]>();
 
   take({ parent, child, transform }: Edge, isStatic: boolean): void {
     const link = this.#links.get(framesText({ parent, child }));
     if (link) {
       link.travelled = Math.max(link.travelled, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
     } else if (this.#links.size < MAX_LINKS) {
-      const added = { parent, child, isStatic, origin: transform, travelled: 0 };
-      this.#links.set(framesText(added), added);
-      this.#linksByChild.set(child, [...(this.#linksByChild.get(child) ?? []), added]);
+      const newLink = { parent, child, isStatic, origin: transform, travelled: 0 };
+      this.#links.set(framesText(newLink), newLink);
+      this.#linksByChild.set(child, [...(this.#linksByChild.get(child) ?? []), newLink]);
     }
   }
 
@@ -66,16 +66,16 @@ export class FrameTree {
       const isMoving = moving.has(child);
       const isInner = isMoving && children.some((other) => other !== child && moving.has(other) && this.#ancestors(other).includes(child));
       // Number of ancestors of a base up to and with the nearest moving one: they move with the base, and so are no parents of its poses.
-      const fixed = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => moving.has(frame)) + 1;
-      return isInner || (!isMoving && fixed === 0) ? [] : ancestors.slice(fixed).map((parent) => ({ parent, child }));
+      const skipCount = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => moving.has(frame)) + 1;
+      return isInner || (!isMoving && skipCount === 0) ? [] : ancestors.slice(skipCount).map((parent) => ({ parent, child }));
     });
   }
 
-  /** Frames above another, the nearest first. */
+  /** Returns the frames above a frame, the nearest first. */
   #ancestors(frame: string): string[] {
-    const found = new Set<string>([frame]);
-    for (const each of found) for (const { parent } of this.#linksByChild.get(each) ?? []) found.add(parent);
-    return [...found].slice(1);
+    const ancestorFrames = new Set<string>([frame]);
+    for (const each of ancestorFrames) for (const { parent } of this.#linksByChild.get(each) ?? []) ancestorFrames.add(parent);
+    return [...ancestorFrames].slice(1);
   }
 }
 
@@ -94,7 +94,7 @@ export class Chain {
   readonly #ends: Frames;
   /** Names of the links, from the first to the last. */
   #links: string[] = [];
-  /** Transforms in the order of their messages: of all links, until those of the chain are known. */
+  /** Transforms in the order of their messages. They are of all links until the links of the chain are known. */
   #samples: TimedEdge[] = [];
 
   constructor({ parent, child }: Frames) {
@@ -116,8 +116,8 @@ export class Chain {
   }
 
   /**
-   * Passes on the poses at the times of the moving transform that is nearest to the child, with the latest ones of all others. A transform
-   * that never changes also holds before its first message.
+   * Passes on the poses at the times of the moving transform that is nearest to the child, with the latest transforms of all other links. A
+   * transform that never changes also holds before its first message.
    *
    * @returns false if no transform ever changes
    */
@@ -126,33 +126,33 @@ export class Chain {
     const moving = new Set<string>();
     const unknownLinks = new Set<string>();
     for (const { link, isStatic, edge: { transform } } of this.#samples) {
-      const first = latest.get(link);
-      if (!first) latest.set(link, transform);
-      else if (transform.some((value, i) => value !== first[i])) {
+      const firstTransform = latest.get(link);
+      if (!firstTransform) latest.set(link, transform);
+      else if (transform.some((value, i) => value !== firstTransform[i])) {
         moving.add(link);
         if (!isStatic) unknownLinks.add(link);
       }
     }
-    const nearest = this.#links.findLast((link) => moving.has(link));
-    if (nearest === undefined) return false;
+    const nearestMovingLink = this.#links.findLast((link) => moving.has(link));
+    if (nearestMovingLink === undefined) return false;
     const timeOf = ({ message: { seconds, nanoseconds } }: TimedEdge) => seconds + nanoseconds / 1e9;
     let pending: TimedEdge | undefined;
     for (const sample of this.#samples.toSorted((one, other) => timeOf(one) - timeOf(other))) {
       latest.set(sample.link, sample.edge.transform);
       unknownLinks.delete(sample.link);
-      if (sample.link === nearest) pending = sample;
+      if (sample.link === nearestMovingLink) pending = sample;
       if (!pending || unknownLinks.size > 0) continue;
-      each(poseOf(pending.edge, this.#links.map((link) => latest.get(link) as Transform).reduce(composed)), pending);
+      each(sampleOfPose(pending.edge, this.#links.map((link) => latest.get(link) as Transform).reduce(composeTransforms)), pending);
       pending = undefined;
     }
     return true;
   }
 }
 
-/** Returns the transform of a second frame that is given in the first. */
-function composed([x, y, z, qx, qy, qz, qw]: Transform, [x2, y2, z2, qx2, qy2, qz2, qw2]: Transform): Transform {
+/** Returns the composition of two transforms, of which the second is given in the frame of the first. */
+function composeTransforms([x, y, z, qx, qy, qz, qw]: Transform, [x2, y2, z2, qx2, qy2, qz2, qw2]: Transform): Transform {
   const rotation = { x: qx, y: qy, z: qz, w: qw };
-  const moved = rotated(rotation, { x: x2, y: y2, z: z2 });
-  const turned = product(rotation, { x: qx2, y: qy2, z: qz2, w: qw2 });
-  return [x + moved.x, y + moved.y, z + moved.z, turned.x, turned.y, turned.z, turned.w];
+  const offset = rotateVector(rotation, { x: x2, y: y2, z: z2 });
+  const rotationProduct = hamiltonProduct(rotation, { x: qx2, y: qy2, z: qz2, w: qw2 });
+  return [x + offset.x, y + offset.y, z + offset.z, rotationProduct.x, rotationProduct.y, rotationProduct.z, rotationProduct.w];
 }

@@ -3,8 +3,8 @@
 import { bisectRight } from 'd3-array';
 import type { Commands, Log, Poses } from './log.ts';
 
-/** Duration (s) that is ignored at both ends of a standstill, because the clocks may differ by as much. */
-const END_MARGIN = 1;
+/** Duration (s) at both ends of a standstill that is ignored, because the clocks may differ by this much. */
+const END_MARGIN_SECONDS = 1;
 
 /** Minimum motion of the odometry during a frozen pose, in metres or radians. At rest it may count a pulse or two. */
 const MIN_ODOMETRY_MOTION = 0.05;
@@ -12,23 +12,23 @@ const MIN_ODOMETRY_MOTION = 0.05;
 /** Removes rows of the reference that repeat a pose while the odometry, which has the same start, moves on. */
 export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
   const { t, x, y, theta, breaks: known } = reference.data as Poses;
-  const movedAt = pathLength(odometry.data);
+  const odometryLengthAt = pathLength(odometry.data);
   const isKept = new Uint8Array(t.length).fill(1);
   const breaks = new Set(known);
   for (let from = 0, to; from < t.length; from = to) {
     for (to = from + 1; to < t.length && x[to] === x[from] && y[to] === y[from] && theta[to] === theta[from]; ) to += 1;
-    const [start, end] = [t[from] + END_MARGIN, t[to - 1] - END_MARGIN];
-    if (!(end > start && movedAt(end) - movedAt(start) > MIN_ODOMETRY_MOTION)) continue;
+    const [start, end] = [t[from] + END_MARGIN_SECONDS, t[to - 1] - END_MARGIN_SECONDS];
+    if (!(end > start && odometryLengthAt(end) - odometryLengthAt(start) > MIN_ODOMETRY_MOTION)) continue;
     isKept.fill(0, from + 1, to);
     breaks.add(to);
   }
   if (!isKept.includes(0)) return reference;
   const isKeptRow = (_: unknown, i: number) => isKept[i] === 1;
   // Indices of later rows change when earlier ones are removed.
-  const indices = new Uint32Array(t.length + 1);
-  for (let i = 0; i < t.length; i++) indices[i + 1] = indices[i] + isKept[i];
-  const left = indices[t.length];
-  const moved = new Set([...breaks].map((row) => indices[row]));
+  const newIndices = new Uint32Array(t.length + 1);
+  for (let i = 0; i < t.length; i++) newIndices[i + 1] = newIndices[i] + isKept[i];
+  const kept = newIndices[t.length];
+  const movedBreaks = new Set([...breaks].map((row) => newIndices[row]));
   return {
     ...reference,
     data: {
@@ -36,21 +36,21 @@ export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
       x: x.filter(isKeptRow),
       y: y.filter(isKeptRow),
       theta: theta.filter(isKeptRow),
-      breaks: Uint32Array.from(moved).filter((row) => row < left).sort(),
+      breaks: Uint32Array.from(movedBreaks).filter((row) => row < kept).sort(),
     },
-    summary: { ...reference.summary, used: left, dropped: { ...reference.summary.dropped, held: { count: t.length - left, first: 0 } } },
+    summary: { ...reference.summary, used: kept, dropped: { ...reference.summary.dropped, held: { count: t.length - kept, first: 0 } } },
   };
 }
 
-/** Returns the path length of a robot by time, metres and radians together. */
+/** Returns a function from time to the path length of a robot so far, the sum of metres and radians. */
 function pathLength(data: Poses | Commands): (time: number) => number {
   const { t } = data;
-  const moved = new Float64Array(t.length);
-  const step = (i: number) => {
+  const movedBreaks = new Float64Array(t.length);
+  const stepLength = (i: number) => {
     if ('v' in data) return (Math.abs(data.v[i - 1]) + Math.abs(data.omega[i - 1])) * (t[i] - t[i - 1]);
     const { x, y, theta } = data;
     return Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) + 2 * Math.abs(Math.sin((theta[i] - theta[i - 1]) / 2));
   };
-  for (let i = 1; i < t.length; i++) moved[i] = moved[i - 1] + step(i);
-  return (time) => moved[Math.max(bisectRight(t, time) - 1, 0)];
+  for (let i = 1; i < t.length; i++) movedBreaks[i] = movedBreaks[i - 1] + stepLength(i);
+  return (time) => movedBreaks[Math.max(bisectRight(t, time) - 1, 0)];
 }

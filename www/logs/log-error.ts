@@ -27,20 +27,20 @@ export class LogError extends Error {
 
   /** @param reason returns the end of the sentence in the language of the given words */
   constructor(place: Place, reason: (say: Words['refused']) => string, ask?: Question) {
-    const sentence = (say: Words) => `${say.place(cut(place.file), place.line ?? 0, cut(place.topic ?? ''))}: ${reason(say.refused)}`;
-    super(sentence(english));
+    const sentenceOf = (say: Words) => `${say.place(cut(place.file), place.line ?? 0, cut(place.topic ?? ''))}: ${reason(say.refused)}`;
+    super(sentenceOf(english));
     this.name = 'LogError';
     this.place = place;
     this.ask = ask;
-    this.sentence = sentence;
+    this.sentence = sentenceOf;
   }
 }
 
 /** Shortens a text to one line for quotation in a sentence. */
 export function cut(text: string, most = MAX_QUOTED): string {
   // oxlint-disable-next-line no-control-regex
-  const line = text.slice(0, most + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
-  return line.length > most ? `${line.slice(0, most)}…` : line;
+  const shortLine = text.slice(0, most + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
+  return shortLine.length > most ? `${shortLine.slice(0, most)}…` : shortLine;
 }
 
 /** Returns the message of a library's error, for a sentence. */
@@ -51,8 +51,8 @@ export function reasonOf(error: unknown): string {
 
 /** Returns the first few names of a list, for a sentence. */
 export function listed(names: string[]): string {
-  const most = 8;
-  return [...names.slice(0, most).map((name) => cut(name)), ...(names.length > most ? ['…'] : [])].join(', ');
+  const maxNames = 8;
+  return [...names.slice(0, maxNames).map((name) => cut(name)), ...(names.length > maxNames ? ['…'] : [])].join(', ');
 }
 
 /** Reads bytes of a source; rejects with a LogError if the file has been moved or changed since it was chosen. */

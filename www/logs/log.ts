@@ -11,7 +11,7 @@ export const ROLES = ['odometry', 'reference'] as const;
 
 export type Role = (typeof ROLES)[number];
 
-/** Part of a recording that one log can be read from: a topic, or a group of columns with a common prefix. */
+/** Part of a recording from which one log can be read: a topic, or a group of columns with a common prefix. */
 export interface Series {
   /** Topic, or prefix of the columns ("gt_", "/odom"); empty where a table has one group only. */
   name: string;
@@ -47,7 +47,7 @@ export interface Choice {
   frames?: Frames;
 }
 
-/** File, or folder of files, that logs are read from. */
+/** File, or folder of files, from which logs are read. */
 export interface Recording {
   name: string;
   format: 'mcap' | 'rosbag' | 'sqlite' | 'csv' | 'tum';
@@ -57,7 +57,7 @@ export interface Recording {
   read(choices: Choice[], onProgress?: (share: number) => void): Promise<Log[]>;
 }
 
-/** Units that logs may have, by the option that states them. */
+/** Units that logs may have, by the name of the option for the unit. */
 export const UNITS = { timeUnit: ['s', 'ms', 'us', 'ns'], lengthUnit: ['m', 'cm', 'mm'], angleUnit: ['rad', 'deg'] } as const;
 
 export type TimeUnit = (typeof UNITS.timeUnit)[number];
@@ -112,7 +112,7 @@ export type Cause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short'
 /** Basis of a decision about a unit: a name, the size of the numbers, rate and speed, the format's definition, dates, an option, or usage without another sign. */
 export type Basis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
-/** Notes that leave α's doubtful even if all checks pass. */
+/** Notes that make the α's doubtful even if all checks pass. */
 export type Warning = Extract<Note['name'], 'localizer' | 'swapped'>;
 
 /** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
@@ -126,7 +126,7 @@ export interface Summary {
   /** Number of rows or messages in the file. */
   rows: number;
   used: number;
-  /** Number of dropped rows by cause. `first` is the line or the message of the first one; 0 if it is unknown. */
+  /** Number of dropped rows by cause. `first` is the line or the message number of the first dropped row; 0 if unknown. */
   dropped: Partial<Record<Cause, { count: number; first: number }>>;
   /** Duration. */
   seconds: number;

@@ -1,4 +1,4 @@
-/** Readers of ROS 1 and ROS 2 messages with poses, commands or transforms. They read leading fields, and ignore the rest, such as covariances. */
+/** Readers of ROS 1 and ROS 2 messages with poses, commands or transforms. They ignore later fields, such as covariances. */
 
 import { viewOf, type Channel, type Message } from './formats/container.ts';
 import { unzstdMessage } from './formats/zstd.ts';
@@ -32,7 +32,7 @@ export interface Edge extends Stamp {
   transform: Transform;
 }
 
-/** Identifiers of encodings in the CDR header: those of version 1, and those of version 2, which aligns values to at most four bytes. */
+/** Identifiers of encodings in the CDR header, of version 1 and of version 2, which aligns values to at most four bytes. */
 const [CDR, CDR_2] = [[0, 1], [6, 7, 16, 17]];
 
 /** Number of bytes of the CDR header. Values are aligned relative to its end. */
@@ -41,7 +41,7 @@ const CDR_HEADER = 4;
 type Bytes = Pick<Message, 'block' | 'from' | 'to'>;
 
 /** Reader of the values of a message: packed in ROS 1, aligned to their size in ROS 2. */
-class Reader {
+class MessageReader {
   #view;
   #at;
   #end;
@@ -56,10 +56,10 @@ class Reader {
     this.#end = to;
     if (encoding === 'ros1') return;
     this.#start += CDR_HEADER;
-    const kind = this.#view.getUint8(this.#next(CDR_HEADER) + 1);
-    if (!CDR.includes(kind) && !CDR_2.includes(kind)) throw new RangeError(`CDR of kind ${kind}`);
-    this.#isLittle = kind % 2 === 1;
-    this.#alignment = CDR.includes(kind) ? 8 : 4;
+    const encodingKind = this.#view.getUint8(this.#next(CDR_HEADER) + 1);
+    if (!CDR.includes(encodingKind) && !CDR_2.includes(encodingKind)) throw new RangeError(`CDR of kind ${encodingKind}`);
+    this.#isLittle = encodingKind % 2 === 1;
+    this.#alignment = CDR.includes(encodingKind) ? 8 : 4;
   }
 
   /** Reads the stamp of a header. In ROS 1 a sequence number comes first. */
@@ -90,8 +90,8 @@ class Reader {
 
   /** Returns the position of a value, and moves past it. */
   #next(size: number): number {
-    const alignment = Math.min(size, this.#alignment);
-    const at = this.#at + ((this.#start - this.#at) & (alignment - 1));
+    const valueAlignment = Math.min(size, this.#alignment);
+    const at = this.#at + ((this.#start - this.#at) & (valueAlignment - 1));
     this.seek(at + size - this.#at);
     return at;
   }
@@ -102,25 +102,25 @@ const bytesOf = (block: DataView, from: number, to: number) => new Uint8Array(bl
 const NO_STAMP: Stamp = { seconds: 0, nanoseconds: 0 };
 
 /** Skips a string. Decoding it would take as long as reading the rest of the message. */
-function skipString(reader: Reader): void {
+function skipString(reader: MessageReader): void {
   reader.seek(reader.uint32());
 }
 
-function header(reader: Reader): Stamp {
+function readHeader(reader: MessageReader): Stamp {
   const stamp = reader.stamp();
   skipString(reader);
   return stamp;
 }
 
-function transform(reader: Reader): Transform {
+function readTransform(reader: MessageReader): Transform {
   return [reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64()];
 }
 
-export function poseOf({ seconds, nanoseconds }: Stamp, [x, y, , qx, qy, qz, qw]: Transform): Sample {
+export function sampleOfPose({ seconds, nanoseconds }: Stamp, [x, y, , qx, qy, qz, qw]: Transform): Sample {
   return { seconds, nanoseconds, a: x, b: y, c: headingOf(qx, qy, qz, qw), isRotation: isRotation(qx, qy, qz, qw) };
 }
 
-function twist({ seconds, nanoseconds }: Stamp, reader: Reader): Sample {
+function readTwist({ seconds, nanoseconds }: Stamp, reader: MessageReader): Sample {
   const v = reader.float64();
   // Skips speeds in other directions and turn rates about other axes.
   reader.seek(4 * 8);
@@ -128,74 +128,74 @@ function twist({ seconds, nanoseconds }: Stamp, reader: Reader): Sample {
 }
 
 /** Returns stamp and pose of a frame in another. */
-function child(reader: Reader): Sample {
-  const stamp = header(reader);
+function readFrameTransform(reader: MessageReader): Sample {
+  const stamp = readHeader(reader);
   skipString(reader);
-  return poseOf(stamp, transform(reader));
+  return sampleOfPose(stamp, readTransform(reader));
 }
 
-const stamped = (reader: Reader) => poseOf(header(reader), transform(reader));
+const readStampedPose = (reader: MessageReader) => sampleOfPose(readHeader(reader), readTransform(reader));
 
 /** Readers of poses and commands by message type. */
-const POSES: Record<string, (reader: Reader) => Sample> = {
-  'nav_msgs/Odometry': child,
-  'geometry_msgs/TransformStamped': child,
-  'geometry_msgs/PoseStamped': stamped,
-  'geometry_msgs/PoseWithCovarianceStamped': stamped,
+const POSE_READERS: Record<string, (reader: MessageReader) => Sample> = {
+  'nav_msgs/Odometry': readFrameTransform,
+  'geometry_msgs/TransformStamped': readFrameTransform,
+  'geometry_msgs/PoseStamped': readStampedPose,
+  'geometry_msgs/PoseWithCovarianceStamped': readStampedPose,
   'geometry_msgs/Pose2D': (reader) => ({ ...NO_STAMP, a: reader.float64(), b: reader.float64(), c: reader.float64(), isRotation: true }),
 };
-const COMMANDS: typeof POSES = {
-  'geometry_msgs/Twist': (reader) => twist(NO_STAMP, reader),
-  'geometry_msgs/TwistStamped': (reader) => twist(header(reader), reader),
-  'geometry_msgs/TwistWithCovarianceStamped': (reader) => twist(header(reader), reader),
+const COMMAND_READERS: typeof POSE_READERS = {
+  'geometry_msgs/Twist': (reader) => readTwist(NO_STAMP, reader),
+  'geometry_msgs/TwistStamped': (reader) => readTwist(readHeader(reader), reader),
+  'geometry_msgs/TwistWithCovarianceStamped': (reader) => readTwist(readHeader(reader), reader),
 };
-const TRANSFORMS = ['tf2_msgs/TFMessage', 'tf/tfMessage'];
+const TRANSFORM_TYPES = ['tf2_msgs/TFMessage', 'tf/tfMessage'];
 /** Types of positions without a heading, which are refused. */
-const POSITIONS = ['geometry_msgs/PointStamped', 'sensor_msgs/NavSatFix'];
+const POSITION_TYPES = ['geometry_msgs/PointStamped', 'sensor_msgs/NavSatFix'];
 
 /** Returns the name of a type in ROS 1. */
-const plainType = (type: string) => type.replace('/msg/', '/');
+const ros1TypeName = (type: string) => type.replace('/msg/', '/');
 
 /** Returns the kind of log that can be read from messages of a type. */
 export function kindOf(type: string): Series['kind'] {
-  const plain = plainType(type);
-  if (Object.hasOwn(POSES, plain)) return 'poses';
-  if (Object.hasOwn(COMMANDS, plain)) return 'commands';
-  if (POSITIONS.includes(plain)) return 'positions';
-  return TRANSFORMS.includes(plain) ? 'transforms' : null;
+  const ros1Type = ros1TypeName(type);
+  if (Object.hasOwn(POSE_READERS, ros1Type)) return 'poses';
+  if (Object.hasOwn(COMMAND_READERS, ros1Type)) return 'commands';
+  if (POSITION_TYPES.includes(ros1Type)) return 'positions';
+  return TRANSFORM_TYPES.includes(ros1Type) ? 'transforms' : null;
 }
 
-/** Checks whether messages are serialized as ROS 1 or ROS 2 does. */
+/** Returns true if messages have the serialization of ROS 1 or ROS 2. */
 export const isReadable = ({ encoding }: Channel) => encoding === 'cdr' || encoding === 'ros1';
 
 /** Magic number of a message that rosbag2 compressed. Other messages of ROS 2 start with 0. */
-const ZSTD = 0x28b52ffd;
+const ZSTD_MAGIC = 0x28b52ffd;
 
-function readerOf(channel: Channel, message: Bytes): Reader {
+function readerOf(channel: Channel, message: Bytes): MessageReader {
   const { block, from, to } = message;
-  if (channel.encoding === 'ros1' || block.getUint32(from) !== ZSTD) return new Reader(channel, message);
+  if (channel.encoding === 'ros1' || block.getUint32(from) !== ZSTD_MAGIC) return new MessageReader(channel, message);
   const bytes = unzstdMessage(bytesOf(block, from, to));
-  return new Reader(channel, { block: viewOf(bytes), from: 0, to: bytes.length });
+  return new MessageReader(channel, { block: viewOf(bytes), from: 0, to: bytes.length });
 }
 
-/** Returns a reader of poses or commands, which throws an error if the bytes are no such message. */
+/** Returns a reader of poses or commands, which throws an error for bytes of another message type. */
 export function poseReader(channel: Channel): (message: Bytes) => Sample {
-  const type = plainType(channel.type);
-  const read = POSES[type] ?? COMMANDS[type];
-  return (message) => read(readerOf(channel, message));
+  const type = ros1TypeName(channel.type);
+  const readSample = POSE_READERS[type] ?? COMMAND_READERS[type];
+  return (message) => readSample(readerOf(channel, message));
 }
 
 /** Returns the name of a frame without the leading slash of the first tf. */
 export const withoutSlash = (name: string) => name.replace(/^\/+/, '');
 
-/** Reads transforms; throws an error if the bytes are no such message. */
+/** Reads transforms; throws an error for bytes of another message type. */
 export function edgesOf(message: Message): Edge[] {
   const reader = readerOf(message.channel, message);
-  const edges: Edge[] = [];
-  for (let left = reader.uint32(); left > 0; left--) {
+  const transformEdges: Edge[] = [];
+  for (let remainingEdges = reader.uint32(); remainingEdges > 0; remainingEdges--) {
     const { seconds, nanoseconds } = reader.stamp();
     const [parent, child] = [withoutSlash(reader.string()), withoutSlash(reader.string())];
-    edges.push({ seconds, nanoseconds, parent, child, transform: transform(reader) });
+    transformEdges.push({ seconds, nanoseconds, parent, child, transform: readTransform(reader) });
   }
-  return edges;
+  return transformEdges;
 }

@@ -1,30 +1,30 @@
 /** Numbers and times in text. */
 
-/** Time as whole seconds and a rest in seconds, so that nanoseconds since 1970 keep their digits. */
+/** Time as whole seconds and a fraction of a second, so that nanoseconds since 1970 keep their digits. */
 export type Time = [seconds: number, rest: number];
 
 /** Words for a missing or infinite number. */
-const NOT_FINITE = /^(?:[+-]?(?:nan|inf(?:inity)?)|null|none|nat|na|n\/a|-)?$/i;
+const NOT_FINITE_WORDS = /^(?:[+-]?(?:nan|inf(?:inity)?)|null|none|nat|na|n\/a|-)?$/i;
 
-const DECIMAL = /^\s*([+-]?)(\d+)(?:\.(\d*))?(?:[eE]([+-]?\d{1,3}))?\s*$/;
+const DECIMAL_NUMBER = /^\s*([+-]?)(\d+)(?:\.(\d*))?(?:[eE]([+-]?\d{1,3}))?\s*$/;
 
-const DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
+const ISO_DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
 
 /** Date in German spreadsheets. Dates with slashes are not read, because the order of day and month is ambiguous. */
 const GERMAN_DATE = /^\s*(\d{1,2})\.(\d{1,2})\.(\d{4})(?=\s|$)/;
 
 /** Duration in seconds, as MATLAB prints it ("1.5 sec"). */
-const SECONDS = /^\s*(\d+)(?:[.,](\d+))?\s*s(?:ec(?:onds?)?)?\s*$/i;
+const SECONDS_TEXT = /^\s*(\d+)(?:[.,](\d+))?\s*s(?:ec(?:onds?)?)?\s*$/i;
 
 /** Duration as printed by pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
-const DURATION = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
+const DURATION_TEXT = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
 export function numberOf(cell: string): number | undefined {
   const value = Number(cell);
   // `Number` parses an empty cell as 0, and hexadecimal digits. `parseFloat` returns other numbers for both.
   if (value === value && (Math.trunc(value) !== value || value === parseFloat(cell))) return value;
-  return NOT_FINITE.test(cell.trim()) ? NaN : undefined;
+  return NOT_FINITE_WORDS.test(cell.trim()) ? NaN : undefined;
 }
 
 /**
@@ -34,7 +34,7 @@ export function numberOf(cell: string): number | undefined {
  * @returns NaN or undefined as `numberOf`
  */
 export function timeOf(cell: string, power: number): Time | undefined {
-  const decimal = DECIMAL.exec(cell);
+  const decimal = DECIMAL_NUMBER.exec(cell);
   if (!decimal) {
     const number = numberOf(cell);
     if (number === undefined) return undefined;
@@ -43,16 +43,16 @@ export function timeOf(cell: string, power: number): Time | undefined {
   }
   const [, sign, digits, decimals = '', exponent] = decimal;
   // The digits are split at the end of the whole seconds, so that nothing is rounded.
-  const point = digits.length - power + (exponent === undefined ? 0 : Number(exponent));
-  const all = digits + decimals;
-  const seconds = point <= 0 ? 0 : Number(all.slice(0, point).padEnd(point, '0'));
-  const rest = Number(`.${point < 0 ? '0'.repeat(-point) + all : all.slice(point)}0`);
+  const pointIndex = digits.length - power + (exponent === undefined ? 0 : Number(exponent));
+  const allDigits = digits + decimals;
+  const seconds = pointIndex <= 0 ? 0 : Number(allDigits.slice(0, pointIndex).padEnd(pointIndex, '0'));
+  const rest = Number(`.${pointIndex < 0 ? '0'.repeat(-pointIndex) + allDigits : allDigits.slice(pointIndex)}0`);
   return sign === '-' ? [-seconds, -rest] : [seconds, rest];
 }
 
-/** Parses a date of ISO 8601 or a duration; undefined for any other text. A date without a zone is one of UTC. */
+/** Parses an ISO 8601 date or a duration; undefined for any other text. A date without a time zone is in UTC. */
 export function dateOf(cell: string): { time: Time; hasZone: boolean } | undefined {
-  const date = DATE.exec(cell.replace(GERMAN_DATE, '$3-$2-$1'));
+  const date = ISO_DATE.exec(cell.replace(GERMAN_DATE, '$3-$2-$1'));
   if (date) {
     const [, year, month, day, hour = '0', minute = '0', second = '0', fraction = '', zone] = date;
     const [sign, hours, minutes] = /^([+-])(\d{2}):?(\d{2})?$/.exec(zone ?? '')?.slice(1) ?? ['+', '0', '0'];
@@ -60,9 +60,9 @@ export function dateOf(cell: string): { time: Time; hasZone: boolean } | undefin
     const seconds = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute), Number(second)) / 1000 - offset;
     return { time: [seconds, Number(`.${fraction}0`)], hasZone: zone !== undefined };
   }
-  const [short, whole, part = ''] = SECONDS.exec(cell) ?? [];
+  const [short, whole, part = ''] = SECONDS_TEXT.exec(cell) ?? [];
   if (short !== undefined) return { time: [Number(whole), Number(`.${part}0`)], hasZone: true };
-  const duration = DURATION.exec(cell);
+  const duration = DURATION_TEXT.exec(cell);
   if (!duration) return undefined;
   const [days = '0', hours, minutes, seconds, fraction = ''] = duration.slice(1);
   return { time: [((Number(days) * 24 + Number(hours)) * 60 + Number(minutes)) * 60 + Number(seconds), Number(`.${fraction}0`)], hasZone: true };

@@ -41,45 +41,45 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
     if (!(error instanceof LogError) || !onSkip || files.length === 1) throw error;
     onSkip(error);
   });
-  const formats = new Map<Source, Format | undefined>();
+  const formatByFile = new Map<Source, Format | undefined>();
   for (const file of files) {
     await attempt(async () => {
-      const format = await formatOf(file);
-      const source = format === 'zstd' ? await (await import('./formats/zstd.ts')).unzstdFile(file) : file;
-      formats.set(source, format === 'zstd' ? await formatOf(source) : format);
+      const fileFormat = await detectFormat(file);
+      const openedSource = fileFormat === 'zstd' ? await (await import('./formats/zstd.ts')).unzstdFile(file) : file;
+      formatByFile.set(openedSource, fileFormat === 'zstd' ? await detectFormat(openedSource) : fileFormat);
     });
   }
-  const sources = [...formats.keys()];
+  const openedSources = [...formatByFile.keys()];
   const recordings: Recording[] = [];
-  for (const metadata of sources.filter((source) => formats.get(source) === 'metadata')) {
+  for (const metadata of openedSources.filter((source) => formatByFile.get(source) === 'metadata')) {
     await attempt(async () => {
-      const { filesOf, joined } = await import('./formats/folder.ts');
-      formats.delete(metadata);
-      const { name, found, missing } = await filesOf(metadata, sources);
-      const parts = found.map((source) => containerOf(source, formats.get(source)));
-      for (const source of found) formats.delete(source);
+      const { listedFiles: filesOf, joinedContainer: joined } = await import('./formats/folder.ts');
+      formatByFile.delete(metadata);
+      const { name, found, missing } = await filesOf(metadata, openedSources);
+      const parts = found.map((source) => openContainer(source, formatByFile.get(source)));
+      for (const source of found) formatByFile.delete(source);
       recordings.push(await (await import('./topics.ts')).recordingOf(name, joined(await Promise.all(parts), missing), optionsOf(name)));
     });
   }
-  for (const [source, format] of formats) {
+  for (const [source, format] of formatByFile) {
     await attempt(async () => {
       if (!format) recordings.push(await openTable(source, optionsOf(source.name)));
-      else recordings.push(await (await import('./topics.ts')).recordingOf(source.name, await containerOf(source, format), optionsOf(source.name)));
+      else recordings.push(await (await import('./topics.ts')).recordingOf(source.name, await openContainer(source, format), optionsOf(source.name)));
     });
   }
   return recordings;
 }
 
-/** Returns the format by the first bytes; undefined for a table. */
-async function formatOf(source: Source): Promise<Format | undefined> {
-  const start = String.fromCharCode(...(await bytesOf(source, 0, MAX_MAGIC_BYTES)));
-  const refused = UNSUPPORTED_MAGIC.find(([, magic]) => start.startsWith(magic));
-  if (refused) throw new LogError({ file: source.name }, (say) => say.notRead(refused[0]));
-  return (Object.keys(FORMAT_MAGIC) as Format[]).find((format) => start.startsWith(FORMAT_MAGIC[format]));
+/** Returns the format according to the first bytes; undefined for a table. */
+async function detectFormat(source: Source): Promise<Format | undefined> {
+  const firstBytes = String.fromCharCode(...(await bytesOf(source, 0, MAX_MAGIC_BYTES)));
+  const unsupportedFormat = UNSUPPORTED_MAGIC.find(([, magic]) => firstBytes.startsWith(magic));
+  if (unsupportedFormat) throw new LogError({ file: source.name }, (say) => say.notRead(unsupportedFormat[0]));
+  return (Object.keys(FORMAT_MAGIC) as Format[]).find((format) => firstBytes.startsWith(FORMAT_MAGIC[format]));
 }
 
 /** Opens a container. The readers are loaded when they are needed. */
-async function containerOf(source: Source, format: Format | undefined): Promise<Container> {
+async function openContainer(source: Source, format: Format | undefined): Promise<Container> {
   if (format === 'mcap') return (await import('./formats/mcap.ts')).openMcap(source);
   if (format === 'rosbag') return (await import('./formats/rosbag.ts')).openRosbag(source);
   if (format === 'sqlite') return (await import('./formats/sqlite.ts')).openSqlite(source);

@@ -8,13 +8,13 @@ const MAX_GAP_STEPS = 5;
 /** Maximum difference of times that count as equal, in median steps. */
 const SAME_TIME_STEPS = 0.75;
 
-/** Minimum number of rows with times of earlier rows, by which a clock was set back. Fewer such rows are late. */
+/** Minimum number of rows with the times of earlier rows from which the clock counts as set back. Fewer such rows count as late. */
 const MIN_OVERLAP = 3;
 
-/** Maximum fraction of steps back in time of a log in parts. Above it, the log is out of order everywhere. */
+/** Maximum fraction of steps back in time in a log that consists of parts. Above it, the log is out of order everywhere. */
 const MAX_STEPS_BACK = 0.1;
 
-/** Classes of rows: kept, kept although late, dropped as far from all others, or dropped because the clock was set back. */
+/** Classes of rows: kept, kept although late, dropped because their time is far from all others, or because the clock was set back. */
 export const [KEPT, LATE, STRAY, SET_BACK] = [0, 1, 2, 3];
 
 interface Order {
@@ -37,63 +37,63 @@ interface Order {
  */
 export function sortRows(t: Float64Array, isSame: (one: number, other: number) => boolean): Order {
   const classes = new Uint8Array(t.length);
-  const all = new Uint32Array(t.length);
+  const allRows = new Uint32Array(t.length);
   let stepsBack = 0;
   for (let i = 0; i < t.length; i++) {
-    all[i] = i;
+    allRows[i] = i;
     if (t[i] < t[i - 1]) stepsBack += 1;
   }
-  if (stepsBack === 0) return { order: all, classes, setBack: -1, largest: t.length };
+  if (stepsBack === 0) return { order: allRows, classes, setBack: -1, largest: t.length };
 
-  const sorted = all.toSorted((one, other) => t[one] - t[other] || one - other);
+  const sortedRows = allRows.toSorted((one, other) => t[one] - t[other] || one - other);
   // Parts of the log may have the same times, so that sorting makes the steps shorter. A log that is out of order everywhere has no parts.
-  const ordered = stepsBack > MAX_STEPS_BACK * t.length ? sorted : all;
-  const step = quantile(sample(t.length - 1, (i) => t[ordered[i + 1]] - t[ordered[i]]).filter((each) => each > 0), 0.5);
-  const places = new Uint32Array(t.length);
-  for (let place = 0; place < t.length; place++) places[sorted[place]] = place;
-  const isAlone = (i: number) => [t[sorted[places[i] - 1]], t[sorted[places[i] + 1]]].every((other) => !(Math.abs(other - t[i]) <= MAX_GAP_STEPS * step));
+  const orderedRows = stepsBack > MAX_STEPS_BACK * t.length ? sortedRows : allRows;
+  const medianStep = quantile(sample(t.length - 1, (i) => t[orderedRows[i + 1]] - t[orderedRows[i]]).filter((each) => each > 0), 0.5);
+  const ranks = new Uint32Array(t.length);
+  for (let rank = 0; rank < t.length; rank++) ranks[sortedRows[rank]] = rank;
+  const isFarFromOthers = (i: number) => [t[sortedRows[ranks[i] - 1]], t[sortedRows[ranks[i] + 1]]].every((other) => !(Math.abs(other - t[i]) <= MAX_GAP_STEPS * medianStep));
   for (let i = 0; i < t.length; i++) {
-    const around = t[i + 1] - t[i - 1];
-    const isBetween = t[i] >= t[i - 1] && t[i] <= t[i + 1];
-    if (around >= 0 && around <= MAX_GAP_STEPS * step && !isBetween && isAlone(i)) classes[i] = STRAY;
+    const neighbourGap = t[i + 1] - t[i - 1];
+    const isBetweenNeighbours = t[i] >= t[i - 1] && t[i] <= t[i + 1];
+    if (neighbourGap >= 0 && neighbourGap <= MAX_GAP_STEPS * medianStep && !isBetweenNeighbours && isFarFromOthers(i)) classes[i] = STRAY;
   }
 
   // Runs are rows with rising times. A run that repeats times of earlier runs begins a new part.
-  const runs = new Uint32Array(t.length);
+  const runOfRow = new Uint32Array(t.length);
   for (let i = 1, last = 0; i < t.length; i++) {
-    runs[i] = runs[i - 1];
+    runOfRow[i] = runOfRow[i - 1];
     if (classes[i - 1] !== STRAY) last = i - 1;
-    if (classes[i] !== STRAY && t[i] < t[last]) runs[i] += 1;
+    if (classes[i] !== STRAY && t[i] < t[last]) runOfRow[i] += 1;
   }
-  const overlaps = new Uint32Array(runs[t.length - 1] + 1);
-  let previous = -1;
-  for (const i of sorted) {
+  const overlapCounts = new Uint32Array(runOfRow[t.length - 1] + 1);
+  let previousRow = -1;
+  for (const i of sortedRows) {
     if (classes[i] === STRAY) continue;
-    const isRepeated = previous >= 0 && runs[previous] !== runs[i] && t[i] - t[previous] < SAME_TIME_STEPS * step;
-    if (isRepeated && !isSame(previous, i)) overlaps[Math.max(runs[previous], runs[i])] += 1;
-    previous = i;
+    const isRepeated = previousRow >= 0 && runOfRow[previousRow] !== runOfRow[i] && t[i] - t[previousRow] < SAME_TIME_STEPS * medianStep;
+    if (isRepeated && !isSame(previousRow, i)) overlapCounts[Math.max(runOfRow[previousRow], runOfRow[i])] += 1;
+    previousRow = i;
   }
-  const parts = new Uint32Array(t.length);
-  const sizes = [0];
+  const partOfRow = new Uint32Array(t.length);
+  const partSizes = [0];
   let setBack = -1;
   for (let i = 0; i < t.length; i++) {
-    if (i > 0 && runs[i] !== runs[i - 1] && overlaps[runs[i]] >= MIN_OVERLAP) {
+    if (i > 0 && runOfRow[i] !== runOfRow[i - 1] && overlapCounts[runOfRow[i]] >= MIN_OVERLAP) {
       if (setBack < 0) setBack = i;
-      sizes.push(0);
+      partSizes.push(0);
     }
-    parts[i] = sizes.length - 1;
-    if (classes[i] !== STRAY) sizes[parts[i]] += 1;
+    partOfRow[i] = partSizes.length - 1;
+    if (classes[i] !== STRAY) partSizes[partOfRow[i]] += 1;
   }
-  const largest = Math.max(...sizes);
-  const keptPart = sizes.indexOf(largest);
-  let newest = -Infinity;
+  const largestSize = Math.max(...partSizes);
+  const largestPart = partSizes.indexOf(largestSize);
+  let newestTime = -Infinity;
   for (let i = 0; i < t.length; i++) {
     if (classes[i] === STRAY) continue;
-    if (parts[i] !== keptPart) classes[i] = SET_BACK;
-    else if (t[i] < newest) classes[i] = LATE;
-    else newest = t[i];
+    if (partOfRow[i] !== largestPart) classes[i] = SET_BACK;
+    else if (t[i] < newestTime) classes[i] = LATE;
+    else newestTime = t[i];
   }
-  return { order: sorted.filter((i) => classes[i] < STRAY), classes, setBack, largest };
+  return { order: sortedRows.filter((i) => classes[i] < STRAY), classes, setBack, largest: largestSize };
 }
 
 /** Repeated poses of a moving robot: maximum duration in s of a run of equal rows, and minimum number of such runs. */
@@ -103,22 +103,22 @@ const [MAX_HOLD, MIN_HOLDS] = [1, 20];
 const MIN_HELD_FRACTION = 0.8;
 
 /**
- * Returns the number of rows for each pose of a moving robot; usually 1. A table with topics of different rates repeats the poses of the
- * slower ones.
+ * Returns the number of rows for each pose of a moving robot, which is usually 1. A table with topics of different rates repeats the poses
+ * of the slower topics.
  *
  * @param isRepeated checks whether a row has the pose of the row before
  */
 export function repeatFactor(t: Float64Array, isRepeated: (i: number) => boolean): number {
-  const lengths: number[] = [];
+  const runLengths: number[] = [];
   let [single, held] = [0, 0];
   for (let from = 0, to; from < t.length; from = to) {
     for (to = from + 1; to < t.length && isRepeated(to); ) to += 1;
     if (to - from === 1) single += 1;
     else if (t[to - 1] - t[from] <= MAX_HOLD) {
       held += to - from;
-      lengths.push(to - from);
+      runLengths.push(to - from);
     }
   }
-  if (lengths.length < MIN_HOLDS || held < MIN_HELD_FRACTION * (held + single)) return 1;
-  return quantile(Float64Array.from(lengths), 0.5);
+  if (runLengths.length < MIN_HOLDS || held < MIN_HELD_FRACTION * (held + single)) return 1;
+  return quantile(Float64Array.from(runLengths), 0.5);
 }

@@ -1,4 +1,4 @@
-/** Pairs of logs of one drive, and checks between the two. */
+/** Pairs of logs of one drive, and checks of one log against the other. */
 
 import { bisectLeft } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
@@ -11,13 +11,13 @@ import { framesText, type Log, type Note, type Poses, type Role, type Warning } 
 /** Two logs of one drive, with times after the same start. */
 export interface Drive { odometry: Log; reference: Log }
 
-/** Minimum fraction of the shorter log's time that two logs of one drive share. */
+/** Minimum overlap in time of two logs of one drive, as a fraction of the shorter log's duration. */
 const MIN_OVERLAP = 0.5;
 
 /** Number of rows that are compared to detect one path in two files, and minimum number of equal rows that proves it. */
 const [COMPARED_ROWS, MIN_EQUAL_ROWS] = [500, 10];
 
-/** Largest difference in m and rad between copies of one path: the rounding to six digits. */
+/** Maximum difference (m and rad) between copies of one path, due to rounding to six digits. */
 const COPY_TOLERANCE = 1e-5;
 
 /** Steps in m to which positions of a file may be rounded, and minimum length of a rounded path, in steps: no odometry is as exact that far. */
@@ -27,35 +27,35 @@ const [ROUNDING_STEPS, MIN_ROUNDED_LENGTH] = [[1e-2, 1e-3, 1e-4], 2000];
 const MIN_MOTION = 0.1;
 
 /**
- * Fractions of rows that repeat the previous pose: minimum for wheel odometry of a robot that rests at times, and maximum for a
- * measurement, which has noise.
+ * Fractions of rows that repeat the previous pose: minimum for wheel odometry, because a robot rests at times, and maximum for an external
+ * measurement, because it has noise.
  */
 const [MIN_WHEEL_REPEATS, MAX_MEASURED_REPEATS] = [0.02, 0.001];
 
-/** Options that correct the unit of a log that was read with a wrong one, by the correction. */
+/** Options for the unit of a log that was read with a wrong unit, by the name of the correction. */
 const UNIT_OPTIONS: { [Name in Correction['name']]?: 'angleUnit' | 'lengthUnit' } = { degrees: 'angleUnit', radians: 'angleUnit', lengths: 'lengthUnit' };
 
 /** Returns the absolute times of the first and the last row. */
 const spanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
 
-const printedSpan = (log: Log) => spanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
+const spanText = (log: Log) => spanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
 
-/** Returns the duration that two logs have in common; negative for logs apart. */
+/** Returns the duration of the overlap of two logs; negative if there is a gap between them. */
 function overlap(one: Log, other: Log): number {
   const [[a, b], [c, d]] = [spanOf(one), spanOf(other)];
   return Math.min(b, d) - Math.max(a, c);
 }
 
 /** Returns the name of a file without its extension and words for a role: the part that both files of a drive have in common. */
-const stemOf = (name: string) => name.toLowerCase().replace(/\.\w+$/, '').replace(/odom(etry)?|wheels?|encoders?|cmd(_vel)?|(ground)?[_-]?truth|gt|reference|ref|mocap|vicon|optitrack|poses?/g, '').replace(/[^a-z0-9]+/g, '');
+const fileStem = (name: string) => name.toLowerCase().replace(/\.\w+$/, '').replace(/odom(etry)?|wheels?|encoders?|cmd(_vel)?|(ground)?[_-]?truth|gt|reference|ref|mocap|vicon|optitrack|poses?/g, '').replace(/[^a-z0-9]+/g, '');
 
 /** Pairs logs of several drives: by their times, by the names of their files, or in their order. */
 export function pairedByTime(odometry: Log[], reference: Log[]): [Log, Log][] {
-  const isLong = (one: Log, other: Log) => overlap(one, other) > MIN_OVERLAP * Math.min(one.summary.seconds, other.summary.seconds);
-  const isNamed = (one: Log, other: Log) => stemOf(one.name) === stemOf(other.name);
-  for (const match of [isLong, isNamed]) {
-    const partners = odometry.map((one) => reference.filter((other) => match(one, other)));
-    if (partners.every(({ length }) => length === 1) && new Set(partners.flat()).size === reference.length) return odometry.map((one, i) => [one, partners[i][0]]);
+  const overlapsMostly = (one: Log, other: Log) => overlap(one, other) > MIN_OVERLAP * Math.min(one.summary.seconds, other.summary.seconds);
+  const hasSameStem = (one: Log, other: Log) => fileStem(one.name) === fileStem(other.name);
+  for (const isMatch of [overlapsMostly, hasSameStem]) {
+    const partnersOfEach = odometry.map((one) => reference.filter((other) => isMatch(one, other)));
+    if (partnersOfEach.every(({ length }) => length === 1) && new Set(partnersOfEach.flat()).size === reference.length) return odometry.map((one, i) => [one, partnersOfEach[i][0]]);
   }
   return odometry.map((one, i) => [one, reference[i]]);
 }
@@ -69,47 +69,47 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   if (reference.kind === 'commands') throw new LogError(place, (say) => say.noColumns('poses', 't, v, omega'));
   const { frames } = reference.summary;
   if (frames?.parent === 'odom') throw new LogError(place, (say) => say.ownReference(framesText(frames)));
-  const start = Math.min(odometry.start, reference.start);
-  const [first, second] = [withStart(odometry, start), withStart(reference, start)];
+  const commonStart = Math.min(odometry.start, reference.start);
+  const [first, second] = [withStart(odometry, commonStart), withStart(reference, commonStart)];
   if (isSamePath(first, second)) throw new LogError(place, (say) => (reference.name === odometry.name ? say.givenTwice : say.same(odometry.name)));
-  const reliable = withoutFrozenPoses(second, first);
-  if (reliable.data.t.length < 2) throw new LogError(place, (say) => say.held);
-  const correction = correctionOf(first, reliable);
+  const reliableReference = withoutFrozenPoses(second, first);
+  if (reliableReference.data.t.length < 2) throw new LogError(place, (say) => say.held);
+  const correction = correctionOf(first, reliableReference);
   if (correction) {
-    const what = UNIT_OPTIONS[correction.name];
-    const [log, other] = correction.at === 'odometry' ? [odometry, reference] : [reference, odometry];
-    throw new LogError({ file: log.name }, (say) => say.correction(correction.name, other.name, correction.score, correction.factor), what && { what, choices: [] });
+    const unitOption = UNIT_OPTIONS[correction.name];
+    const [log, otherLog] = correction.at === 'odometry' ? [odometry, reference] : [reference, odometry];
+    throw new LogError({ file: log.name }, (say) => say.correction(correction.name, otherLog.name, correction.score, correction.factor), unitOption && { what: unitOption, choices: [] });
   }
-  const swapped = swappedBy(first, second);
+  const swapSign = signOfSwap(first, second);
   const notes: Note[] = [
-    ...reliable.summary.notes,
-    ...(swapped ? [{ name: 'swapped' as const, values: [odometry.name, swapped] }] : []),
+    ...reliableReference.summary.notes,
+    ...(swapSign ? [{ name: 'swapped' as const, values: [odometry.name, swapSign] }] : []),
     ...(isLocalizer(reference.name, reference.summary.frames) ? [{ name: 'localizer' as const, values: [] }] : []),
-    ...(overlap(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, printedSpan(reference), printedSpan(odometry)] }] : []),
+    ...(overlap(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, spanText(reference), spanText(odometry)] }] : []),
   ];
-  return { odometry: first, reference: { ...reliable, summary: { ...reliable.summary, notes } } };
+  return { odometry: first, reference: { ...reliableReference, summary: { ...reliableReference.summary, notes } } };
 }
 
-/** Returns the sign by which the logs are swapped: names, or poses that repeat at rest in the reference only, as those of wheels do. */
-function swappedBy(odometry: Log, reference: Log): 'name' | 'rest' | undefined {
-  const roles = [odometry, reference].map(({ name }) => roleByName(name));
-  if (roles[0] !== 'odometry' && roles[1] === 'odometry') return 'name';
-  const rests = ({ data }: Log) => ('x' in data ? data.x.reduce((count, x, i) => count + Number(x === data.x[i - 1] && data.y[i] === data.y[i - 1] && data.theta[i] === data.theta[i - 1]), 0) / data.x.length : 1);
-  return roles.every((role) => role === undefined) && rests(reference) > MIN_WHEEL_REPEATS && rests(odometry) < MAX_MEASURED_REPEATS ? 'rest' : undefined;
+/** Returns the sign that the logs are swapped: their names, or that only the reference repeats poses at rest, as wheel odometry does. */
+function signOfSwap(odometry: Log, reference: Log): 'name' | 'rest' | undefined {
+  const rolesByName = [odometry, reference].map(({ name }) => roleByName(name));
+  if (rolesByName[0] !== 'odometry' && rolesByName[1] === 'odometry') return 'name';
+  const repeatFraction = ({ data }: Log) => ('x' in data ? data.x.reduce((count, x, i) => count + Number(x === data.x[i - 1] && data.y[i] === data.y[i - 1] && data.theta[i] === data.theta[i - 1]), 0) / data.x.length : 1);
+  return rolesByName.every((role) => role === undefined) && repeatFraction(reference) > MIN_WHEEL_REPEATS && repeatFraction(odometry) < MAX_MEASURED_REPEATS ? 'rest' : undefined;
 }
 
-const WARNINGS: Warning[] = ['localizer', 'swapped'];
+const WARNING_NAMES: Warning[] = ['localizer', 'swapped'];
 
-/** Returns the notes of logs that leave the α's doubtful. */
-export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] => WARNINGS.filter((warning) => logs.some(({ summary: { notes } }) => notes.some(({ name }) => name === warning)));
+/** Returns the notes of logs that make the α's doubtful. */
+export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] => WARNING_NAMES.filter((warning) => logs.some(({ summary: { notes } }) => notes.some(({ name }) => name === warning)));
 
 /** Returns a log with its times in seconds after another start. */
 export function withStart(log: Log, start: number): Log {
-  const later = log.start - start;
-  return later === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((each) => each + later) } };
+  const startDifference = log.start - start;
+  return startDifference === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((each) => each + startDifference) } };
 }
 
-/** Returns the logs of drives as the core takes them: arrays where there are several. */
+/** Returns the logs of drives in the form that the core takes: arrays if there are several drives. */
 export function logOf(drives: Drive[]): Pick<CalibrationLog, Role> {
   const odometry = drives.map((drive) => drive.odometry.data);
   const reference = drives.map((drive) => drive.reference.data as Poses);
@@ -117,7 +117,7 @@ export function logOf(drives: Drive[]): Pick<CalibrationLog, Role> {
 }
 
 /**
- * Checks whether two logs are copies of one path. Rows of equal times then have the same motion since the first of them, in any frames, or
+ * Returns true if two logs are copies of one path: rows at equal times have the same motion since the first such row, in any frames, or the
  * positions of one log are those of the other, rounded.
  */
 export function isSamePath(one: Log, two: Log): boolean {
@@ -127,21 +127,21 @@ export function isSamePath(one: Log, two: Log): boolean {
   if ('v' in poses || 'v' in other) {
     return (one.kind === two.kind || one.name === two.name) && t.length === other.t.length && t.every((time, i) => time === other.t[i]);
   }
-  const every = Math.ceil(t.length / COMPARED_ROWS);
-  const motion = ({ x, y, theta }: Poses, from: number, to: number) => {
+  const rowStride = Math.ceil(t.length / COMPARED_ROWS);
+  const motionBetween = ({ x, y, theta }: Poses, from: number, to: number) => {
     const [dx, dy, cos, sin] = [x[to] - x[from], y[to] - y[from], Math.cos(theta[from]), Math.sin(theta[from])];
     return [cos * dx + sin * dy, cos * dy - sin * dx, theta[to] - theta[from]];
   };
   const isRoundedTo = (step: number) => [poses, other].some(({ x, y }) => [x, y].every((all) => all.every((value) => Math.abs(value / step - Math.round(value / step)) < 1e-6)));
   const step = ROUNDING_STEPS.find((each) => one.summary.distance > MIN_ROUNDED_LENGTH * each && isRoundedTo(each)) ?? 0;
   let [isMoved, isRounded] = [true, step > 0];
-  let first: [number, number] | undefined;
+  let firstRows: [number, number] | undefined;
   let [rows, moved] = [0, 0];
-  for (let i = 0; i < t.length; i += every) {
+  for (let i = 0; i < t.length; i += rowStride) {
     const j = bisectLeft(other.t, t[i] - 1e-6);
     if (!(Math.abs(other.t[j] - t[i]) <= 1e-6)) continue;
-    first ??= [i, j];
-    const [own, its] = [motion(poses, first[0], i), motion(other, first[1], j)];
+    firstRows ??= [i, j];
+    const [own, its] = [motionBetween(poses, firstRows[0], i), motionBetween(other, firstRows[1], j)];
     const distance = Math.hypot(own[0], own[1]);
     const turn = Math.abs(Math.sin((own[2] - its[2]) / 2));
     isMoved &&= Math.hypot(own[0] - its[0], own[1] - its[1]) <= COPY_TOLERANCE * (1 + distance) && turn <= COPY_TOLERANCE;

@@ -37,32 +37,32 @@ export function pathOf(data: Poses | Commands, every = 1): Path {
   return path;
 }
 
-/** Returns the interpolated pose at a time; the first or the last one outside of the path's times. */
+/** Returns the interpolated pose at a time. Outside of the path's times, returns its first or last pose. */
 export function poseAt({ t, poses }: Path, time: number): Pose {
-  const next = Math.min(Math.max(bisectLeft(t, time), 1), t.length - 1);
-  const share = Math.min(Math.max((time - t[next - 1]) / (t[next] - t[next - 1]), 0), 1);
-  const [one, other] = [poses[next - 1], poses[next]];
-  return [one[0] + share * (other[0] - one[0]), one[1] + share * (other[1] - one[1]), one[2] + share * wrapped(other[2] - one[2])];
+  const nextIndex = Math.min(Math.max(bisectLeft(t, time), 1), t.length - 1);
+  const fraction = Math.min(Math.max((time - t[nextIndex - 1]) / (t[nextIndex] - t[nextIndex - 1]), 0), 1);
+  const [one, other] = [poses[nextIndex - 1], poses[nextIndex]];
+  return [one[0] + fraction * (other[0] - one[0]), one[1] + fraction * (other[1] - one[1]), one[2] + fraction * wrapped(other[2] - one[2])];
 }
 
-/** Rotates and moves a path to the least squared distance from another one, whose times are later by an offset. */
-export function aligned(path: Path, target: Path, offset = 0): Path {
-  const pairs = path.poses.flatMap((pose, i): [Pose, Pose][] => {
+/** Rotates and moves a path so that its squared distance to the target is smallest. Times of the target are later by `offset`. */
+export function alignedPath(path: Path, target: Path, offset = 0): Path {
+  const posePairs = path.poses.flatMap((pose, i): [Pose, Pose][] => {
     const time = path.t[i] + offset;
     return time >= target.t[0] && time <= target.t[target.t.length - 1] ? [[pose, poseAt(target, time)]] : [];
   });
-  if (pairs.length === 0) return path;
-  const [from, to] = [0, 1].map((side) => [0, 1].map((axis) => mean(pairs, (pair) => pair[side][axis]) as number));
+  if (posePairs.length === 0) return path;
+  const [from, to] = [0, 1].map((side) => [0, 1].map((axis) => mean(posePairs, (pair) => pair[side][axis]) as number));
   let [cos, sin] = [0, 0];
-  for (const [[x, y], [u, v]] of pairs) {
+  for (const [[x, y], [u, v]] of posePairs) {
     cos += (x - from[0]) * (u - to[0]) + (y - from[1]) * (v - to[1]);
     sin += (x - from[0]) * (v - to[1]) - (y - from[1]) * (u - to[0]);
   }
   const angle = Math.atan2(sin, cos);
-  const moved = ([x, y, heading]: Pose): Pose => [
+  const movedPose = ([x, y, heading]: Pose): Pose => [
     to[0] + Math.cos(angle) * (x - from[0]) - Math.sin(angle) * (y - from[1]),
     to[1] + Math.sin(angle) * (x - from[0]) + Math.cos(angle) * (y - from[1]),
     heading + angle,
   ];
-  return { ...path, poses: path.poses.map(moved) };
+  return { ...path, poses: path.poses.map(movedPose) };
 }

@@ -3,11 +3,11 @@
 /** Maximum number of items from which a quantile is computed. */
 const MAX_ITEMS = 10_000;
 
-/** Evaluates many evenly spread items. */
+/** Evaluates `value` at evenly spaced indices below `count`, at most `MAX_ITEMS` of them. */
 export function sample(count: number, value: (i: number) => number): Float64Array {
-  const every = Math.max(1, Math.ceil(count / MAX_ITEMS));
-  const values = new Float64Array(Math.max(0, Math.ceil(count / every)));
-  for (let i = 0; i < values.length; i++) values[i] = value(i * every);
+  const stride = Math.max(1, Math.ceil(count / MAX_ITEMS));
+  const values = new Float64Array(Math.max(0, Math.ceil(count / stride)));
+  for (let i = 0; i < values.length; i++) values[i] = value(i * stride);
   return values;
 }
 

@@ -6,7 +6,7 @@ export interface Quaternion extends Vector { w: number }
 /** Largest deviation from length 1 that rounding explains. */
 const LENGTH_TOLERANCE = 0.1;
 
-/** Number of steps per radian that headings are rounded to. */
+/** Number of steps per radian to which headings are rounded. */
 const HEADING_STEPS = 1e12;
 
 /** Returns the angle about the vertical axis, for quaternions of any length. */
@@ -15,13 +15,13 @@ export function headingOf(qx: number, qy: number, qz: number, qw: number): numbe
   return Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * HEADING_STEPS) / HEADING_STEPS;
 }
 
-/** Checks that a quaternion has length 1. One with NaN passes: its row is dropped as not finite. */
+/** Returns true if a quaternion has length 1. A quaternion with NaN passes, because its row is dropped as not finite. */
 export function isRotation(qx: number, qy: number, qz: number, qw: number): boolean {
   return !(Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > LENGTH_TOLERANCE);
 }
 
 /** Returns the Hamilton product. */
-export const product = (a: Quaternion, b: Quaternion): Quaternion => ({
+export const hamiltonProduct = (a: Quaternion, b: Quaternion): Quaternion => ({
   x: a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
   y: a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
   z: a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
@@ -29,6 +29,6 @@ export const product = (a: Quaternion, b: Quaternion): Quaternion => ({
 });
 
 /** Rotates a vector by a quaternion of length 1. */
-export function rotated(q: Quaternion, v: Vector): Vector {
-  return product(product(q, { ...v, w: 0 }), { x: -q.x, y: -q.y, z: -q.z, w: q.w });
+export function rotateVector(q: Quaternion, v: Vector): Vector {
+  return hamiltonProduct(hamiltonProduct(q, { ...v, w: 0 }), { x: -q.x, y: -q.y, z: -q.z, w: q.w });
 }

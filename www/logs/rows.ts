@@ -8,8 +8,8 @@ import { quantile, sample } from './quantile.ts';
 import { distanceOf } from './summary.ts';
 import { type Units, judgeUnits } from './units.ts';
 
-/** Facts about a log that the reader of its format knows. */
-interface Decisions {
+/** Facts about a log that the format's reader knows. */
+interface LogFacts {
   /** Units that a name or the format states. */
   units: Units;
   /** Name of the clock of the rows, and of the other clock if there is one. */
@@ -57,7 +57,7 @@ export class Rows {
   #isBroken = false;
   #dropped: Summary['dropped'] = {};
 
-  /** Number of all rows, including dropped ones. */
+  /** Number of all rows, including dropped rows. */
   count = 0;
 
   /** @param place for errors */
@@ -90,14 +90,14 @@ export class Rows {
     this.count += 1;
     if (this.count > MAX_ROWS) throw new LogError(this.#place, (say) => say.rows(MAX_ROWS));
     if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) {
-      const far = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE) ?? NaN;
-      throw new LogError(this.#placeOf(line), (say) => say.far(far, MAX_VALUE, this.#messageNumber(line)));
+      const tooLargeValue = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE) ?? NaN;
+      throw new LogError(this.#placeOf(line), (say) => say.far(tooLargeValue, MAX_VALUE, this.#messageNumber(line)));
     }
     const at = WIDTH * this.#added++;
     if (at === this.#numbers.length) {
-      const grown = new Float64Array(2 * at);
-      grown.set(this.#numbers);
-      this.#numbers = grown;
+      const largerNumbers = new Float64Array(2 * at);
+      largerNumbers.set(this.#numbers);
+      this.#numbers = largerNumbers;
     }
     const numbers = this.#numbers;
     numbers[at + SECONDS] = seconds;
@@ -118,16 +118,16 @@ export class Rows {
    * @param options answers to questions about units
    * @throws {LogError} if the remaining rows are no log, or their units are in doubt
    */
-  end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: Decisions, options: OpenOptions = {}): Log {
+  end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
     if (clocks[1] !== undefined) this.#sortByOtherClock();
-    const usesOther = this.#chooseClock(clocks[1] !== undefined);
+    const usesOtherClock = this.#chooseClock(clocks[1] !== undefined);
     const { rows, late, causes, ...times } = this.#inOrder(kind);
     const broken = this.#brokenRows(causes);
     const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
     const { count } = this;
     if (rows.length < 2) {
-      const [cause, dropped] = (Object.entries(this.#dropped) as [Cause, { first: number }][])[0] ?? [];
-      throw new LogError(this.#placeOf(dropped?.first ?? 0), (say) => say.few(rows.length, count, cause));
+      const [cause, firstDrop] = (Object.entries(this.#dropped) as [Cause, { first: number }][])[0] ?? [];
+      throw new LogError(this.#placeOf(firstDrop?.first ?? 0), (say) => say.few(rows.length, count, cause));
     }
     const columns = { ...times, a, b, c };
     const units = judgeUnits(this.#place, kind, columns, assumed, options);
@@ -135,23 +135,23 @@ export class Rows {
     const { breaks, jumped, ...found } = this.#events(kind, [t, a, b, c], (i) => broken.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = late > 0 ? [...decisions.notes, { name: 'sorted' as const, values: [late] }] : decisions.notes;
-    const seconds = t[t.length - 1] - t[0];
+    const duration = t[t.length - 1] - t[0];
     const summary = {
-      rows: count, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumped), ...found,
-      ...decisions, units, clock: clocks[usesOther ? 1 : 0] ?? '', notes,
+      rows: count, used: t.length, dropped: this.#dropped, seconds: duration, distance: distanceOf(data, jumped), ...found,
+      ...decisions, units, clock: clocks[usesOtherClock ? 1 : 0] ?? '', notes,
     };
     return { name, kind, start, data, summary };
   }
 
-  /** Sorts the rows by the other clock, that of recording. Blocks of a file may be out of order. */
+  /** Sorts the rows by the other clock, the time of recording. Blocks of a file may be out of order. */
   #sortByOtherClock(): void {
     const numbers = this.#numbers;
-    const compare = (one: number, other: number) =>
+    const compareTimes = (one: number, other: number) =>
       this.#number(one, OTHER_SECONDS) - this.#number(other, OTHER_SECONDS) || this.#number(one, OTHER_REST) - this.#number(other, OTHER_REST);
     let row = 1;
-    while (row < this.#added && compare(row - 1, row) <= 0) row += 1;
+    while (row < this.#added && compareTimes(row - 1, row) <= 0) row += 1;
     if (row >= this.#added) return;
-    const order = this.#rows.sort(compare);
+    const order = this.#rows.sort(compareTimes);
     this.#numbers = new Float64Array(numbers.length);
     for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(WIDTH * from, WIDTH * (from + 1)), WIDTH * rank);
   }
@@ -191,89 +191,89 @@ export class Rows {
     return this.#number(one, A) === this.#number(other, A) && this.#number(one, B) === this.#number(other, B) && this.#number(one, C) === this.#number(other, C);
   }
 
-  /** Returns the kept rows in the order of their times, which are all different, the number of late rows, and causes for dropping others. */
+  /** Returns the kept rows in the order of their (distinct) times, the number of late rows, and the causes for dropping rows. */
   #inOrder(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; late: number; causes: Map<number, Cause> } {
     const causes = new Map<number, Cause>();
-    // If other times are since 1970, a stamp of 0 means that it was not set.
-    const withStamp = this.#rows.filter((row) => !this.#isUnset(row));
-    const isSince1970 = withStamp.every((row) => this.#number(row, this.#clock) > MIN_EPOCH_TIME);
-    const stamped = isSince1970 ? withStamp : this.#rows;
-    const base = Math.floor(this.#number(stamped[0], this.#clock));
-    const times = this.#column(stamped, (row) => this.#time(row, base));
-    const { order, classes, setBack, largest } = sortRows(times, (one, other) => this.#isSame(stamped[one], stamped[other]));
+    // If all other times are since 1970, a stamp of 0 was not set.
+    const rowsWithStamp = this.#rows.filter((row) => !this.#isUnset(row));
+    const isSince1970 = rowsWithStamp.every((row) => this.#number(row, this.#clock) > MIN_EPOCH_TIME);
+    const usedRows = isSince1970 ? rowsWithStamp : this.#rows;
+    const baseSecond = Math.floor(this.#number(usedRows[0], this.#clock));
+    const times = this.#column(usedRows, (row) => this.#time(row, baseSecond));
+    const { order, classes, setBack, largest } = sortRows(times, (one, other) => this.#isSame(usedRows[one], usedRows[other]));
     if (setBack >= 0 && largest < MIN_FRACTION * times.length) {
-      const line = this.#number(stamped[setBack], LINE);
+      const line = this.#number(usedRows[setBack], LINE);
       throw new LogError(this.#placeOf(line), (say) => say.setBack(times[setBack - 1] - times[setBack], this.#messageNumber(line)));
     }
 
     // The start is computed from the first row in time. A difference to the first row in the file might be too large to be exact.
-    const sorted = order.map((i) => stamped[i]);
-    const [seconds, rest] = [this.#clock, this.#clock + 1].map((index) => this.#number(sorted[0], index));
+    const sortedRows = order.map((i) => usedRows[i]);
+    const [seconds, rest] = [this.#clock, this.#clock + 1].map((index) => this.#number(sortedRows[0], index));
     const start = Math.floor(seconds) + Math.floor(seconds - Math.floor(seconds) + rest);
     let [last, different] = [-Infinity, 0];
-    let rows = sorted.filter((row, i) => {
-      const time = this.#time(row, start);
-      if (i === 0 || time > last) {
-        last = time;
+    let rows = sortedRows.filter((row, i) => {
+      const rowTime = this.#time(row, start);
+      if (i === 0 || rowTime > last) {
+        last = rowTime;
         return true;
       }
       causes.set(row, 'duplicate');
-      if (!this.#isSame(sorted[i - 1], row)) different += 1;
+      if (!this.#isSame(sortedRows[i - 1], row)) different += 1;
       return false;
     });
-    if (sorted.length > 3 && different > (1 - MIN_FRACTION) * sorted.length) {
+    if (sortedRows.length > 3 && different > (1 - MIN_FRACTION) * sortedRows.length) {
       const line = this.#number(min(causes.keys()) as number, LINE);
-      throw new LogError(this.#placeOf(line), (say) => say.sameTimes(different, sorted.length, this.#messageNumber(line)));
+      throw new LogError(this.#placeOf(line), (say) => say.sameTimes(different, sortedRows.length, this.#messageNumber(line)));
     }
-    const timesOf = (chosen: Uint32Array) => this.#column(chosen, (row) => this.#time(row, start));
-    const distinct = rows;
-    const isRepeated = (i: number) => i > 0 && this.#isSame(distinct[i - 1], distinct[i]);
-    const factor = kind === 'poses' ? repeatFactor(timesOf(distinct), isRepeated) : 1;
-    let repeats = 0;
-    // Every `factor`-th of repeated poses is kept, so that the log has the same rate while the robot stands.
-    if (factor > 1) {
-      rows = distinct.filter((row, i) => {
-        repeats = isRepeated(i) ? repeats + 1 : 0;
-        if (repeats % factor !== 0) causes.set(row, 'repeated');
-        return repeats % factor === 0;
+    const timesOfRows = (chosen: Uint32Array) => this.#column(chosen, (row) => this.#time(row, start));
+    const distinctRows = rows;
+    const isRepeated = (i: number) => i > 0 && this.#isSame(distinctRows[i - 1], distinctRows[i]);
+    const repeatsPerPose = kind === 'poses' ? repeatFactor(timesOfRows(distinctRows), isRepeated) : 1;
+    let repeatCount = 0;
+    // Every `repeatsPerPose`-th of repeated poses is kept, so that the log has the same rate while the robot stands.
+    if (repeatsPerPose > 1) {
+      rows = distinctRows.filter((row, i) => {
+        repeatCount = isRepeated(i) ? repeatCount + 1 : 0;
+        if (repeatCount % repeatsPerPose !== 0) causes.set(row, 'repeated');
+        return repeatCount % repeatsPerPose === 0;
       });
     }
-    stamped.forEach((row, i) => {
+    usedRows.forEach((row, i) => {
       if (classes[i] === STRAY || classes[i] === SET_BACK) causes.set(row, classes[i] === STRAY ? 'stray' : 'setBack');
     });
-    if (stamped.length < this.#added) for (const row of this.#rows) if (this.#isUnset(row)) causes.set(row, 'noStamp');
-    return { start, t: timesOf(rows), rows, late: classes.reduce((count, each) => count + Number(each === LATE), 0), causes };
+    if (usedRows.length < this.#added) for (const row of this.#rows) if (this.#isUnset(row)) causes.set(row, 'noStamp');
+    return { start, t: timesOfRows(rows), rows, late: classes.reduce((count, each) => count + Number(each === LATE), 0), causes };
   }
 
   /** Returns the rows before which the path is unknown: after unusable rows, and where the clock was set back. Counts the dropped rows. */
   #brokenRows(causes: Map<number, Cause>): Set<number> {
-    const broken = new Set<number>();
-    let isBroken = false;
+    const rowsAfterBreak = new Set<number>();
+    let isAfterBreak = false;
     for (let row = 0; row < this.#added; row++) {
       const cause = causes.get(row);
-      isBroken ||= this.#number(row, IS_BROKEN) === 1 || cause === 'setBack';
+      isAfterBreak ||= this.#number(row, IS_BROKEN) === 1 || cause === 'setBack';
       if (cause) this.#countDropped(cause, this.#number(row, LINE));
-      else if (isBroken) {
-        broken.add(row);
-        isBroken = false;
+      else if (isAfterBreak) {
+        rowsAfterBreak.add(row);
+        isAfterBreak = false;
       }
     }
-    return broken;
+    return rowsAfterBreak;
   }
 
   /** Returns the rate, the gaps, the jumps, and the rows before which the path is unknown. */
   #events(kind: LogKind, [t, a, b, c]: Float64Array[], isBroken: (i: number) => boolean) {
-    const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
+    const medianStep = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     const gaps = { count: 0, longest: 0, first: NaN };
     const jumps = { count: 0, first: NaN };
     const [breaks, jumped]: number[][] = [[], []];
-    const isJump = kind === 'poses' ? jumpTest(t, a, b, c) : () => false;
+    const isJump = kind === 'poses' ? jumpChecker(t, a, b, c) : () => false;
     for (let i = 1; i < t.length; i++) {
-      const pause = t[i] - t[i - 1];
-      if (pause > MIN_GAP_STEPS * step) {
+      const timeStep = t[i] - t[i - 1];
+      if (timeStep > MIN_GAP_STEPS * medianStep) {
         if (gaps.count === 0) gaps.first = t[i - 1] - t[0];
         gaps.count += 1;
-        gaps.longest = Math.max(gaps.longest, pause);
+        gaps.longest = Math.max(gaps.longest, timeStep);
       }
       if (isJump(i)) {
         if (jumps.count === 0) jumps.first = t[i] - t[0];
@@ -282,7 +282,7 @@ export class Rows {
         breaks.push(i);
       } else if (isBroken(i)) breaks.push(i);
     }
-    return { rate: 1 / step, gaps, jumps, jumped, breaks: Uint32Array.from(breaks) };
+    return { rate: 1 / medianStep, gaps, jumps, jumped, breaks: Uint32Array.from(breaks) };
   }
 
   #placeOf(line: number): Place {
@@ -301,17 +301,17 @@ export class Rows {
 }
 
 /** Returns a function that checks for a jump between a row and the one before it. */
-function jumpTest(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
+function jumpChecker(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
   const distance = (i: number) => Math.sqrt((x[i] - x[i - 1]) ** 2 + (y[i] - y[i - 1]) ** 2);
   const turn = (i: number) => {
-    const difference = theta[i] - theta[i - 1];
-    return Math.abs(difference - 2 * Math.PI * Math.round(difference / (2 * Math.PI)));
+    const headingDifference = theta[i] - theta[i - 1];
+    return Math.abs(headingDifference - 2 * Math.PI * Math.round(headingDifference / (2 * Math.PI)));
   };
-  const tests = ([[distance, MIN_JUMP], [turn, MIN_JUMP_TURN]] as const).map(([length, least]) => {
-    const rates = sample(t.length - 1, (i) => length(i + 1) / (t[i + 1] - t[i]));
-    const limit = JUMP_FACTOR * quantile(rates.filter((rate) => rate > MIN_MOVING_SPEED), 0.9);
+  const motionTests = ([[distance, MIN_JUMP], [turn, MIN_JUMP_TURN]] as const).map(([length, least]) => {
+    const stepRates = sample(t.length - 1, (i) => length(i + 1) / (t[i + 1] - t[i]));
+    const jumpLimit = JUMP_FACTOR * quantile(stepRates.filter((rate) => rate > MIN_MOVING_SPEED), 0.9);
     // For a robot that never moves the limit is NaN.
-    return (i: number) => length(i) > Math.max(least, (limit || 0) * (t[i] - t[i - 1]));
+    return (i: number) => length(i) > Math.max(least, (jumpLimit || 0) * (t[i] - t[i - 1]));
   });
-  return (i) => tests.some((test) => test(i));
+  return (i) => motionTests.some((test) => test(i));
 }

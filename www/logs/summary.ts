@@ -6,7 +6,7 @@ import { LOG_TIME, framesText, type Cause, type Commands, type Log, type Poses }
 /** Minimum distance in m between two points of the path, so that the noise of poses at rest does not add up. */
 const MIN_STEP = 0.05;
 
-/** Returns the distance driven, in m, without the jumps before some rows. */
+/** Returns the distance driven, m. `jumps` are the rows before which the pose jumped; the jumps do not count. */
 export function distanceOf(data: Poses | Commands, jumps: number[]): number {
   const { t } = data;
   let distance = 0;
@@ -16,11 +16,11 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
   }
   const { x, y } = data;
   for (let i = 1, last = 0, next = 0; i < t.length; i++) {
-    const step = Math.hypot(x[i] - x[last], y[i] - y[last]);
+    const stepLength = Math.hypot(x[i] - x[last], y[i] - y[last]);
     const isJump = jumps[next] === i;
     if (isJump) next += 1;
-    else if (step < MIN_STEP) continue;
-    else distance += step;
+    else if (stepLength < MIN_STEP) continue;
+    else distance += stepLength;
     last = i;
   }
   return distance;
@@ -29,7 +29,7 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
 type Label = keyof Words['found']['labels'];
 
 /** Returns the lines about a log by their labels. */
-export function linesOf({ summary }: Log, say: Words['found']): Partial<Record<Label, string[]>> {
+export function summaryLines({ summary }: Log, say: Words['found']): Partial<Record<Label, string[]>> {
   const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames, gaps, jumps, notes } = summary;
   return {
     rows: [say.rows(used, rows, seconds, rate, distance)],
@@ -40,14 +40,14 @@ export function linesOf({ summary }: Log, say: Words['found']): Partial<Record<L
     gaps: [gaps.count ? say.gaps(gaps.count, gaps.first, gaps.longest) : say.noGaps],
     ...(jumps.count && { jumps: [say.jumps(jumps.count, jumps.first)] }),
     notes: notes.map(({ name, values }) => {
-      const note: string | ((...values: any[]) => string) = say.notes[name];
-      return typeof note === 'string' ? note : note(...values);
+      const noteText: string | ((...values: any[]) => string) = say.notes[name];
+      return typeof noteText === 'string' ? noteText : noteText(...values);
     }),
   };
 }
 
 /** Returns a sentence about the rows of a log, and one for each further line. */
-export function summarize(log: Log, say: Words['found']): string[] {
-  const { rows = [], ...others } = linesOf(log, say);
+export function summarySentences(log: Log, say: Words['found']): string[] {
+  const { rows = [], ...others } = summaryLines(log, say);
   return [...rows, ...Object.entries(others).flatMap(([label, lines]) => lines.map((line) => `${say.labels[label as Label]}: ${line}`))];
 }

@@ -1,4 +1,4 @@
-/** Logs in text: tables as robots, recorders and spreadsheets write them. */
+/** Logs in text: tables of robots, recorders and spreadsheets. */
 
 import { least } from 'd3-array';
 import { type Clock, type Group, type Layout, layoutOf } from './columns.ts';
@@ -9,16 +9,16 @@ import { type Time, dateOf, numberOf, timeOf } from './numbers.ts';
 import { quantile, sample } from './quantile.ts';
 import { headingOf, isRotation } from './quaternion.ts';
 import { Rows } from './rows.ts';
-import { POWERS, unitOfSize } from './units.ts';
+import { UNIT_EXPONENTS, unitOfSize } from './units.ts';
 
 /** Number of bytes that are read and parsed at a time. */
 const BLOCK_BYTES = 2 ** 22;
 
-/** Number of bytes from which the format is detected: a preamble and some rows. */
+/** Number of bytes at the beginning, with a preamble and some rows, from which the format is detected. */
 const HEAD_BYTES = 2 ** 18;
 
-/** Number of characters at the beginning that are no text if one of them is 0. Later zeros are a block that was never written. */
-const TEXT_CHARS = 4096;
+/** Number of characters at the beginning that must not contain a zero. Later zeros are a block that was never written. */
+const CHECKED_CHARACTERS = 4096;
 
 /** Maximum number of characters of a line: a row of a thousand columns. */
 const MAX_LINE_LENGTH = 2 ** 16;
@@ -26,10 +26,10 @@ const MAX_LINE_LENGTH = 2 ** 16;
 /** Maximum fraction of damaged rows. Above it, the table has another format than assumed, or comes from a broken disk. */
 const MAX_DAMAGED_FRACTION = 0.1;
 
-/** Minimum number of short fractions that end in 0 from which times are taken for seconds and nanoseconds without leading zeros. */
+/** Minimum number of short fractions that end in 0 from which fractions count as nanoseconds without leading zeros. */
 const MIN_UNPADDED = 5;
 
-type Reason = ConstructorParameters<typeof LogError>[1];
+type ErrorReason = ConstructorParameters<typeof LogError>[1];
 
 /** Maximum number of frames that a sentence lists. */
 const MAX_LISTED_FRAMES = 4;
@@ -39,46 +39,46 @@ const MAX_TILT_SPREAD = 0.5;
 
 /** Opens a table; rejects with a LogError. */
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
-  const encoding = await encodingOf(source);
-  const decoded = withoutHoles(new TextDecoder(encoding).decode(await bytesOf(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true }));
-  if (decoded.slice(0, TEXT_CHARS).includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
-  const end = endOf(decoded);
-  const lines = decoded.split(end);
+  const encoding = await detectEncoding(source);
+  const headText = joinZeros(new TextDecoder(encoding).decode(await bytesOf(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true }));
+  if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
+  const lineEnd = lineEndOf(headText);
+  const headLines = headText.split(lineEnd);
   // The last line may be incomplete. It is dropped unless it is the only one.
-  if (source.size > HEAD_BYTES && lines.length > 1) lines.pop();
-  const longLine = lines.findIndex((line) => line.length > MAX_LINE_LENGTH);
-  if (longLine >= 0) throw new LogError({ file: source.name, line: longLine + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
-  const format = formatOf(lines, source.name, options.columns);
-  const readable = format.groups.filter(({ kind }) => kind !== null);
-  const place = { file: source.name, line: Math.max(1, format.firstLine - 1) };
+  if (source.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
+  const longLineIndex = headLines.findIndex((line) => line.length > MAX_LINE_LENGTH);
+  if (longLineIndex >= 0) throw new LogError({ file: source.name, line: longLineIndex + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
+  const format = formatOf(headLines, source.name, options.columns);
+  const readableGroups = format.groups.filter(({ kind }) => kind !== null);
+  const headerPlace = { file: source.name, line: Math.max(1, format.firstLine - 1) };
   // If no group can be read, `layoutOf` throws the reason for the group with most columns.
-  if (readable.length === 0) layoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, place, undefined);
-  const seriesOf = (group: Group): Series => ({
-    name: readable.length === 1 && group.kind !== null ? '' : group.name || listed(columnNames(group)),
+  if (readableGroups.length === 0) layoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, headerPlace, undefined);
+  const seriesOfGroup = (group: Group): Series => ({
+    name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listed(columnNames(group)),
     type: listed(columnNames(group)),
     kind: group.kind,
     hasCommands: group.hasCommands,
     count: 0,
   });
-  const series = format.groups.map(seriesOf);
+  const allSeries = format.groups.map(seriesOfGroup);
   return {
     name: source.name,
     format: format.name,
-    series,
+    series: allSeries,
     async read(choices, onProgress) {
-      const readers = choices.map(({ series: wanted, kind }) => {
-        const chosen = readable.length === 1 && wanted === '' ? readable[0] : format.groups[series.findIndex(({ name }) => name === wanted)];
-        const layout = layoutOf(chosen, format.names, place, kind);
-        const name = readable.length === 1 ? source.name : `${source.name}, ${seriesOf(chosen).name}`;
-        const readerOf = (group: Group, upAxis?: 'Y' | 'Z') => new LogReader(name, source.name, format, group, upAxis ? layoutOf(group, format.names, place, kind) : layout, options, upAxis);
-        return format.hasUnknownAxis ? [readerOf(withYUp(chosen), 'Y'), readerOf(chosen, 'Z')] : [readerOf(chosen)];
+      const readersOfChoices = choices.map(({ series: wanted, kind }) => {
+        const chosenGroup = readableGroups.length === 1 && wanted === '' ? readableGroups[0] : format.groups[allSeries.findIndex(({ name }) => name === wanted)];
+        const layout = layoutOf(chosenGroup, format.names, headerPlace, kind);
+        const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
+        const readerOf = (group: Group, upAxis?: 'Y' | 'Z') => new LogReader(name, source.name, format, group, upAxis ? layoutOf(group, format.names, headerPlace, kind) : layout, options, upAxis);
+        return format.hasUnknownAxis ? [readerOf(withYAxisUp(chosenGroup), 'Y'), readerOf(chosenGroup, 'Z')] : [readerOf(chosenGroup)];
       });
-      const all = readers.flat();
-      await readLines(source, encoding, end, format.firstLine, onProgress, (line, number, isOpen) => {
-        for (const reader of all) reader.take(line, number, isOpen);
+      const allReaders = readersOfChoices.flat();
+      await readLines(source, encoding, lineEnd, format.firstLine, onProgress, (line, number, isOpen) => {
+        for (const reader of allReaders) reader.take(line, number, isOpen);
       });
-      // A robot turns about the vertical axis, and hardly moves along it.
-      return readers.map((each) => (least(each.filter(({ isTilted }) => !isTilted), ({ rise }) => rise) ?? each[0]).end());
+      // The vertical axis is the one about which the robot turns, and along which it hardly moves.
+      return readersOfChoices.map((each) => (least(each.filter(({ isTilted }) => !isTilted), ({ rise }) => rise) ?? each[0]).end());
     },
   };
 }
@@ -86,7 +86,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
 const columnNames = ({ columns }: Group) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
 
 /** Returns the encoding of a text. Signs are a byte order mark, the zeros of UTF-16, and bytes that UTF-8 does not have. */
-async function encodingOf(source: Source): Promise<string> {
+async function detectEncoding(source: Source): Promise<string> {
   const bytes = await bytesOf(source, 0, Math.min(HEAD_BYTES, source.size));
   const [first, second, third, fourth] = bytes;
   if ((first === 0xff && second === 0xfe) || (first !== 0 && second === 0 && third !== 0 && fourth === 0)) return 'utf-16le';
@@ -100,40 +100,39 @@ async function encodingOf(source: Source): Promise<string> {
 }
 
 /**
- * Replaces each block of zeros, which a file has where the computer lost its power, by a single one. Its row then has a cell that is no
- * number.
+ * Replaces each block of zeros by a single zero, so that its row is damaged. A file has such a block if the computer lost its power.
  */
-const withoutHoles = (text: string) => (text.includes('\0') ? text.replaceAll(/\0+/g, '\0') : text);
+const joinZeros = (text: string) => (text.includes('\0') ? text.replaceAll(/\0+/g, '\0') : text);
 
 /** Returns the character that ends lines: a line feed, or in files of old spreadsheets a carriage return. */
-const endOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '\n' : '\r');
+const lineEndOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '\n' : '\r');
 
-/** Calls `take` for each line from the number `from` on. `isOpen` is true for the text after the last line feed: the file may be cut off there. */
+/** Calls `take` for each line from number `from` on. `isOpen` is true for text after the last line feed: the file may be cut off there. */
 async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
   const decoder = new TextDecoder(encoding);
   let [rest, number] = ['', 0];
-  const takeLine = (line: string, isOpen: boolean) => {
+  const passLine = (line: string, isOpen: boolean) => {
     number += 1;
     if (number >= from) take(line, number, isOpen);
   };
   for (let at = 0; at < source.size; at += BLOCK_BYTES) {
     onProgress?.(at / source.size);
-    const text = rest + withoutHoles(decoder.decode(await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
-    const lines = text.split(end);
-    rest = lines.pop() ?? '';
-    for (const line of lines) takeLine(line, false);
+    const text = rest + joinZeros(decoder.decode(await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
+    const headLines = text.split(end);
+    rest = headLines.pop() ?? '';
+    for (const line of headLines) passLine(line, false);
     if (rest.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   }
-  takeLine(rest + decoder.decode(), true);
+  passLine(rest + decoder.decode(), true);
 }
 
 /** Returns a group of columns with Y as the vertical axis: X of the robot's plane is Z, and Y is X. */
-function withYUp(group: Group): Group {
+function withYAxisUp(group: Group): Group {
   const { x, y, z, qx, qy, qz } = group.columns;
   return { ...group, columns: { ...group.columns, x: z, y: x, z: y, qx: qz, qy: qx, qz: qy } };
 }
 
-/** Reader of the times of a table. Their unit, if none is stated, is judged by the first time that is not 0. */
+/** Reader of the times of a table. If no unit is stated, it is judged by the first time that is not 0. */
 class ClockReader {
   #clock: Clock;
   #textOf: (cell: string) => string;
@@ -180,24 +179,24 @@ class ClockReader {
       }
     }
     this.#noteFraction(text);
-    return timeOf(text, POWERS[this.unit ?? 's']);
+    return timeOf(text, UNIT_EXPONENTS[this.unit ?? 's']);
   }
 
   #noteFraction(text: string): void {
-    const point = text.indexOf('.');
-    const digits = text.length - point - 1;
-    if (point < 0 || digits < 2) return;
-    this.#longest = Math.max(this.#longest, digits);
-    if (text[point + 1] === '0') this.#hasLeadingZero = true;
+    const pointIndex = text.indexOf('.');
+    const digitCount = text.length - pointIndex - 1;
+    if (pointIndex < 0 || digitCount < 2) return;
+    this.#longest = Math.max(this.#longest, digitCount);
+    if (text[pointIndex + 1] === '0') this.#hasLeadingZero = true;
     if (!text.endsWith('0')) return;
-    const same = this.#endingInZero.get(digits) ?? [];
-    if (same.length === 0) this.#endingInZero.set(digits, same);
-    if (same.length < MIN_UNPADDED) same.push(text);
+    const sameDigitTimes = this.#endingInZero.get(digitCount) ?? [];
+    if (sameDigitTimes.length === 0) this.#endingInZero.set(digitCount, sameDigitTimes);
+    if (sameDigitTimes.length < MIN_UNPADDED) sameDigitTimes.push(text);
   }
 
   /**
-   * Time that shows that nanoseconds were written behind the point without their leading zeros; undefined if none does. Short fractions that
-   * end in 0 were not shortened by dropping zeros at their end.
+   * Time that shows that nanoseconds were written after the point without their leading zeros; undefined if there is none. The sign is
+   * short fractions that end in 0: a program that drops zeros at the end would not write them.
    */
   get unpadded(): string | undefined {
     if (this.#hasLeadingZero) return undefined;
@@ -223,7 +222,7 @@ class LogReader {
   #notes: Note[] = [];
   /** Number of damaged rows, and the line and the reason of the first. */
   #damagedRows = 0;
-  #firstDamaged: [number, Reason] | undefined;
+  #firstDamaged: [number, ErrorReason] | undefined;
   #frames = new Set<string>();
   /** Cosines of the robot's tilt. They are near 1 if it drives on a plane. */
   #tilts: number[] = [];
@@ -238,7 +237,7 @@ class LogReader {
     this.#options = options;
     this.#upAxis = upAxis;
     this.#rows = new Rows(this.#place);
-    this.#textOf = format.hasCommas ? withPoint : (cell) => cell;
+    this.#textOf = format.hasCommas ? withDecimalPoint : (cell) => cell;
     this.#clocks = layout.clocks.map((clock, i) => new ClockReader(clock, i === 0 ? options.timeUnit : undefined, this.#textOf));
     const { z, frame, child } = group.columns;
     const columns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...[upAxis && z, frame, child].filter((column) => column !== undefined)];
@@ -293,7 +292,7 @@ class LogReader {
   }
 
   /** Drops a damaged row. If there are many, the log is refused with the reason of the first. */
-  #dropDamaged(cause: 'short' | 'text', line: number, reason: Reason): void {
+  #dropDamaged(cause: 'short' | 'text', line: number, reason: ErrorReason): void {
     this.#damagedRows += 1;
     this.#firstDamaged ??= [line, reason];
     this.#rows.drop(cause, line);
@@ -305,12 +304,12 @@ class LogReader {
 
   /** Returns true if the robot does not drive on a plane. */
   get isTilted(): boolean {
-    return spread(this.#tilts) > MAX_TILT_SPREAD;
+    return quantileSpread(this.#tilts) > MAX_TILT_SPREAD;
   }
 
   /** Spread of the robot's heights. It is small along the vertical axis. */
   get rise(): number {
-    return spread(this.#heights);
+    return quantileSpread(this.#heights);
   }
 
   end(): Log {
@@ -340,16 +339,16 @@ class LogReader {
     }, this.#options);
   }
 
-  #refuse(line: number, reason: Reason): never {
+  #refuse(line: number, reason: ErrorReason): never {
     throw new LogError({ ...this.#place, line }, reason);
   }
 }
 
-/** Returns a number with a decimal comma as one with a point. A cell that also has a point is ambiguous: a question mark makes it invalid. */
-const withPoint = (cell: string) => (cell.includes('.') && !cell.includes(':') && /^\s*[+-]?[\d.]+,?\d*\s*$/.test(cell) ? `${cell}?` : cell.replace(',', '.'));
+/** Replaces a decimal comma by a point. A cell that also has a point is ambiguous, and is made invalid by a question mark. */
+const withDecimalPoint = (cell: string) => (cell.includes('.') && !cell.includes(':') && /^\s*[+-]?[\d.]+,?\d*\s*$/.test(cell) ? `${cell}?` : cell.replace(',', '.'));
 
 /** Returns the difference of the 95 % and the 5 % quantile. */
-const spread = (values: number[]) => {
-  const sampled = sample(values.length, (i) => values[i]).filter(Number.isFinite);
-  return quantile(sampled, 0.95) - quantile(sampled, 0.05);
+const quantileSpread = (values: number[]) => {
+  const sampledValues = sample(values.length, (i) => values[i]).filter(Number.isFinite);
+  return quantile(sampledValues, 0.95) - quantile(sampledValues, 0.05);
 };

@@ -13,61 +13,61 @@ const MAX_FRAME_MESSAGES = 2000;
 /** Maximum number of times that a node publishes a topic again after another one. A restarted node counts as a new one, and does not alternate. */
 const MAX_ALTERNATIONS = 2;
 
-/** Checks for a topic of static transforms. */
-const isStatic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => kindOf(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
+/** Returns true for a topic of static transforms. */
+const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => kindOf(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
 /** Returns the recording that a container holds. */
 export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
   const { format, cutShort, damage, channels } = container;
   const [reason] = damage.values();
   if (channels.every(({ count }) => count === 0)) throw new LogError({ file: name }, (say) => (reason ? say.damaged(reason) : cutShort ? say.incomplete(format) : say.noMessages));
-  const series = await seriesOf(container);
+  const series = await listSeries(container);
   return { name, format, series, read };
 
   /** Reads several logs in one pass. */
   async function read(choices: Choice[], onProgress?: (share: number) => void): Promise<Log[]> {
-    const topics = choices.map((choice) => new TopicReader(name, container, choice, series));
-    const byChannel = new Map(container.channels.map((channel) => [channel, topics.filter((topic) => topic.wants(channel))]));
-    const take = (message: Message) => {
-      for (const topic of byChannel.get(message.channel) ?? []) topic.take(message);
+    const topicReaders = choices.map((choice) => new TopicReader(name, container, choice, series));
+    const readers = new Map(container.channels.map((channel) => [channel, topicReaders.filter((topic) => topic.wants(channel))]));
+    const takeMessage = (message: Message) => {
+      for (const topic of readers.get(message.channel) ?? []) topic.take(message);
     };
-    const wanted = new Set(container.channels.filter((channel) => byChannel.get(channel)?.length && !isStatic(channel)));
+    const wantedChannels = new Set(container.channels.filter((channel) => readers.get(channel)?.length && !isStaticTopic(channel)));
     // Static transforms are read first, because they also hold before the time of their recording.
-    if (choices.some(({ frames }) => frames)) await container.read(isStatic, take);
-    await container.read((channel) => wanted.has(channel), take, onProgress);
-    return topics.map((topic) => topic.end(options));
+    if (choices.some(({ frames }) => frames)) await container.read(isStaticTopic, takeMessage);
+    await container.read((channel) => wantedChannels.has(channel), takeMessage, onProgress);
+    return topicReaders.map((topic) => topic.end(options));
   }
 }
 
-async function seriesOf(container: Container): Promise<Series[]> {
-  const byTopic = new Map<string, Channel[]>();
-  for (const channel of container.channels) byTopic.set(channel.topic, [...(byTopic.get(channel.topic) ?? []), channel]);
-  const series: Series[] = [...byTopic].map(([topic, channels]) => {
+async function listSeries(container: Container): Promise<Series[]> {
+  const channelsByTopic = new Map<string, Channel[]>();
+  for (const channel of container.channels) channelsByTopic.set(channel.topic, [...(channelsByTopic.get(channel.topic) ?? []), channel]);
+  const series: Series[] = [...channelsByTopic].map(([topic, channels]) => {
     const readable = channels.filter((channel) => isReadable(channel) && kindOf(channel.type) !== null);
     const types = new Set((readable.length ? readable : channels).map(({ type }) => type));
     const count = (readable.length ? readable : channels).reduce((sum, channel) => sum + channel.count, 0);
     return { name: topic, type: [...types].join(', '), kind: readable.length && types.size === 1 ? kindOf([...types][0]) : null, count };
   });
   for (const each of series) {
-    if (each.kind !== 'transforms' || isStatic({ topic: each.name, type: each.type })) continue;
-    const tree = new FrameTree();
-    let messages = 0;
+    if (each.kind !== 'transforms' || isStaticTopic({ topic: each.name, type: each.type })) continue;
+    const frameTree = new FrameTree();
+    let messageCount = 0;
     const take = (message: Message) => {
-      messages += 1;
+      messageCount += 1;
       try {
-        for (const edge of edgesOf(message)) tree.take(edge, isStatic(message.channel));
+        for (const edge of edgesOf(message)) frameTree.take(edge, isStaticTopic(message.channel));
       } catch {
         // A damaged message is counted when the log is read.
       }
     };
-    await container.read(isStatic, take);
-    await container.read(({ topic }) => topic === each.name, take, () => messages >= MAX_FRAME_MESSAGES);
-    each.frames = tree.candidates();
+    await container.read(isStaticTopic, take);
+    await container.read(({ topic }) => topic === each.name, take, () => messageCount >= MAX_FRAME_MESSAGES);
+    each.frames = frameTree.candidates();
   }
   return series.sort((one, other) => (one.name < other.name ? -1 : 1));
 }
 
-/** Reader of one topic. For a topic of transforms it also reads the static ones. */
+/** Reader of one topic. For a topic of transforms it also reads the static transforms. */
 class TopicReader {
   #file;
   #container;
@@ -77,7 +77,7 @@ class TopicReader {
   #chain: Chain | undefined;
   /** Number of messages so far. */
   #number = 0;
-  /** Number of unreadable messages, and the reason for the first. */
+  /** Number of unreadable messages, and the reason why the first one is unreadable. */
   #damaged = 0;
   #reason = '';
   #readers = new Map<Channel, (message: Message) => void>();
@@ -95,43 +95,43 @@ class TopicReader {
     this.#rows = new Rows({ file, topic: choice.series });
     this.#kind = this.#checkTypes();
     if (this.#kind !== 'transforms') return;
-    const candidates = series.find(({ name }) => name === choice.series)?.frames ?? [];
+    const frameCandidates = series.find(({ name }) => name === choice.series)?.frames ?? [];
     if (!choice.frames) {
-      const ask = { what: 'frames' as const, choices: candidates.map(framesOption) };
-      this.#refuse((say) => say.frames(listed(candidates.map(framesText))), ask);
+      const ask = { what: 'frames' as const, choices: frameCandidates.map(framesOption) };
+      this.#refuse((say) => say.frames(listed(frameCandidates.map(framesText))), ask);
     }
     this.#chain = new Chain(choice.frames);
   }
 
   wants(channel: Channel): boolean {
     if (kindOf(channel.type) !== this.#kind) return false;
-    return channel.topic === this.#choice.series || (this.#choice.frames !== undefined && isStatic(channel));
+    return channel.topic === this.#choice.series || (this.#choice.frames !== undefined && isStaticTopic(channel));
   }
 
   /** Checks that the topic has one type that can be read. */
   #checkTypes(): Series['kind'] {
     const { series, kind: wanted, frames } = this.#choice;
     const channels = this.#container.channels.filter(({ topic }) => topic === series);
-    const isWanted = ({ type }: Channel) => {
+    const isWantedType = ({ type }: Channel) => {
       const kind = kindOf(type);
       return frames ? kind === 'transforms' : kind !== null && !(wanted === 'poses' && kind === 'commands');
     };
-    const fitting = channels.filter(isWanted);
-    const types = [...new Set((fitting.length ? fitting : channels).map(({ type }) => type))];
-    if (fitting.length === 0) this.#refuse((say) => say.type(cut(types.join(', ')), frames ? 'transforms' : wanted === 'poses' ? wanted : 'either'));
-    if (types.length > 1) this.#refuse((say) => say.types(listed(types)));
-    if (kindOf(types[0]) === 'positions') this.#refuse((say) => say.positions(types[0]));
-    if (!isReadable(fitting[0])) this.#refuse((say) => say.encoding(cut(fitting[0].encoding)));
-    return kindOf(types[0]);
+    const fittingChannels = channels.filter(isWantedType);
+    const typeNames = [...new Set((fittingChannels.length ? fittingChannels : channels).map(({ type }) => type))];
+    if (fittingChannels.length === 0) this.#refuse((say) => say.type(cut(typeNames.join(', ')), frames ? 'transforms' : wanted === 'poses' ? wanted : 'either'));
+    if (typeNames.length > 1) this.#refuse((say) => say.types(listed(typeNames)));
+    if (kindOf(typeNames[0]) === 'positions') this.#refuse((say) => say.positions(typeNames[0]));
+    if (!isReadable(fittingChannels[0])) this.#refuse((say) => say.encoding(cut(fittingChannels[0].encoding)));
+    return kindOf(typeNames[0]);
   }
 
   take(message: Message): void {
     const { channel } = message;
-    let read = this.#readers.get(channel);
-    if (!read) this.#readers.set(channel, (read = this.#readerOf(channel)));
+    let readMessage = this.#readers.get(channel);
+    if (!readMessage) this.#readers.set(channel, (readMessage = this.#readerOf(channel)));
     this.#number += 1;
     try {
-      read(message);
+      readMessage(message);
     } catch (error) {
       if (error instanceof LogError) throw error;
       return this.#drop(this.#number, reasonOf(error));
@@ -145,12 +145,12 @@ class TopicReader {
   #readerOf(channel: Channel): (message: Message) => void {
     const chain = this.#chain;
     if (!chain) {
-      const pose = poseReader(channel);
-      return (message) => this.#add(pose(message), message, this.#number);
+      const readPose = poseReader(channel);
+      return (message) => this.#add(readPose(message), message, this.#number);
     }
-    const fixed = isStatic(channel);
+    const isStaticChannel = isStaticTopic(channel);
     return (message) => {
-      for (const edge of edgesOf(message)) chain.take(edge, fixed, message, this.#number);
+      for (const edge of edgesOf(message)) chain.take(edge, isStaticChannel, message, this.#number);
     };
   }
 
@@ -167,7 +167,7 @@ class TopicReader {
     this.#rows.drop('damaged', number);
   }
 
-  /** Returns the log; throws a LogError if the messages do not make one. */
+  /** Returns the log; throws a LogError if the messages do not form a log. */
   end(options: OpenOptions): Log {
     const { series, frames } = this.#choice;
     const { damage, cutShort, missing } = this.#container;
@@ -194,8 +194,8 @@ class TopicReader {
     const frames = this.#choice.frames as NonNullable<Choice['frames']>;
     if (this.#damaged === this.#number) return;
     if (!chain.isConnected) this.#refuse((say) => say.noChain(framesText(frames), listed(chain.tree.links.map(framesText))));
-    const changes = chain.poses((pose, { message, number }) => this.#add(pose, message, number));
-    if (!changes) this.#refuse((say) => say.constant(framesText(frames), listed(chain.tree.candidates().map(framesText))));
+    const hasChanged = chain.poses((pose, { message, number }) => this.#add(pose, message, number));
+    if (!hasChanged) this.#refuse((say) => say.constant(framesText(frames), listed(chain.tree.candidates().map(framesText))));
   }
 
   #refuse(reason: (say: Words['refused']) => string, ask?: Question): never {

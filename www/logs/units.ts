@@ -1,4 +1,4 @@
-/** Units of a log, judged by two independent signs. If the signs disagree, the log is refused with a question. */
+/** Units of a log, judged by two independent pieces of evidence. If they disagree, the log is refused with a question. */
 
 import { LogError, type Place } from './log-error.ts';
 import { UNITS, type AngleUnit, type LogKind, type OpenOptions, type Question, type Summary, type TimeUnit } from './log.ts';
@@ -19,26 +19,26 @@ export interface Columns {
   c: Float64Array;
 }
 
-/** Units of time, with the decimal exponent of their number in a second. */
-export const POWERS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
+/** Decimal exponent of the number of units in a second, by unit of time. */
+export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
 
-/** Units of length and angle, with their size in m and rad. */
+/** Sizes of the units of length in m, and of the units of angle in rad. */
 const METRES = { m: 1, cm: 0.01, mm: 0.001 } as const;
 const RADIANS = { rad: 1, deg: Math.PI / 180 } as const;
 
-/** Minimum of times since 1970 in each unit. 1e8 s is the year 1973, and 1e11 s the year 5138. */
+/** Minimum value of times since 1970, by unit. 1e8 s is the year 1973, and 1e11 s the year 5138. */
 const MIN_EPOCH_TIMES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11], ['s', 1e8]] as const;
 
 /** Minimum number of rows of a log whose units are judged. */
 const MIN_ROWS = 10;
 
-/** Ranges of the rate of a log, Hz: if the unit of its times is stated, and if it is not. */
+/** Allowed ranges of the rate of a log, Hz, with and without a stated unit of its times. */
 const [STATED_RATES, USUAL_RATES] = [[0.05, 5000], [0.2, 2000]] as const;
 
 /** Minimum and maximum speed of robots in m/s or rad/s, with a margin for rounded times. */
 const [MIN_SPEED, MAX_SPEED] = [0.005, 20.5];
 
-/** Speed in m/s above which the acceleration is judged too, and maximum acceleration in m/s²: that of gravity, which tyres transmit. */
+/** Speed (m/s) above which the acceleration is also judged, and maximum acceleration (m/s²): that of gravity, which tyres can transmit. */
 const [FAST, MAX_ACCELERATION] = [3, 9.8];
 
 /** Duration (s) of the steps whose speed is judged. In shorter steps the noise would look like a high speed. */
@@ -53,7 +53,7 @@ const MIN_STEPS = 20;
 /** Range of the difference between successive headings in degrees at the end of a full circle. */
 const WRAP_STEP = [330, 390] as const;
 
-const isWithin = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;
+const isInRange = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;
 
 /** Returns the unit of a time since 1970 by its size; undefined for smaller times. */
 export const unitOfSize = (time: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, least]) => Math.abs(time) >= least)?.[0];
@@ -67,23 +67,23 @@ export const unitOfSize = (time: number): TimeUnit | undefined => MIN_EPOCH_TIME
  */
 export function judgeUnits(place: Place, kind: LogKind, columns: Columns, assumed: Units, options: OpenOptions): Units {
   const isJudged = columns.t.length >= MIN_ROWS;
-  const ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]): never => {
+  const askUnit = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]): never => {
     throw new LogError(place, (say) => say[what](value, unit, choices), { what, choices } satisfies Question);
   };
-  const time = isJudged ? timeUnit(kind, columns, assumed, options, ask) : assumed.time;
-  convertTimes(columns, 10 ** (POWERS[time.unit] - POWERS[assumed.time.unit]));
+  const judgedTime = isJudged ? timeUnit(kind, columns, assumed, options, askUnit) : assumed.time;
+  convertTimes(columns, 10 ** (UNIT_EXPONENTS[judgedTime.unit] - UNIT_EXPONENTS[assumed.time.unit]));
 
   let { length, angle } = assumed;
   if (options.lengthUnit) length = { unit: options.lengthUnit, by: 'option' };
-  else if (isJudged) checkLength(kind, columns, length, ask);
+  else if (isJudged) checkLength(kind, columns, length, askUnit);
   const metres = METRES[length.unit];
-  if (metres !== 1) for (const column of kind === 'poses' ? [columns.a, columns.b] : [columns.a]) scale(column, metres);
+  if (metres !== 1) for (const column of kind === 'poses' ? [columns.a, columns.b] : [columns.a]) scaleColumn(column, metres);
 
-  if (angle.unit === 'quaternion' || angle.unit === 'none') return { time, length, angle };
+  if (angle.unit === 'quaternion' || angle.unit === 'none') return { time: judgedTime, length, angle };
   if (options.angleUnit) angle = { unit: options.angleUnit, by: 'option' };
-  else if (isJudged) angle = angleUnit(kind, columns, angle, ask);
-  if (angle.unit === 'deg') scale(kind === 'poses' ? columns.c : columns.b, RADIANS.deg);
-  return { time, length, angle };
+  else if (isJudged) angle = angleUnit(kind, columns, angle, askUnit);
+  if (angle.unit === 'deg') scaleColumn(kind === 'poses' ? columns.c : columns.b, RADIANS.deg);
+  return { time: judgedTime, length, angle };
 }
 
 type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]) => never;
@@ -91,43 +91,43 @@ type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: 
 /** Judges times by their size or name, and by the rate and the speed that they imply. */
 function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, length, angle }: Units, options: OpenOptions, ask: Ask): Units['time'] {
   if (['format', 'date', 'option'].includes(assumed.by)) return assumed;
-  const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
+  const medianStep = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const units = UNITS.timeUnit;
-  const rate = (unit: TimeUnit) => 10 ** (POWERS[unit] - POWERS[assumed.unit]) / step;
+  const rateWithUnit = (unit: TimeUnit) => 10 ** (UNIT_EXPONENTS[unit] - UNIT_EXPONENTS[assumed.unit]) / medianStep;
   if (assumed.by !== 'usage') {
-    if (isWithin(rate(assumed.unit), STATED_RATES)) return assumed;
+    if (isInRange(rateWithUnit(assumed.unit), STATED_RATES)) return assumed;
     // Times that look like seconds since 1970 may also be nanoseconds since the start of a simulation.
-    if (assumed.by === 'name' || assumed.unit !== 's') return ask('timeUnit', rate(assumed.unit), assumed.unit, units.filter((unit) => isWithin(rate(unit), STATED_RATES)));
+    if (assumed.by === 'name' || assumed.unit !== 's') return ask('timeUnit', rateWithUnit(assumed.unit), assumed.unit, units.filter((unit) => isInRange(rateWithUnit(unit), STATED_RATES)));
   }
   // Turn rates only count if the unit of the headings is stated.
   const radians = RADIANS[options.angleUnit ?? (angle.unit === 'deg' ? 'deg' : 'rad')];
-  const isCounted = options.angleUnit !== undefined || angle.by !== 'usage';
-  const raw = kind === 'poses' ? speedOf(t, a, b, step) : 0;
-  const [speed, turn] = [raw * METRES[options.lengthUnit ?? length.unit], kind === 'poses' && isCounted ? turnRateOf(t, c) * radians : 0];
-  const moves = speed > 0 || turn > 0;
+  const countsTurns = options.angleUnit !== undefined || angle.by !== 'usage';
+  const raw = kind === 'poses' ? speedOf(t, a, b, medianStep) : 0;
+  const [speed, turn] = [raw * METRES[options.lengthUnit ?? length.unit], kind === 'poses' && countsTurns ? turnRateOf(t, c) * radians : 0];
+  const isMoving = speed > 0 || turn > 0;
   /** Checks that the rate and the speed of the robot are plausible with a unit. */
-  const fits = (unit: TimeUnit) => {
-    const speeds = [speed, turn].map((each) => each * rate(unit) * step);
-    return isWithin(rate(unit), USUAL_RATES) && (!moves || (speeds.every((each) => each <= MAX_SPEED) && [...speeds, raw * rate(unit) * step].some((each) => each >= MIN_SPEED)));
+  const isPlausibleUnit = (unit: TimeUnit) => {
+    const speedsWithUnit = [speed, turn].map((each) => each * rateWithUnit(unit) * medianStep);
+    return isInRange(rateWithUnit(unit), USUAL_RATES) && (!isMoving || (speedsWithUnit.every((each) => each <= MAX_SPEED) && [...speedsWithUnit, raw * rateWithUnit(unit) * medianStep].some((each) => each >= MIN_SPEED)));
   };
-  if (fits(assumed.unit)) return assumed;
-  const [unit, ...others] = units.filter(fits);
-  if (unit && others.length === 0 && moves) return { unit, by: 'rate' };
+  if (isPlausibleUnit(assumed.unit)) return assumed;
+  const [unit, ...others] = units.filter(isPlausibleUnit);
+  if (unit && others.length === 0 && isMoving) return { unit, by: 'rate' };
   // A robot that is too fast may have its lengths or headings in another unit.
-  if (isWithin(rate(assumed.unit), USUAL_RATES) && Math.max(speed, turn) > MAX_SPEED) return assumed;
-  return ask('timeUnit', rate(assumed.unit), assumed.unit, units.filter((each) => isWithin(rate(each), USUAL_RATES)));
+  if (isInRange(rateWithUnit(assumed.unit), USUAL_RATES) && Math.max(speed, turn) > MAX_SPEED) return assumed;
+  return ask('timeUnit', rateWithUnit(assumed.unit), assumed.unit, units.filter((each) => isInRange(rateWithUnit(each), USUAL_RATES)));
 }
 
 /** Checks lengths by the speed of the robot, and by its acceleration. */
 function checkLength(kind: LogKind, { t, a, b }: Columns, { unit, by }: Units['length'], ask: Ask): void {
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const speed = kind === 'poses' ? speedOf(t, a, b, step) : quantile(sample(a.length, (i) => Math.abs(a[i])), 0.9);
-  const inMetres = speed * METRES[unit];
-  const isTooLively = inMetres > FAST && accelerationOf(kind, t, a, b, step) * METRES[unit] > MAX_ACCELERATION;
-  const others = UNITS.lengthUnit.filter((each) => isWithin(speed * METRES[each], [MIN_SPEED, MAX_SPEED]));
-  // A unit in a name is doubted if the robot would be too slow with it, and as fast as robots are with metres.
-  if (inMetres > MAX_SPEED || isTooLively || (by === 'name' && unit !== 'm' && inMetres < MIN_SPEED && speed > 0.1 && others.includes('m'))) {
-    ask('lengthUnit', inMetres, unit, others.includes(unit) ? others : [...others, unit]);
+  const speedInMetres = speed * METRES[unit];
+  const isTooLively = speedInMetres > FAST && accelerationOf(kind, t, a, b, step) * METRES[unit] > MAX_ACCELERATION;
+  const plausibleUnits = UNITS.lengthUnit.filter((each) => isInRange(speed * METRES[each], [MIN_SPEED, MAX_SPEED]));
+  // A unit in a name is doubted if the robot would be too slow with it, but would have a usual speed in metres.
+  if (speedInMetres > MAX_SPEED || isTooLively || (by === 'name' && unit !== 'm' && speedInMetres < MIN_SPEED && speed > 0.1 && plausibleUnits.includes('m'))) {
+    ask('lengthUnit', speedInMetres, unit, plausibleUnits.includes(unit) ? plausibleUnits : [...plausibleUnits, unit]);
   }
 }
 
@@ -144,43 +144,43 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, assumed: Units['angle
     const isDoubted = path !== undefined && path !== assumed.unit && (assumed.unit === 'deg') !== turn > MAX_SPEED;
     return isDoubted ? ask('angleUnit', turn * RADIANS[assumed.unit as AngleUnit], assumed.unit, choices) : assumed;
   }
-  let largest = 0;
+  let largestHeading = 0;
   let wraps = 0;
   for (let i = 0; i < c.length; i++) {
-    if (Math.abs(c[i]) > largest) largest = Math.abs(c[i]);
+    if (Math.abs(c[i]) > largestHeading) largestHeading = Math.abs(c[i]);
     const step = Math.abs(c[i] - c[i - 1]);
     if (step >= WRAP_STEP[0] && step <= WRAP_STEP[1]) wraps += 1;
   }
-  const signs = [path === 'deg', wraps > 0, turn > MAX_SPEED].filter(Boolean).length;
+  const signCount = [path === 'deg', wraps > 0, turn > MAX_SPEED].filter(Boolean).length;
   // Headings beyond a full circle are no proof of degrees: those in radians may be unwrapped.
-  const isBeyond = largest > 2 * Math.PI + 0.1;
-  if (path !== 'rad' && signs >= 2 && isBeyond) return { unit: 'deg', by: 'size' };
+  const isBeyond = largestHeading > 2 * Math.PI + 0.1;
+  if (path !== 'rad' && signCount >= 2 && isBeyond) return { unit: 'deg', by: 'size' };
   if (path === 'rad' ? turn > MAX_SPEED && wraps > 0 : turn > MAX_SPEED || isBeyond) return ask('angleUnit', turn, assumed.unit, choices);
   return assumed;
 }
 
 /**
- * Returns the unit in which the heading differs from the direction of the path, or of its mirror image, by a constant angle. Undefined if
- * both units fit, as on a straight path, or neither, as for a robot that drives sideways.
+ * Returns the unit in which the heading differs by a constant angle from the direction of the path, or of its mirror image. Undefined if
+ * both units fit (on a straight path), or neither (for a robot that drives sideways).
  */
 function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array): AngleUnit | undefined {
   const stride = Math.max(2, Math.ceil(STEP_DURATION / quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5)));
   // If an axis is mirrored, the headings turn against the path.
   const candidates = UNITS.angleUnit.flatMap((unit) => [1, -1].map((sign) => ({ unit, factor: sign * RADIANS[unit], cosine: 0, sine: 0 })));
-  let count = 0;
+  let stepCount = 0;
   for (let i = 0; i + stride < t.length; i += stride) {
     const [dx, dy] = [x[i + stride] - x[i], y[i + stride] - y[i]];
     if (Math.hypot(dx, dy) < MIN_STEP_LENGTH) continue;
-    count += 1;
+    stepCount += 1;
     for (const candidate of candidates) {
       const angle = 2 * (Math.atan2(dy, dx) - heading[i + (stride >> 1)] * candidate.factor);
       candidate.cosine += Math.cos(angle);
       candidate.sine += Math.sin(angle);
     }
   }
-  if (count < MIN_STEPS) return undefined;
+  if (stepCount < MIN_STEPS) return undefined;
   // The mean resultant length is 1 if all differences are equal, and near 0 if they are random.
-  const [rad, deg] = UNITS.angleUnit.map((unit) => Math.max(...candidates.filter((each) => each.unit === unit).map(({ cosine, sine }) => Math.hypot(cosine, sine) / count)));
+  const [rad, deg] = UNITS.angleUnit.map((unit) => Math.max(...candidates.filter((each) => each.unit === unit).map(({ cosine, sine }) => Math.hypot(cosine, sine) / stepCount)));
   if (Math.max(rad, deg) < 0.8 || Math.abs(rad - deg) < 0.3) return undefined;
   return rad > deg ? 'rad' : 'deg';
 }
@@ -195,16 +195,16 @@ function speedOf(t: Float64Array, x: Float64Array, y: Float64Array, step: number
 function accelerationOf(kind: LogKind, t: Float64Array, a: Float64Array, b: Float64Array, step: number): number {
   const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / step)), Math.max(1, (t.length - 1) >> 1));
   if (kind === 'commands') return quantile(sample(t.length - stride, (i) => Math.abs(a[i + stride] - a[i]) / (t[i + stride] - t[i])), 0.9);
-  const speed = (p: Float64Array, i: number) => (p[i + stride] - p[i]) / (t[i + stride] - t[i]);
-  const change = (p: Float64Array, i: number) => speed(p, i + stride) - speed(p, i);
-  return quantile(sample(t.length - 2 * stride, (i) => Math.hypot(change(a, i), change(b, i)) / (t[i + stride] - t[i])), 0.9);
+  const speedAt = (p: Float64Array, i: number) => (p[i + stride] - p[i]) / (t[i + stride] - t[i]);
+  const speedChange = (p: Float64Array, i: number) => speedAt(p, i + stride) - speedAt(p, i);
+  return quantile(sample(t.length - 2 * stride, (i) => Math.hypot(speedChange(a, i), speedChange(b, i)) / (t[i + stride] - t[i])), 0.9);
 }
 
 /** Returns the 90 % quantile of the turn rates of the steps. */
 const turnRateOf = (t: Float64Array, heading: Float64Array) =>
   quantile(sample(t.length - 1, (i) => Math.abs(heading[i + 1] - heading[i]) / (t[i + 1] - t[i])), 0.9);
 
-function scale(column: Float64Array, factor: number): void {
+function scaleColumn(column: Float64Array, factor: number): void {
   for (let i = 0; i < column.length; i++) column[i] *= factor;
 }
 

@@ -1,23 +1,23 @@
 /**
- * Worker that opens recordings, reads logs and calibrates. It answers the messages of the page. If the page cannot have a worker, `serve`
- * answers on a port of the page.
+ * Worker that opens recordings, reads logs and calibrates. It answers requests of the page. If the page cannot have a worker,
+ * `serveRequests` answers on a port in the page's thread.
  */
 
 import { instantiateShared, type SharedCore } from '../core.ts';
 import type { AlphaCalibrator, AlphaCalibratorSettings, CalibrationLog, Motion } from '../types.d.ts';
 import { german } from './de.ts';
-import { readDrives, type Drive, type Part, type Plan } from './drives.ts';
+import { readDrives, type Drive, type RecordingChoice, type LogPlan } from './drives.ts';
 import { english } from './en.ts';
 import { LogError } from './log-error.ts';
 import type { OpenOptions, Question, Recording, Source } from './log.ts';
 import { openRecordings } from './open.ts';
 import { logOf } from './pairs.ts';
 
-/** Recording for the page: it has its index among the opened ones, but no method `read`. */
+/** Recording as the page gets it: without the method `read`, but with its index (`place`) among the opened recordings. */
 export type Opened = Recording & { place: number };
 
 /** Error for the page. A LogError has its sentence in each language. */
-export interface Failure {
+export interface PostedFailure {
   name: string;
   message: string;
   sentences?: Record<'en' | 'de', string>;
@@ -27,7 +27,7 @@ export interface Failure {
 
 export type OnProgress = (share: number) => void;
 
-/** Request: a method of `LogSession`, and its parameters. */
+/** Request of the page: a method of `LogSession`, and its parameters. */
 export interface Request {
   number: number;
   method: 'open' | 'read' | 'calibrate';
@@ -35,7 +35,7 @@ export interface Request {
 }
 
 /** Answer to the request with this number. Answers with progress precede the result or the failure. */
-export type Answer = { number: number } & ({ progress: number } | { result: unknown } | { failure: Failure });
+export type Answer = { number: number } & ({ progress: number } | { result: unknown } | { failure: PostedFailure });
 
 /** Opened recordings, and the log that was read last. */
 class LogSession {
@@ -48,22 +48,22 @@ class LogSession {
     this.#machine = new this.#motion.AlphaCalibrator();
   }
 
-  async open(_: OnProgress, sources: { file: Source; path: string }[], answers: Record<string, OpenOptions>): Promise<{ recordings: Opened[]; skipped: Failure[] }> {
-    const skipped: Failure[] = [];
+  async open(_: OnProgress, sources: { file: Source; path: string }[], answers: Record<string, OpenOptions>): Promise<{ recordings: Opened[]; skipped: PostedFailure[] }> {
+    const skipped: PostedFailure[] = [];
     this.#recordings = await openRecordings(sources.map(({ file, path }) => Object.assign(file, { path })), (name) => answers[name], (error) => skipped.push(failureOf(error)));
     return { recordings: this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as Opened), skipped };
   }
 
   /** Reads the logs of a plan of the page, and keeps them for `calibrate`. */
-  async read(onProgress: OnProgress, { drives, unpaired }: Pick<Plan, 'drives' | 'unpaired'>): Promise<Drive[]> {
-    const held = ({ recording, choice }: Part) => ({ recording: this.#recordings[(recording as Opened).place], choice });
+  async read(onProgress: OnProgress, { drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>): Promise<Drive[]> {
+    const openedPart = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as Opened).place], choice });
     const plan = {
-      drives: drives.map(({ odometry, reference }) => ({ odometry: held(odometry), reference: held(reference) })),
-      unpaired: { odometry: unpaired.odometry.map(held), reference: unpaired.reference.map(held) },
+      drives: drives.map(({ odometry, reference }) => ({ odometry: openedPart(odometry), reference: openedPart(reference) })),
+      unpaired: { odometry: unpaired.odometry.map(openedPart), reference: unpaired.reference.map(openedPart) },
     };
-    const read = await readDrives(plan, onProgress);
-    this.#take(logOf(read));
-    return read;
+    const readLogs = await readDrives(plan, onProgress);
+    this.#take(logOf(readLogs));
+    return readLogs;
   }
 
   /** Returns the fit to `log`, or to the log that was read last, for `AlphaCalibrator.restored`. */
@@ -78,7 +78,7 @@ class LogSession {
   }
 }
 
-function failureOf(error: unknown): Failure {
+function failureOf(error: unknown): PostedFailure {
   const { name, message } = error instanceof Error ? error : new Error(String(error));
   if (!(error instanceof LogError)) return { name, message };
   return { name, message, file: error.place.file, ask: error.ask, sentences: { en: error.sentence(english), de: error.sentence(german) } };
@@ -94,26 +94,26 @@ function buffersOf(result: unknown): ArrayBuffer[] {
 const PROGRESS_INTERVAL = 50;
 
 /** Answers the requests on a port. The first message has the core. */
-export function serve(port: Pick<MessagePort, 'onmessage' | 'postMessage'>) {
+export function serveRequests(port: Pick<MessagePort, 'onmessage' | 'postMessage'>) {
   let session: LogSession;
-  const answer = (message: Answer, buffers: ArrayBuffer[] = []) => port.postMessage(message, buffers);
+  const postAnswer = (message: Answer, buffers: ArrayBuffer[] = []) => port.postMessage(message, buffers);
   port.onmessage = async ({ data }: MessageEvent<Request & { core?: SharedCore }>) => {
     const { core, number = 0, method, parameters } = data;
     try {
       if (core) session = new LogSession(await instantiateShared(core));
-      let next = 0;
+      let nextProgress = 0;
       const onProgress = (progress: number) => {
         const now = performance.now();
-        if (now < next) return;
-        next = now + PROGRESS_INTERVAL;
-        answer({ number, progress });
+        if (now < nextProgress) return;
+        nextProgress = now + PROGRESS_INTERVAL;
+        postAnswer({ number, progress });
       };
-      const result = core ? null : await (session[method] as (...all: unknown[]) => unknown).call(session, onProgress, ...parameters);
-      answer({ number, result }, buffersOf(result));
+      const outcome = core ? null : await (session[method] as (...all: unknown[]) => unknown).call(session, onProgress, ...parameters);
+      postAnswer({ number, result: outcome }, buffersOf(outcome));
     } catch (error) {
-      answer({ number, failure: failureOf(error) });
+      postAnswer({ number, failure: failureOf(error) });
     }
   };
 }
 
-if ('DedicatedWorkerGlobalScope' in globalThis) serve(globalThis as unknown as MessagePort);
+if ('DedicatedWorkerGlobalScope' in globalThis) serveRequests(globalThis as unknown as MessagePort);

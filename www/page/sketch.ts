@@ -1,4 +1,4 @@
-/** Sketch of a cloud: the reader draws the one expected, and the robots of the figure appear below the drawing. */
+/** Sketch of a cloud: the reader draws the expected cloud, and the robots of the figure then appear below the drawing. */
 
 import { deviation } from 'd3-array';
 import type { Figure } from '../page.ts';
@@ -6,39 +6,39 @@ import type { Figure } from '../page.ts';
 /** Point in metres on the floor, or in pixels of the pad. */
 export type Point = [x: number, y: number];
 
-/** Scale of the pad, pixels per metre, and the robot's start in it. */
-const SCALE = 95;
-const START = { x: 30, y: 150 };
+/** Scale of the drawing pad (pixels per metre), and position of the robot's start on it. */
+const PIXELS_PER_METRE = 95;
+const START_PIXEL = { x: 30, y: 150 };
 
-/** Robots drawn, and the length of their headings in pixels. */
-const DRAWN = 150;
-const TICK = 9;
+/** Maximum number of robots drawn, and length of their heading lines in pixels. */
+const MAX_DRAWN_ROBOTS = 150;
+const TICK_LENGTH = 9;
 
 /** Smallest standard deviation that counts as a spread. */
-const NONE = 1e-6;
+const MIN_SPREAD = 1e-6;
 
-const pixel = ([x, y]: Point) => [START.x + SCALE * x, START.y - SCALE * y] as Point;
+const toPixel = ([x, y]: Point) => [START_PIXEL.x + PIXELS_PER_METRE * x, START_PIXEL.y - PIXELS_PER_METRE * y] as Point;
 
 /** Returns a path through points in pixels. */
 const pathOf = (points: Point[], closed: boolean = false) => (points.length ? `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}${closed ? 'Z' : ''}` : '');
 
 /** Returns points of the commanded arc, with an error of the turn rate in rad/s. */
-function arcOf({ v, omega, dt }: { v: number, omega: number, dt: number }, rateError: number = 0) {
-  const rate = omega + rateError || 1e-9;
+function commandedArc({ v, omega, dt }: { v: number, omega: number, dt: number }, rateError: number = 0) {
+  const turnRate = omega + rateError || 1e-9;
   return Array.from({ length: 25 }, (_, i) => {
-    const turn = (rate * dt * i) / 24;
-    return [(v / rate) * Math.sin(turn), (v / rate) * (1 - Math.cos(turn))] as Point;
+    const turnSoFar = (turnRate * dt * i) / 24;
+    return [(v / turnRate) * Math.sin(turnSoFar), (v / turnRate) * (1 - Math.cos(turnSoFar))] as Point;
   });
 }
 
 /** Outlines that can be chosen instead of drawn, by name. */
 const SHAPES: Record<string, (command: { v: number, omega: number, dt: number }) => Point[]> = {
-  point: (command) => ringAround(pixel(arcOf(command)[24]), 7, 7),
+  point: (command) => ringAround(toPixel(commandedArc(command)[24]), 7, 7),
   band: (command) => {
-    const ends = (length: number) => Array.from({ length: 13 }, (_, i) => pixel(arcOf({ ...command, v: command.v * length }, (i - 6) / 18)[24]));
-    return [...ends(1.04), ...ends(0.96).reverse()];
+    const bandEdge = (length: number) => Array.from({ length: 13 }, (_, i) => toPixel(commandedArc({ ...command, v: command.v * length }, (i - 6) / 18)[24]));
+    return [...bandEdge(1.04), ...bandEdge(0.96).reverse()];
   },
-  ellipse: (command) => ringAround(pixel(arcOf(command)[24]), 42, 26),
+  ellipse: (command) => ringAround(toPixel(commandedArc(command)[24]), 42, 26),
 };
 
 const ringAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
@@ -47,81 +47,81 @@ const ringAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
 /** Maximum size in pixels of a drawing that stands for a point. */
 const POINT_SIZE = 25;
 
-const sizeAlong = (points: Point[], axis: number) => Math.max(...points.map((point) => point[axis])) - Math.min(...points.map((point) => point[axis]));
+const extentAlong = (points: Point[], axis: number) => Math.max(...points.map((point) => point[axis])) - Math.min(...points.map((point) => point[axis]));
 
 /** Returns the shape that a drawing stands for: a point, or any other. */
 function shapeOf(points: Point[]): string {
-  const isLong = [0, 1].some((axis) => sizeAlong(points, axis) > POINT_SIZE);
-  return isLong ? 'drawing' : 'point';
+  const isLargerThanPoint = [0, 1].some((axis) => extentAlong(points, axis) > POINT_SIZE);
+  return isLargerThanPoint ? 'drawing' : 'point';
 }
 
-/** Says where robots stop, by x, y, θ of one after the other, and whether the expected shape is right, which nobody can say of a drawn region. */
+/** Returns sentences on where the robots stop (`poses`: x, y, θ triples), and whether the expected shape is right. Drawings are not judged. */
 function outcomeOf(poses: Float64Array, expected: string) {
-  const of = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;
-  const [place, heading] = [Math.hypot(of(0), of(1)), of(2)];
-  const verdict = place > NONE && expected === 'drawing' ? '' : expected === (place > NONE ? 'band' : 'point') ? 'Right. ' : 'Not what you expected. ';
-  if (place > NONE) return `${verdict}The robots spread by ${place.toFixed(2)}\u00a0m (1σ), their headings by ${heading.toFixed(2)}\u00a0rad.`;
-  if (heading > NONE) return `${verdict}Every robot stops at the same point. Only the headings differ, by ${heading.toFixed(2)}\u00a0rad (1σ).`;
-  return `${verdict}Every robot stops at the same point, with the same heading. There is no cloud.`;
+  const deviationAlong = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;
+  const [place, heading] = [Math.hypot(deviationAlong(0), deviationAlong(1)), deviationAlong(2)];
+  const verdictText = place > MIN_SPREAD && expected === 'drawing' ? '' : expected === (place > MIN_SPREAD ? 'band' : 'point') ? 'Right. ' : 'Not what you expected. ';
+  if (place > MIN_SPREAD) return `${verdictText}The robots spread by ${place.toFixed(2)}\u00a0m (1σ), their headings by ${heading.toFixed(2)}\u00a0rad.`;
+  if (heading > MIN_SPREAD) return `${verdictText}Every robot stops at the same point. Only the headings differ, by ${heading.toFixed(2)}\u00a0rad (1σ).`;
+  return `${verdictText}Every robot stops at the same point, with the same heading. There is no cloud.`;
 }
 
 /** Prepares a form with a pad to draw on. `enter` puts the figure into the state of the chosen radio button `case`. */
 export function prepareSketch(form: HTMLFormElement, enter: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
-  const part = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
+  const svgPart = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
   const pad = form.querySelector('svg') as SVGSVGElement;
-  const status = form.querySelector('[role=status]') as HTMLElement;
+  const statusOutput = form.querySelector('[role=status]') as HTMLElement;
   const button = form.querySelector('button') as HTMLButtonElement;
-  let drawn: Point[] = [];
+  let drawnPoints: Point[] = [];
 
-  const chosen = (name: string) => form.querySelector(`[name=${name}]:checked`) as HTMLInputElement | null;
-  const values = () => JSON.parse(chosen('case')?.value ?? '{}');
-  const command = () => ({ v: 1, omega: values().omega ?? 0, dt: 2 });
-  const draw = (points: Point[]) => {
-    drawn = points;
-    part('drawn').setAttribute('d', pathOf(points, true));
+  const checkedInput = (name: string) => form.querySelector(`[name=${name}]:checked`) as HTMLInputElement | null;
+  const caseValues = () => JSON.parse(checkedInput('case')?.value ?? '{}');
+  const command = () => ({ v: 1, omega: caseValues().omega ?? 0, dt: 2 });
+  const showDrawing = (points: Point[]) => {
+    drawnPoints = points;
+    svgPart('drawn').setAttribute('d', pathOf(points, true));
     button.disabled = points.length < 2;
   };
-  const reset = () => {
-    const arc = arcOf(command()).map(pixel);
-    part('command').setAttribute('d', pathOf(arc));
-    for (const [name, at] of [['cx', 0], ['cy', 1]]) part('end').setAttribute(String(name), String(arc[24][Number(at)]));
-    for (const name of ['robots', 'headings']) part(name).setAttribute('d', '');
-    status.textContent = '';
-    const shape = chosen('shape');
+  const resetDrawing = () => {
+    const arc = commandedArc(command()).map(toPixel);
+    svgPart('command').setAttribute('d', pathOf(arc));
+    for (const [name, at] of [['cx', 0], ['cy', 1]]) svgPart('end').setAttribute(String(name), String(arc[24][Number(at)]));
+    for (const name of ['robots', 'headings']) svgPart(name).setAttribute('d', '');
+    statusOutput.textContent = '';
+    const shape = checkedInput('shape');
     if (shape) shape.checked = false;
-    draw([]);
+    showDrawing([]);
   };
-  const at = (event: PointerEvent) => {
+  const pointOfEvent = (event: PointerEvent) => {
     const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(pad.getScreenCTM()?.inverse());
     return [x, y] as Point;
   };
 
   pad.addEventListener('pointerdown', (event) => {
-    const shape = chosen('shape');
+    const shape = checkedInput('shape');
     if (shape) shape.checked = false;
     pad.setPointerCapture(event.pointerId);
-    draw([at(event)]);
+    showDrawing([pointOfEvent(event)]);
   });
   pad.addEventListener('pointermove', (event) => {
-    if (pad.hasPointerCapture(event.pointerId)) draw([...drawn, at(event)]);
+    if (pad.hasPointerCapture(event.pointerId)) showDrawing([...drawnPoints, pointOfEvent(event)]);
   });
   form.addEventListener('change', ({ target }) => {
     const { name, value } = target as HTMLInputElement;
-    if (name === 'case') reset();
-    else draw(SHAPES[value](command()));
+    if (name === 'case') resetDrawing();
+    else showDrawing(SHAPES[value](command()));
   });
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
-    await enter(values());
+    await enter(caseValues());
     const poses = figure.poses as Float64Array;
-    const robots = Array.from({ length: Math.min(DRAWN, poses.length / 3) }, (_, i) => poses.subarray(3 * i, 3 * i + 3));
-    const dots = robots.map(([x, y, theta]) => {
-      const [px, py] = pixel([x, y]);
-      return { dot: `M${px} ${py}h0`, tick: `M${px} ${py}l${TICK * Math.cos(theta)} ${-TICK * Math.sin(theta)}` };
+    const drawnRobots = Array.from({ length: Math.min(MAX_DRAWN_ROBOTS, poses.length / 3) }, (_, i) => poses.subarray(3 * i, 3 * i + 3));
+    const robotDots = drawnRobots.map(([x, y, theta]) => {
+      const [px, py] = toPixel([x, y]);
+      return { dot: `M${px} ${py}h0`, tick: `M${px} ${py}l${TICK_LENGTH * Math.cos(theta)} ${-TICK_LENGTH * Math.sin(theta)}` };
     });
-    part('robots').setAttribute('d', dots.map(({ dot }) => dot).join(''));
-    part('headings').setAttribute('d', dots.map(({ tick }) => tick).join(''));
-    status.textContent = outcomeOf(poses, chosen('shape')?.value ?? shapeOf(drawn));
+    svgPart('robots').setAttribute('d', robotDots.map(({ dot }) => dot).join(''));
+    svgPart('headings').setAttribute('d', robotDots.map(({ tick }) => tick).join(''));
+    statusOutput.textContent = outcomeOf(poses, checkedInput('shape')?.value ?? shapeOf(drawnPoints));
   });
-  reset();
+  resetDrawing();
 }

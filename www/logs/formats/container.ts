@@ -3,14 +3,14 @@
 import type { Recording, Source } from '../log.ts';
 import { bytesOf } from '../log-error.ts';
 
-/** Topic as one node published it. */
+/** Topic of one publishing node. */
 export interface Channel {
   topic: string;
   /** Message type as it was recorded. */
   type: string;
   /** Serialization: "cdr" of ROS 2, "ros1", or another. */
   encoding: string;
-  /** Name of the node, or a number of the container's own. */
+  /** Name of the node, or a number that the container assigns. */
   publisher: string;
   /** Number of messages. */
   count: number;
@@ -40,8 +40,8 @@ export interface Container {
   read(isWanted: (channel: Channel) => boolean, each: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void>;
 }
 
-/** Maximum size of a block in bytes: recorders write one to four million. */
-export const MAX_BLOCK = 2 ** 26;
+/** Maximum size of a block in bytes. Recorders write one to four million. */
+export const MAX_BLOCK_BYTES = 2 ** 26;
 
 /** Number of bytes that are read at once, and number of such pieces that are read in advance. */
 const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
@@ -53,7 +53,7 @@ const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
 export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
   const pieces = new Map<number, Uint8Array | Promise<Uint8Array>>();
   let last = -1;
-  const request = (i: number) => {
+  const requestPiece = (i: number) => {
     if (pieces.has(i) || i * PIECE_BYTES >= source.size) return;
     const bytes = bytesOf(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
     pieces.set(i, bytes);
@@ -61,24 +61,24 @@ export function readAhead(source: Source): (from: number, to: number) => Promise
     bytes.then((read) => pieces.has(i) && pieces.set(i, read), () => {});
   };
   return async (from, to) => {
-    const first = Math.floor(from / PIECE_BYTES);
-    const ahead = first <= last + 1 ? PIECES_AHEAD : 0;
-    last = Math.max(first, Math.floor((to - 1) / PIECE_BYTES));
-    for (const i of pieces.keys()) if (i < first) pieces.delete(i);
-    for (let i = first; i <= last + ahead; i++) request(i);
+    const firstPiece = Math.floor(from / PIECE_BYTES);
+    const piecesAhead = firstPiece <= last + 1 ? PIECES_AHEAD : 0;
+    last = Math.max(firstPiece, Math.floor((to - 1) / PIECE_BYTES));
+    for (const i of pieces.keys()) if (i < firstPiece) pieces.delete(i);
+    for (let i = firstPiece; i <= last + piecesAhead; i++) requestPiece(i);
     let bytes: Uint8Array = new Uint8Array();
-    for (let i = first; i <= last; i++) {
+    for (let i = firstPiece; i <= last; i++) {
       const piece = pieces.get(i) ?? bytes;
-      const start = i * PIECE_BYTES;
-      // Awaiting a piece that is there would take longer than reading a record.
-      const part = (piece instanceof Uint8Array ? piece : await piece).subarray(Math.max(from - start, 0), to - start);
-      bytes = i === first ? part : joined(bytes, part);
+      const pieceStart = i * PIECE_BYTES;
+      // Awaiting a piece that has already been read would take longer than reading a record.
+      const pieceBytes = (piece instanceof Uint8Array ? piece : await piece).subarray(Math.max(from - pieceStart, 0), to - pieceStart);
+      bytes = i === firstPiece ? pieceBytes : joinBytes(bytes, pieceBytes);
     }
     return bytes;
   };
 }
 
-function joined(first: Uint8Array, second: Uint8Array): Uint8Array {
+function joinBytes(first: Uint8Array, second: Uint8Array): Uint8Array {
   const bytes = new Uint8Array(first.length + second.length);
   bytes.set(first);
   bytes.set(second, first.length);
@@ -94,7 +94,7 @@ export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) +
 export function stampAt(view: DataView, at: number) {
   // The quotient of rounded numbers may be wrong by 1. The lower 32 bits of the remainder are exact, and reveal it.
   const seconds = Math.floor(uint53(view, at) / 1e9);
-  const rest = (view.getUint32(at, true) - Math.imul(seconds, 1e9)) | 0;
-  const carry = rest < 0 ? -1 : rest < 1e9 ? 0 : 1;
-  return { seconds: seconds + carry, nanoseconds: rest - 1e9 * carry };
+  const remainder = (view.getUint32(at, true) - Math.imul(seconds, 1e9)) | 0;
+  const carry = remainder < 0 ? -1 : remainder < 1e9 ? 0 : 1;
+  return { seconds: seconds + carry, nanoseconds: remainder - 1e9 * carry };
 }

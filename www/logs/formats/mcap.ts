@@ -4,7 +4,7 @@ import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK, readAhead, stampAt, uint53, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { MAX_BLOCK_BYTES, readAhead, stampAt, uint53, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
@@ -19,28 +19,28 @@ const MAGIC_BYTES = 8;
 export async function openMcap(source: Source): Promise<Container> {
   await loadZstd();
   const size = BigInt(source.size);
-  const readable = {
+  const readableSource = {
     size: async () => size,
     read: async (offset: bigint, length: bigint) => {
       if (offset + length > size) throw new RangeError('it ends before what it refers to');
       return bytesOf(source, Number(offset), Number(offset + length));
     },
   };
-  const index = await McapIndexedReader.Initialize({ readable }).catch(() => undefined);
+  const indexReader = await McapIndexedReader.Initialize({ readable: readableSource }).catch(() => undefined);
   const mcap = new Mcap(source);
-  if (index && isComplete(index)) mcap.useIndex(index);
+  if (indexReader && isCompleteIndex(indexReader)) mcap.useIndex(indexReader);
   else await mcap.read(() => true, ({ channel }) => (channel.count += 1));
   return mcap;
 }
 
 /** Checks that an index has all chunks and messages. */
-const isComplete = ({ chunkIndexes, statistics }: McapIndexedReader) =>
+const isCompleteIndex = ({ chunkIndexes, statistics }: McapIndexedReader) =>
   statistics?.chunkCount === chunkIndexes.length &&
   (chunkIndexes.length > 0 || statistics.messageCount === 0n) &&
   chunkIndexes.every(({ messageIndexOffsets, messageEndTime }) => messageIndexOffsets.size > 0 || messageEndTime === 0n);
 
-type Wanted = (channel: Channel) => boolean;
-type Each = (message: Message) => void;
+type IsWanted = (channel: Channel) => boolean;
+type OnMessage = (message: Message) => void;
 
 class Mcap implements Container {
   readonly format = 'mcap';
@@ -71,44 +71,44 @@ class Mcap implements Container {
     if (!this.#channels.has(id)) this.#channels.set(id, { topic, type: this.#types.get(schemaId) ?? '', encoding: messageEncoding, publisher, count });
   }
 
-  async read(isWanted: Wanted, each: Each, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async read(isWanted: IsWanted, each: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     if (!this.#chunks) return this.#readFromStart(isWanted, each, onProgress);
-    const wanted = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
-    const chunks = this.#chunks.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wanted.has(id)));
+    const wantedIds = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
+    const wantedChunks = this.#chunks.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wantedIds.has(id)));
     const bytesAt = readAhead(this.#source);
-    for (const [i, { chunkStartOffset, chunkLength }] of chunks.entries()) {
+    for (const [i, { chunkStartOffset, chunkLength }] of wantedChunks.entries()) {
       const from = Number(chunkStartOffset);
       await this.#attempt(from, async () => {
-        if (chunkLength > MAX_BLOCK) throw new RangeError(`a chunk of ${chunkLength} bytes`);
+        if (chunkLength > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${chunkLength} bytes`);
         const bytes = await bytesAt(from, from + Number(chunkLength));
         if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
-        this.#readRecords(await contentsOf(bytes.subarray(RECORD_HEAD_BYTES)), isWanted, each);
+        this.#readRecords(await recordsOf(bytes.subarray(RECORD_HEAD_BYTES)), isWanted, each);
       });
-      if (onProgress?.((i + 1) / chunks.length)) return;
+      if (onProgress?.((i + 1) / wantedChunks.length)) return;
     }
   }
 
-  async #readFromStart(isWanted: Wanted, each: Each, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async #readFromStart(isWanted: IsWanted, each: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.#source;
     const bytesAt = readAhead(this.#source);
     this.cutShort = true;
     for (let at = MAGIC_BYTES, reported = 0; at + RECORD_HEAD_BYTES <= size; ) {
-      const head = await bytesAt(at, at + RECORD_HEAD_BYTES);
-      const length = uint53(viewOf(head), 1);
-      const next = at + RECORD_HEAD_BYTES + length;
-      if (next > size) return;
-      if (head[0] === DATA_END) {
+      const recordHead = await bytesAt(at, at + RECORD_HEAD_BYTES);
+      const recordLength = uint53(viewOf(recordHead), 1);
+      const nextRecord = at + RECORD_HEAD_BYTES + recordLength;
+      if (nextRecord > size) return;
+      if (recordHead[0] === DATA_END) {
         this.cutShort = false;
         return;
       }
-      if ([SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(head[0])) {
+      if ([SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(recordHead[0])) {
         await this.#attempt(at, async () => {
-          if (length > MAX_BLOCK) throw new RangeError(`a record of ${length} bytes`);
-          const record = await bytesAt(at, next);
-          this.#readRecords(head[0] === CHUNK ? await contentsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, each);
+          if (recordLength > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${recordLength} bytes`);
+          const record = await bytesAt(at, nextRecord);
+          this.#readRecords(recordHead[0] === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, each);
         });
       }
-      at = next;
+      at = nextRecord;
       if (at < reported) continue;
       if (onProgress?.(at / size)) return;
       reported = at + size / 100;
@@ -125,38 +125,38 @@ class Mcap implements Container {
     }
   }
 
-  #readRecords(bytes: Uint8Array, isWanted: Wanted, each: Each): void {
+  #readRecords(bytes: Uint8Array, isWanted: IsWanted, each: OnMessage): void {
     const view = viewOf(bytes);
     for (let at = 0; at < bytes.length; ) {
-      const next = at + RECORD_HEAD_BYTES + uint53(view, at + 1);
-      if (next > bytes.length) throw new RangeError('a record is cut short');
+      const nextRecord = at + RECORD_HEAD_BYTES + uint53(view, at + 1);
+      if (nextRecord > bytes.length) throw new RangeError('a record is cut short');
       if (bytes[at] === MESSAGE) {
         const channel = this.#channels.get(view.getUint16(at + RECORD_HEAD_BYTES, true));
         if (channel && isWanted(channel)) {
-          each({ channel, ...stampAt(view, at + RECORD_HEAD_BYTES + 6), block: view, from: at + RECORD_HEAD_BYTES + 22, to: next });
+          each({ channel, ...stampAt(view, at + RECORD_HEAD_BYTES + 6), block: view, from: at + RECORD_HEAD_BYTES + 22, to: nextRecord });
         }
       } else {
         const reader = new McapStreamReader({ noMagicPrefix: true });
-        reader.append(bytes.subarray(at, next));
+        reader.append(bytes.subarray(at, nextRecord));
         const record = reader.nextRecord();
         if (record?.type === 'Schema') this.#types.set(record.id, record.name);
         if (record?.type === 'Channel') this.#addChannel(record);
       }
-      at = next;
+      at = nextRecord;
     }
   }
 }
 
 /** Returns the records of a chunk; rejects if it is damaged, or its compression is unknown. */
-async function contentsOf(chunk: Uint8Array): Promise<Uint8Array> {
+async function recordsOf(chunk: Uint8Array): Promise<Uint8Array> {
   const view = viewOf(chunk);
   const [size, crc, length] = [uint53(view, 16), view.getUint32(24, true), view.getUint32(28, true)];
-  if (size > MAX_BLOCK) throw new RangeError(`a chunk of ${size} bytes`);
+  if (size > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${size} bytes`);
   const compression = new TextDecoder().decode(chunk.subarray(32, 32 + length));
   const bytes = chunk.subarray(40 + length);
-  const decompress = { '': () => bytes, zstd: () => unzstd(bytes, size), lz4: () => unlz4(bytes, size) }[compression];
-  if (!decompress) throw new RangeError(`compression by ${compression}, not by zstd or lz4`);
-  const contents = await decompress();
-  if (crc !== 0 && crc32(contents) !== crc) throw new RangeError('the checksum of a chunk is wrong');
-  return contents;
+  const decompressor = { '': () => bytes, zstd: () => unzstd(bytes, size), lz4: () => unlz4(bytes, size) }[compression];
+  if (!decompressor) throw new RangeError(`compression by ${compression}, not by zstd or lz4`);
+  const chunkContents = await decompressor();
+  if (crc !== 0 && crc32(chunkContents) !== crc) throw new RangeError('the checksum of a chunk is wrong');
+  return chunkContents;
 }

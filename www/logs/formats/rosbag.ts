@@ -2,7 +2,7 @@
 
 import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { MAX_BLOCK_BYTES, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { unlz4 } from './lz4.ts';
 
 /** Values of the field "op" of records. */
@@ -14,8 +14,8 @@ const MAGIC_BYTES = 13;
 /** Number of bytes of a header that are read at first. Headers with a long topic are longer. */
 const HEADER_BYTES = 4096;
 
-type Wanted = (channel: Channel) => boolean;
-type Each = (message: Message) => void;
+type IsWanted = (channel: Channel) => boolean;
+type OnMessage = (message: Message) => void;
 
 /** Opens a bag by its index. Without an index it is read from its start up to its end or damage. */
 export async function openRosbag(source: Source): Promise<Container> {
@@ -24,8 +24,8 @@ export async function openRosbag(source: Source): Promise<Container> {
   return bag;
 }
 
-/** Header of a record, a range of a block: named fields, each after its length. */
-class Fields {
+/** Header of a record as a range of a block. It contains named fields, each after its length. */
+class HeaderFields {
   #bytes;
   #view;
   #from;
@@ -74,22 +74,22 @@ class Fields {
     const bytes = this.#bytes;
     for (let at = this.#from, end; at < this.#to; at = end) {
       end = at + 4 + this.#view.getUint32(at, true);
-      const equals = at + 4 + name.length;
-      if (bytes[equals] !== 0x3d) continue;
-      let same = 0;
-      while (same < name.length && bytes[at + 4 + same] === name.charCodeAt(same)) same += 1;
-      if (same === name.length) return [equals + 1, end];
+      const equalsSign = at + 4 + name.length;
+      if (bytes[equalsSign] !== 0x3d) continue;
+      let matchingBytes = 0;
+      while (matchingBytes < name.length && bytes[at + 4 + matchingBytes] === name.charCodeAt(matchingBytes)) matchingBytes += 1;
+      if (matchingBytes === name.length) return [equalsSign + 1, end];
     }
     return [0, 0];
   }
 }
 
 /** Header of the record at a position of a block, and the range of its data, which ends at the next record. Throws a RangeError if it is cut short. */
-function recordAt(bytes: Uint8Array, view: DataView, at: number): { fields: Fields; from: number; next: number } {
+function recordAt(bytes: Uint8Array, view: DataView, at: number): { fields: HeaderFields; from: number; next: number } {
   const header = at + 4 + view.getUint32(at, true);
-  const next = header + 4 + view.getUint32(header, true);
-  if (next > bytes.length) throw new RangeError('a record is cut short');
-  return { fields: new Fields(bytes, view, at + 4, header), from: header + 4, next };
+  const nextRecord = header + 4 + view.getUint32(header, true);
+  if (nextRecord > bytes.length) throw new RangeError('a record is cut short');
+  return { fields: new HeaderFields(bytes, view, at + 4, header), from: header + 4, next: nextRecord };
 }
 
 class Rosbag implements Container {
@@ -98,7 +98,7 @@ class Rosbag implements Container {
   readonly missing = [];
   cutShort = false;
   #source;
-  /** Chunks of the index, with the connections that each has. */
+  /** Chunks of the index, each with the ids of its connections. */
   #chunks: { position: number; connections: number[] }[] | undefined;
   #channels = new Map<number, Channel>();
 
@@ -114,8 +114,8 @@ class Rosbag implements Container {
   async readIndex(): Promise<boolean> {
     const { size } = this.#source;
     try {
-      const head = await bytesOf(this.#source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES);
-      const { fields } = recordAt(head, viewOf(head), 0);
+      const bagHeader = await bytesOf(this.#source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES);
+      const { fields } = recordAt(bagHeader, viewOf(bagHeader), 0);
       const [start, count] = [fields.uint64('index_pos'), fields.uint32('chunk_count')];
       if (fields.byte('op') !== BAG || start === 0 || start > size) return false;
       const bytes = await bytesOf(this.#source, start, size);
@@ -125,12 +125,12 @@ class Rosbag implements Container {
         const { fields, from, next } = recordAt(bytes, view, at);
         if (fields.byte('op') === CONNECTION) this.#addConnection(fields, bytes.subarray(from, next));
         if (fields.byte('op') === CHUNK_INFO) {
-          const pairs = Array.from({ length: fields.uint32('count') }, (_, i) => [0, 4].map((part) => view.getUint32(from + 8 * i + part, true)));
-          for (const [id, messages] of pairs) {
+          const idsWithCounts = Array.from({ length: fields.uint32('count') }, (_, i) => [0, 4].map((part) => view.getUint32(from + 8 * i + part, true)));
+          for (const [id, messages] of idsWithCounts) {
             const channel = this.#channels.get(id);
             if (channel) channel.count += messages;
           }
-          chunks.push({ position: fields.uint64('chunk_pos'), connections: pairs.map(([id]) => id) });
+          chunks.push({ position: fields.uint64('chunk_pos'), connections: idsWithCounts.map(([id]) => id) });
         }
         at = next;
       }
@@ -144,52 +144,52 @@ class Rosbag implements Container {
     }
   }
 
-  #addConnection(fields: Fields, data: Uint8Array): void {
+  #addConnection(fields: HeaderFields, data: Uint8Array): void {
     const id = fields.uint32('conn');
     if (this.#channels.has(id)) return;
-    const more = new Fields(data);
-    const publisher = more.has('callerid') ? more.text('callerid') : `${id}`;
-    this.#channels.set(id, { topic: fields.text('topic'), type: more.text('type'), encoding: 'ros1', publisher, count: 0 });
+    const connectionFields = new HeaderFields(data);
+    const publisher = connectionFields.has('callerid') ? connectionFields.text('callerid') : `${id}`;
+    this.#channels.set(id, { topic: fields.text('topic'), type: connectionFields.text('type'), encoding: 'ros1', publisher, count: 0 });
   }
 
-  async read(isWanted: Wanted, each: Each, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async read(isWanted: IsWanted, each: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.#source;
     const bytesAt = readAhead(this.#source);
-    const wanted = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
-    const chunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wanted.has(id)));
-    this.cutShort = !chunks;
-    for (let i = 0, at = MAGIC_BYTES; chunks ? i < chunks.length : at + 8 <= size; i++) {
-      if (chunks) at = chunks[i].position;
-      const position = at;
+    const wantedIds = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
+    const wantedChunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wantedIds.has(id)));
+    this.cutShort = !wantedChunks;
+    for (let i = 0, at = MAGIC_BYTES; wantedChunks ? i < wantedChunks.length : at + 8 <= size; i++) {
+      if (wantedChunks) at = wantedChunks[i].position;
+      const recordStart = at;
       try {
-        let head = await bytesAt(at, Math.min(at + HEADER_BYTES, size));
-        const length = viewOf(head).getUint32(0, true);
-        if (length > MAX_BLOCK) throw new RangeError('a header is damaged');
+        let recordHead = await bytesAt(at, Math.min(at + HEADER_BYTES, size));
+        const length = viewOf(recordHead).getUint32(0, true);
+        if (length > MAX_BLOCK_BYTES) throw new RangeError('a header is damaged');
         // The last record of a bag that was not closed is incomplete.
-        if (at + length + 8 > size && !chunks) return;
-        if (length + 8 > head.length) head = await bytesAt(at, Math.min(at + length + 8, size));
-        const bytes = viewOf(head).getUint32(4 + length, true);
+        if (at + length + 8 > size && !wantedChunks) return;
+        if (length + 8 > recordHead.length) recordHead = await bytesAt(at, Math.min(at + length + 8, size));
+        const bytes = viewOf(recordHead).getUint32(4 + length, true);
         const from = at + 8 + length;
         at = from + bytes;
-        if (at > size && !chunks) return;
-        const fields = new Fields(head.subarray(4, 4 + length));
+        if (at > size && !wantedChunks) return;
+        const fields = new HeaderFields(recordHead.subarray(4, 4 + length));
         const op = fields.byte('op');
         if (op === CONNECTION) this.#addConnection(fields, await bytesAt(from, at));
         if (op === CHUNK) {
-          if (Math.max(bytes, fields.uint32('size')) > MAX_BLOCK) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
+          if (Math.max(bytes, fields.uint32('size')) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
           await this.#readChunk(fields, await bytesAt(from, at), isWanted, each);
-        } else if (chunks) throw new RangeError('no chunk is there');
+        } else if (wantedChunks) throw new RangeError('no chunk is there');
       } catch (error) {
         if (error instanceof LogError) throw error;
-        this.damage.set(position, reasonOf(error));
+        this.damage.set(recordStart, reasonOf(error));
         // Without an index and without a length, the next record cannot be found.
-        if (at === position && !chunks) return;
+        if (at === recordStart && !wantedChunks) return;
       }
-      if (onProgress?.(chunks ? (i + 1) / chunks.length : at / size)) return;
+      if (onProgress?.(wantedChunks ? (i + 1) / wantedChunks.length : at / size)) return;
     }
   }
 
-  async #readChunk(chunk: Fields, compressed: Uint8Array, isWanted: Wanted, each: Each): Promise<void> {
+  async #readChunk(chunk: HeaderFields, compressed: Uint8Array, isWanted: IsWanted, each: OnMessage): Promise<void> {
     const bytes = await this.#decompress(chunk.text('compression'), compressed, chunk.uint32('size'));
     const view = viewOf(bytes);
     for (let at = 0; at < bytes.length; ) {

@@ -15,17 +15,17 @@ const HEADER_BYTES = 100;
 const MAX_DEPTH = 20;
 
 /** Maximum size of a row, bytes. The largest messages are point clouds and images. */
-const MAX_ROW = 2 ** 28;
+const MAX_ROW_BYTES = 2 ** 28;
 
 /** Number of nanoseconds in a second. */
-const NANOSECONDS = 1_000_000_000n;
+const NS_PER_S = 1_000_000_000n;
 
-type Value = number | bigint | Uint8Array;
+type SqliteValue = number | bigint | Uint8Array;
 
 /** Row of a table. */
 interface Row {
   id: number;
-  /** Bytes on the leaf page; the others are on overflow pages. */
+  /** Bytes of the row on the leaf page; all other bytes are on overflow pages. */
   bytes: Uint8Array;
   /** Number of all bytes of the row. */
   length: number;
@@ -38,7 +38,7 @@ interface Table {
   columns: string[];
 }
 
-const textOf = (value: Value) => (value instanceof Uint8Array ? new TextDecoder().decode(value) : '');
+const textOf = (value: SqliteValue) => (value instanceof Uint8Array ? new TextDecoder().decode(value) : '');
 
 export async function openSqlite(source: Source): Promise<Container> {
   await loadZstd();
@@ -57,7 +57,7 @@ class Rosbag2 implements Container {
   /** Bytes of a page without those reserved at its end. */
   #usable = 0;
   #messages: Table = { root: 0, columns: [] };
-  #channels = new Map<Value, Channel>();
+  #channels = new Map<SqliteValue, Channel>();
   #bytesAt;
 
   constructor(source: Source) {
@@ -71,24 +71,24 @@ class Rosbag2 implements Container {
 
   async open(): Promise<void> {
     const view = viewOf(await bytesOf(this.#source, 0, HEADER_BYTES));
-    const refuse = () => new LogError({ file: this.#source.name }, (say) => say.noRosbag2);
+    const notRosbag2 = () => new LogError({ file: this.#source.name }, (say) => say.noRosbag2);
     this.cutShort = view.byteLength < HEADER_BYTES;
     if (this.cutShort) return;
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
     this.#usable = this.#pageSize - view.getUint8(20);
-    if (this.#usable < 480) throw refuse();
+    if (this.#usable < 480) throw notRosbag2();
     this.cutShort = view.getUint32(28) * this.#pageSize > this.#source.size;
-    const tables = new Map<string, Table>();
+    const tablesByName = new Map<string, Table>();
     await this.#eachRow({ root: 1, columns: [] }, async (row) => {
       const bytes = await this.#whole(row);
       const [name, root, sql] = [1, 3, 4].map((column) => valueOf(bytes, column));
       const columns = textOf(sql).replace(/^[^(]*\(|\)[^)]*$/g, '').split(',').map((column) => column.trim().split(/\s/)[0]);
-      tables.set(textOf(name), { root: Number(root), columns });
+      tablesByName.set(textOf(name), { root: Number(root), columns });
     });
-    const [topics, messages] = ['topics', 'messages'].map((name) => tables.get(name));
+    const [topics, messages] = ['topics', 'messages'].map((name) => tablesByName.get(name));
     if (!topics || !messages) {
       if (this.cutShort) return;
-      throw refuse();
+      throw notRosbag2();
     }
     this.#messages = messages;
     await this.#eachRow(topics, async (row) => {
@@ -104,69 +104,69 @@ class Rosbag2 implements Container {
   }
 
   async read(isWanted: (channel: Channel) => boolean, each: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void> {
-    const wanted = new Map([...this.#channels].filter(([, channel]) => isWanted(channel)));
+    const wantedChannels = new Map([...this.#channels].filter(([, channel]) => isWanted(channel)));
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
-    const take = (channel: Channel, bytes: Uint8Array) => {
-      const time = BigInt(valueOf(bytes, timestamp) as bigint);
+    const pass = (channel: Channel, bytes: Uint8Array) => {
+      const stamp = BigInt(valueOf(bytes, timestamp) as bigint);
       const block = viewOf(valueOf(bytes, data) as Uint8Array);
-      each({ channel, seconds: Number(time / NANOSECONDS), nanoseconds: Number(time % NANOSECONDS), block, from: 0, to: block.byteLength });
+      each({ channel, seconds: Number(stamp / NS_PER_S), nanoseconds: Number(stamp % NS_PER_S), block, from: 0, to: block.byteLength });
     };
     await this.#eachRow(this.#messages, (row) => {
-      const channel = wanted.get(valueOf(row.bytes, topicId));
+      const channel = wantedChannels.get(valueOf(row.bytes, topicId));
       if (!channel) return undefined;
-      return row.bytes.length < row.length ? this.#whole(row).then((bytes) => take(channel, bytes)) : take(channel, row.bytes);
+      return row.bytes.length < row.length ? this.#whole(row).then((bytes) => pass(channel, bytes)) : pass(channel, row.bytes);
     }, onProgress);
   }
 
   /** Passes on the rows of a table in the order of their numbers. Damaged pages are skipped. */
   async #eachRow({ root }: Table, each: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
-    const leaves = await this.#leavesOf(root);
-    for (const [i, number] of leaves.entries()) {
+    const leafPages = await this.#leavesOf(root);
+    for (const [i, number] of leafPages.entries()) {
       if (!this.#has(number)) continue;
       try {
         const page = await this.#page(number);
         for (const cell of cellsOf(page, number, LEAF)) {
-          const waiting = each(this.#rowAt(page, cell));
-          if (waiting) await waiting;
+          const pendingRow = each(this.#rowAt(page, cell));
+          if (pendingRow) await pendingRow;
         }
       } catch (error) {
         if (error instanceof LogError) throw error;
         this.damage.set(number, reasonOf(error));
       }
-      if (onProgress?.((i + 1) / leaves.length)) return;
+      if (onProgress?.((i + 1) / leafPages.length)) return;
     }
   }
 
   /** Returns the numbers of a table's leaf pages, which have its rows, in the order of the rows. */
   async #leavesOf(root: number): Promise<number[]> {
     const { size } = this.#source;
-    let level = [root];
+    let levelPages = [root];
     for (let depth = 0; depth < MAX_DEPTH; depth++) {
-      const below: number[] = [];
-      for (const number of level.filter((each) => this.#has(each))) {
+      const nextLevel: number[] = [];
+      for (const number of levelPages.filter((each) => this.#has(each))) {
         // These pages are far from each other, so that reading ahead would be slow.
         const page = await bytesOf(this.#source, (number - 1) * this.#pageSize, number * this.#pageSize);
-        if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF && below.length === 0) return level;
+        if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF && nextLevel.length === 0) return levelPages;
         try {
           const view = viewOf(page);
-          for (const cell of cellsOf(page, number, INTERIOR)) below.push(view.getUint32(cell));
-          below.push(view.getUint32((number === 1 ? HEADER_BYTES : 0) + 8));
+          for (const cell of cellsOf(page, number, INTERIOR)) nextLevel.push(view.getUint32(cell));
+          nextLevel.push(view.getUint32((number === 1 ? HEADER_BYTES : 0) + 8));
         } catch (error) {
           this.damage.set(number, reasonOf(error));
         }
       }
       // A file that was cut short has no pages behind its end.
-      level = below.filter((number) => number * this.#pageSize <= size);
-      if (level.length * this.#pageSize > 2 * size) break;
+      levelPages = nextLevel.filter((number) => number * this.#pageSize <= size);
+      if (levelPages.length * this.#pageSize > 2 * size) break;
     }
     return [];
   }
 
-  /** Checks whether the file has a page. Otherwise it was cut short. */
+  /** Returns true if the file has a page. Otherwise the file was cut short. */
   #has(number: number): boolean {
-    const isThere = number * this.#pageSize <= this.#source.size;
-    this.cutShort ||= !isThere;
-    return isThere;
+    const hasPage = number * this.#pageSize <= this.#source.size;
+    this.cutShort ||= !hasPage;
+    return hasPage;
   }
 
   async #page(number: number): Promise<Uint8Array> {
@@ -178,18 +178,18 @@ class Rosbag2 implements Container {
   #rowAt(page: Uint8Array, cell: number): Row {
     const [length, afterLength] = varintAt(page, cell);
     const [id, start] = varintAt(page, afterLength);
-    const end = start + this.#localBytes(length);
-    if (end > page.length || length > Math.min(MAX_ROW, this.#source.size)) throw new RangeError('a row is damaged');
-    return { id, bytes: page.subarray(start, end), length, next: end - start < length ? viewOf(page).getUint32(end) : 0 };
+    const localEnd = start + this.#localBytes(length);
+    if (localEnd > page.length || length > Math.min(MAX_ROW_BYTES, this.#source.size)) throw new RangeError('a row is damaged');
+    return { id, bytes: page.subarray(start, localEnd), length, next: localEnd - start < length ? viewOf(page).getUint32(localEnd) : 0 };
   }
 
   /** Returns the number of bytes of a row on its own page. The other bytes are on overflow pages. */
   #localBytes(length: number): number {
-    const most = this.#usable - 35;
-    if (length <= most) return length;
-    const least = Math.floor(((this.#usable - 12) * 32) / 255) - 23;
-    const wished = least + ((length - least) % (this.#usable - 4));
-    return wished <= most ? wished : least;
+    const maxLocal = this.#usable - 35;
+    if (length <= maxLocal) return length;
+    const minLocal = Math.floor(((this.#usable - 12) * 32) / 255) - 23;
+    const preferredLocal = minLocal + ((length - minLocal) % (this.#usable - 4));
+    return preferredLocal <= maxLocal ? preferredLocal : minLocal;
   }
 
   /** Returns all bytes of a row, including those on overflow pages. */
@@ -197,11 +197,11 @@ class Rosbag2 implements Container {
     if (bytes.length === length) return bytes;
     const row = new Uint8Array(length);
     row.set(bytes);
-    for (let filled = bytes.length; filled < length; ) {
+    for (let filledBytes = bytes.length; filledBytes < length; ) {
       const page = await this.#page(next);
-      const part = page.subarray(4, Math.min(this.#usable, 4 + length - filled));
-      row.set(part, filled);
-      filled += part.length;
+      const overflowPart = page.subarray(4, Math.min(this.#usable, 4 + length - filledBytes));
+      row.set(overflowPart, filledBytes);
+      filledBytes += overflowPart.length;
       next = viewOf(page).getUint32(0);
     }
     return row;
@@ -213,32 +213,32 @@ function cellsOf(page: Uint8Array, number: number, type: number): number[] {
   const view = viewOf(page);
   const start = number === 1 ? HEADER_BYTES : 0;
   if (view.getUint8(start) !== type) throw new RangeError('a page is damaged');
-  const pointers = start + (type === LEAF ? 8 : 12);
-  return Array.from({ length: view.getUint16(start + 3) }, (_, i) => view.getUint16(pointers + 2 * i));
+  const cellPointers = start + (type === LEAF ? 8 : 12);
+  return Array.from({ length: view.getUint16(start + 3) }, (_, i) => view.getUint16(cellPointers + 2 * i));
 }
 
 /** Returns a number of one to nine bytes, and the position behind it. */
 function varintAt(bytes: Uint8Array, at: number): [value: number, next: number] {
-  let value = 0;
+  let decoded = 0;
   for (let i = 0; i < 9; i++) {
     if (at + i >= bytes.length) break;
     const byte = bytes[at + i];
-    if (i < 8 && byte & 0x80) value = value * 128 + (byte & 0x7f);
-    else return [i < 8 ? value * 128 + byte : value * 256 + byte, at + i + 1];
+    if (i < 8 && byte & 0x80) decoded = decoded * 128 + (byte & 0x7f);
+    else return [i < 8 ? decoded * 128 + byte : decoded * 256 + byte, at + i + 1];
   }
   throw new RangeError('a row is damaged');
 }
 
-/** Numbers of bytes of integers, by their type from 0 to 9. */
-const INTEGERS = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
+/** Sizes of integers in bytes, by their type from 0 to 9. */
+const INTEGER_SIZES = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
 
-/** Returns the value of a column; throws a RangeError if it is not among the bytes. */
-function valueOf(row: Uint8Array, column: number): Value {
+/** Returns the value of a column; throws a RangeError if the bytes end before it. */
+function valueOf(row: Uint8Array, column: number): SqliteValue {
   let [from, at] = varintAt(row, 0);
   const end = from;
   for (let i = 0; at < end; i++) {
     const [type, next] = varintAt(row, at);
-    const to = from + (INTEGERS[type] ?? (type - 12 - (type % 2)) / 2);
+    const to = from + (INTEGER_SIZES[type] ?? (type - 12 - (type % 2)) / 2);
     if (i < column) [from, at] = [to, next];
     else if (to > row.length) break;
     else if (type >= 12) return row.subarray(from, to);

@@ -3,26 +3,26 @@
 import { ZSTDDecoder } from 'zstddec/stream';
 import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK, viewOf } from './container.ts';
+import { MAX_BLOCK_BYTES, viewOf } from './container.ts';
 
-const decoder = new ZSTDDecoder();
+const zstdDecoder = new ZSTDDecoder();
 
 /** Maximum size of a file that is decompressed in memory, bytes. */
 const MAX_FILE_BYTES = 2 ** 30;
 
 /** Number of bytes that are decompressed at once. */
-const PIECE_BYTES = 2 ** 20;
+const INPUT_PIECE_BYTES = 2 ** 20;
 
-/** Maximum number of successive parts without a byte. There is one at the end of each piece or frame. */
+/** Maximum number of successive empty parts. There is an empty part at the end of each piece or frame. */
 const MAX_EMPTY_PARTS = 100;
 
 /** Loads the decoder; the other functions need it. */
-export const loadZstd = () => decoder.init();
+export const loadZstd = () => zstdDecoder.init();
 
-/** Decompresses a block of known size; throws a RangeError if it has another. */
+/** Decompresses a block of known size; throws a RangeError if it has another size. */
 export function unzstd(bytes: Uint8Array, size: number): Uint8Array {
   // The decoder treats size 0 as unknown.
-  const out = size === 0 ? new Uint8Array() : decoder.decode(bytes, size);
+  const out = size === 0 ? new Uint8Array() : zstdDecoder.decode(bytes, size);
   if (out.length !== size) throw new RangeError('a compressed block is not what was written');
   return out;
 }
@@ -30,18 +30,18 @@ export function unzstd(bytes: Uint8Array, size: number): Uint8Array {
 /** Decompresses a message; throws a RangeError if it is damaged. */
 export function unzstdMessage(bytes: Uint8Array): Uint8Array {
   const size = contentSize(bytes);
-  if (size > MAX_BLOCK) throw new RangeError(`a message of ${size} bytes`);
+  if (size > MAX_BLOCK_BYTES) throw new RangeError(`a message of ${size} bytes`);
   return unzstd(bytes, size);
 }
 
-/** Returns the size of the contents by the header of a frame; Infinity if the header has none. https://www.rfc-editor.org/rfc/rfc8878 */
+/** Returns the size of the content from the header of a frame; Infinity if the header has none. https://www.rfc-editor.org/rfc/rfc8878 */
 function contentSize(frame: Uint8Array): number {
   const view = viewOf(frame);
-  const descriptor = view.getUint8(4);
-  const isSingle = (descriptor >> 5) & 1;
-  const at = 6 - isSingle + [0, 1, 2, 4][descriptor & 3];
-  switch (descriptor >> 6) {
-    case 0: return isSingle ? view.getUint8(at) : Infinity;
+  const frameDescriptor = view.getUint8(4);
+  const isSingleSegment = (frameDescriptor >> 5) & 1;
+  const at = 6 - isSingleSegment + [0, 1, 2, 4][frameDescriptor & 3];
+  switch (frameDescriptor >> 6) {
+    case 0: return isSingleSegment ? view.getUint8(at) : Infinity;
     case 1: return view.getUint16(at, true) + 256;
     case 2: return view.getUint32(at, true);
     default: return Number(view.getBigUint64(at, true));
@@ -51,28 +51,28 @@ function contentSize(frame: Uint8Array): number {
 /** Returns a decompressed file with the same name. The contents up to a damage are kept. */
 export async function unzstdFile(source: Source): Promise<Source> {
   await loadZstd();
-  const tooLarge = () => new LogError({ file: source.name }, (say) => say.largeFile('zstd -d', MAX_FILE_BYTES));
-  if (source.size > MAX_FILE_BYTES) throw tooLarge();
+  const tooLargeError = () => new LogError({ file: source.name }, (say) => say.largeFile('zstd -d', MAX_FILE_BYTES));
+  if (source.size > MAX_FILE_BYTES) throw tooLargeError();
   const bytes = await bytesOf(source, 0, source.size);
-  const parts: Uint8Array<ArrayBuffer>[] = [];
+  const outputParts: Uint8Array<ArrayBuffer>[] = [];
   let [size, empty] = [0, 0];
   try {
-    for (const part of decoder.decodeStreaming(piecesOf(bytes))) {
+    for (const part of zstdDecoder.decodeStreaming(piecesOf(bytes))) {
       // The decoder does not stop at damage, but returns empty parts.
       empty = part.length === 0 ? empty + 1 : 0;
       if (empty > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
-      parts.push(part.slice());
+      outputParts.push(part.slice());
       size += part.length;
-      if (size > MAX_FILE_BYTES) throw tooLarge();
+      if (size > MAX_FILE_BYTES) throw tooLargeError();
     }
   } catch (error) {
     if (error instanceof LogError) throw error;
     if (size === 0) throw new LogError({ file: source.name }, (say) => say.damaged(reasonOf(error)));
   }
-  const file = new Blob(parts);
-  return { name: source.name, path: source.path, size: file.size, slice: (from, to) => file.slice(from, to) };
+  const decompressedFile = new Blob(outputParts);
+  return { name: source.name, path: source.path, size: decompressedFile.size, slice: (from, to) => decompressedFile.slice(from, to) };
 }
 
 function* piecesOf(bytes: Uint8Array) {
-  for (let at = 0; at < bytes.length; at += PIECE_BYTES) yield bytes.subarray(at, at + PIECE_BYTES);
+  for (let at = 0; at < bytes.length; at += INPUT_PIECE_BYTES) yield bytes.subarray(at, at + INPUT_PIECE_BYTES);
 }

@@ -3,10 +3,10 @@
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import { live } from 'lit/directives/live.js';
-import { candidates, usefulSeries } from '../../logs/candidates.ts';
+import { candidates, readableSeries } from '../../logs/candidates.ts';
 import { ROLES, UNITS, framesText, type Choice, type Question, type Recording, type Role } from '../../logs/log.ts';
-import { aligned, pathOf, type Path } from '../../logs/path.ts';
-import { linesOf } from '../../logs/summary.ts';
+import { alignedPath, pathOf, type Path } from '../../logs/path.ts';
+import { summaryLines } from '../../logs/summary.ts';
 import { language } from '../../messages/registry.ts';
 import { radioGroup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
@@ -24,7 +24,7 @@ export const labelOf = ({ series, frames }: Choice) => (frames ? `${series}: ${f
 
 /** Returns all options for a role. Each chain of transforms is a separate option. */
 function optionsOf(recording: Recording, role?: Role): [label: string, Choice][] {
-  const usableSeries = usefulSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
+  const usableSeries = readableSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
   const choices = usableSeries.flatMap(({ name: series, kind, frames = [] }): Choice[] => (kind === 'transforms' ? frames.map((each) => ({ series, frames: each })) : [{ series }]));
   return choices.map((choice) => [labelOf(choice) || recording.name, choice]);
 }
@@ -157,7 +157,7 @@ export function logSummary({ chosen, say, host }: LogOpener) {
 
 function tableOf({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
-  const lines = logs.map((log) => linesOf(log, found));
+  const lines = logs.map((log) => summaryLines(log, found));
   const tableCell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
   const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => lines.some((each) => each[label]?.length));
   return html`<table>
@@ -174,7 +174,7 @@ function tableOf({ odometry, reference }: Drive, caption: string, { choose, foun
 /** Returns a picture of both paths, with the odometry aligned to the reference. */
 function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
   const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_POINTS)));
-  const odometryPath = aligned(driven, truth);
+  const odometryPath = alignedPath(driven, truth);
   const all = [...odometryPath.poses, ...truth.poses];
   const ranges = ([0, 1] as const).map((axis) => [Math.min(...all.map((pose) => pose[axis])), Math.max(...all.map((pose) => pose[axis]))]);
   const [width, height] = ranges.map(([low, high]) => high - low);

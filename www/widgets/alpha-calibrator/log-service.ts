@@ -1,9 +1,9 @@
 /** Reading and calibration of logs, in a worker or, if the page cannot start one, in the page's thread. */
 
 import { sharedCore, startWorker, type SharedCore } from '../../core.ts';
-import type { Drive, Plan } from '../../logs/drives.ts';
+import type { Drive, LogPlan } from '../../logs/drives.ts';
 import type { OpenOptions, Source } from '../../logs/log.ts';
-import type { Answer, Failure, OnProgress, Opened, Request } from '../../logs/worker.ts';
+import type { Answer, PostedFailure, OnProgress, Opened, Request } from '../../logs/worker.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 
 type Trajectory = Exclude<CalibrationLog['odometry'], unknown[]>;
@@ -16,11 +16,11 @@ interface WorkerLink {
 
 /** Error of a log, in the languages of the page. */
 export class LogFailure extends Error {
-  sentences: Failure['sentences'];
-  file: Failure['file'];
-  ask: Failure['ask'];
+  sentences: PostedFailure['sentences'];
+  file: PostedFailure['file'];
+  ask: PostedFailure['ask'];
 
-  constructor({ message, ...failure }: Failure) {
+  constructor({ message, ...failure }: PostedFailure) {
     super(message);
     Object.assign(this, failure);
   }
@@ -64,13 +64,13 @@ export class LogService {
     this.stop();
     this.isOpen = false;
     // A copied `File` has no path.
-    const { recordings, skipped } = await this.#ask<{ recordings: Opened[]; skipped: Failure[] }>('open', [files.map((file) => ({ file, path: file.path ?? '' })), answers]);
+    const { recordings, skipped } = await this.#ask<{ recordings: Opened[]; skipped: PostedFailure[] }>('open', [files.map((file) => ({ file, path: file.path ?? '' })), answers]);
     this.isOpen = true;
     return { recordings, skipped: skipped.map((each) => new LogFailure(each)) };
   }
 
   /** Reads the drives of a plan for the opened recordings. The worker then has their logs. */
-  async read({ drives: planned, unpaired }: Plan, onProgress: OnProgress): Promise<Drive[]> {
+  async read({ drives: planned, unpaired }: LogPlan, onProgress: OnProgress): Promise<Drive[]> {
     this.#held = undefined;
     const drives = await this.#ask<Drive[]>('read', [{ drives: planned, unpaired }], onProgress);
     this.#held = drives.map(({ odometry }) => odometry.data);
@@ -155,7 +155,7 @@ async function startLogWorker(core: SharedCore): Promise<WorkerLink | undefined>
 }
 
 async function linkInPage(core: SharedCore): Promise<WorkerLink> {
-  const { serve } = await import('../../logs/worker.ts');
+  const { serveRequests: serve } = await import('../../logs/worker.ts');
   const { port1, port2 } = new MessageChannel();
   serve(port2);
   await new Promise<void>((resolve, reject) => {

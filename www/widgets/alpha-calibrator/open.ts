@@ -6,7 +6,7 @@ import { button } from '../../ui/controls.ts';
 import { FileOpener } from '../shared/files.ts';
 import { referenceNoise } from './controls.ts';
 import { isStopped, type LogFailure } from './log-service.ts';
-import type { Drive, Plan, Wishes } from '../../logs/drives.ts';
+import type { Drive, LogPlan, Wishes } from '../../logs/drives.ts';
 import type { OpenOptions, Question, Recording, Role } from '../../logs/log.ts';
 import type { CalibrationLog } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
@@ -34,7 +34,7 @@ export interface ChosenFiles {
   /** Roles that the reader chose for recordings with one log, by the index of the recording. */
   roles: Map<number, Role>;
   /** Plan for reading the drives; undefined while a question is open. */
-  plan?: Plan;
+  plan?: LogPlan;
   drives?: Drive[];
   /** Log that the figure has taken. */
   log?: CalibrationLog;
@@ -142,7 +142,7 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
-  async #plan(chosen: ChosenFiles, reader: Reader): Promise<Plan> {
+  async #plan(chosen: ChosenFiles, reader: Reader): Promise<LogPlan> {
     try {
       return planOf(reader, chosen, this.kind);
     } catch (error) {
@@ -160,7 +160,7 @@ export class LogOpener extends FileOpener<Figure> {
     }
   }
 
-  async #read(chosen: ChosenFiles, plan: Plan, reader: Reader) {
+  async #read(chosen: ChosenFiles, plan: LogPlan, reader: Reader) {
     const { service } = this.host;
     chosen.plan = plan;
     if (!service.isOpen) await service.open(chosen.files, chosen.answers);
@@ -216,15 +216,15 @@ export class LogOpener extends FileOpener<Figure> {
 /** Checks whether a file may be a log, because folders also have other files. */
 const isLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
 
-function planOf(reader: Reader, { recordings, wishes, roles }: ChosenFiles, kind: 'commands' | undefined): Plan {
+function planOf(reader: Reader, { recordings, wishes, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
   return reader.planDrives(recordings, { ...wishes, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
 }
 
 /** Returns the choices of a plan as a text, to compare plans. */
-const choicesOf = (plan: Plan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
+const choicesOf = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
 
 /** Returns the files of a log, and the topics of both where one recording has them. */
-function nameOf({ drives, unpaired }: Plan, reader: Reader) {
+function nameOf({ drives, unpaired }: LogPlan, reader: Reader) {
   const planParts = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
   const names = planParts.map(({ recording }) => recording.name);
   const [only] = planParts.length === 1 ? drives : [];

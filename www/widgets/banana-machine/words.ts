@@ -50,14 +50,17 @@ const MIN_GAIN = 0.02;
 /** Area ratio above which the ellipse is visibly too large. */
 const VISIBLE_AREA_RATIO = 1.1;
 
-/** Minimum gain on the floor, nats per robot, at which twenty robots distinguish the two Gaussians: their likelihood ratio is e or more. */
-const MIN_FLOOR_GAIN = 0.05;
+/** Gains on the floor and of whole poses, nats per robot, above which the cloud is visibly bent: a likelihood ratio of e for 20 and 4 robots. */
+const VISIBLE_GAINS = { floor: 0.05, pose: 0.25 };
 
-/** Returns the title of the view of the floor: how the ellipse fits, by the exact figures. */
-export function floorTitle({ stats, table: { exact: { areaRatio, likelihoodGain, crossTrackSkew } } }: Pick<Reading, 'stats' | 'table'>) {
+/** Returns the title of the view of the floor: how the ellipse fits, by the exact figures, or by the samples where no figure is exact. */
+export function floorTitle({ stats, table: { exact } }: Pick<Reading, 'stats' | 'table'>) {
   const { floor, ellipseIs } = words.banana;
-  if (stats.n < 2 || Number.isNaN(areaRatio + stats.areaRatio)) return floor;
-  const fit = areaRatio > VISIBLE_AREA_RATIO ? 'large' : likelihoodGain.floor > MIN_FLOOR_GAIN || Math.abs(crossTrackSkew) > VISIBLE_SKEW ? 'misshapen' : 'near';
+  if (stats.n < 2 || Number.isNaN(stats.areaRatio)) return floor;
+  const { areaRatio, likelihoodGain: { floor: onFloor, pose } } = Number.isNaN(exact.areaRatio) ? stats : exact;
+  // The gain of poses is infinite where they have two degrees of freedom.
+  const isMisshapen = onFloor > VISIBLE_GAINS.floor || (pose > VISIBLE_GAINS.pose && pose < Infinity) || Math.abs(exact.crossTrackSkew) > VISIBLE_SKEW;
+  const fit = areaRatio > VISIBLE_AREA_RATIO ? 'large' : isMisshapen ? 'misshapen' : 'near';
   return `${floor}: ${ellipseIs[fit]}`;
 }
 
@@ -75,8 +78,10 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const lean = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measured) : say.hardly(measured, exactly);
-    if (Math.min(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
-    return Math.min(gain.value, gain.exact) > MIN_GAIN ? `${say.gains(withoutBreaks(withError(gain.value, gain.error, 3)))} ${lean}` : lean;
+    // Where robots turn by more than π, no figure is exact.
+    const least = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
+    if (least(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
+    return least(gain.value, gain.exact) > MIN_GAIN ? `${say.gains(withoutBreaks(withError(gain.value, gain.error, 3)))} ${lean}` : lean;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measured, exactly);
   return exactSkew < 0 ? say.right(measured) : say.left(measured);

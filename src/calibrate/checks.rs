@@ -141,19 +141,19 @@ impl CheckName {
                 "The odometry's scale of turns is not a constant, so it was not corrected unless asked for. Check the track width and slip on this floor."
             }
             Self::InflationBounded => {
-                "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps, slip."
+                "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps or drifts, slip."
             }
             Self::ResidualsUncorrelated => {
-                "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. α's fitted to legs are too small for longer ways. Recommended α's allow for it."
+                "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. Over longer ways the α's of legs are too small if errors persist, and too large if they cancel. Recommended α's hold over 1 m."
             }
             Self::TailsNormal => {
                 "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for it."
             }
             Self::HoldoutCovered => {
-                "The α's of one half of the log do not fit the other: floor, load or speed changed. Calibrate for each condition. Recommended α's allow for it."
+                "The α's of one half of the log do not fit the other: floor, load or speed changed, or the reference drifts. Calibrate for each condition, with a reference that does not drift."
             }
             Self::Window1Covered | Self::Window2Covered | Self::Window5Covered => {
-                "Over windows of this length the fitted α's do not predict the error: it grows otherwise than they say. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
+                "Over windows of this length the fitted α's do not predict the error: it grows otherwise than they say, as with a reference that drifts. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
             }
         }
     }

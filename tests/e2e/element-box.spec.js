@@ -139,3 +139,16 @@ test('tables of a figure scroll over the picture that stays in sight, unless a h
     return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + width / 2, top + height / 2)?.closest('#numbers') === null;
   })).toBe(true);
 });
+
+test.describe('on a screen with two pixels a CSS pixel', () => {
+  test.use({ deviceScaleFactor: 2 });
+
+  test('canvases have the pixels of the screen, also one that developer tools imitate', async ({ page, figure }) => {
+    await showPage(page, `<${figure}></${figure}>`);
+    const widget = page.locator(figure);
+    await untilReady(widget);
+    const ratios = await widget.locator('canvas:visible').evaluateAll((all) => all.map((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width / canvas.getBoundingClientRect().width));
+    expect(ratios.length).toBeGreaterThan(0);
+    for (const ratio of ratios) expect(ratio).toBeCloseTo(2, 1);
+  });
+});

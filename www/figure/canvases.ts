@@ -59,9 +59,11 @@ export class Canvases extends FigureController {
     if (this.host.renderer.printing) return;
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = target as HTMLCanvasElement;
-      const devicePixelSize = devicePixelContentBoxSize?.[0];
-      canvas.width = Math.round(devicePixelSize?.inlineSize ?? devicePixelRatio * contentRect.width);
-      canvas.height = Math.round(devicePixelSize?.blockSize ?? devicePixelRatio * contentRect.height);
+      const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
+      const [nearWidth, nearHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
+      // Where developer tools imitate the screen of a phone, Chromium gives CSS pixels for device pixels.
+      const isExact = Math.max(Math.abs(width - nearWidth), Math.abs(height - nearHeight)) < 1;
+      [canvas.width, canvas.height] = (isExact ? [width, height] : [nearWidth, nearHeight]).map(Math.round);
     }
     this.host.renderer.drawResized();
   }

@@ -68,7 +68,7 @@ test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ 
     await form.getByRole('slider').press('End');
     await expect(form.locator('.value')).toHaveText('100 %');
     const text = await revealed(form);
-    const [, share] = /^Your bet: 100 %\. The figure: ([\d.]+) %\.$/.exec(text) ?? [];
+    const [, share] = /^Your bet: 100 %\. The figure’s answer, ▲: ([\d.]+) %\.$/.exec(text) ?? [];
     shares.push(Number(share));
   }
   expect(shares[0]).toBeLessThan(40);
@@ -81,7 +81,7 @@ test('exercise 7: the steps of both noises are bet on, and only the variance alo
   for (const [index, step] of [15, 9].entries()) {
     const form = article.locator('.bet').nth(index);
     await form.getByRole('slider').press('ArrowRight');
-    expect(await revealed(form)).toBe(`Your bet: 11. The figure: ${step}.`);
+    expect(await revealed(form)).toBe(`Your bet: 11. The figure’s answer, ▲: ${step}.`);
   }
   await expect(article.getByText('predicted along-track variance', { exact: true })).toBeVisible();
 });

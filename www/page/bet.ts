@@ -28,7 +28,7 @@ export function prepareBet(form: HTMLFormElement, enter: (values: Record<string,
     form.style.setProperty('--bet', String((slider.valueAsNumber - min) / (max - min)));
     form.style.setProperty('--truth', String(((actual ?? max) - min) / (max - min)));
     form.classList.add('revealed');
-    answerOutput.textContent = `Your bet: ${print(slider.valueAsNumber)}. The figure:\u00a0${actual === null ? 'never' : print(actual)}.`;
+    answerOutput.textContent = `Your bet: ${print(slider.valueAsNumber)}. The figure’s answer, ▲:\u00a0${actual === null ? 'never' : print(actual)}.`;
     submitButton.textContent = 'Reveal again';
   });
 }

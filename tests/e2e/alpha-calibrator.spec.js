@@ -182,11 +182,11 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
   await widget.getByRole('radio', { name: 'velocity' }).check();
   await untilSettled(widget);
   await expect(widget.locator('textarea.yaml')).toHaveCount(0);
-  await expect(copy).toBeDisabled();
-  await widget.getByRole('radio', { name: 'Table 5.6' }).check();
+  await widget.getByRole('button', { name: 'Fit for Nav2' }).click();
   await untilSettled(widget);
   await copy.click();
-  await expect(widget.locator('.fitted output')).toHaveText('Copied. Fitted by another rule than Nav2’s: choose the model AMCL of Nav2 under More controls.');
+  await expect(widget.locator('.fitted output')).toHaveText('Copied.');
+  expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(yaml);
 });
 
 test('legs of a time, and how well the reference is known, are set by their sliders', async ({ page }) => {

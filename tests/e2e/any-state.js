@@ -39,6 +39,10 @@ export function anyOf(seed) {
       alphas: { velocity: alphas(6), odometry: alphas(4) },
       isolate: one([null, whole(1, 4)]),
       isolateChoice: whole(1, 6),
+      pinned: one([
+        null,
+        { model: 'odometry', noise: 'normal', command: { v: 1, omega: 0.3, dt: 2 }, alphas: [0.1, 0.02, 0.05, 0.01], samples: whole(1, 3000), seed: 9, isolate: null, reverseAware: true },
+      ]),
       reverseAware: one([true, false]),
       overlays: ['command', 'ellipse', 'exponential', 'linearized', 'additive'].filter(() => random() < 0.5),
       morph: random() < 0.5 ? 0 : random(),

@@ -235,17 +235,17 @@ test('copies a link, and the code to embed with the address of the script', asyn
   expect(await clipboard()).toContain(`<script type="module" src="${origin}/motion-widgets.js"></script>`);
 });
 
-  test('the buttons that copy the code to embed and a link say that they have no map of the reader @nightly', async ({ page }) => {
+  test('the button that copies the code to embed says that the code has no map of the reader, which a link has @nightly', async ({ page }) => {
     const widget = await mount(page, 'map-squeeze');
     await widget.getByText('Numbers and data').click();
     await widget.getByRole('button', { name: 'Copy embed code' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
     await widget.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
     await frames(page);
-    for (const name of ['Copy embed code', 'Copy link']) {
-      await widget.getByRole('button', { name }).click();
-      await expect(widget.getByText('Copied.')).toContainText('Your map is not in it');
-    }
+    await widget.getByRole('button', { name: 'Copy embed code' }).click();
+    await expect(widget.getByText('Copied.')).toContainText('Your map is not in it');
+    await widget.getByRole('button', { name: 'Copy link' }).click();
+    await expect(widget.getByText('Copied.')).toHaveText('Copied.');
   });
 });
 

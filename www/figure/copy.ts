@@ -24,14 +24,14 @@ export class CopyMenu extends FigureController {
     this.host.requestUpdate();
   }
 
-  /** Returns a button that copies a text. A note follows the message; by default it names the parts of the state that the text lacks. */
-  button(kind: string, label: string, textOf: () => string | Promise<string>, { note, ...options }: { note?: string, title?: string, disabled?: boolean }) {
-    return button(label, async () => this.#copy(kind, await textOf(), note ?? this.host.exportData.notInCopies ?? ''), options);
+  /** Returns a button that copies a text. The message is followed by a note, which names the parts of the state that the text lacks. */
+  button(kind: string, label: string, textOf: () => string | Promise<string>, options: { title?: string, disabled?: boolean }, noteOf: () => string | undefined = () => '') {
+    return button(label, async () => this.#copy(kind, await textOf(), noteOf() ?? ''), options);
   }
 
   linkButton() {
     const copyWords = words.copies;
-    return this.button('link', copyWords.link, () => this.host.shareLink(), { title: copyWords.linkTitle });
+    return this.button('link', copyWords.link, () => this.host.shareLink(), { title: copyWords.linkTitle }, () => this.host.exportData.notInLink);
   }
 
   /** Returns the button that copies the HTML, with its message. */
@@ -40,7 +40,7 @@ export class CopyMenu extends FigureController {
     return html`<fieldset class="copies" part="copies">
       <legend>${copyWords.label}</legend>
       <div class="buttons">
-        ${this.button('code', copyWords.code, () => this.host.embedCode(), { title: copyWords.codeTitle })}
+        ${this.button('code', copyWords.code, () => this.host.embedCode(), { title: copyWords.codeTitle }, () => this.host.exportData.notInCode)}
       </div>
       ${this.answer('code')}
     </fieldset>`;

@@ -18,8 +18,9 @@ export interface ExportData {
   row: (i: number) => number[];
   /** Number of samples. */
   count: number;
-  /** Sentence about state that neither a link nor attributes can carry. */
-  notInCopies?: string;
+  /** Sentences about state that a link cannot carry, and that attributes cannot. */
+  notInLink?: string;
+  notInCode?: string;
 }
 
 /** Pixels of a PNG image per CSS pixel, fine enough for print. */

@@ -165,9 +165,6 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   /** Runs after the machine was replaced. */
   machineChanged() {}
 
-  /** Resets values that are not part of the state, when the figure starts over. */
-  startedOver() {}
-
   /** Moves the handles to their places in the pictures. */
   placeHandles(_scene: any) {}
 

@@ -79,7 +79,6 @@ export class State extends FigureController {
   /** Restores the state that the figure opened with. */
   startOver() {
     this.goBack(this.#opened);
-    this.host.startedOver();
   }
 
   /** Restores a state, as a change by the reader. */

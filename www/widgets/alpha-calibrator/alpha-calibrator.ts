@@ -203,6 +203,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   get exportData() {
     const { fitted, legs } = this.currentReading;
+    const missing = this.log ? words.calibrator.logNotInCopies : '';
     const of = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
     const columns = (whose: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${whose}_${end}_${key}`));
     return {
@@ -217,7 +218,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         ...of(legs.residuals, i, 3), ...of(legs.standardized, i, 3), ...of(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
       ],
       count: legs.count,
-      notInCopies: this.log ? words.calibrator.logNotInCopies : '',
+      notInLink: missing,
+      notInCode: missing,
     };
   }
 

@@ -21,16 +21,16 @@ const MESSAGES: Record<string, string> = {
     'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
   'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert. Spurweite und Schlupf auf diesem Boden prüfen.',
   'inflation-bounded':
-    'Keine Vergrößerung bis 30 deckt die Fehler über 1 m: Sie sind kein Rauschen der Räder. Zuerst die Ursache suchen: behaltene Ausreißer, eine springende Referenz, Schlupf.',
+    'Keine Vergrößerung bis 30 deckt die Fehler über 1 m: Sie sind kein Rauschen der Räder. Zuerst die Ursache suchen: behaltene Ausreißer, eine springende oder driftende Referenz, Schlupf.',
   'residuals-uncorrelated':
-    'Fehler benachbarter Etappen sind korreliert: Sie halten über mehrere Etappen an, oder ein systematischer Fehler ist nicht korrigiert. An Etappen angepasste α sind für längere Strecken zu klein. Empfohlene α berücksichtigen das.',
+    'Fehler benachbarter Etappen sind korreliert: Sie halten über mehrere Etappen an, oder ein systematischer Fehler ist nicht korrigiert. Über längere Strecken sind die α der Etappen zu klein, wenn Fehler anhalten, und zu groß, wenn sie sich aufheben. Empfohlene α gelten über 1 m.',
   'tails-normal':
     'Einige Fehler sind viel größer, als normalverteiltes Rauschen sie hat: Die Ränder der Vorhersage sind zu schmal. Empfohlene α berücksichtigen das. Die größten Residuen ansehen.',
   'holdout-covered':
-    'Die α der einen Hälfte der Aufzeichnung passen nicht zur anderen: Boden, Last oder Geschwindigkeit haben sich geändert. Für jede Bedingung kalibrieren. Empfohlene α berücksichtigen das.',
+    'Die α der einen Hälfte der Aufzeichnung passen nicht zur anderen: Boden, Last oder Geschwindigkeit haben sich geändert, oder die Referenz driftet. Für jede Bedingung kalibrieren, mit einer Referenz, die nicht driftet.',
   ...Object.fromEntries([1, 2, 5].map((length) => [
     `window-${length}m-covered`,
-    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders. Empfohlene α gelten über 1 m: verwenden, wenn das Filter seine Pose so oft korrigiert.',
+    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders, wie bei einer driftenden Referenz. Empfohlene α gelten über 1 m: verwenden, wenn das Filter seine Pose so oft korrigiert.',
   ])),
 };
 
@@ -223,10 +223,11 @@ export const de: typeof import('./en.ts').en = {
     title: 'Für Nav2',
     label: 'Zeilen für nav2_params.yaml',
     copy: 'Für Nav2 kopieren',
+    fit: 'Für Nav2 anpassen',
+    fitTitle: 'Diese α’s gelten für ein anderes Modell: das von Nav2 anpassen, dann kopieren',
     json: 'Alles als JSON speichern',
     none: 'Keine Zeilen: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
-    otherRule: 'Nach einer anderen Regel als der von Nav2 angepasst, die nav2 heißt.',
-    chooseRule: 'Nach einer anderen Regel als der von Nav2 angepasst: unter Weitere Regler das Modell „Nav2“ wählen.',
+    otherRule: 'Nicht nach der Regel von Nav2 angepasst, die nav2 heißt.',
     notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt',
     zero: (most) => `nicht signifikant von 0 verschieden, höchstens ${most}`,
     tooLarge: 'unplausibel (> 1): Prüfungen und Ausreißer ansehen',

@@ -44,7 +44,7 @@ const NAV2_PLUGINS: Record<string, string> = { odometry: 'nav2_amcl::Differentia
 export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
 
 /** Rules of the motion models of Nav2. */
-const NAV2_RULES = ['nav2', 'omni'];
+export const NAV2_RULES = ['nav2', 'omni'];
 
 /** Returns true if Nav2 has the motion model of a rule. */
 export const isOfNav2 = (model: string, rule: string): boolean => model !== 'odometry' || NAV2_RULES.includes(rule);

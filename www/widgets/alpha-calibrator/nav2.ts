@@ -4,8 +4,8 @@ import { html } from 'lit';
 import { save } from '../../figure/export.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
-import { isOfNav2, nav2Lines } from './lines.ts';
-import { legLengthOption } from './settings.ts';
+import { NAV2_RULES, nav2Lines } from './lines.ts';
+import { legLengthOption, modelRuleOf, settingsFor } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
@@ -23,12 +23,12 @@ function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
   return JSON.stringify(allResults, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 }
 
+/** Returns the button that copies the lines, or that which fits the model of Nav2 where the α's are of another one. */
 export function copyButton(figure: Figure) {
   const say = words.calibrator.nav2;
-  const { model, rule } = figure.reading.fitted;
+  if (!NAV2_RULES.includes(modelRuleOf(figure.reading.fitted))) return button(say.fit, () => figure.gesture.decide(settingsFor('nav2')), { title: say.fitTitle });
   const yaml = yamlOf(figure);
-  const ruleNote = isOfNav2(model, rule) ? '' : say.chooseRule;
-  return figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml, title: yaml ? say.label : say.none, note: ruleNote });
+  return figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml, title: yaml ? say.label : say.none });
 }
 
 /** Returns the message of the button, which stands where it moves neither the button nor the table. */

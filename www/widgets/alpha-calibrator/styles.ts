@@ -145,6 +145,14 @@ export const styles = css`
     margin-bottom: 0.1em;
   }
 
+  /* In sight beside the button that copies, whatever the length of the table. */
+  .fitted .copied:not(:empty) {
+    position: sticky;
+    bottom: 0;
+    padding-block: 0.25em;
+    background: var(--paper);
+  }
+
   .fitted .panel-title {
     flex: 1 0 100%;
   }
@@ -373,7 +381,15 @@ export const styles = css`
 
   /* Each α in one line, while its table has the width of the figure. */
   @container (38em <= width < 56em) {
-    .fitted .panel-title {
+    /* In sight beside the button that copies, whatever the length of the table. */
+  .fitted .copied:not(:empty) {
+    position: sticky;
+    bottom: 0;
+    padding-block: 0.25em;
+    background: var(--paper);
+  }
+
+  .fitted .panel-title {
       flex: none;
     }
 

@@ -23,12 +23,12 @@ import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint, confidenceRings } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { readingOf, type Reading } from './reading.ts';
+import { readingOf, readingOfSettings, type Reading } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
 import { LINE_STYLES, OVERLAYS, SAMPLE_COUNTS, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
 import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
-import type { BananaMachine as Machine, Inspection } from '../../types.d.ts';
+import type { BananaMachine as Machine, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/settings.ts';
 
 /** Columns of a robot in a table: its end, its exponential coordinates, and the executed command. */
@@ -67,8 +67,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   pictures = [this.#plane, this.#twist];
   #handle = new ArcHandle(this);
 
-  /** Reading that the current cloud is compared with. */
-  #pinned: Reading | undefined;
+  #pinnedReading: Memo<Reading> = new Memo();
 
   player: Player<'morph'> = new Player(this, { morph: { to: 1, duration: MORPH_MS } });
 
@@ -112,15 +111,24 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     };
   }
 
-  startedOver() {
-    this.#pinned = undefined;
+  /** Checks the pinned settings of a state. */
+  restore(_machine: Machine, { pinned }: Values) {
+    this.#readingOfPinned(pinned);
+  }
+
+  /** Reading that the current cloud is compared with: that of the pinned settings. */
+  get #pinned() {
+    return this.#readingOfPinned(this.state.own.pinned);
+  }
+
+  #readingOfPinned(pinned: Settings | null): Reading | undefined {
+    return pinned ? this.#pinnedReading.of([pinned], () => readingOfSettings(this.motion, pinned)) : undefined;
   }
 
   /** Pins the outlines and numbers for comparison, or removes those that are pinned. */
   #pin() {
-    this.#pinned = this.#pinned ? undefined : this.currentReading;
-    this.renderer.requestFrame();
-    this.requestUpdate();
+    const { config, shown } = this.currentReading;
+    this.gesture.choose('pinned', this.state.own.pinned ? null : { ...config, samples: Math.max(1, shown) });
   }
 
   get exportData() {
@@ -129,7 +137,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return {
       description: this.#description,
       settings: config,
-      notInCopies: this.#pinned ? words.banana.pinNotInCopies : '',
+      notInCode: this.#pinned ? words.banana.pinNotInCode : '',
       columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
       row: (i: number) => [poses, twists, executed].flatMap((each) => [...each.subarray(3 * i, 3 * i + 3)]),
       count,

@@ -1,8 +1,9 @@
 /** View model of the Banana Machine. */
 
+import { withFieldRenamed } from '../../figure/checks.ts';
 import { words } from '../../messages/registry.ts';
 import { subscriptOf } from '../shared/sliders.ts';
-import type { BananaMachine as Machine, BananaMachineSettings as Settings, Stats, Table } from '../../types.d.ts';
+import type { BananaMachine as Machine, BananaMachineSettings as Settings, Motion, Stats, Table } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof readingOf>;
 
@@ -23,6 +24,19 @@ export function readingOf(machine: Machine) {
     /** End of the commanded arc, metres. */
     end: [...contours.command.slice(-2)] as [number, number],
   };
+}
+
+/** Returns the reading of a new machine with these settings; throws a TypeError or RangeError that names a field of `state.pinned`. */
+export function readingOfSettings(motion: Motion, settings: Settings): Reading {
+  let machine;
+  try {
+    machine = new motion.BananaMachine(settings);
+    return readingOf(machine);
+  } catch (error) {
+    throw withFieldRenamed(error, 'state.pinned.', '');
+  } finally {
+    machine?.free();
+  }
 }
 
 /**

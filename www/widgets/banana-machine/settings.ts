@@ -22,6 +22,7 @@ export const OVERLAYS = Object.keys(LINE_STYLES) as LineName[];
 export const documentation: import('../../figure/attributes.ts').Documentation = {
   state: {
     alphas: { type: '{ velocity: number[]; odometry: number[] }', sentence: 'Six and four, of either model.' },
+    pinned: { type: 'BananaMachineSettings | null', sentence: 'Settings whose outlines and numbers are pinned.' },
     isolateChoice: { type: 'number', sentence: 'What Isolate leaves when it is turned on, from 1.' },
   },
 };
@@ -38,6 +39,8 @@ export const definition = definitionOf('banana-machine', {
   own: {
     /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
     isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
+    /** Settings of the machine whose outlines are pinned; null for none. `BananaMachineElement.restore` checks them. */
+    pinned: { opening: null, check: (_, pinned) => pinned },
     /** Morph, from the floor (0) to exponential coordinates (1). */
     morph: { converter: NUMBER_CONVERTER, min: 0, max: 1, opening: 0, ofPreset: true },
   },

@@ -32,7 +32,7 @@ export const en = {
   unknown: { free: 'free', blocked: 'blocked' },
   views: { whole: 'whole map', close: 'close-up' },
   robotAndMap: 'Robot and map',
-  mapNotInCopies: 'Your map is not in it: give it to the property map, or the figure opens with the apartment.',
+  mapNotInCode: 'Your map is not in it: give it to the property map, or the figure opens with the apartment.',
   condition: 'Check samples against the map',
   headline: {
     untried: 'No motion has been tried yet',

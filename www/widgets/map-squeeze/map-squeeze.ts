@@ -118,7 +118,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
         ...Object.values(bits).map((bit) => Math.sign(verdicts[i] & bit)),
       ],
       count: verdicts.length,
-      notInCopies: this.map ? words.squeeze.mapNotInCopies : '',
+      notInCode: this.map ? words.squeeze.mapNotInCode : '',
     };
   }
 

@@ -61,7 +61,7 @@ export class Canvases extends FigureController {
       const canvas = target as HTMLCanvasElement;
       const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
       const [nearWidth, nearHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
-      // Where developer tools imitate the screen of a phone, Chromium gives CSS pixels for device pixels.
+      // Chromium gives CSS pixels for device pixels when developer tools imitate the screen of a phone.
       const isExact = Math.max(Math.abs(width - nearWidth), Math.abs(height - nearHeight)) < 1;
       [canvas.width, canvas.height] = (isExact ? [width, height] : [nearWidth, nearHeight]).map(Math.round);
     }

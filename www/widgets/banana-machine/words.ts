@@ -78,7 +78,7 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const lean = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measured) : say.hardly(measured, exactly);
-    // Where robots turn by more than π, no figure is exact.
+    // No figure is exact if robots turn by more than π.
     const least = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
     if (least(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
     return least(gain.value, gain.exact) > MIN_GAIN ? `${say.gains(withoutBreaks(withError(gain.value, gain.error, 3)))} ${lean}` : lean;

@@ -56,9 +56,10 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
       const { listedFiles: filesOf, joinedContainer: joined } = await import('./formats/folder.ts');
       formatByFile.delete(metadata);
       const { name, found, missing } = await filesOf(metadata, openedSources);
-      const parts = found.map((source) => openContainer(source, formatByFile.get(source)));
+      const openParts = Promise.all(found.map((source) => openContainer(source, formatByFile.get(source))));
       for (const source of found) formatByFile.delete(source);
-      recordings.push(await (await import('./topics.ts')).recordingOf(name, joined(await Promise.all(parts), missing), optionsOf(name)));
+      const container = joined(await openParts, missing);
+      recordings.push(await (await import('./topics.ts')).recordingOf(name, container, optionsOf(name)));
     });
   }
   for (const [source, format] of formatByFile) {

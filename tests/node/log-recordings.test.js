@@ -104,6 +104,8 @@ test('a clock that begins at 0 has stamps; messages without stamps have the time
   const unstamped = await rows((i) => (i < 49 ? i : 0));
   assert.deepEqual([unstamped.start, unstamped.data.t.length, unstamped.data.t[20]], [1_700_000_000, 100, 1]);
   assert.match(unstamped.sentences, /times: when messages were recorded/);
+  // Most messages have the stamp of the first one.
+  assert.equal((await rows(() => 1_700_000_001)).data.t.length, 100);
   assert.doesNotMatch(simulated.sentences, /recorded/);
   // A single missing stamp is far from all other times.
   const missing = await rows((i) => (i === 50 ? 0 : 5 + i / 10));
@@ -152,6 +154,11 @@ test('a transform that never changes holds from the beginning, and a moving one 
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
   };
   assert.deepEqual(await read(() => 0.5), [60, 0, 0.5, 60]);
+  // A static transform that is published again with another value does not set the times of the poses.
+  const twice = [0, 3].map((t) => ({ topic: '/tf_static', type: TF, t, message: { transforms: [transform(t, 'base', 'laser', t, 0, 0)] } }));
+  const recalibrated = file(await recordingOf([...messages(() => 0.5), ...twice].sort((one, other) => one.t - other.t)));
+  const { data: { t } } = await readLog(recalibrated, { series: '/tf', frames: { parent: 'world', child: 'laser' } });
+  assert.equal(t.length, 60);
   // The pose is known from 3 s on, at the times of the transform to the robot's own frame.
   assert.deepEqual(await read((i) => i / 100), [10, 3, 1.8, 10]);
 });

@@ -102,6 +102,8 @@ test('stamps of 0 drop their rows, and are no choice of the clock for the others
   const { start, data, summary } = await read(['time,header.stamp,x,y,yaw', ...rows].join('\n'));
   assert.deepEqual([start, data.t.length, data.t[0], summary.clock, summary.units.time.unit], [1_718_000_000, 57, 0.2, 'header.stamp', 'ns']);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ noStamp: { count: 3, first: 2 } }, []]);
+  const stopped = await read(['time,header.stamp,x,y,yaw', ...rows.map((row) => row.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
+  assert.deepEqual([stopped.data.t.length, stopped.summary.clock, stopped.summary.columns?.t], [60, 'time', 'time']);
 });
 
 test('poses that a table repeats at the rate of another log are taken once', async () => {

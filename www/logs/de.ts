@@ -173,7 +173,7 @@ export const german: Words = {
     noGaps: 'keine',
     gaps: (count, first, longest) => `${count}, die erste ${comma(first, 2)} s nach dem Start, die längste von ${comma(longest, 2)} s`,
     jumps: (count, first) => `${count}, der erste ${comma(first, 2)} s nach dem Start`,
-    recorded: 'die der Aufzeichnung, da die Header keine haben',
+    recorded: 'die der Aufzeichnung, da die Header keine oder immer dieselben haben',
     notes: {
       missing: (files) => `die Dateien ${files} der Aufzeichnung fehlen`,
       damaged: (count, reason) => `${times(count, 'beschädigter Block', 'beschädigte Blöcke')} übersprungen (${reason})`,

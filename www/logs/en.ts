@@ -189,7 +189,7 @@ export const english = {
     noGaps: 'none',
     gaps: (count: number, first: number, longest: number) => `${count}, the first ${first.toFixed(2)} s after the start, the longest of ${longest.toFixed(2)} s`,
     jumps: (count: number, first: number) => `${count}, the first ${first.toFixed(2)} s after the start`,
-    recorded: 'when messages were recorded, as their headers have none',
+    recorded: 'when messages were recorded, as their headers have none, or the same again',
     notes: {
       missing: (files: string) => `the files ${files} of the recording are missing`,
       damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,

@@ -133,7 +133,8 @@ export class Chain {
         if (!isStatic) unknownLinks.add(link);
       }
     }
-    const nearestMovingLink = this.#links.findLast((link) => moving.has(link));
+    // A static transform may be published again with other values. That is no motion, unless no other transform changes.
+    const nearestMovingLink = this.#links.findLast((link) => unknownLinks.has(link)) ?? this.#links.findLast((link) => moving.has(link));
     if (nearestMovingLink === undefined) return false;
     const timeOf = ({ message: { seconds, nanoseconds } }: TimedEdge) => seconds + nanoseconds / 1e9;
     let pending: TimedEdge | undefined;

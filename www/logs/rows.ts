@@ -81,7 +81,7 @@ export class Rows {
    * @param b y, or omega
    * @param c heading, or 0
    * @param line or number of the message
-   * @param otherSeconds whole part of the time by the other clock, which is used if the first one stands at 0
+   * @param otherSeconds whole part of the time by the other clock, which is used if the first one stands
    * @param otherRest of the time by the other clock
    */
   add(seconds: number, rest: number, a: number, b: number, c: number, line: number, otherSeconds = 0, otherRest = 0): void {
@@ -136,9 +136,10 @@ export class Rows {
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = late > 0 ? [...decisions.notes, { name: 'sorted' as const, values: [late] }] : decisions.notes;
     const duration = t[t.length - 1] - t[0];
+    const clock = clocks[usesOtherClock ? 1 : 0] ?? '';
     const summary = {
       rows: count, used: t.length, dropped: this.#dropped, seconds: duration, distance: distanceOf(data, jumped), ...found,
-      ...decisions, units, clock: clocks[usesOtherClock ? 1 : 0] ?? '', notes,
+      ...decisions, ...(decisions.columns && { columns: { ...decisions.columns, t: clock } }), units, clock, notes,
     };
     return { name, kind, start, data, summary };
   }
@@ -156,9 +157,10 @@ export class Rows {
     for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(WIDTH * from, WIDTH * (from + 1)), WIDTH * rank);
   }
 
-  /** Switches to the other clock if the first one is mostly 0. @returns whether it did */
+  /** Switches to the other clock if the first one mostly stands: at 0, or at the time of the row before with another pose. @returns whether it did */
   #chooseClock(hasOther: boolean): boolean {
-    if (!hasOther || 2 * this.#rows.filter((row) => this.#isUnset(row)).length <= this.#added) return false;
+    const stands = (row: number) => this.#isUnset(row) || (row > 0 && this.#time(row, 0) === this.#time(row - 1, 0) && !this.#isSame(row - 1, row));
+    if (!hasOther || 2 * this.#rows.filter(stands).length <= this.#added) return false;
     this.#clock = OTHER_SECONDS;
     return true;
   }

@@ -334,7 +334,7 @@ class LogReader {
         angle: isQuaternion ? { unit: 'quaternion', by: 'format' } : { unit: angle ?? 'rad', by: angle ? 'name' : 'usage' },
       },
       clocks: [clocks[0].name, clocks[1]?.name],
-      columns: Object.fromEntries([['t', clocks[0].name], ...fields.map((field, i) => [field, columns[i].name])]),
+      columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
       notes: this.#notes,
     }, this.#options);
   }

@@ -147,7 +147,9 @@ export const styles = css`
 
   /* In sight beside the button that copies, whatever the length of the table. */
   .fitted .copied:not(:empty) {
+    display: block;
     position: sticky;
+    z-index: 1;
     bottom: 0;
     padding-block: 0.25em;
     background: var(--paper);
@@ -383,7 +385,9 @@ export const styles = css`
   @container (38em <= width < 56em) {
     /* In sight beside the button that copies, whatever the length of the table. */
   .fitted .copied:not(:empty) {
+    display: block;
     position: sticky;
+    z-index: 1;
     bottom: 0;
     padding-block: 0.25em;
     background: var(--paper);

@@ -96,6 +96,16 @@ test('a clock that was set back leaves the larger part, and halves are refused',
   assert.match(await sentenceOf(read(straight([...steps(100), ...steps(100, 5)]))), /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
 });
 
+test('a clock that begins at 0 again goes on: at midnight, and where a counter overflows', async () => {
+  const clock = (/** @type {(seconds: number) => number | string} */ text) => read(['t,x,y,yaw', ...Array.from({ length: 200 }, (_, i) => `${text(i / 20)},${i / 50},0,0`)].join('\n'));
+  const midnight = await clock((t) => (t < 5 ? `23:59:5${(5 + t).toFixed(2)}` : `00:00:0${(t - 5).toFixed(2)}`));
+  const micros = await clock((t) => (4_290_000_000 + Math.round(t * 1e6)) % 2 ** 32);
+  for (const { data: { t }, summary } of [midnight, micros]) {
+    assert.deepEqual([t.length, Number((t[199] - t[0]).toFixed(6)), summary.notes[0].name, summary.gaps.count], [200, 9.95, 'rollover', 0]);
+  }
+  assert.deepEqual(midnight.summary.notes[0].values, [102]);
+});
+
 test('stamps of 0 drop their rows, and are no choice of the clock for the others', async () => {
   const stamp = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 10)}${i % 10}00000000`);
   const rows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 10},${stamp(i)},${i / 20},0,0`);

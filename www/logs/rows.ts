@@ -31,6 +31,9 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
+/** Periods (s) after which clocks begin at 0 again: days, weeks of GPS, and counters of 32 bits in s, ms or µs. */
+const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
+
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
 const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
 
@@ -121,6 +124,7 @@ export class Rows {
   end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
     if (clocks[1] !== undefined) this.#sortByOtherClock();
     const usesOtherClock = this.#chooseClock(clocks[1] !== undefined);
+    const rollover = this.#continueClock();
     const { rows, late, causes, ...times } = this.#inOrder(kind);
     const broken = this.#brokenRows(causes);
     const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
@@ -134,7 +138,11 @@ export class Rows {
     const { start, t } = columns;
     const { breaks, jumped, ...found } = this.#events(kind, [t, a, b, c], (i) => broken.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
-    const notes = late > 0 ? [...decisions.notes, { name: 'sorted' as const, values: [late] }] : decisions.notes;
+    const notes = [
+      ...decisions.notes,
+      ...(rollover > 0 ? [{ name: 'rollover' as const, values: [rollover] }] : []),
+      ...(late > 0 ? [{ name: 'sorted' as const, values: [late] }] : []),
+    ];
     const duration = t[t.length - 1] - t[0];
     const clock = clocks[usesOtherClock ? 1 : 0] ?? '';
     const summary = {
@@ -163,6 +171,26 @@ export class Rows {
     if (!hasOther || 2 * this.#rows.filter(stands).length <= this.#added) return false;
     this.#clock = OTHER_SECONDS;
     return true;
+  }
+
+  /** Continues the times of a clock that begins at 0 again. Returns the number of the first row after that, as counted in the file; 0 if there is none. */
+  #continueClock(): number {
+    const numbers = this.#numbers;
+    const timeStep = (row: number) => this.#time(row, this.#number(row - 1, this.#clock)) - this.#number(row - 1, this.#clock + 1);
+    const maxError = MIN_GAP_STEPS * quantile(sample(this.#added - 1, (i) => Math.abs(timeStep(i + 1))), 0.5);
+    const changes: [row: number, period: number][] = [];
+    for (let row = 1; row < this.#added; row++) {
+      const step = timeStep(row);
+      const period = step < 0 || changes.length > 0 ? CLOCK_PERIODS.find((each) => Math.abs(Math.abs(step) - each) <= maxError && each > 100 * maxError) : undefined;
+      if (period) changes.push([row, step < 0 ? period : -period]);
+    }
+    for (const [first, period] of changes) {
+      for (let row = first; row < this.#added; row++) {
+        numbers[WIDTH * row + this.#clock] += Math.floor(period);
+        numbers[WIDTH * row + this.#clock + 1] += period - Math.floor(period);
+      }
+    }
+    return changes.length > 0 ? this.#number(changes[0][0], LINE) : 0;
   }
 
   /** Returns the indices of all rows that were added. */

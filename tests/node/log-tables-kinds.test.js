@@ -169,6 +169,11 @@ const QUESTIONS = [
   ['turn rates in degrees', ['t,v,omega', ...steps(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
 ];
 
+test('times in minutes are refused by their name', async () => {
+  for (const header of ['t_min,x,y,yaw', 'Time [min],x,y,yaw']) assert.match(await sentenceOf(read(circles(([t, ...rest]) => [t / 60, ...rest], header))), /^run\.csv: the unit min of a column is not known/);
+  assert.equal((await read(circles(([t, ...rest]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...rest], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
+});
+
 test('a car is not asked about its lengths', async () => {
   const { summary: { units } } = await read(circles(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0]));
   assert.deepEqual(units.length, { unit: 'm', by: 'usage' });

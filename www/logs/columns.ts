@@ -76,9 +76,10 @@ const SUFFIXED_NAME = /^((?:pos\.|position\.)?[xy]|yaw|theta|heading|q\.?[xyzw]|
 /** Parts of the names of columns without a pose, velocity or time: uncertainty, acceleration, vectors of an IMU, goals. */
 const OTHER_QUANTITIES = /(^|\.)(cov(ariance)?|std(dev)?|sigma|var(iance)?|err(or)?|residual|acc(el(eration)?)?|force|torque|effort|bias|mag(netic)?|dot|linear|angular|lin|ang|vel(ocity)?|twist|goal|setpoint|euler|rpy)(\.|\d|$)|^[vabw]\./;
 
-type ParsedUnit = { of: 'time' | 'length' | 'angle'; unit: TimeUnit | LengthUnit | AngleUnit; isRate: boolean };
+type ParsedUnit = { of: 'time' | 'length' | 'angle'; unit: TimeUnit | 'min' | LengthUnit | AngleUnit; isRate: boolean };
 
 const UNIT_WORDS: [RegExp, ParsedUnit['of'], ParsedUnit['unit']][] = [
+  [/^(min|minutes?|h|hrs?|hours?)$/, 'time', 'min'],
   [/^(s|secs?|seconds?)$/, 'time', 's'],
   [/^(ms|m?secs?|millisecs?|milliseconds?)$/, 'time', 'ms'],
   [/^(us|µs|μs|usecs?|microsecs?|microseconds?)$/, 'time', 'us'],

@@ -325,6 +325,7 @@ class LogReader {
     if (this.isTilted) throw new LogError(this.#place, (say) => say.tilted, { what: 'columns', choices: [], columns: this.#format.names });
     if (this.#upAxis) this.#notes.push({ name: 'upAxis', values: [this.#upAxis] });
     const [{ unit = 's', by, hasZone }] = this.#clocks;
+    if (!(unit in UNIT_EXPONENTS)) throw new LogError(this.#place, (say) => say.unknownUnit(cut(unit)));
     if (!hasZone) this.#notes.push({ name: 'noZone', values: [] });
     const isQuaternion = fields.at(-1) === 'qw';
     return this.#rows.end(this.#name, kind, {

@@ -31,6 +31,9 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
+/** Maximum fraction of rows with another time than the row before, for a clock that stands. */
+const MAX_STANDING_CHANGES = 0.01;
+
 /** Periods (s) after which clocks begin at 0 again: days, weeks of GPS, and counters of 32 bits in s, ms or µs. */
 const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 
@@ -165,10 +168,14 @@ export class Rows {
     for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(WIDTH * from, WIDTH * (from + 1)), WIDTH * rank);
   }
 
-  /** Switches to the other clock if the first one mostly stands: at 0, or at the time of the row before with another pose. @returns whether it did */
+  /** Switches to the other clock if the first one is mostly 0, or stands. Returns whether it did. */
   #chooseClock(hasOther: boolean): boolean {
-    const stands = (row: number) => this.#isUnset(row) || (row > 0 && this.#time(row, 0) === this.#time(row - 1, 0) && !this.#isSame(row - 1, row));
-    if (!hasOther || 2 * this.#rows.filter(stands).length <= this.#added) return false;
+    let [unset, changes] = [0, 0];
+    for (let row = 0; row < this.#added; row++) {
+      if (this.#isUnset(row)) unset += 1;
+      if (row > 0 && this.#time(row, 0) !== this.#time(row - 1, 0)) changes += 1;
+    }
+    if (!hasOther || (2 * unset <= this.#added && changes > MAX_STANDING_CHANGES * this.#added)) return false;
     this.#clock = OTHER_SECONDS;
     return true;
   }

@@ -255,6 +255,12 @@ test('a folder gives its logs, and other files are skipped', async () => {
   assert.match(err, /^skipped: run\.db3-wal: it is a journal .*\nskipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
 });
 
+test('a journal beside a recording is named', async () => {
+  file('odometry.db3-wal', Buffer.from('377f0682', 'hex'));
+  const { code, err } = await outputOf(['--odometry', file('odometry.db3', readFileSync(example('odometry'))), ...FILES.slice(2)]);
+  assert.deepEqual([code, err.split(' it is')[0]], [0, 'skipped: odometry.db3-wal:']);
+});
+
 /** Writes the reference of another drive: the path of the example from its end to its start. */
 const backwards = () => {
   const [header, ...rows] = readFileSync(example('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));

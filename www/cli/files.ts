@@ -16,7 +16,11 @@ export async function recordingsOf({ path, open }: InputPath, onSkip: (error: Lo
 async function openSources(path: string): Promise<Source[]> {
   const name = basename(resolve(path));
   try {
-    if (!(await stat(path)).isDirectory()) return [await openSource(path, name)];
+    if (!(await stat(path)).isDirectory()) {
+      // A journal beside the file has messages that the file lacks.
+      const hasJournal = await stat(`${path}-wal`).then(({ size }) => size > 0, () => false);
+      return await Promise.all(['', ...(hasJournal ? ['-wal'] : [])].map((ending) => openSource(`${path}${ending}`, `${name}${ending}`)));
+    }
     const folderEntries = await readdir(path, { withFileTypes: true, recursive: true });
     const paths = folderEntries.filter((entry) => entry.isFile() && !entry.name.startsWith('.')).map((entry) => join(entry.parentPath, entry.name)).toSorted();
     if (paths.length === 0) throw Object.assign(new Error(), { code: 'an empty folder' });

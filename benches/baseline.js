@@ -11,7 +11,7 @@
  */
 
 /** Names of the sums of the first pass, in order. */
-const SUMS = ['x', 'y', 'l', 'm', 't', 's', 'c', 'xx', 'xy', 'yy', 'xt', 'yt', 'tt', 'll', 'lm', 'mm', 'lt', 'mt'];
+const SUM_NAMES = ['x', 'y', 'l', 'm', 't', 's', 'c', 'xx', 'xy', 'yy', 'xt', 'yt', 'tt', 'll', 'lm', 'mm', 'lt', 'mt'];
 
 export class Baseline {
   /** @param {number[]} alphas @param {Float64Array} unitNoise three standard normal numbers for each sample */
@@ -36,17 +36,17 @@ export class Baseline {
     const n = this.samples;
     const [a1, a2, a3, a4, a5, a6] = this.alphas;
     const [vv, ww] = [v * v, omega * omega];
-    const deviations = [a1 * vv + a2 * ww, a3 * vv + a4 * ww, a5 * vv + a6 * ww].map(Math.sqrt);
-    const half = 0.5 * omega * dt;
-    const chord = half === 0 ? v * dt : (v * dt * Math.sin(half)) / half;
-    const origin = { x: chord * Math.cos(half), y: chord * Math.sin(half), l: v * dt, t: 2 * half };
-    const sums = drive(this.unitNoise, this.cloud, [v, omega, dt], deviations, origin);
-    const mean = Object.fromEntries(SUMS.map((name, i) => [name, sums[i] / n]));
+    const stdDevs = [a1 * vv + a2 * ww, a3 * vv + a4 * ww, a5 * vv + a6 * ww].map(Math.sqrt);
+    const halfTurn = 0.5 * omega * dt;
+    const chord = halfTurn === 0 ? v * dt : (v * dt * Math.sin(halfTurn)) / halfTurn;
+    const noiseFree = { x: chord * Math.cos(halfTurn), y: chord * Math.sin(halfTurn), l: v * dt, t: 2 * halfTurn };
+    const sums = driveCloud(this.unitNoise, this.cloud, [v, omega, dt], stdDevs, noiseFree);
+    const mean = Object.fromEntries(SUM_NAMES.map((name, i) => [name, sums[i] / n]));
     const covariance = (/** @type {string} */ a, /** @type {string} */ b) => (n / (n - 1)) * ((mean[a + b] ?? mean[b + a]) - mean[a] * mean[b]);
-    const matrix = (/** @type {string[]} */ names) => names.map((a) => names.map((b) => covariance(a, b)));
-    const heading = origin.t + Math.atan2(mean.s, mean.c);
-    const cartesian = { mean: [origin.x + mean.x, origin.y + mean.y, heading], cov: matrix(['x', 'y', 't']) };
-    const exponential = { mean: [origin.l + mean.l, mean.m, origin.t + mean.t], cov: matrix(['l', 'm', 't']) };
+    const covarianceMatrix = (/** @type {string[]} */ names) => names.map((a) => names.map((b) => covariance(a, b)));
+    const heading = noiseFree.t + Math.atan2(mean.s, mean.c);
+    const cartesian = { mean: [noiseFree.x + mean.x, noiseFree.y + mean.y, heading], cov: covarianceMatrix(['x', 'y', 't']) };
+    const exponential = { mean: [noiseFree.l + mean.l, mean.m, noiseFree.t + mean.t], cov: covarianceMatrix(['l', 'm', 't']) };
 
     const { columns, rows } = view;
     if (this.counts.length !== columns * rows) {
@@ -54,7 +54,7 @@ export class Baseline {
       this.pixels = new Uint32Array(columns * rows);
     }
     this.counts.fill(0);
-    const whiten = (/** @type {number[][]} */ cov, /** @type {number} */ j) => {
+    const whiteningOf = (/** @type {number[][]} */ cov, /** @type {number} */ j) => {
       const l00 = Math.sqrt(cov[0][0]);
       const l10 = cov[0][j] / l00;
       const l11 = Math.sqrt(cov[j][j] - l10 * l10);
@@ -62,10 +62,10 @@ export class Baseline {
       return [0.5 / l00, (-0.5 * l10) / (l00 * l11), 0.5 / l11];
     };
     const centre = [mean.x, mean.y, mean.l, mean.t];
-    const scales = [...centre, ...whiten(cartesian.cov, 1), ...whiten(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
+    const scales = [...centre, ...whiteningOf(cartesian.cov, 1), ...whiteningOf(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
     const [perX, perY] = [columns / (view.xMax - view.xMin), rows / (view.yMax - view.yMin)];
-    const [inEllipse, inTilted, square, cube, most] = secondPass(
-      this.cloud, this.counts, scales, [(origin.x - view.xMin) * perX, perX, (view.yMax - origin.y) * perY, perY, columns, rows],
+    const [inEllipse, inTilted, square, cube, most] = countCells(
+      this.cloud, this.counts, scales, [(noiseFree.x - view.xMin) * perX, perX, (view.yMax - noiseFree.y) * perY, perY, columns, rows],
     );
     this.#paint(ramp, most);
     return {
@@ -84,9 +84,9 @@ export class Baseline {
   #paint(ramp, most) {
     const { counts, pixels } = this;
     const colours = new Uint32Array(ramp.buffer, ramp.byteOffset, 256);
-    const shades = new Uint32Array(most + 1);
-    for (let count = 1; count <= most; count++) shades[count] = colours[Math.round(255 * Math.sqrt(count / most))];
-    for (let i = 0; i < counts.length; i++) pixels[i] = shades[counts[i]];
+    const shadeOfCount = new Uint32Array(most + 1);
+    for (let count = 1; count <= most; count++) shadeOfCount[count] = colours[Math.round(255 * Math.sqrt(count / most))];
+    for (let i = 0; i < counts.length; i++) pixels[i] = shadeOfCount[counts[i]];
   }
 }
 
@@ -100,18 +100,18 @@ export class Baseline {
  * @param {{ x: number, y: number, l: number, t: number }} origin noise-free motion
  * @returns {number[]} sums in the order of SUMS
  */
-function drive(noise, cloud, command, deviations, origin) {
+function driveCloud(noise, cloud, command, deviations, origin) {
   const [[v, omega, dt], [sdV, sdOmega, sdGamma], { x: x0, y: y0, l: l0, t: t0 }] = [command, deviations, origin];
   let x1 = 0, y1 = 0, l1 = 0, m1 = 0, t1 = 0, s1 = 0, c1 = 0;
   let xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0;
   let ll = 0, lm = 0, mm = 0, lt = 0, mt = 0;
   for (let i = 0, j = 0; i < noise.length; i += 3, j += 4) {
-    const driven = (v + sdV * noise[i]) * dt;
-    const half = 0.5 * (omega + sdOmega * noise[i + 1]) * dt;
-    const chord = half === 0 ? driven : (driven * Math.sin(half)) / half;
-    const x = chord * Math.cos(half);
-    const y = chord * Math.sin(half);
-    let t = 2 * half + sdGamma * noise[i + 2] * dt - t0;
+    const drivenLength = (v + sdV * noise[i]) * dt;
+    const halfTurn = 0.5 * (omega + sdOmega * noise[i + 1]) * dt;
+    const chord = halfTurn === 0 ? drivenLength : (drivenLength * Math.sin(halfTurn)) / halfTurn;
+    const x = chord * Math.cos(halfTurn);
+    const y = chord * Math.sin(halfTurn);
+    let t = 2 * halfTurn + sdGamma * noise[i + 2] * dt - t0;
     if (t > Math.PI || t < -Math.PI) t -= 2 * Math.PI * Math.round(t / (2 * Math.PI));
     // Exponential coordinates: length along the arc and lateral offset.
     const turn = 0.5 * (t0 + t);
@@ -155,7 +155,7 @@ function drive(noise, cloud, command, deviations, origin) {
  * @param {number[]} view offset and pixels a metre of both axes, columns and rows
  * @returns {number[]} samples inside each contour, sums of squares and cubes, largest count
  */
-function secondPass(cloud, counts, scales, view) {
+function countCells(cloud, counts, scales, view) {
   const [cx, cy, cl, ct, e00, e10, e11, f00, f10, f11, sin, cos] = scales;
   const [left, perX, top, perY, columns, rows] = view;
   let inEllipse = 0, inTilted = 0, square = 0, cube = 0, most = 0;

@@ -5,31 +5,31 @@
  */
 
 import { Baseline } from './baseline.js';
-import { ALPHAS, RAMP, VIEW, command, figures, picture } from './scene.js';
+import { ALPHAS, COLOUR_RAMP, VIEW, commandAt, densityPixels, statsAndContours } from './scene.js';
 
 /** Largest accepted difference (m, rad or a fraction) between both implementations, which add in different orders. */
 const TOLERANCE = 1e-9;
 
 /** Returns the names and values of the statistics in which the core and the baseline differ. @param {import('../www/types.d.ts').Motion} motion @param {number} samples */
 export function differences(motion, samples) {
-  const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 11, command: command(0) });
-  const baseline = new Baseline(ALPHAS, noiseOf(machine));
+  const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 11, command: commandAt(0) });
+  const baseline = new Baseline(ALPHAS, unitNoiseOf(machine));
   /** @type {string[]} */
-  const wrong = [];
+  const differing = [];
   for (const event of [0, 30]) {
-    const { stats } = figures(machine, event);
-    const ofBaseline = baseline.refresh(command(event), VIEW, RAMP);
-    for (const [name, value] of numbersIn(ofBaseline.stats)) {
-      const ofCore = name.split('.').reduce((part, key) => part[key], /** @type {any} */ (stats));
+    const { stats } = statsAndContours(machine, event);
+    const baselineResult = baseline.refresh(commandAt(event), VIEW, COLOUR_RAMP);
+    for (const [name, value] of numbersByPath(baselineResult.stats)) {
+      const coreValue = name.split('.').reduce((part, key) => part[key], /** @type {any} */ (stats));
       // NaN is a difference too.
-      if (!(Math.abs(value - ofCore) <= TOLERANCE)) wrong.push(`${name}: ${value}, core ${ofCore}`);
+      if (!(Math.abs(value - coreValue) <= TOLERANCE)) differing.push(`${name}: ${value}, core ${coreValue}`);
     }
-    const pixels = picture(machine);
-    const unequal = ofBaseline.pixels.filter((value, i) => value !== pixels[i]).length;
-    if (unequal > 0) wrong.push(`pixels: ${unequal} differ`);
+    const pixels = densityPixels(machine);
+    const differingCount = baselineResult.pixels.filter((value, i) => value !== pixels[i]).length;
+    if (differingCount > 0) differing.push(`pixels: ${differingCount} differ`);
   }
   machine.free();
-  return wrong;
+  return differing;
 }
 
 /**
@@ -37,13 +37,13 @@ export function differences(motion, samples) {
  *
  * @param {import('../www/types.d.ts').BananaMachine} machine
  */
-export function noiseOf({ config: { command: { v, omega }, alphas: [a1, a2, a3, a4, a5, a6] }, executed }) {
+export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, a3, a4, a5, a6] }, executed }) {
   const deviations = [[a1, a2], [a3, a4], [a5, a6]].map(([byV, byOmega]) => Math.sqrt(byV * v * v + byOmega * omega * omega));
   return executed.map((value, i) => (value - [v, omega, 0][i % 3]) / deviations[i % 3]);
 }
 
 /** Returns every number by its path. @param {object | number} value @param {string[]} path @returns {[string, number][]} */
-function numbersIn(value, ...path) {
+function numbersByPath(value, ...path) {
   if (typeof value === 'number') return [[path.join('.'), value]];
-  return Object.entries(value).flatMap(([key, each]) => numbersIn(each, ...path, key));
+  return Object.entries(value).flatMap(([key, each]) => numbersByPath(each, ...path, key));
 }

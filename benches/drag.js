@@ -6,18 +6,18 @@
  */
 
 /** Factor by which Chromium slows the processor. */
-export const THROTTLE = 4;
+export const SLOWDOWN = 4;
 
 /** Selector of visible sliders and of handles. Those of walls change the map and no setting. */
-const DRAGGED = '.slider input[type=range], .handle:not(.jamb, .side)';
+const DRAGGED_SELECTOR = '.slider input[type=range], .handle:not(.jamb, .side)';
 
 /**
  * @typedef {object} Drag times in ms, step by step
  * @property {string} widget
  * @property {string} what is dragged
- * @property {number[]} picture from the frame after a step until a frame with its picture is handed over
- * @property {number[]} words from there to the frame with the words being handed over
- * @property {number[]} steady from frame to frame where each has a step
+ * @property {number[]} picture from the start of the frame after a step until the browser has finished a frame with the new picture
+ * @property {number[]} words from then on, until it has finished a frame with the new texts
+ * @property {number[]} steady from one frame to the next, while every frame has a step
  *
  * @param {import('@playwright/test').Browser} browser
  * @param {string} address of page.html
@@ -36,10 +36,10 @@ export async function timeDrags(browser, address, steps) {
     await page.locator(widget).scrollIntoViewIfNeeded();
     await page.waitForFunction((tag) => document.querySelector(tag)?.shadowRoot?.querySelector('.slider'), widget);
     await page.locator(widget).evaluate((element) => element.scrollIntoView({ block: 'start' }));
-    const draggedCount = await page.locator(widget).locator(DRAGGED).count();
-    await session.send('Emulation.setCPUThrottlingRate', { rate: THROTTLE });
+    const draggedCount = await page.locator(widget).locator(DRAGGED_SELECTOR).count();
+    await session.send('Emulation.setCPUThrottlingRate', { rate: SLOWDOWN });
     for (let i = 0; i < draggedCount; i++) {
-      drags.push({ widget, ...(await page.evaluate(drag, { widget, selector: DRAGGED, i, steps })) });
+      drags.push({ widget, ...(await page.evaluate(timeDrag, { widget, selector: DRAGGED_SELECTOR, i, steps })) });
     }
     await session.send('Emulation.setCPUThrottlingRate', { rate: 1 });
   }
@@ -48,39 +48,39 @@ export async function timeDrags(browser, address, steps) {
 }
 
 /** Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} wanted */
-async function drag({ widget, selector, i, steps }) {
+async function timeDrag({ widget, selector, i, steps }) {
   const MAX_FRAMES = 30;
   const figure = /** @type {any} */ (document.querySelector(widget));
   const root = /** @type {ShadowRoot} */ (figure.shadowRoot);
   const target = /** @type {HTMLInputElement} */ (root.querySelectorAll(selector)[i]);
-  const slider = target.localName === 'input';
-  const opening = target.value;
+  const isSlider = target.localName === 'input';
+  const openingValue = target.value;
   // Every picture begins with an empty canvas.
-  let pictures = 0;
+  let pictureCount = 0;
   const { clearRect } = CanvasRenderingContext2D.prototype;
   CanvasRenderingContext2D.prototype.clearRect = function (...box) {
-    pictures++;
+    pictureCount++;
     clearRect.apply(this, box);
   };
   /** @returns {Promise<number>} time at which the page has finished the current frame: that of the first message after it */
-  const handedOver = () =>
+  const frameHandedOver = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => resolve(performance.now());
       port2.postMessage(undefined);
     });
   /** @returns {Promise<number>} time of the next frame after a text changes, also one for screen readers only */
-  const wordsChange = () =>
+  const nextTextChange = () =>
     new Promise((resolve) => {
       const observer = new MutationObserver(() => {
         observer.disconnect();
-        resolve(handedOver());
+        resolve(frameHandedOver());
       });
       const attributeFilter = ['aria-label', 'aria-valuetext'];
       observer.observe(root, { subtree: true, characterData: true, childList: true, attributes: true, attributeFilter });
     });
-  const take = (/** @type {number} */ step) => {
-    if (slider) {
+  const takeStep = (/** @type {number} */ step) => {
+    if (isSlider) {
       if (step % 2) target.stepUp();
       else target.stepDown();
       target.dispatchEvent(new InputEvent('input', { bubbles: true, composed: true }));
@@ -90,45 +90,45 @@ async function drag({ widget, selector, i, steps }) {
     }
   };
   /** @type {{ picture: number[], words: number[], steady: number[] }} */
-  const times = { picture: [], words: [], steady: [] };
-  // The first steps compile what the others run.
+  const durations = { picture: [], words: [], steady: [] };
+  // During the first steps the browser compiles the code that later steps run.
   for (let step = -6; step < steps; step++) {
     await new Promise(requestAnimationFrame);
-    const [before, drawn] = [JSON.stringify(figure.machine.config), pictures];
-    let began = 0;
+    const [before, drawn] = [JSON.stringify(figure.machine.config), pictureCount];
+    let frameStart = 0;
     // Requested before the step, so that it runs before the figure's own callback.
     const picture = new Promise((resolve) =>
       requestAnimationFrame(() => {
-        began = performance.now();
-        resolve(handedOver());
+        frameStart = performance.now();
+        resolve(frameHandedOver());
       }),
     );
-    const words = wordsChange();
-    take(step);
-    let shown = /** @type {number} */ (await picture);
+    const words = nextTextChange();
+    takeStep(step);
+    let pictureTime = /** @type {number} */ (await picture);
     // On a busy machine the picture may come a frame late.
-    for (let frame = 1; pictures === drawn || JSON.stringify(figure.machine.config) === before; frame++) {
+    for (let frame = 1; pictureCount === drawn || JSON.stringify(figure.machine.config) === before; frame++) {
       if (frame === MAX_FRAMES) throw new Error(`A step of ${target.id || target.className} has no picture after ${MAX_FRAMES} frames.`);
       await new Promise(requestAnimationFrame);
-      shown = await handedOver();
+      pictureTime = await frameHandedOver();
     }
-    const told = await words;
+    const textTime = await words;
     if (step < 0) continue;
-    times.picture.push(shown - began);
-    times.words.push(Math.max(0, told - shown));
+    durations.picture.push(pictureTime - frameStart);
+    durations.words.push(Math.max(0, textTime - pictureTime));
   }
-  let last = 0;
+  let previousFrame = 0;
   for (let step = 0; step <= steps; step++) {
     const now = /** @type {number} */ (await new Promise(requestAnimationFrame));
-    if (step > 0) times.steady.push(now - last);
-    last = now;
-    take(step);
+    if (step > 0) durations.steady.push(now - previousFrame);
+    previousFrame = now;
+    takeStep(step);
   }
   CanvasRenderingContext2D.prototype.clearRect = clearRect;
-  if (slider) {
-    target.value = opening;
+  if (isSlider) {
+    target.value = openingValue;
     for (const name of ['input', 'change']) target.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
     await new Promise(requestAnimationFrame);
   }
-  return { what: target.id || (target.getAttribute('aria-label') ?? ''), ...times };
+  return { what: target.id || (target.getAttribute('aria-label') ?? ''), ...durations };
 }

@@ -5,7 +5,7 @@
  */
 
 import { quantileSorted } from 'd3-array';
-import { THROTTLE } from './drag.js';
+import { SLOWDOWN } from './drag.js';
 
 /**
  * @typedef {import('./suite.js').Measured} Measured
@@ -15,56 +15,56 @@ import { THROTTLE } from './drag.js';
  * @property {boolean} quick
  * @property {Measured} node
  * @property {Measured} chromium
- * @property {Record<string, number[]>} start ms from the script's start to each stage, load by load
+ * @property {Record<string, number[]>} start ms from the script's start to the end of each stage, for each load of the page
  * @property {import('./drag.js').Drag[]} drags
  */
 
 /** Duration of a frame at 60 Hz, ms. */
-const FRAME = 16.7;
+const FRAME_MS = 16.7;
 
 /** Returns the report as text. @param {Results} results */
 export function report({ ranOn, quick, node, chromium, start, drags }) {
-  const slowest = drags.reduce((most, drag) => (median(drag.picture) > median(most.picture) ? drag : most));
+  const slowest = drags.reduce((most, drag) => (quantileOf(drag.picture) > quantileOf(most.picture) ? drag : most));
   const both = (/** @type {(measured: Measured) => number[]} */ of) => ({ Node: of(node), Chromium: of(chromium) });
   const refreshOf = (/** @type {number} */ samples) => (/** @type {Measured} */ { refresh }) => refresh.find((row) => row.samples === samples) ?? refresh[0];
-  const ratio = (/** @type {Measured['refresh'][number]} */ { core, baseline }) => baseline.map((value, turn) => value / core[turn]);
-  const [million, thousands] = [1e6, 1e5].map(refreshOf);
+  const ratios = (/** @type {Measured['refresh'][number]} */ { core, baseline }) => baseline.map((value, turn) => value / core[turn]);
+  const [largestRefresh, middleRefresh] = [1e6, 1e5].map(refreshOf);
   /** @type {[string, '≤' | '≥', number, string, Record<string, number[]>][]} */
   const targets = [
-    ['Refresh of 1 000 000 poses', '≤', FRAME, 'ms', both((measured) => million(measured).core)],
-    ['Refresh of 100 000 poses', '≤', 2, 'ms', both((measured) => thousands(measured).core)],
-    ['JavaScript takes longer, at 1 000 000 poses', '≥', 3, '×', both((measured) => ratio(million(measured)))],
+    ['Refresh of 1 000 000 poses', '≤', FRAME_MS, 'ms', both((measured) => largestRefresh(measured).core)],
+    ['Refresh of 100 000 poses', '≤', 2, 'ms', both((measured) => middleRefresh(measured).core)],
+    ['JavaScript takes longer, at 1 000 000 poses', '≥', 3, '×', both((measured) => ratios(largestRefresh(measured)))],
     ['Calibration of the example log', '≤', 1000, 'ms', both(({ calibration }) => calibration)],
     ['From script start to first cloud', '≤', 100, 'ms', { Chromium: Object.values(start).at(-1) ?? [] }],
-    [`Step of the slowest drag (${slowest.what}), processor ${THROTTLE} times slower`, '≤', FRAME, 'ms', { Chromium: slowest.picture }],
+    [`Step of the slowest drag (${slowest.what}), processor ${SLOWDOWN} times slower`, '≤', FRAME_MS, 'ms', { Chromium: slowest.picture }],
   ];
-  const rows = targets.map(([what, order, bound, unit, { Node = [], Chromium = [] }]) => {
-    const reached = [Node, Chromium].filter(({ length }) => length > 0).map((values) => (order === '≤' ? median(values) <= bound : median(values) >= bound));
-    const verdict = reached.every(Boolean) ? 'yes' : !reached.some(Boolean) ? 'no' : `in ${reached[0] ? 'Node' : 'Chromium'} alone`;
+  const targetRows = targets.map(([what, order, bound, unit, { Node = [], Chromium = [] }]) => {
+    const reachedIn = [Node, Chromium].filter(({ length }) => length > 0).map((values) => (order === '≤' ? quantileOf(values) <= bound : quantileOf(values) >= bound));
+    const verdict = reachedIn.every(Boolean) ? 'yes' : !reachedIn.some(Boolean) ? 'no' : `in ${reachedIn[0] ? 'Node' : 'Chromium'} alone`;
     return { '': what, target: `${order} ${bound} ${unit}`, Node: cell(Node, unit), Chromium: cell(Chromium, unit), reached: verdict };
   });
-  const events = Object.entries({ Node: node, Chromium: chromium }).flatMap(([where, { refresh }]) => refresh.map((row) => (
-    { where, samples: digits(row.samples), 'refresh, ms': cell(row.core), 'JavaScript, ms': cell(row.baseline), ratio: cell(ratio(row)) }
+  const refreshRows = Object.entries({ Node: node, Chromium: chromium }).flatMap(([where, { refresh }]) => refresh.map((row) => (
+    { where, samples: digits(row.samples), 'refresh, ms': cell(row.core), 'JavaScript, ms': cell(row.baseline), ratio: cell(ratios(row)) }
   )));
   return [
     `${Object.entries(ranOn).map(([name, value]) => `${name} ${value}`).join('; ')}. Medians, with quartiles in brackets.${quick ? ' A quick run: too few turns to be quoted.' : ''}`,
-    table(rows),
-    `One event of the slider:\n\n${table(events)}`,
+    table(targetRows),
+    `One event of the slider:\n\n${table(refreshRows)}`,
     `First cloud, from the start of the script:\n\n${table(Object.entries(start).map(([until, times]) => ({ until, ms: cell(times) })))}`,
-    `Step of a drag, processor ${THROTTLE} times slower, opening sizes:\n\n${table(drags.map(({ widget, what, picture, words, steady }) => (
+    `Step of a drag, processor ${SLOWDOWN} times slower, opening sizes:\n\n${table(drags.map(({ widget, what, picture, words, steady }) => (
       { widget, dragged: what, 'frame with the picture, ms': cell(picture), 'words after it, ms': cell(words), 'between frames, a step in each, ms': cell(steady) }
     )))}`,
   ].join('\n\n');
 }
 
 /** Returns a quantile, by default the median. @param {number[]} values @param {number} [share] */
-function median(values, share = 0.5) {
+function quantileOf(values, share = 0.5) {
   return quantileSorted(values.toSorted((a, b) => a - b), share) ?? NaN;
 }
 
 /** @param {number[]} values @param {string} [unit] */
 function cell(values, unit = '') {
-  const [lower, middle, upper] = [0.25, 0.5, 0.75].map((share) => digits(median(values, share)));
+  const [lower, middle, upper] = [0.25, 0.5, 0.75].map((share) => digits(quantileOf(values, share)));
   return values.length > 0 ? `${`${middle} ${unit}`.trim()} [${lower} to ${upper}]` : '';
 }
 
@@ -73,7 +73,7 @@ const digits = (value) => value.toLocaleString('en', { maximumSignificantDigits:
 
 /** Returns a table with a column for each key. @param {Record<string, string>[]} rows */
 function table(rows) {
-  const heads = Object.keys(rows[0]);
-  const lines = [heads, heads.map(() => '---'), ...rows.map(Object.values)];
+  const columnNames = Object.keys(rows[0]);
+  const lines = [columnNames, columnNames.map(() => '---'), ...rows.map(Object.values)];
   return lines.map((cells) => `| ${cells.join(' | ')} |`).join('\n');
 }

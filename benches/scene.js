@@ -16,15 +16,15 @@ export const VIEW = { xMin: -0.2, yMin: -0.6, xMax: 2.2, yMax: 1.2, columns: 960
 /** @typedef {typeof VIEW} Picture */
 
 /** Ramp of 256 colours (red, green, blue, opacity) from sparse to dense, as in the widget. */
-export const RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
+export const COLOUR_RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
   const shade = (i >> 2) / 255;
-  const ink = 0.6 * Math.max(0, shade - 0.5);
+  const inkShare = 0.6 * Math.max(0, shade - 0.5);
   const [from, to] = [[213, 94, 0], [27, 31, 36]];
-  return Math.round(i % 4 === 3 ? 255 * (0.15 + 0.85 * shade) : from[i % 4] + ink * (to[i % 4] - from[i % 4]));
+  return Math.round(i % 4 === 3 ? 255 * (0.15 + 0.85 * shade) : from[i % 4] + inkShare * (to[i % 4] - from[i % 4]));
 });
 
 /** Command at an event. The slider goes up and down and never stays. @param {number} event @returns {Command} */
-export function command(event) {
+export function commandAt(event) {
   return { v: 1, omega: 0.5 + 0.001 * Math.abs(50 - (event % 100)), dt: 1 };
 }
 
@@ -35,8 +35,8 @@ export function command(event) {
  * @param {Picture} [picture]
  * @returns {Uint8ClampedArray}
  */
-export function picture(machine, { xMin, yMin, xMax, yMax, columns, rows } = VIEW) {
-  return machine.picture('plane', xMin, yMin, xMax, yMax, columns, rows, RAMP);
+export function densityPixels(machine, { xMin, yMin, xMax, yMax, columns, rows } = VIEW) {
+  return machine.picture('plane', xMin, yMin, xMax, yMax, columns, rows, COLOUR_RAMP);
 }
 
 /**
@@ -45,7 +45,7 @@ export function picture(machine, { xMin, yMin, xMax, yMax, columns, rows } = VIE
  * @param {BananaMachine} machine
  * @param {number} event
  */
-export function figures(machine, event) {
-  machine.configure({ command: command(event) });
+export function statsAndContours(machine, event) {
+  machine.configure({ command: commandAt(event) });
   return { stats: machine.stats, contours: machine.contours };
 }

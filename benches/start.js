@@ -5,7 +5,7 @@
  */
 
 /** Stages that end with each mark, in order. */
-const STAGES = /** @type {const} */ ({
+const STAGE_OF_MARK = /** @type {const} */ ({
   evaluated: 'the script is evaluated',
   drawn: 'module, machine, first rendering, first samples drawn',
   shown: 'the frame is handed over',
@@ -19,7 +19,7 @@ const STAGES = /** @type {const} */ ({
  */
 export async function timeStart(browser, address, loads) {
   /** @type {Record<string, number[]>} */
-  const times = Object.fromEntries(Object.values(STAGES).map((stage) => [stage, []]));
+  const stageTimes = Object.fromEntries(Object.values(STAGE_OF_MARK).map((stage) => [stage, []]));
   for (let load = 0; load < loads; load++) {
     // A new process with its own caches.
     const context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
@@ -29,28 +29,28 @@ export async function timeStart(browser, address, loads) {
     await page.addInitScript(() => sessionStorage.setItem('motion-widgets.introduced', 'yes'));
     await page.goto(address);
     await page.waitForFunction(() => performance.getEntriesByName('shown').length > 0);
-    for (const [mark, stage] of Object.entries(STAGES)) {
-      times[stage].push(await page.evaluate((name) => performance.measure('', 'begin', name).duration, mark));
+    for (const [mark, stage] of Object.entries(STAGE_OF_MARK)) {
+      stageTimes[stage].push(await page.evaluate((name) => performance.measure('', 'begin', name).duration, mark));
     }
     await context.close();
   }
-  return times;
+  return stageTimes;
 }
 
 /** Runs in the page before the page's scripts. */
 function markStages() {
-  // A cloud is an image of its density, or this number of dots.
-  const DOTS = 100;
-  let dots = 0;
+  // The cloud is on screen once an image of its density is drawn, or this number of dots.
+  const DOTS_OF_CLOUD = 100;
+  let dotCount = 0;
   const { prototype } = CanvasRenderingContext2D;
   for (const name of /** @type {const} */ (['drawImage', 'putImageData', 'arc'])) {
-    const draw = /** @type {(...values: any[]) => void} */ (prototype[name]);
+    const originalMethod = /** @type {(...values: any[]) => void} */ (prototype[name]);
     /** @this {CanvasRenderingContext2D} @param {any[]} values */
     prototype[name] = function (...values) {
-      draw.apply(this, values);
+      originalMethod.apply(this, values);
       const root = this.canvas.getRootNode();
       if (!(root instanceof ShadowRoot) || root.host.localName !== 'banana-machine') return;
-      if ((name === 'arc' && ++dots < DOTS) || performance.getEntriesByName('drawn').length > 0) return;
+      if ((name === 'arc' && ++dotCount < DOTS_OF_CLOUD) || performance.getEntriesByName('drawn').length > 0) return;
       performance.mark('drawn');
       // A message is read once the frame that is being made has been handed to the screen.
       const { port1, port2 } = new MessageChannel();

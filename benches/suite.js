@@ -5,9 +5,9 @@
  */
 
 import { Baseline } from './baseline.js';
-import { differences, noiseOf } from './check.js';
-import { ALPHAS, RAMP, VIEW, command, figures, picture } from './scene.js';
-import { race } from './timing.js';
+import { differences, unitNoiseOf } from './check.js';
+import { ALPHAS, COLOUR_RAMP, VIEW, commandAt, densityPixels, statsAndContours } from './scene.js';
+import { raceContenders } from './timing.js';
 
 /** @typedef {import('../www/types.d.ts').Motion} Motion */
 
@@ -25,28 +25,28 @@ import { race } from './timing.js';
  * @returns {Promise<Measured>}
  */
 export async function measure(motion, { quick, log }) {
-  const wrong = differences(motion, 4000);
-  if (wrong.length > 0) throw new Error(`The baseline does not compute what the core does:\n${wrong.join('\n')}`);
+  const differing = differences(motion, 4000);
+  if (differing.length > 0) throw new Error(`The baseline does not compute what the core does:\n${differing.join('\n')}`);
   const seconds = quick ? 0.2 : 2;
   const refresh = [];
   for (const samples of [1e4, 1e5, 1e6]) {
-    const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 1, command: command(0) });
-    const contender = new Baseline(ALPHAS, noiseOf(machine));
-    const core = (/** @type {number} */ event) => {
-      figures(machine, event);
-      picture(machine);
+    const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 1, command: commandAt(0) });
+    const baselineMachine = new Baseline(ALPHAS, unitNoiseOf(machine));
+    const refreshCore = (/** @type {number} */ event) => {
+      statsAndContours(machine, event);
+      densityPixels(machine);
     };
-    const baseline = (/** @type {number} */ event) => void contender.refresh(command(event), VIEW, RAMP);
-    refresh.push({ samples, ...(await race({ core, baseline }, seconds)) });
+    const refreshBaseline = (/** @type {number} */ event) => void baselineMachine.refresh(commandAt(event), VIEW, COLOUR_RAMP);
+    refresh.push({ samples, ...(await raceContenders({ core: refreshCore, baseline: refreshBaseline }, seconds)) });
     machine.free();
   }
-  const [odometry, reference] = [log.odometry, log.reference].map(columns);
-  const { calibration } = await race({ calibration: () => void motion.calibrate({ odometry, reference }) }, seconds);
+  const [odometry, reference] = [log.odometry, log.reference].map(columnsOf);
+  const { calibration } = await raceContenders({ calibration: () => void motion.calibrate({ odometry, reference }) }, seconds);
   return { refresh, calibration };
 }
 
 /** @param {string} csv */
-function columns(csv) {
+function columnsOf(csv) {
   const rows = csv.trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
   const [t, x, y, theta] = [0, 1, 2, 3].map((i) => Float64Array.from(rows, (row) => row[i]));
   return { t, x, y, theta };

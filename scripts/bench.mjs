@@ -13,13 +13,13 @@ import { nativeRust } from './toolchain.mjs';
 import { report } from '../benches/report.js';
 
 /** Headers that isolate the page, for a clock in steps of 5 µs instead of 100. */
-const ISOLATED = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
+const ISOLATION_HEADERS = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
 
 /** @typedef {{ quick: boolean, log: { odometry: string, reference: string } }} Options */
 
 /** @param {boolean} quick */
-async function bench(quick) {
-  // As it ships: the local build is not optimized.
+async function runBench(quick) {
+  // The full build, as it is published: the local build is not optimized.
   await build();
   const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((path) => readFileSync(join(ROOT, path), 'utf8'));
   const options = { quick, log: { odometry, reference } };
@@ -30,13 +30,13 @@ async function bench(quick) {
   const node = await measure(/** @type {import('../www/types.d.ts').Motion} */ (await load()), options);
   const browser = await ensureBrowser();
   progress('Chromium');
-  const results = { ranOn: await describe(browser.version), quick, node, ...(await inChromium(browser.chrome, options)) };
+  const results = { ranOn: await describeMachine(browser.version), quick, node, ...(await inChromium(browser.chrome, options)) };
   writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(results, null, 2)}\n`);
   console.log(`\n${report(results)}\n\nbuild/bench.json has all measurements.`);
 }
 
 /** Describes the machine and the versions. @param {string} chromium */
-async function describe(chromium) {
+async function describeMachine(chromium) {
   const commit = await run('git', ['describe', '--always', '--dirty'], { quiet: true });
   const { description } = await nativeRust();
   return {
@@ -58,18 +58,18 @@ async function inChromium(executablePath, options) {
   const { chromium: launcher } = await import('@playwright/test');
   const { timeDrags } = await import('../benches/drag.js');
   const { timeStart } = await import('../benches/start.js');
-  const { address, close } = await serve(ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATED });
+  const { address, close } = await serve(ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATION_HEADERS });
   const browser = await launcher.launch({ executablePath, args: CHROME_ARGUMENTS });
-  const figures = `${address}benches/page.html`;
+  const figuresPage = `${address}benches/page.html`;
   try {
     progress('First cloud');
-    const start = await timeStart(browser, figures, options.quick ? 5 : 11);
+    const start = await timeStart(browser, figuresPage, options.quick ? 5 : 11);
     progress('Drags');
-    const drags = await timeDrags(browser, figures, options.quick ? 10 : 40);
+    const drags = await timeDrags(browser, figuresPage, options.quick ? 10 : 40);
     progress('Refresh and calibration');
     // A page without figures.
     const page = await browser.newPage();
-    await page.route(`${address}empty`, (route) => route.fulfill({ headers: ISOLATED, contentType: 'text/html', body: '' }));
+    await page.route(`${address}empty`, (route) => route.fulfill({ headers: ISOLATION_HEADERS, contentType: 'text/html', body: '' }));
     await page.goto(`${address}empty`);
     if (!(await page.evaluate('crossOriginIsolated'))) throw new Error('The page is not isolated, and its clock too coarse.');
     const chromium = await page.evaluate(async ({ modules: [core, suite], given }) => {
@@ -87,5 +87,5 @@ await runAsScript(import.meta.url, async () => {
   const options = process.argv.slice(2);
   const unknown = options.find((option) => option !== '--quick');
   if (unknown !== undefined) throw new Missing(`"${unknown}" is not an option; \`npm run bench\` takes only --quick.`);
-  await bench(options.includes('--quick'));
+  await runBench(options.includes('--quick'));
 });

@@ -9,8 +9,8 @@ import { CACHE, aptInstall } from './toolchain.mjs';
 export const FULL_CHROME = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
 /** Programs of Chromium. The headless one is preferred: it takes a third less processor time. */
 const CHROME_NAMES = ['chromium-headless-shell', ...FULL_CHROME];
-const CHROME_OF_MACOS = '/Applications/Google Chrome.app/Contents/MacOS';
-const SENTENCE =
+const CHROME_DIRECTORY_OF_MACOS = '/Applications/Google Chrome.app/Contents/MacOS';
+const MISSING_BROWSER =
   'Chromium and a chromedriver of the same version are missing: install both ' +
   '(on Debian `sudo apt-get install chromium chromium-driver`), or set CHROME and CHROMEDRIVER to their paths.';
 
@@ -48,21 +48,21 @@ export async function ensureBrowser() {
 
 async function ensureChrome() {
   const { CHROME, CHROMEDRIVER } = process.env;
-  const present = await usablePair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
-  if (present !== undefined) return present;
-  if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new Missing(SENTENCE);
+  const presentBrowser = await usablePair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
+  if (presentBrowser !== undefined) return presentBrowser;
+  if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new Missing(MISSING_BROWSER);
   // Packages of these names on Ubuntu only point to a snap, which cannot be driven from here.
   const onDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
-  const installed = onDebian ? await debian() : await chromeForTesting();
-  if (installed === undefined) throw new Missing(SENTENCE);
-  return installed;
+  const installedBrowser = onDebian ? await debianBrowser() : await chromeForTesting();
+  if (installedBrowser === undefined) throw new Missing(MISSING_BROWSER);
+  return installedBrowser;
 }
 
 /** Returns the first Chrome that is found. @param {string[]} [names] of programs, the preferred one first */
 export function findChrome(names = CHROME_NAMES) {
   return (
     names.map((name) => findProgram(name)).find((path) => path !== undefined) ??
-    findProgram('Google Chrome', [CHROME_OF_MACOS])
+    findProgram('Google Chrome', [CHROME_DIRECTORY_OF_MACOS])
   );
 }
 
@@ -73,8 +73,8 @@ export function findChrome(names = CHROME_NAMES) {
  */
 async function usablePair(chrome, driver) {
   if (chrome === undefined || driver === undefined) return undefined;
-  const [version, ofDriver] = await Promise.all([versionOf(chrome), versionOf(driver)]);
-  if (version === undefined || version.split('.')[0] !== ofDriver?.split('.')[0]) return undefined;
+  const [version, driverVersion] = await Promise.all([versionOf(chrome), versionOf(driver)]);
+  if (version === undefined || version.split('.')[0] !== driverVersion?.split('.')[0]) return undefined;
   return { chrome, driver, version };
 }
 
@@ -84,33 +84,33 @@ async function versionOf(program) {
   return stdout.match(/\d+(\.\d+){3}/)?.[0];
 }
 
-async function debian() {
-  await aptInstall(['chromium-headless-shell', 'chromium-driver'], SENTENCE);
+async function debianBrowser() {
+  await aptInstall(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER);
   return usablePair(findChrome(), findProgram('chromedriver'));
 }
 
 /** Google's builds for automated tests, which come with a chromedriver for each. Downloaded once. */
 async function chromeForTesting() {
   const directory = join(CACHE, 'browsers');
-  const paths = join(directory, 'paths.json');
-  if (existsSync(paths)) {
-    const { chrome, driver } = JSON.parse(readFileSync(paths, 'utf8'));
-    const present = await usablePair(chrome, driver);
-    if (present !== undefined) return present;
+  const pathsFile = join(directory, 'paths.json');
+  if (existsSync(pathsFile)) {
+    const { chrome, driver } = JSON.parse(readFileSync(pathsFile, 'utf8'));
+    const presentBrowser = await usablePair(chrome, driver);
+    if (presentBrowser !== undefined) return presentBrowser;
   }
   progress('Downloading Chrome for Testing');
   const chrome = await download(directory, 'chrome@stable');
   if (chrome === undefined) return undefined;
   if ((await versionOf(chrome)) === undefined) await installLibraries();
   const driver = await download(directory, `chromedriver@${await versionOf(chrome)}`);
-  writeFileSync(paths, JSON.stringify({ chrome, driver }));
+  writeFileSync(pathsFile, JSON.stringify({ chrome, driver }));
   return usablePair(chrome, driver);
 }
 
 /** Downloads a program, and returns its path. @param {string} directory @param {string} what @returns {Promise<string | undefined>} */
 async function download(directory, what) {
-  const tool = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', what];
-  const { ok, stdout } = await run('npm', [...tool, '--path', directory, '--format', '{{path}}'], { seconds: 900 });
+  const installCommand = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', what];
+  const { ok, stdout } = await run('npm', [...installCommand, '--path', directory, '--format', '{{path}}'], { seconds: 900 });
   return ok ? stdout.trim().split('\n').pop() : undefined;
 }
 

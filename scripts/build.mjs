@@ -8,15 +8,15 @@ import { binder } from './bindgen.mjs';
 import { WIDGETS, bundle, filesOf } from './bundle.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { cratesOf } from './licences.mjs';
-import { ROOT, mustRun, progress, run, runAsScript, together } from './process.mjs';
+import { ROOT, mustRun, progress, run, runAsScript, settleAll } from './process.mjs';
 import { ensurePackages, wasmRust } from './toolchain.mjs';
 
-const at = (/** @type {string} */ path) => join(ROOT, path);
+const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 
 const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types', 'typescript'].map((name) => `scripts/${name}.mjs`);
 
 /** Declarations of the module that scripts/bundle.mjs puts in the place of `motion.wasm`. */
-const BUNDLED = `type Bytes = Uint8Array<ArrayBuffer>;
+const BUNDLED_CORE_TYPES = `type Bytes = Uint8Array<ArrayBuffer>;
 type BundledCore = { glue(): Promise<typeof import('./motion.js')>; source(): Bytes | URL | Promise<Bytes> | undefined };
 declare const cores: { motion: BundledCore; [tag: string]: BundledCore | undefined };
 export default cores;
@@ -25,7 +25,7 @@ export function startWorker(): Worker | undefined;
 `;
 
 /** Files on which the compiled cores depend. */
-const CORE = [
+const CORE_SOURCES = [
   'src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/package.json',
   ...['build', 'bindgen', 'licences'].map((name) => `scripts/${name}.mjs`), 'scripts/bind',
 ];
@@ -38,23 +38,23 @@ const CORE = [
  *   and not shrunk, unless the modules to be published are there already
  */
 export async function build({ local = false } = {}) {
-  const core = digest(CORE);
-  const whole = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json'];
-  const figures = WIDGETS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
-  const published = isCurrent('build/core.sha256', core, whole);
-  const compiled = local && !published ? `${core} local` : core;
-  await together([ensurePackages(), whenStale('build/core.sha256', compiled, whole, () => buildCores(['motion'], local))]);
-  if (!local) await whenStale('build/figures.sha256', core, figures, () => buildCores(WIDGETS, false));
-  const tags = compiled === core && isCurrent('build/figures.sha256', core, figures) ? WIDGETS : [];
-  const pages = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiled + tags);
-  await whenStale('build/pages.sha256', pages, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags }));
-  await whenStale('build/example-log.sha256', digest(['scripts/example-log.mjs'], core), Object.values(EXAMPLE_LOGS), writeExampleLog);
+  const coreHash = digest(CORE_SOURCES);
+  const coreProducts = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json'];
+  const figureProducts = WIDGETS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
+  const isPublishedCurrent = isCurrent('build/core.sha256', coreHash, coreProducts);
+  const compiledDigest = local && !isPublishedCurrent ? `${coreHash} local` : coreHash;
+  await settleAll([ensurePackages(), whenStale('build/core.sha256', compiledDigest, coreProducts, () => buildCores(['motion'], local))]);
+  if (!local) await whenStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGETS, false));
+  const tags = compiledDigest === coreHash && isCurrent('build/figures.sha256', coreHash, figureProducts) ? WIDGETS : [];
+  const pagesDigest = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledDigest + tags);
+  await whenStale('build/pages.sha256', pagesDigest, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags }));
+  await whenStale('build/example-log.sha256', digest(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOGS), writeExampleLog);
 }
 
 /** Returns a hash of names and contents. @param {string[]} paths of files and directories @param {string} [seed] */
 function digest(paths, seed = '') {
   const hash = createHash('sha256').update(seed);
-  for (const path of paths.flatMap(filesOf)) hash.update(`\0${path}\0`).update(readFileSync(at(path)));
+  for (const path of paths.flatMap(filesOf)) hash.update(`\0${path}\0`).update(readFileSync(pathOf(path)));
   return hash.digest('hex');
 }
 
@@ -66,15 +66,15 @@ function digest(paths, seed = '') {
  */
 async function whenStale(stamp, sources, products, work) {
   if (isCurrent(stamp, sources, products)) return;
-  mkdirSync(at('build'), { recursive: true });
-  rmSync(at(stamp), { force: true });
+  mkdirSync(pathOf('build'), { recursive: true });
+  rmSync(pathOf(stamp), { force: true });
   await work();
-  writeFileSync(at(stamp), sources);
+  writeFileSync(pathOf(stamp), sources);
 }
 
 /** Returns true if products were built from these sources. @param {string} stamp @param {string} sources @param {string[]} products */
 function isCurrent(stamp, sources, products) {
-  return [stamp, ...products].every((path) => existsSync(at(path))) && readFileSync(at(stamp), 'utf8') === sources;
+  return [stamp, ...products].every((path) => existsSync(pathOf(path))) && readFileSync(pathOf(stamp), 'utf8') === sources;
 }
 
 /**
@@ -86,19 +86,19 @@ function isCurrent(stamp, sources, products) {
 async function buildCores(names, local) {
   // Waits for Rust first: an error of other work would end the process before the message about missing Rust.
   const rust = await wasmRust();
-  const [binding, packages] = [binder(), ensurePackages(local ? undefined : 'scripts')];
+  const [binderProgram, packages] = [binder(), ensurePackages(local ? undefined : 'scripts')];
   progress(`Compiling the core to WebAssembly (${rust.description}): ${names.join(', ')}`);
-  const finished = [];
+  const finishedCores = [];
   for (const name of names) {
-    // Cargo writes all of them to one path: each is bound before the next is compiled. The rest of its work runs meanwhile.
-    const [wasm, bind] = await together([compileCore(rust, name, local), binding, packages]);
-    await mustRun('wasm-bindgen failed: see above.', bind, [wasm, at(`build/bound/${name}`)]);
-    finished.push(finish(name, local));
+    // Cargo writes all cores to one path: each is bound before the next is compiled. Optimization runs meanwhile.
+    const [wasm, bind] = await settleAll([compileCore(rust, name, local), binderProgram, packages]);
+    await mustRun('wasm-bindgen failed: see above.', bind, [wasm, pathOf(`build/bound/${name}`)]);
+    finishedCores.push(finishCore(name, local));
   }
-  await together(finished);
+  await settleAll(finishedCores);
   if (!names.includes('motion')) return;
-  copyFileSync(at('build/bound/motion/motion.d.ts'), at('build/core.d.ts'));
-  writeFileSync(at('build/motion.wasm.d.ts'), BUNDLED);
+  copyFileSync(pathOf('build/bound/motion/motion.d.ts'), pathOf('build/core.d.ts'));
+  writeFileSync(pathOf('build/motion.wasm.d.ts'), BUNDLED_CORE_TYPES);
 }
 
 /**
@@ -112,29 +112,29 @@ async function compileCore(rust, name, local) {
   // `cargo build` also makes a Rust library, and then cannot optimize across crates. `cargo rustc` makes the module only.
   // Panic locations contain paths. In a published module the paths of this machine are removed.
   const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
-  const remapped = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
+  const remapOption = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
   const profile = local ? 'web' : 'release';
-  const options = ['--quiet', '--locked', '--profile', profile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapped])];
-  const only = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
-  await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target, ...only], { env: rust.env });
-  const ask = async (/** @type {string[]} */ ...question) => (await run(cargo, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
-  const metadata = JSON.parse(await ask('metadata', '--format-version', '1'));
+  const options = ['--quiet', '--locked', '--profile', profile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
+  const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
+  await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target, ...widgetOptions], { env: rust.env });
+  const askCargo = async (/** @type {string[]} */ ...question) => (await run(cargo, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
+  const metadata = JSON.parse(await askCargo('metadata', '--format-version', '1'));
   if (name === 'motion') {
-    const tree = await ask('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
-    writeFileSync(at('build/crates.json'), JSON.stringify(cratesOf(tree, metadata)));
+    const crateTree = await askCargo('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
+    writeFileSync(pathOf('build/crates.json'), JSON.stringify(cratesOf(crateTree, metadata)));
   }
   return join(metadata.target_directory, `wasm32-unknown-unknown/${profile}/motion.wasm`);
 }
 
 /** Writes the module and the glue of a bound core. @param {string} name @param {boolean} local */
-async function finish(name, local) {
-  copyFileSync(at(`build/bound/${name}/motion_bg.wasm`), at(`build/${name}.wasm`));
-  if (!local) await shrink(`build/${name}.wasm`);
+async function finishCore(name, local) {
+  copyFileSync(pathOf(`build/bound/${name}/motion_bg.wasm`), pathOf(`build/${name}.wasm`));
+  if (!local) await shrinkModule(`build/${name}.wasm`);
   await writeGlue(name, local ? boundNames(name) : await shortNames(name));
 }
 
 /** @param {string} path of a module, which is changed */
-async function shrink(path) {
+async function shrinkModule(path) {
   await silencePanics(path);
   await optimize(path);
 }
@@ -146,34 +146,34 @@ async function shrink(path) {
  */
 async function silencePanics(path) {
   // Resolved at runtime: the package is installed for full builds only, and a constant name would make the type checker look for it.
-  const library = 'binaryen';
-  const { default: binaryen } = await import(library);
-  const module = binaryen.readBinary(readFileSync(at(path)));
+  const packageName = 'binaryen';
+  const { default: binaryen } = await import(packageName);
+  const module = binaryen.readBinary(readFileSync(pathOf(path)));
   const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
   module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
   const { Function: functions } = binaryen;
-  const panics = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
+  const panicNames = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
   for (let i = 0; i < module.getNumFunctions(); i++) {
-    const panic = module.getFunctionByIndex(i);
-    const { name, base } = binaryen.getFunctionInfo(panic);
-    if (base === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(name) && panics.test(name)) {
-      functions.setBody(panic, module.unreachable());
+    const panicFunction = module.getFunctionByIndex(i);
+    const { name, base } = binaryen.getFunctionInfo(panicFunction);
+    if (base === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(name) && panicNames.test(name)) {
+      functions.setBody(panicFunction, module.unreachable());
     }
   }
-  writeFileSync(at(path), module.emitBinary());
+  writeFileSync(pathOf(path), module.emitBinary());
   module.dispose();
 }
 
 /** After the usual passes, merges variables with equal values once more. */
-const PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-locals', '--reorder-locals'];
+const OPTIMIZER_PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-locals', '--reorder-locals'];
 
 /** Optimizes a module in place, and returns what the optimizer prints. @param {string} path @param {string[]} passes */
-async function optimize(path, passes = PASSES) {
+async function optimize(path, passes = OPTIMIZER_PASSES) {
   // Features that rustc enables for this target by default, and SIMD from .cargo/config.toml.
   const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   const { stdout } = await mustRun('wasm-opt failed: see above.', process.execPath, [
-    at('node_modules/binaryen/bin/wasm-opt'), ...passes, ...features.map((name) => `--enable-${name}`), at(path), '-o', at(path),
-  ], { quiet: true });
+    pathOf('node_modules/binaryen/bin/wasm-opt'), ...passes, ...features.map((name) => `--enable-${name}`), pathOf(path),
+    '-o', pathOf(path)], { quiet: true });
   return stdout;
 }
 
@@ -187,7 +187,7 @@ async function optimize(path, passes = PASSES) {
 
 /** Returns the names that wasm-bindgen has given to imports and exports. @param {string} name of the core @returns {Names} */
 function boundNames(name) {
-  const module = new WebAssembly.Module(readFileSync(at(`build/${name}.wasm`)));
+  const module = new WebAssembly.Module(readFileSync(pathOf(`build/${name}.wasm`)));
   return {
     imports: WebAssembly.Module.imports(module).map((each) => [each.module, each.name, each.name]),
     exports: WebAssembly.Module.exports(module).map((each) => [each.name, each.name]),
@@ -205,10 +205,10 @@ async function shortNames(name) {
  * exactly one instance. Exports that nobody imports are left out.
  *
  * @param {string} name of the core
- * @param {Names} between the module and its glue
+ * @param {Names} glueNames by which the module and its glue call each other
  */
-async function writeGlue(name, between) {
-  const changes = /** @type {[RegExp, string][]} */ ([
+async function writeGlue(name, glueNames) {
+  const glueChanges = /** @type {[RegExp, string][]} */ ([
     // Errors of wasm-bindgen itself end a core as a trap does; plain errors come from callbacks of the page.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
     // Removed here, because www/core.ts does it for all classes.
@@ -217,37 +217,37 @@ async function writeGlue(name, between) {
     // wasm-bindgen adds the members of a namespace one by one. Bundlers take that for side effects, and keep unused namespaces.
     [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
   ]);
-  const script = readFileSync(at(`build/bound/${name}/motion_bg.js`), 'utf8');
+  const script = readFileSync(pathOf(`build/bound/${name}/motion_bg.js`), 'utf8');
   // The core of a widget has no namespaces.
-  const missing = name === 'motion' && changes.find(([pattern]) => !script.match(pattern));
-  if (missing) throw new Error(`wasm-bindgen's glue has no ${missing[0]}, as scripts/build.mjs takes it to have.`);
-  const contents = changes.reduce((text, [pattern, instead]) => text.replace(pattern, instead), script);
+  const missingChange = name === 'motion' && glueChanges.find(([pattern]) => !script.match(pattern));
+  if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, as scripts/build.mjs takes it to have.`);
+  const changedGlue = glueChanges.reduce((text, [pattern, instead]) => text.replace(pattern, instead), script);
   const names = [...script.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, each]) => each);
   const { build: bundled } = await import('esbuild');
-  const glue = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents })) };
+  const gluePlugin = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents: changedGlue })) };
   const { outputFiles } = await bundled({
-    stdin: { contents: `export { ${[...names, ...between.imports.map(([, each]) => each), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: at(`build/bound/${name}`) },
+    stdin: { contents: `export { ${[...names, ...glueNames.imports.map(([, each]) => each), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: pathOf(`build/bound/${name}`) },
     bundle: true,
     format: 'esm',
     write: false,
     charset: 'utf8',
-    plugins: [glue],
+    plugins: [gluePlugin],
   });
-  const short = new Map(between.exports);
-  const ofCore = (/** @type {string} */ each) => short.get(each) ?? (() => { throw new Error(`The core of ${name} does not export ${each}.`); })();
-  const body = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, each) => `wasm.${ofCore(each)}`);
+  const shortNameOf = new Map(glueNames.exports);
+  const exportOf = (/** @type {string} */ each) => shortNameOf.get(each) ?? (() => { throw new Error(`The core of ${name} does not export ${each}.`); })();
+  const body = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, key) => `wasm.${exportOf(key)}`);
   const lines = [
     'export default async (module) => {',
     body,
-    `const { exports } = await WebAssembly.instantiate(module, { '${between.imports[0][0]}': { ${between.imports.map(([, each, key]) => `${key}: ${each}`)} } });`,
+    `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, each, key]) => `${key}: ${each}`)} } });`,
     '__wbg_set_wasm(exports);',
-    `exports.${ofCore('__wbindgen_start')}();`,
+    `exports.${exportOf('__wbindgen_start')}();`,
     `return { ${names} };`,
     '};',
   ];
-  writeFileSync(at(`build/${name}.js`), `${lines.join('\n')}\n`);
-  const type = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./machines.d.ts")>;\n';
-  writeFileSync(at(`build/${name}.d.ts`), `${type}export default instantiate;\n`);
+  writeFileSync(pathOf(`build/${name}.js`), `${lines.join('\n')}\n`);
+  const declaration = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./machines.d.ts")>;\n';
+  writeFileSync(pathOf(`build/${name}.d.ts`), `${declaration}export default instantiate;\n`);
 }
 
 await runAsScript(import.meta.url, async () => {

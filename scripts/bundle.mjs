@@ -14,16 +14,16 @@ import { withTables } from './tables.mjs';
 import { writeTypes } from './types.mjs';
 import { importTypeScript } from './typescript.mjs';
 
-const at = (/** @type {string} */ path) => join(ROOT, path);
+const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 
 /** Files that are copied unchanged; index.html becomes classroom.html as well. */
-const COPIED = /\.(html|css)$/;
+const COPIED_FILES = /\.(html|css)$/;
 
 /** Tags of the elements. */
 export const WIDGETS = Object.keys(declared.settings);
 
 /** Name by which a bundle imports the bytes of the whole core, as a function that returns them. */
-const BYTES = 'motion.bytes';
+const BYTES_MODULE = 'motion.bytes';
 
 /**
  * Placeholder for the name of the chunk that contains `MODULE.external`. It has the same length, so that source maps stay valid. Within
@@ -32,7 +32,7 @@ const BYTES = 'motion.bytes';
 const OWN_NAME = 'chunk-________.js';
 
 /** Figures whose logs a worker reads. */
-const WITH_LOGS = ['alpha-calibrator'];
+const LOG_FIGURES = ['alpha-calibrator'];
 
 /** Path of the worker's script in dist/. */
 const LOG_WORKER = 'chunks/log-worker.js';
@@ -45,7 +45,7 @@ const PLACE_OF_CHUNKS = { core: './chunks/', external: './' };
  * starts it by a script of its own.
  *
  * @param {string} place of dist/, as the bundle sees it
- * @param {string} [otherwise] statement for where the bundle is in another one
+ * @param {string} [otherwise] statement for a bundle that is part of another bundle
  */
 const startWorker = (place, otherwise = '') =>
   'export function startWorker() {' +
@@ -59,14 +59,14 @@ const startWorker = (place, otherwise = '') =>
   '}';
 
 /** Scripts that a bundle gets where it imports the WebAssembly module: functions that return modules and their glue. */
-const MODULE = {
+const MODULE_SCRIPTS = {
   /**
-   * The bytes as characters, one each; of a character's number, an array of bytes takes the lowest eight bits. Brotli and
-   * gzip see through this, as they do not through base64 or through a module that is deflated already: over the wire it
-   * costs 7 % more than the module itself.
+   * The bytes as text with a character for each byte: its code, modulo 256, is the byte. Brotli and gzip compress this text
+   * almost as well as the module itself (7 % more bytes are transferred), but neither base64 nor a module that is already
+   * compressed.
    *
    * @param {Uint8Array} bytes
-   * @param {RegExp} shifted those of the characters that stand 256 higher
+   * @param {RegExp} shifted characters to whose code 256 is added
    */
   bytes: (bytes, shifted) => {
     const text = Buffer.from(bytes).toString('latin1').replaceAll(shifted, (one) => String.fromCharCode(one.charCodeAt(0) + 256));
@@ -87,9 +87,9 @@ const MODULE = {
     return `${glue.map(([imported]) => imported).join('')} export default { ${glue.map(([, entry]) => entry).join(', ')} }; export function startWorker() {}`;
   },
   /** The core alone: its bytes are in a separate script, which external.js shares. */
-  core: () => `import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source: async () => (await import('${BYTES}')).default() } }; export function startWorker() {}`,
+  core: () => `import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source: async () => (await import('${BYTES_MODULE}')).default() } }; export function startWorker() {}`,
   /** @param {boolean} isClassic */
-  inlined: (isClassic) => `import source from '${BYTES}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorker('./')}`,
+  inlined: (isClassic) => `import source from '${BYTES_MODULE}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorker('./')}`,
   /**
    * Bundlers such as Vite and webpack copy the file of `new URL(…, import.meta.url)`, and replace its address. Bundlers such as
    * esbuild and Rollup change nothing, so that the address in the bundled script is wrong. A classic script has no
@@ -108,7 +108,7 @@ const MODULE = {
       '  const url = here && written();' +
       `  return url && (here.includes('${OWN_NAME}') || url.href !== new URL(path, here).href) ? url : undefined;` +
       '};' +
-      `const embedded = { glue: () => import('./motion.js'), source: async () => (await import('${BYTES}')).default() };` +
+      `const embedded = { glue: () => import('./motion.js'), source: async () => (await import('${BYTES_MODULE}')).default() };` +
       `const all = { embedded, ${cores} }; export default all;` +
       startWorker('../', `if (all.motion.source()) return new Worker(new URL('./${basename(LOG_WORKER)}', import.meta.url), { type: 'module' });`)
     );
@@ -116,7 +116,7 @@ const MODULE = {
 };
 
 /** Returns the module that a widget needs, without the machines of others. @param {string} tag */
-const moduleOf = (tag) => named(tag, '.wasm', readFileSync(at(`build/${tag}.wasm`)));
+const moduleOf = (tag) => hashedFile(tag, '.wasm', readFileSync(pathOf(`build/${tag}.wasm`)));
 
 /**
  * Returns a file of dist/chunks/ with a hash of its contents in the name.
@@ -125,21 +125,21 @@ const moduleOf = (tag) => named(tag, '.wasm', readFileSync(at(`build/${tag}.wasm
  * @param {string} extension
  * @param {string | Uint8Array} contents
  */
-function named(name, extension, contents) {
+function hashedFile(name, extension, contents) {
   const hash = createHash('sha256').update(contents).digest('hex').slice(0, 8);
   return { path: `dist/chunks/${name}-${hash}${extension}`, contents };
 }
 
 /** Characters of an inlined module to which 256 is added, because other bundlers or minifiers might damage them. */
-const SHIFTED = {
-  /** Characters that are ever written with a backslash. */
+const SHIFTED_CHARACTERS = {
+  /** Characters that some tools write with a backslash. */
   utf8: /[^ -~\x80-\xff]|["$'\\`]/g,
   /** Digits, which could become part of an octal escape after a zero. Shifting all other characters too would double the size. */
   ascii: /(?<=\0)\d/g,
 };
 
 /** Replacements of www/address.ts for bundles that are not the script named by the page. */
-const ADDRESS = {
+const ADDRESSES = {
   /** Address of a classic script, which is known only while the script is evaluated. */
   classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const classic = true;",
   /** Address of the script that a chunk belongs to. */
@@ -147,7 +147,7 @@ const ADDRESS = {
 };
 
 /** Declarations of the exports of the scripts with elements. */
-const DECLARATIONS = `export * from './core.js';
+const ELEMENT_DECLARATIONS = `export * from './core.js';
 /** Sets the words of the elements (those of messages/en.ts, or some of them) in a language (a BCP 47 tag). */
 export declare function setMessages(lang: string, messages: object): void;
 /** Returns true for the tag of a figure. Compilers of templates ask which tags are custom elements. */
@@ -159,26 +159,26 @@ export declare function isFigureTag(tag: string): boolean;
  *
  * @param {object} [options]
  * @param {string[]} [options.tags] the figures that have a module of their own; the others share the whole core
- * @param {(path: string, script: string) => string} [options.changed] what becomes of a script of www/
+ * @param {(path: string, script: string) => string} [options.changed] returns what replaces a script of www/
  */
 export async function bundle({ tags = WIDGETS, changed = (_, script) => script } = {}) {
   progress('Bundling the pages');
   await writeTypes();
   await writeComponents();
-  writeFileSync(at('build/widgets.js'), await chunks());
-  const wasm = readFileSync(at('build/motion.wasm'));
-  const bytes = named('motion-bytes', '.js', MODULE.bytes(wasm, SHIFTED.utf8));
+  writeFileSync(pathOf('build/widgets.js'), await widgetLoaders());
+  const wasm = readFileSync(pathOf('build/motion.wasm'));
+  const bytesModule = hashedFile('motion-bytes', '.js', MODULE_SCRIPTS.bytes(wasm, SHIFTED_CHARACTERS.utf8));
   const { build, transformSync } = await import('esbuild');
   /**
    * @param {Record<string, string>} entryPoints by the name of the product, from www/
    * @param {keyof typeof PLACE_OF_CHUNKS | 'inlined' | 'worker'} form
    * @param {import('esbuild').BuildOptions} options
    */
-  const bundled = (entryPoints, form, options) =>
+  const bundleOf = (entryPoints, form, options) =>
     build({
       entryPoints: Object.entries(entryPoints).map(([out, path]) => ({ in: join('www', path), out })),
       absWorkingDir: ROOT,
-      outdir: at('dist'),
+      outdir: pathOf('dist'),
       bundle: true,
       minify: true,
       // The published package has no source maps.
@@ -186,31 +186,31 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
       format: 'esm',
       target: 'es2022',
       charset: 'utf8',
-      inject: [at('www/without-dom.ts')],
+      inject: [pathOf('www/without-dom.ts')],
       // Modules are always strict; a classic script needs the directive.
       tsconfigRaw: { compilerOptions: { alwaysStrict: options.format === 'iife' } },
       plugins: [
         {
           name: 'wasm',
           setup({ onLoad, onResolve }) {
-            const contents = {
-              core: MODULE.core,
-              external: () => MODULE.external(tags),
-              worker: () => MODULE.worker(tags.filter((tag) => WITH_LOGS.includes(tag))),
-              inlined: () => MODULE.inlined(options.format === 'iife'),
+            const moduleScripts = {
+              core: MODULE_SCRIPTS.core,
+              external: () => MODULE_SCRIPTS.external(tags),
+              worker: () => MODULE_SCRIPTS.worker(tags.filter((tag) => LOG_FIGURES.includes(tag))),
+              inlined: () => MODULE_SCRIPTS.inlined(options.format === 'iife'),
             };
-            onLoad({ filter: /\.wasm$/ }, () => ({ contents: contents[form](), loader: 'js' }));
+            onLoad({ filter: /\.wasm$/ }, () => ({ contents: moduleScripts[form](), loader: 'js' }));
             if (options.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
-            const chunks = form === 'core' || form === 'external' ? PLACE_OF_CHUNKS[form] : undefined;
-            onResolve({ filter: new RegExp(`^${BYTES}$`) }, ({ path }) => (
-              chunks ? { path: `${chunks}${basename(bytes.path)}`, external: true } : { path, namespace: 'core' }
+            const chunkDirectory = form === 'core' || form === 'external' ? PLACE_OF_CHUNKS[form] : undefined;
+            onResolve({ filter: new RegExp(`^${BYTES_MODULE}$`) }, ({ path }) => (
+              chunkDirectory ? { path: `${chunkDirectory}${basename(bytesModule.path)}`, external: true } : { path, namespace: 'core' }
             ));
-            onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE.bytes(wasm, SHIFTED[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
+            onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SCRIPTS.bytes(wasm, SHIFTED_CHARACTERS[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             // A page without workers runs the worker's script itself.
             if (form === 'external') onResolve({ filter: /\/logs\/worker\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER)}`, external: true }));
-            onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: ofDeclarations(), loader: 'js' }));
+            onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: shortDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
-              contents: options.format === 'iife' ? ADDRESS.classic : options.splitting ? ADDRESS.chunk : readFileSync(path, 'utf8'),
+              contents: options.format === 'iife' ? ADDRESSES.classic : options.splitting ? ADDRESSES.chunk : readFileSync(path, 'utf8'),
               loader: 'js',
             }));
             onLoad({ filter: /[/\\](?:js-yaml|d3-array)\.mjs$/ }, ({ path }) => ({
@@ -218,7 +218,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
               loader: 'js',
             }));
             onLoad({ filter: /[/\\](?:zstddec-stream\.mjs|lit-html\.js)$/ }, ({ path }) => ({
-              contents: withReplaced(readFileSync(path, 'utf8'), /** @type {keyof typeof REPLACED} */ (basename(path))),
+              contents: withReplaced(readFileSync(path, 'utf8'), /** @type {keyof typeof REPLACED_PASSAGES} */ (basename(path))),
               loader: 'js',
             }));
             onLoad({ filter: /[/\\]www[/\\].+\.[jt]s$/ }, ({ path }) => ({
@@ -233,60 +233,60 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
       write: false,
     });
   const results = await Promise.all([
-    bundled({ core: 'core.ts' }, 'core', { inject: [] }),
-    bundled({ 'motion-widgets': 'motion-widgets.ts' }, 'inlined', {}),
+    bundleOf({ core: 'core.ts' }, 'core', { inject: [] }),
+    bundleOf({ 'motion-widgets': 'motion-widgets.ts' }, 'inlined', {}),
     // Jupyter sends this module as text, without a source map next to it.
-    bundled({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
-    bundled({ external: 'external.ts' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
-    bundled({ [LOG_WORKER.replace('.js', '')]: 'logs/worker.ts' }, 'worker', { inject: [] }),
-    bundled({ 'motion-widgets.iife': 'motion-widgets.ts' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
-    bundled({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
-    bundled({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),
+    bundleOf({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
+    bundleOf({ external: 'external.ts' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
+    bundleOf({ [LOG_WORKER.replace('.js', '')]: 'logs/worker.ts' }, 'worker', { inject: [] }),
+    bundleOf({ 'motion-widgets.iife': 'motion-widgets.ts' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
+    bundleOf({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
+    bundleOf({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),
     // Loads the core from the file in the same directory.
-    bundled({ cli: 'cli.ts' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
-    bundled({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
+    bundleOf({ cli: 'cli.ts' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
+    bundleOf({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);
   if (!results.length || results.some(({ warnings }) => warnings.length)) {
     throw new Missing('The pages do not bundle: see the messages above.');
   }
 
-  rmSync(at('dist'), { recursive: true, force: true });
+  rmSync(pathOf('dist'), { recursive: true, force: true });
   const write = (/** @type {string} */ path, /** @type {string | Uint8Array} */ contents) => {
     mkdirSync(dirname(path), { recursive: true });
     writeFileSync(path, contents);
   };
   for (const { path, contents, text } of results.flatMap(({ outputFiles }) => outputFiles)) {
-    const script = text.includes(OWN_NAME) ? text.replaceAll(OWN_NAME, basename(path, '.map')) : contents;
-    write(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? inAscii(text) : script);
+    const ownScript = text.includes(OWN_NAME) ? text.replaceAll(OWN_NAME, basename(path, '.map')) : contents;
+    write(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? withNonAsciiEscaped(text) : ownScript);
   }
-  const documentation = await manifest();
-  const elements = documentation.modules.flatMap(({ declarations }) => declarations);
-  const all = await widgets();
-  for (const path of filesOf('www').filter((path) => COPIED.test(path))) {
-    const text = readFileSync(at(path), 'utf8');
-    write(at(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, all) : text);
+  const elementManifest = await manifest();
+  const elements = elementManifest.modules.flatMap(({ declarations }) => declarations);
+  const allWidgets = await widgets();
+  for (const path of filesOf('www').filter((path) => COPIED_FILES.test(path))) {
+    const text = readFileSync(pathOf(path), 'utf8');
+    write(pathOf(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, allWidgets) : text);
   }
   // The module needs Lit, which is not installed in a bare clone. A static import would fail there.
   const { preUpgradeCss } = await importTypeScript('www/figure/reserved-height.ts');
   // Without scripts no height is reserved.
-  const kept = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
+  const reservedHeights = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity: any rule of a page takes precedence.
-  const slides = `:where(.reveal) :where(${WIDGETS}){font-size:.3em;text-align:start}`;
-  appendFileSync(at('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${slides}\n${kept}\n`);
-  write(at('dist/motion.wasm'), wasm);
-  for (const { path, contents } of [bytes, ...tags.map(moduleOf)]) write(at(path), contents);
-  const types = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
-  for (const [name, path] of Object.entries(types)) write(at(`dist/${name}.d.ts`), besideEachOther(readFileSync(at(path), 'utf8')));
-  write(at('dist/external.d.ts'), DECLARATIONS);
-  for (const name of ['de', 'motion-widgets.css']) write(at(`dist/${name}.d.ts`), 'export {};\n');
-  chmodSync(at('dist/cli.js'), 0o755);
-  write(at('dist/classroom.html'), inOneFile('index.html'));
-  write(at('dist/custom-elements.json'), `${JSON.stringify(documentation, null, 1)}\n`);
+  const slideStyle = `:where(.reveal) :where(${WIDGETS}){font-size:.3em;text-align:start}`;
+  appendFileSync(pathOf('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${slideStyle}\n${reservedHeights}\n`);
+  write(pathOf('dist/motion.wasm'), wasm);
+  for (const { path, contents } of [bytesModule, ...tags.map(moduleOf)]) write(pathOf(path), contents);
+  const typings = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
+  for (const [name, path] of Object.entries(typings)) write(pathOf(`dist/${name}.d.ts`), localImports(readFileSync(pathOf(path), 'utf8')));
+  write(pathOf('dist/external.d.ts'), ELEMENT_DECLARATIONS);
+  for (const name of ['de', 'motion-widgets.css']) write(pathOf(`dist/${name}.d.ts`), 'export {};\n');
+  chmodSync(pathOf('dist/cli.js'), 0o755);
+  write(pathOf('dist/classroom.html'), inlinedPage('index.html'));
+  write(pathOf('dist/custom-elements.json'), `${JSON.stringify(elementManifest, null, 1)}\n`);
   // Sizes of products, which tests/package/sizes.nightly.test.js reads.
-  const outputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
-  write(at('build/outputs.json'), JSON.stringify(outputs));
-  const crates = JSON.parse(readFileSync(at('build/crates.json'), 'utf8'));
-  write(at('dist/LICENSE-third-party.txt'), licences([...packagesOf(outputs), ...crates]));
+  const bundleOutputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
+  write(pathOf('build/outputs.json'), JSON.stringify(bundleOutputs));
+  const crates = JSON.parse(readFileSync(pathOf('build/crates.json'), 'utf8'));
+  write(pathOf('dist/LICENSE-third-party.txt'), licences([...packagesOf(bundleOutputs), ...crates]));
   await writePython();
 }
 
@@ -297,8 +297,8 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
  * @param {typeof import('esbuild').transformSync} transform
  */
 function withShortStyles(script, transform) {
-  const short = (/** @type {string} */ style) => transform(style, { loader: 'css', minify: true }).code.trim();
-  return script.replace(/(?<=\bcss`)[^`$]*(?=`)/g, short);
+  const minified = (/** @type {string} */ style) => transform(style, { loader: 'css', minify: true }).code.trim();
+  return script.replace(/(?<=\bcss`)[^`$]*(?=`)/g, minified);
 }
 
 /**
@@ -307,14 +307,14 @@ function withShortStyles(script, transform) {
  *
  * @param {string} script
  */
-function inAscii(script) {
+function withNonAsciiEscaped(script) {
   return script.replaceAll(/[^\0-\x7f]/g, (unit) => `\\u${unit.charCodeAt(0).toString(16).padStart(4, '0')}`);
 }
 
 /** Returns the files in a directory, sorted, or a file. @param {string} path from the root */
 export function filesOf(path) {
-  if (statSync(at(path)).isFile()) return [path];
-  return readdirSync(at(path), { withFileTypes: true, recursive: true })
+  if (statSync(pathOf(path)).isFile()) return [path];
+  return readdirSync(pathOf(path), { withFileTypes: true, recursive: true })
     .filter((entry) => entry.isFile())
     .map((entry) => relative(ROOT, join(entry.parentPath, entry.name)))
     .sort();
@@ -325,7 +325,7 @@ export function filesOf(path) {
  *
  * @returns {Promise<string>} a module
  */
-async function chunks() {
+async function widgetLoaders() {
   const loaders = WIDGETS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.ts'),\n`);
   const modules = await Promise.all(WIDGETS.map((tag) => importTypeScript(`www/widgets/${tag}/settings.ts`)));
   return (
@@ -336,11 +336,11 @@ async function chunks() {
 }
 
 /** Returns the declarations of settings without their documentation, which no page shows. */
-function ofDeclarations() {
-  const omitted = ['sentence', 'nullable'];
-  const plain = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (omitted.includes(key) ? undefined : each));
+function shortDeclarations() {
+  const omittedKeys = ['sentence', 'nullable'];
+  const asJson = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (omittedKeys.includes(key) ? undefined : each));
   return Object.entries(declared)
-    .map(([name, value]) => `export const ${name} = ${plain(value)};\n`)
+    .map(([name, value]) => `export const ${name} = ${asJson(value)};\n`)
     .join('');
 }
 
@@ -357,7 +357,7 @@ function withoutEffects(library) {
 }
 
 /** Passages of libraries that are replaced, by the names of the libraries' files. */
-const REPLACED = {
+const REPLACED_PASSAGES = {
   // The library contains the module as text. Strict content security policies forbid the fetch that reads it.
   'zstddec-stream.mjs': [
     ['typeof fetch !== "undefined"', 'false'],
@@ -376,9 +376,9 @@ const REPLACED = {
   ],
 };
 
-/** Replaces some passages of a library. @param {string} library @param {keyof typeof REPLACED} name of its file */
+/** Replaces some passages of a library. @param {string} library @param {keyof typeof REPLACED_PASSAGES} name of its file */
 function withReplaced(library, name) {
-  return REPLACED[name].reduce((text, [is, instead]) => {
+  return REPLACED_PASSAGES[name].reduce((text, [is, instead]) => {
     if (text.split(is).length !== 2) throw new Error(`${name} does not have ${is} once, as scripts/bundle.mjs takes it to have.`);
     return text.replace(is, () => instead);
   }, library);
@@ -389,15 +389,15 @@ function withReplaced(library, name) {
  *
  * @param {string} types
  */
-function besideEachOther(types) {
+function localImports(types) {
   return types.replaceAll(/'\.\.\/build\/(\w+)\.d\.ts'/g, "'./$1.js'").replaceAll("'../www/types.d.ts'", "'./core.js'");
 }
 
 /** Removes the text of the inlined module from a source map: a quarter of a million characters. @param {string} text */
 function withoutModule(text) {
   const map = JSON.parse(text);
-  const keep = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith(BYTES) ? '' : content);
-  return JSON.stringify({ ...map, sourcesContent: map.sourcesContent.map(keep) });
+  const keptContent = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith(BYTES_MODULE) ? '' : content);
+  return JSON.stringify({ ...map, sourcesContent: map.sourcesContent.map(keptContent) });
 }
 
 /**
@@ -407,18 +407,18 @@ function withoutModule(text) {
  * @param {string} name
  * @returns {string}
  */
-function inOneFile(name) {
-  const read = (/** @type {string} */ path) => readFileSync(at(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
-  const style = /<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g;
-  const script = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;
+function inlinedPage(name) {
+  const read = (/** @type {string} */ path) => readFileSync(pathOf(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
+  const styleLink = /<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g;
+  const scriptTag = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;
   const page = read(name);
-  const left = page.replace(style, '').replace(script, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
-  if (left) throw new Missing(`${name}: ${left[0]} cannot be put into one file; expected is "./" and a file of www/.`);
-  const inline = (/** @type {string} */ path) =>
+  const reference = page.replace(styleLink, '').replace(scriptTag, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
+  if (reference) throw new Missing(`${name}: ${reference[0]} cannot be put into one file; expected is "./" and a file of www/.`);
+  const inlineScript = (/** @type {string} */ path) =>
     `<script type="module">${read(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
   // Replaces links to other pages by their text: a copied file does not have them next to it.
   return page
     .replaceAll(/<a href="\.\/[^"]*">([^<]*)<\/a>/g, '$1')
-    .replace(style, (_, path) => `<style>\n${read(path)}</style>`)
-    .replace(script, (_, path) => inline(path === 'motion-widgets.js' ? 'motion-widgets.iife.js' : path));
+    .replace(styleLink, (_, path) => `<style>\n${read(path)}</style>`)
+    .replace(scriptTag, (_, path) => inlineScript(path === 'motion-widgets.js' ? 'motion-widgets.iife.js' : path));
 }

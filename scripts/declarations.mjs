@@ -1,5 +1,5 @@
-// Declarations of the widgets for scripts/manifest.mjs and scripts/types.mjs: from the settings of
-// the core, from each widget's settings.js, and from the comments of the elements' classes.
+// Descriptions of the widgets for the scripts that generate types, tables and the manifest: from the settings of the core,
+// from each widget's settings.ts, and from the comments of the elements' classes.
 
 import { presets, settings } from '../www/settings.js';
 import { scriptName } from './names.mjs';
@@ -29,10 +29,10 @@ import { importTypeScript } from './typescript.mjs';
  */
 
 /** Types in TypeScript of settings other than words and groups. @type {Record<string, string>} */
-const TYPES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
+const TYPE_NAMES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
 /** Properties and state of every element with a cloud. @type {import('../www/figure/attributes.ts').Documentation} */
-const OF_CLOUDS = {
+const CLOUD_DOCUMENTATION = {
   properties: {
     marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },
     poses: { type: 'Float64Array | null', readonly: true, sentence: 'x, y (m), θ (rad) of each sample shown; a copy.' },
@@ -44,14 +44,14 @@ const OF_CLOUDS = {
 };
 
 /** Returns the name of the class or type for a tag or key. @param {string} name */
-export const pascal = (name) => scriptName(name.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase()));
+export const pascalCase = (name) => scriptName(name.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase()));
 
 /** @param {readonly string[]} words */
-export const union = (words) => words.map((word) => `'${word}'`).join(' | ');
+export const unionType = (words) => words.map((word) => `'${word}'`).join(' | ');
 
 /** @param {Declaration} declaration */
 export function typeOf({ key, type, words, nullable }) {
-  const text = words ? union(words) : (TYPES[type] ?? pascal(key));
+  const text = words ? unionType(words) : (TYPE_NAMES[type] ?? pascalCase(key));
   return nullable ? `${text} | null` : text;
 }
 
@@ -63,30 +63,30 @@ export function typeOf({ key, type, words, nullable }) {
  */
 export function describe(declaration, opening) {
   const { sentence, type } = declaration;
-  const range = allowedIn(declaration);
-  const kind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (type)] ?? '';
-  const allowed = range && `${kind} from ${range}`.trim();
-  const all = [allowed, opening && `opens with ${opening}`].filter(Boolean).join('; ');
-  return all ? `${sentence} ${all[0].toUpperCase()}${all.slice(1)}.` : sentence;
+  const range = rangeText(declaration);
+  const numberKind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (type)] ?? '';
+  const allowedText = range && `${numberKind} from ${range}`.trim();
+  const facts = [allowedText, opening && `opens with ${opening}`].filter(Boolean).join('; ');
+  return facts ? `${sentence} ${facts[0].toUpperCase()}${facts.slice(1)}.` : sentence;
 }
 
 /** @param {Declaration} declaration */
-function allowedIn({ min, max, unit }) {
-  return min === undefined || max === undefined ? undefined : `${number(min)} to ${number(max)}${unit ? ` ${unit}` : ''}`;
+function rangeText({ min, max, unit }) {
+  return min === undefined || max === undefined ? undefined : `${numberText(min)} to ${numberText(max)}${unit ? ` ${unit}` : ''}`;
 }
 
 /** @param {number} value */
-function number(value) {
+function numberText(value) {
   if (value === Number.MAX_SAFE_INTEGER) return '2⁵³ − 1';
-  const format = new Intl.NumberFormat('en', { maximumSignificantDigits: 7, useGrouping: 'min2' });
-  return format.format(value).replaceAll(',', '\u202f').replace('-', '−');
+  const numberFormat = new Intl.NumberFormat('en', { maximumSignificantDigits: 7, useGrouping: 'min2' });
+  return numberFormat.format(value).replaceAll(',', '\u202f').replace('-', '−');
 }
 
 /** Returns the comments of the elements' classes by the names of the classes. */
-export const comments = once(async () => {
+export const classComments = once(async () => {
   // @ts-expect-error It comes without types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
-  // It writes nothing but, into package.json, where the manifest is: in dist.
+  // The analyzer writes only the path of the manifest, in dist/, into package.json.
   const argv = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.ts', 'www/widgets/*/*.ts'];
   const { schemaVersion, modules } = await cli({ argv, cwd: ROOT, noWrite: true });
   /** @type {any[]} */
@@ -99,75 +99,75 @@ export const oneLine = (text) => text.replaceAll('\n', ' ');
 
 /** @returns {Promise<Widget[]>} */
 export function widgets() {
-  return Promise.all(Object.keys(settings).map(widget));
+  return Promise.all(Object.keys(settings).map(widgetOf));
 }
 
 /** Returns the declarations of a widget. @param {string} tag @returns {Promise<Widget>} */
-async function widget(tag) {
+async function widgetOf(tag) {
   // They import libraries, which a bare clone does not have yet.
   const { COMMON_ATTRS, NUMBER_CONVERTER: NUMBER, WORD_LIST_CONVERTER: WORD_LIST } = await importTypeScript('www/figure/attributes.ts');
   const { definition: { attributes, declared, own }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/attributes.ts').Documentation[]} */
-  const documents = [...('marked' in own ? [OF_CLOUDS] : []), ...(documentation ? [documentation] : [])];
-  const { classes } = await comments();
-  const element = classes.get(`${pascal(tag)}Element`);
+  const documentations = [...('marked' in own ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
+  const { classes } = await classComments();
+  const element = classes.get(`${pascalCase(tag)}Element`);
   /** @type {Record<string, string>} */
-  const sentences = Object.fromEntries(element.attributes.map((/** @type {any} */ { name, description }) => [name, description]));
-  const propertyTable = Object.assign({}, ...documents.map(({ properties }) => properties));
-  const stateTable = Object.assign({}, ...documents.map(({ state }) => state));
-  const setting = (/** @type {string} */ name) => declared.find((/** @type {Declaration} */ { key }) => key === name);
+  const attributeSentences = Object.fromEntries(element.attributes.map((/** @type {any} */ { name, description }) => [name, description]));
+  const propertyTable = Object.assign({}, ...documentations.map(({ properties }) => properties));
+  const stateTable = Object.assign({}, ...documentations.map(({ state }) => state));
+  const settingOf = (/** @type {string} */ name) => declared.find((/** @type {Declaration} */ { key }) => key === name);
 
   /** @returns {Attribute} */
-  const attribute = (/** @type {[string, any]} */ [name, entry]) => {
-    const declaration = setting(name);
+  const attributeOf = (/** @type {[string, any]} */ [name, entry]) => {
+    const declaration = settingOf(name);
     if (declaration) {
-      const given = declaration.default;
-      const opening = given === null ? undefined : String(given);
-      const shown = typeof given === 'number' ? number(given) : opening;
-      const withoutRange = describe({ ...declaration, min: undefined }, shown);
-      return { name, type: typeOf(declaration), description: describe(declaration, shown), opening, allowed: allowedIn(declaration), withoutRange };
+      const defaultValue = declaration.default;
+      const openingText = defaultValue === null ? undefined : String(defaultValue);
+      const shownDefault = typeof defaultValue === 'number' ? numberText(defaultValue) : openingText;
+      const withoutRange = describe({ ...declaration, min: undefined }, shownDefault);
+      return { name, type: typeOf(declaration), description: describe(declaration, shownDefault), opening: openingText, allowed: rangeText(declaration), withoutRange };
     }
     const { words, covers, converter, property } = entry;
     const nullable = covers || entry.nullable;
-    const opening = own[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
-    const type = converter === NUMBER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST ? `(${union(words)})[]` : union(words);
-    const text = Array.isArray(opening) ? opening.join(' ') : opening;
-    const description = describe({ ...entry, sentence: sentences[name] }, text);
-    return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: allowedIn(entry), withoutRange: description };
+    const openingText = own[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
+    const type = converter === NUMBER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST ? `(${unionType(words)})[]` : unionType(words);
+    const text = Array.isArray(openingText) ? openingText.join(' ') : openingText;
+    const description = describe({ ...entry, sentence: attributeSentences[name] }, text);
+    return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: rangeText(entry), withoutRange: description };
   };
-  const documented = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
+  const documentedItem = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
-  const attributeList = Object.entries({ ...attributes, ...COMMON_ATTRS }).map(attribute);
+  const attributeList = Object.entries({ ...attributes, ...COMMON_ATTRS }).map(attributeOf);
   /** @type {Declaration[]} */
-  const whole = declared.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
-  const groups = whole.filter(({ key }) => !(key in attributes)).map(plain);
-  const ofClass = element.members
+  const wholeSettings = declared.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
+  const groupFields = wholeSettings.filter(({ key }) => !(key in attributes)).map(fieldOf);
+  const classFields = element.members
     .filter((/** @type {any} */ { kind, privacy, inheritedFrom }) => kind === 'field' && privacy === 'public' && !inheritedFrom)
     .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: oneLine(description), readonly, type: type.text }));
-  const properties = [...groups, ...Object.entries(propertyTable).map(documented), ...ofClass];
-  const ofElement = Object.keys(own).map((name) => {
+  const properties = [...groupFields, ...Object.entries(propertyTable).map(documentedItem), ...classFields];
+  const elementFields = Object.keys(own).map((name) => {
     const { type, description } = /** @type {Named} */ ([...attributeList, ...properties].find((each) => each.name === name) ?? {});
     return { name, type, description };
   });
-  const state = new Map([...whole.map(plain), ...ofElement, ...Object.entries(stateTable).map(documented)].map((each) => [each.name, each]));
+  const state = new Map([...wholeSettings.map(fieldOf), ...elementFields, ...Object.entries(stateTable).map(documentedItem)].map((each) => [each.name, each]));
   for (const { name, type } of state.values()) if (!type) throw new Error(`${tag}: nothing says what ${name} is in its state.`);
-  return { tag, machine: pascal(tag), attributes: attributeList, properties, state: [...state.values()] };
+  return { tag, machine: pascalCase(tag), attributes: attributeList, properties, state: [...state.values()] };
 }
 
 /** @param {Declaration} declaration */
-function plain(declaration) {
+function fieldOf(declaration) {
   return { name: declaration.key, type: typeOf(declaration), description: describe(declaration) };
 }
 
 /** Returns the preset that the widget opens with, if there is one. @param {string} tag */
 function openingPreset(tag) {
-  const opening = Object.fromEntries(settings[tag].map(({ key, in: group, field, default: value }) => [field ? `${group}.${field}` : key, value]));
+  const openingValues = Object.fromEntries(settings[tag].map(({ key, in: group, field, default: value }) => [field ? `${group}.${field}` : key, value]));
   /** @returns {boolean} */
-  const same = (/** @type {object} */ fields, group = '') =>
+  const presetIsOpen = (/** @type {object} */ fields, group = '') =>
     Object.entries(fields).every(
-      ([key, value]) => key === 'name' || value === null || (typeof value === 'object' ? same(value, key) : value === (opening[`${group}.${key}`] ?? opening[key])),
+      ([key, value]) => key === 'name' || value === null || (typeof value === 'object' ? presetIsOpen(value, key) : value === (openingValues[`${group}.${key}`] ?? openingValues[key])),
     );
-  return presetsOf(tag).find((preset) => same(preset))?.name;
+  return presetsOf(tag).find((preset) => presetIsOpen(preset))?.name;
 }
 
 /** Returns the presets of a widget. @param {string} tag @returns {(Record<string, unknown> & { name: string })[]} */

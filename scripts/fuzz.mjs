@@ -11,87 +11,88 @@ import { nativeRust } from './toolchain.mjs';
 const TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((file) => file.replace(/\.txt$/, ''));
 
 /** Limits of one input: seconds, allocated megabytes, and bytes. The program itself takes 30 MB. */
-const LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286', '-max_len=256'];
+const INPUT_LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286', '-max_len=256'];
 
 /** Options of the build. Safe Rust needs no sanitizer, and tracing of comparisons would halve the speed. */
-const OPTIONS = ['--sanitizer', 'none', '--no-trace-compares'];
+const BUILD_OPTIONS = ['--sanitizer', 'none', '--no-trace-compares'];
 
 /** Packed inputs of a target: hexadecimal, one input a line. @param {string} target */
-const packed = (target) => join(ROOT, 'fuzz/corpus', `${target}.txt`);
+const packedPath = (target) => join(ROOT, 'fuzz/corpus', `${target}.txt`);
 
 /** @param {string} target @param {'known' | 'found' | 'merged'} kind */
-const folder = (target, kind) => join(ROOT, 'build/fuzz', target, kind);
+const inputFolder = (target, kind) => join(ROOT, 'build/fuzz', target, kind);
 
 /** Writes the packed inputs of a target as files for libFuzzer. @param {string} target */
-function unpack(target) {
-  const known = folder(target, 'known');
-  rmSync(known, { recursive: true, force: true });
-  mkdirSync(known, { recursive: true });
-  mkdirSync(folder(target, 'found'), { recursive: true });
-  const lines = readFileSync(packed(target), 'latin1').split('\n').slice(0, -1);
-  lines.forEach((line, i) => writeFileSync(join(known, String(i)), Buffer.from(line, 'hex')));
+function unpackInputs(target) {
+  const knownFolder = inputFolder(target, 'known');
+  rmSync(knownFolder, { recursive: true, force: true });
+  mkdirSync(knownFolder, { recursive: true });
+  mkdirSync(inputFolder(target, 'found'), { recursive: true });
+  const lines = readFileSync(packedPath(target), 'latin1').split('\n').slice(0, -1);
+  lines.forEach((line, i) => writeFileSync(join(knownFolder, String(i)), Buffer.from(line, 'hex')));
 }
 
 /** Runs a target with cargo-fuzz. @param {string} target @param {string[]} folders of inputs @param {string[]} options of libFuzzer */
 async function cargoFuzz(target, folders, options) {
   const { bin, env } = await nativeRust();
-  const args = ['+nightly', 'fuzz', 'run', ...OPTIONS, 'target', ...folders, '--', ...options];
+  const args = ['+nightly', 'fuzz', 'run', ...BUILD_OPTIONS, 'target', ...folders, '--', ...options];
   return run(join(bin, 'cargo'), args, { env: { ...env, FUZZ_TARGET: target }, quiet: true });
 }
 
-async function compile() {
+async function compileTargets() {
   const { bin, env } = await nativeRust();
   const cargo = join(bin, 'cargo');
   const sentence =
     'cargo-fuzz or a nightly Rust is missing: run `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`, and start again.';
   await mustRun(sentence, cargo, ['+nightly', 'fuzz', '--version'], { env, quiet: true });
-  await mustRun('The targets do not compile: see above.', cargo, ['+nightly', 'fuzz', 'build', ...OPTIONS], { env });
+  await mustRun('The targets do not compile: see above.', cargo, ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
 }
 
 /** @param {string} target @param {string} runs @param {string} seed @returns {Promise<boolean>} false if an input failed */
-async function fuzz(target, runs, seed) {
-  unpack(target);
-  const limits = [`-runs=${runs}`, `-seed=${seed}`, ...LIMITS];
-  const { ok, output } = await cargoFuzz(target, [folder(target, 'found'), folder(target, 'known')], limits);
+async function fuzzTarget(target, runs, seed) {
+  unpackInputs(target);
+  const fuzzLimits = [`-runs=${runs}`, `-seed=${seed}`, ...INPUT_LIMITS];
+  const { ok, output } = await cargoFuzz(target, [inputFolder(target, 'found'), inputFolder(target, 'known')], fuzzLimits);
   if (!ok) console.error(output.split('\n').slice(-60).join('\n'));
-  const edges = [...output.matchAll(/ cov: (\d+)/g)].pop()?.[1];
-  console.log(`${ok ? 'ok    ' : 'FAILED'} ${target.padEnd(12)} edges ${edges}, ${output.match(/^Done .*$/m)?.[0]}`);
+  const edgeCount = [...output.matchAll(/ cov: (\d+)/g)].pop()?.[1];
+  console.log(`${ok ? 'ok    ' : 'FAILED'} ${target.padEnd(12)} edges ${edgeCount}, ${output.match(/^Done .*$/m)?.[0]}`);
   return ok;
 }
 
 /** Packs the smallest set of known and found inputs that reaches the same code. @param {string} target */
-async function keep(target) {
-  unpack(target);
-  const merged = folder(target, 'merged');
-  rmSync(merged, { recursive: true, force: true });
-  mkdirSync(merged);
+async function keepInputs(target) {
+  unpackInputs(target);
+  const mergedFolder = inputFolder(target, 'merged');
+  rmSync(mergedFolder, { recursive: true, force: true });
+  mkdirSync(mergedFolder);
   // Hit counts of edges would keep five times as many inputs.
-  const options = ['-set_cover_merge=1', '-use_counters=0', ...LIMITS];
-  const { ok, output } = await cargoFuzz(target, [merged, folder(target, 'known'), folder(target, 'found')], options);
+  const options = ['-set_cover_merge=1', '-use_counters=0', ...INPUT_LIMITS];
+  const { ok, output } = await cargoFuzz(target, [mergedFolder, inputFolder(target, 'known'), inputFolder(target, 'found')], options);
   if (!ok) throw new Missing(output);
-  const lines = readdirSync(merged).map((name) => readFileSync(join(merged, name)).toString('hex'));
-  writeFileSync(packed(target), lines.sort().map((line) => `${line}\n`).join(''));
+  const lines = readdirSync(mergedFolder).map((name) => readFileSync(join(mergedFolder, name)).toString('hex'));
+  writeFileSync(packedPath(target), lines.sort().map((line) => `${line}\n`).join(''));
   console.log(`${target}: ${lines.length} inputs`);
   return true;
 }
 
 await runAsScript(import.meta.url, async () => {
   const args = process.argv.slice(2);
-  const keeps = args[0] === 'keep';
-  const [runs, seed] = keeps ? [] : [args[0] ?? '1000000', args[1] ?? '1'];
-  const named = args.slice(keeps ? 1 : 2);
+  const isKeeping = args[0] === 'keep';
+  const [runs, seed] = isKeeping ? [] : [args[0] ?? '1000000', args[1] ?? '1'];
+  const namedTargets = args.slice(isKeeping ? 1 : 2);
   for (const [name, number] of Object.entries({ RUNS: runs, SEED: seed })) {
     if (number !== undefined && !/^[1-9]\d*$/.test(number)) throw new Missing(`${name} must be a whole number from 1 (got "${number}").`);
   }
-  const stranger = named.find((name) => !TARGETS.includes(name));
-  if (stranger !== undefined) throw new Missing(`"${stranger}" is not a target; targets are ${TARGETS.join(', ')}.`);
-  const waiting = named.length > 0 ? named : [...TARGETS];
-  progress(`${keeps ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waiting.join(', ')}`);
-  await compile();
-  const lane = async () => {
-    for (let target = waiting.shift(); target !== undefined; target = waiting.shift()) {
-      if (!(await (keeps ? keep(target) : fuzz(target, /** @type {string} */ (runs), /** @type {string} */ (seed))))) process.exitCode = 1;
+  const unknownTarget = namedTargets.find((name) => !TARGETS.includes(name));
+  if (unknownTarget !== undefined) throw new Missing(`"${unknownTarget}" is not a target; targets are ${TARGETS.join(', ')}.`);
+  const waitingTargets = namedTargets.length > 0 ? namedTargets : [...TARGETS];
+  progress(`${isKeeping ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
+  await compileTargets();
+  const runWaiting = async () => {
+    for (let target = waitingTargets.shift(); target !== undefined; target = waitingTargets.shift()) {
+      const task = isKeeping ? keepInputs(target) : fuzzTarget(target, `${runs}`, `${seed}`);
+      if (!(await task)) process.exitCode = 1;
     }
   };
-  await Promise.all(Array.from({ length: availableParallelism() }, lane));
+  await Promise.all(Array.from({ length: availableParallelism() }, runWaiting));
 });

@@ -3,7 +3,7 @@
 // Attributes and properties come from the declarations. Methods, events, parts and colours come from the comments of the classes.
 // A test in a browser compares the manifest with the elements.
 
-import { comments, oneLine, widgets } from './declarations.mjs';
+import { classComments, oneLine, widgets } from './declarations.mjs';
 
 /**
  * @typedef {{ name: string, type?: { text: string }, description?: string }} Item
@@ -22,14 +22,14 @@ import { comments, oneLine, widgets } from './declarations.mjs';
 
 /** @returns {Promise<{ schemaVersion: string, modules: { kind: string, path: string, declarations: Element[], exports: object[] }[] }>} */
 export async function manifest() {
-  const { schemaVersion, classes } = await comments();
+  const { schemaVersion, classes } = await classComments();
   const declarations = (await widgets()).map((widget) => {
     const name = `${widget.machine}Element`;
     return elementOf(widget, name, classes.get(name));
   });
-  const path = 'dist/external.js';
-  const exports = declarations.map(({ name, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name, module: path } }));
-  return { schemaVersion, modules: [{ kind: 'javascript-module', path, declarations, exports }] };
+  const modulePath = 'dist/external.js';
+  const exports = declarations.map(({ name, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name, module: modulePath } }));
+  return { schemaVersion, modules: [{ kind: 'javascript-module', path: modulePath, declarations, exports }] };
 }
 
 /**
@@ -39,14 +39,14 @@ export async function manifest() {
  */
 function elementOf({ tag, machine, attributes, properties }, name, analyzed) {
   /** Replaces the general names of types in the common class by those of this machine. @param {string} type */
-  const ours = (type) => ({ text: type.replace(/\bMachine\b/, machine).replace(/\bValues\b/, `${machine}State`) });
-  const item = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: ours(type.text) }), description: description && oneLine(description) });
-  const documented = (/** @type {any[]} */ items) => items.filter(({ description }) => description).map(item);
-  const member = (/** @type {any} */ { kind, parameters, return: result, readonly, ...rest }) => ({
+  const withMachineNames = (type) => ({ text: type.replace(/\bMachine\b/, machine).replace(/\bValues\b/, `${machine}State`) });
+  const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withMachineNames(type.text) }), description: description && oneLine(description) });
+  const documentedItems = (/** @type {any[]} */ items) => items.filter(({ description }) => description).map(itemOf);
+  const memberOf = (/** @type {any} */ { kind, parameters, return: result, readonly, ...rest }) => ({
     kind,
-    ...item(rest),
-    ...(parameters && { parameters: parameters.map(item) }),
-    ...(kind === 'method' && result && { return: { type: ours(result.type.text) } }),
+    ...itemOf(rest),
+    ...(parameters && { parameters: parameters.map(itemOf) }),
+    ...(kind === 'method' && result && { return: { type: withMachineNames(result.type.text) } }),
     ...(readonly && { readonly }),
   });
   return {
@@ -67,11 +67,11 @@ function elementOf({ tag, machine, attributes, properties }, name, analyzed) {
       ...properties.map(({ name, type, description, readonly }) => ({ kind: 'field', name, type: { text: type }, description, ...(readonly && { readonly }) })),
       ...analyzed.members
         .filter((/** @type {any} */ { name, privacy }) => privacy === 'public' && !properties.some((property) => property.name === name))
-        .map(member),
+        .map(memberOf),
     ],
-    events: documented(analyzed.events),
-    slots: documented(analyzed.slots),
-    cssParts: documented(analyzed.cssParts),
-    cssProperties: documented(analyzed.cssProperties),
+    events: documentedItems(analyzed.events),
+    slots: documentedItems(analyzed.slots),
+    cssParts: documentedItems(analyzed.cssParts),
+    cssProperties: documentedItems(analyzed.cssProperties),
   };
 }

@@ -10,45 +10,45 @@ import { serve } from './serve.mjs';
 import { aptInstall } from './toolchain.mjs';
 
 /** Width of the figure, which shows one picture, and size of its letters, pixels. */
-const WIDTH = 690;
-const LETTERS = 24;
+const FIGURE_WIDTH = 690;
+const FONT_SIZE = 24;
 
 /** Pictures of the morph, the duration of one, and that of the first and last, ms. */
-const FRAMES = 24;
-const DURATIONS = { each: 100, end: 1600 };
+const FRAME_COUNT = 24;
+const FRAME_DURATIONS = { each: 100, end: 1600 };
 
-const WEBP = 'img2webp is missing: install the package webp.';
+const MISSING_WEBP = 'img2webp is missing: install the package webp.';
 
 await runAsScript(import.meta.url, async () => {
   await build({ local: true });
   const { chromium } = await import('@playwright/test');
   const browser = await chromium.launch({ executablePath: (await ensureBrowser()).chrome, args: CHROME_ARGUMENTS });
   const { address, close } = await serve(join(ROOT, 'dist'), { port: 0 });
-  const frames = mkdtempSync(join(tmpdir(), 'morph-'));
+  const frameDirectory = mkdtempSync(join(tmpdir(), 'morph-'));
   try {
-    if (findProgram('img2webp') === undefined) await aptInstall(['webp'], WEBP);
-    const page = await browser.newPage({ viewport: { width: WIDTH, height: 1350 } });
+    if (findProgram('img2webp') === undefined) await aptInstall(['webp'], MISSING_WEBP);
+    const page = await browser.newPage({ viewport: { width: FIGURE_WIDTH, height: 1350 } });
     await page.goto(`${address}embed.html?widget=banana-machine`);
-    await page.addStyleTag({ content: `body { margin: 0; font-size: ${LETTERS}px }` });
+    await page.addStyleTag({ content: `body { margin: 0; font-size: ${FONT_SIZE}px }` });
     const figure = page.locator('banana-machine');
     await figure.locator('.folds').waitFor();
     await page.waitForFunction(() => !(/** @type {any} */ (document.querySelector('banana-machine')).playing));
     await page.waitForTimeout(1500);
     const { y, height } = (await figure.locator('.morphing').boundingBox()) ?? { y: 0, height: 0 };
-    const clip = { x: 0, y: 0, width: WIDTH, height: y + height };
-    const listed = [];
-    for (let i = 0; i <= FRAMES; i++) {
-      const share = (1 - Math.cos((Math.PI * i) / FRAMES)) / 2;
-      await figure.evaluate((element, morph) => element.setAttribute('morph', String(morph)), share);
+    const clip = { x: 0, y: 0, width: FIGURE_WIDTH, height: y + height };
+    const frames = [];
+    for (let i = 0; i <= FRAME_COUNT; i++) {
+      const morphShare = (1 - Math.cos((Math.PI * i) / FRAME_COUNT)) / 2;
+      await figure.evaluate((element, morph) => element.setAttribute('morph', String(morph)), morphShare);
       await page.waitForTimeout(100);
-      const path = join(frames, `${i}.png`);
+      const path = join(frameDirectory, `${i}.png`);
       await page.screenshot({ path, clip });
-      listed.push('-d', String(i % FRAMES === 0 ? DURATIONS.end : DURATIONS.each), path);
+      frames.push('-d', String(i % FRAME_COUNT === 0 ? FRAME_DURATIONS.end : FRAME_DURATIONS.each), path);
     }
-    await mustRun(WEBP, 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...listed, '-o', join(ROOT, 'doc/morph.webp')]);
+    await mustRun(MISSING_WEBP, 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...frames, '-o', join(ROOT, 'doc/morph.webp')]);
   } finally {
     await browser.close();
     close();
-    rmSync(frames, { recursive: true });
+    rmSync(frameDirectory, { recursive: true });
   }
 });

@@ -1,13 +1,13 @@
-// Names of generated code. Each target language forbids some; a name that it forbids is spelled otherwise, or refused.
+// Names in generated code. Each language forbids some names: those get an underscore in Python, and are errors in JavaScript.
 
 /** Keywords of Python that are lower-case letters alone, as settings are. */
-const PYTHON = new Set(
+const PYTHON_KEYWORDS = new Set(
   ('and as assert async await break class continue def del elif else except finally for from global if import in is lambda ' +
     'nonlocal not or pass raise return try while with yield').split(' '),
 );
 
-/** Names that widgets of ipywidgets have already and a trait would hide: tests/package/python.test.js looks for more. */
-const WIDGET = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log', 'open', 'stats', 'tabbable', 'tooltip']);
+/** Members of every widget of ipywidgets, which a trait of this name would hide. tests/package/python.test.js looks for more. */
+const WIDGET_NAMES = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log', 'open', 'stats', 'tabbable', 'tooltip']);
 
 /**
  * Returns the name of a property in Python: in snake case, and with an underscore behind a name that is taken, as PEP 8
@@ -18,7 +18,7 @@ const WIDGET = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log', 'open
 export function pythonName(property) {
   const name = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
   if (!/^[a-z]\w*$/.test(name)) throw new Error(`${property} cannot be the name of a trait in Python: rename it.`);
-  return PYTHON.has(name) || WIDGET.has(name) ? `${name}_` : name;
+  return PYTHON_KEYWORDS.has(name) || WIDGET_NAMES.has(name) ? `${name}_` : name;
 }
 
 /**

@@ -1,4 +1,4 @@
-// Running other programs, and saying in one sentence what is missing. Node built-ins only: this runs in a bare clone.
+// Runs other programs, and tells the user in one sentence what is missing. Node built-ins only: this runs in a bare clone.
 
 import { AsyncLocalStorage } from 'node:async_hooks';
 import { spawn } from 'node:child_process';
@@ -8,15 +8,15 @@ import { fileURLToPath } from 'node:url';
 
 export const ROOT = fileURLToPath(new URL('..', import.meta.url));
 
-/** Something the reader has to provide. The message is the whole sentence they are shown. */
+/** Error about something that the user has to provide or correct. Its message is printed without a stack trace. */
 export class Missing extends Error {}
 
 /** @type {AsyncLocalStorage<string[]>} */
-const collected = new AsyncLocalStorage();
+const outputStore = new AsyncLocalStorage();
 
 /** Prints text, or adds it to the collected output. @param {string} text @param {NodeJS.WriteStream} [stream] */
 function print(text, stream = process.stdout) {
-  const lines = collected.getStore();
+  const lines = outputStore.getStore();
   if (lines === undefined) stream.write(text);
   else lines.push(text);
 }
@@ -28,11 +28,11 @@ function print(text, stream = process.stdout) {
  * @param {() => Promise<T>} work
  * @returns {Promise<T>} result of the work
  */
-export async function inOnePiece(work) {
+export async function withCollectedOutput(work) {
   /** @type {string[]} */
   const lines = [];
   try {
-    return await collected.run(lines, work);
+    return await outputStore.run(lines, work);
   } finally {
     print(lines.join(''));
   }
@@ -46,7 +46,7 @@ export function progress(text) {
 /**
  * @template T
  * @param {() => Promise<T>} work
- * @returns {() => Promise<T>} that does it once, however often and by however many at a time it is called
+ * @returns {() => Promise<T>} a function that does the work at its first call, and returns the same result at every call
  */
 export function once(work) {
   /** @type {Promise<T> | undefined} */
@@ -55,12 +55,12 @@ export function once(work) {
 }
 
 /** Returns a function that runs tasks one after the other. @returns {<T>(work: () => Promise<T>) => Promise<T>} */
-export function queue() {
+export function taskQueue() {
   /** @type {Promise<unknown>} */
-  let last = Promise.resolve();
+  let lastTask = Promise.resolve();
   return (work) => {
-    const result = last.then(work);
-    last = result.catch(() => {});
+    const result = lastTask.then(work);
+    lastTask = result.catch(() => {});
     return result;
   };
 }
@@ -72,7 +72,7 @@ export function queue() {
  * @param {T} works
  * @returns {Promise<{ -readonly [K in keyof T]: Awaited<T[K]> }>} rejected with the first failure
  */
-export async function together(works) {
+export async function settleAll(works) {
   await Promise.allSettled(works);
   return /** @type {Promise<any>} */ (Promise.all(works));
 }
@@ -98,11 +98,11 @@ export async function runAsScript(url, main) {
   }
 }
 
-/** Process groups that end with this process. @type {Set<number>} */
-const groups = new Set();
+/** Process groups that are ended when this process is interrupted. @type {Set<number>} */
+const processGroups = new Set();
 
 /** Ends a process group. @param {number} group */
-export function end(group) {
+export function endGroup(group) {
   try {
     process.kill(-group, 'SIGKILL');
   } catch {
@@ -110,26 +110,26 @@ export function end(group) {
   }
 }
 
-function interrupted() {
-  groups.forEach(end);
+function endAfterSignal() {
+  processGroups.forEach(endGroup);
   process.exit(130);
 }
 
-/** Lets a process group end with this process. @param {number} group */
+/** Arranges that a process group is ended when this process is. @param {number} group */
 export function endWithUs(group) {
-  groups.add(group);
-  for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, interrupted).on(signal, interrupted);
+  processGroups.add(group);
+  for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, endAfterSignal).on(signal, endAfterSignal);
 }
 
 /** Forgets a process group that has ended. @param {number} group */
-export function hasEnded(group) {
-  groups.delete(group);
+export function forgetGroup(group) {
+  processGroups.delete(group);
   // Signals have their usual meaning while no program runs.
-  if (groups.size === 0) for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, interrupted);
+  if (processGroups.size === 0) for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, endAfterSignal);
 }
 
-/** Milliseconds of silence after which a program that runs is named. */
-const SILENCE = 30_000;
+/** Milliseconds without output after which the name of the running program is printed. */
+const MAX_SILENCE = 30_000;
 
 /**
  * @typedef {object} RunOptions
@@ -160,39 +160,39 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
     let stdout = '';
     let output = '';
     let timedOut = false;
-    const began = Date.now();
-    const reminder = collected.getStore() ? undefined : setInterval(() => {
-      print(`  ${basename(command)} ${basename(args[0] ?? '')} has been running for ${Math.round((Date.now() - began) / 1000)} s\n`);
-    }, SILENCE);
-    const group = seconds === undefined ? undefined : child.pid;
+    const startTime = Date.now();
+    const silenceTimer = outputStore.getStore() ? undefined : setInterval(() => {
+      print(`  ${basename(command)} ${basename(args[0] ?? '')} has been running for ${Math.round((Date.now() - startTime) / 1000)} s\n`);
+    }, MAX_SILENCE);
+    const processGroup = seconds === undefined ? undefined : child.pid;
     /** @type {NodeJS.Timeout | undefined} */
-    let timer;
-    if (seconds !== undefined && group !== undefined) {
-      endWithUs(group);
-      timer = setTimeout(() => {
+    let limitTimer;
+    if (seconds !== undefined && processGroup !== undefined) {
+      endWithUs(processGroup);
+      limitTimer = setTimeout(() => {
         timedOut = true;
-        end(group);
+        endGroup(processGroup);
       }, seconds * 1000);
     }
     child.stdout.setEncoding('utf8').on('data', (text) => {
       stdout += text;
       output += text;
-      reminder?.refresh();
+      silenceTimer?.refresh();
       if (!quiet) print(text);
     });
     child.stderr.setEncoding('utf8').on('data', (text) => {
       output += text;
-      reminder?.refresh();
+      silenceTimer?.refresh();
       if (!quiet) print(text, process.stderr);
     });
-    const finish = (/** @type {boolean} */ ok) => {
-      clearTimeout(timer);
-      clearInterval(reminder);
-      if (group !== undefined) hasEnded(group);
+    const finishRun = (/** @type {boolean} */ ok) => {
+      clearTimeout(limitTimer);
+      clearInterval(silenceTimer);
+      if (processGroup !== undefined) forgetGroup(processGroup);
       resolve({ ok, timedOut, stdout, output });
     };
-    child.on('error', () => finish(false));
-    child.on('close', (code) => finish(code === 0));
+    child.on('error', () => finishRun(false));
+    child.on('close', (code) => finishRun(code === 0));
   });
 }
 

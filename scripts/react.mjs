@@ -3,7 +3,7 @@
 
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { union, widgets } from './declarations.mjs';
+import { unionType, widgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
 
 /** @typedef {import('./declarations.mjs').Widget} Widget */
@@ -12,24 +12,24 @@ const HEAD = '// Generated from the declarations: not to be edited.\n';
 
 /** Writes both files. */
 export async function writeComponents() {
-  const all = await widgets();
-  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEAD}\nimport { component } from '../www/react.ts';\n\n${all.map(componentOf).join('')}`);
-  writeFileSync(join(ROOT, 'build/react.d.ts'), [HEAD, imported(all), COMMON, ...all.map(typesOf), tagsIn(all)].join('\n'));
+  const figures = await widgets();
+  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEAD}\nimport { component } from '../www/react.ts';\n\n${figures.map(componentOf).join('')}`);
+  writeFileSync(join(ROOT, 'build/react.d.ts'), [HEAD, imports(figures), PROP_TYPES, ...figures.map(typesOf), jsxTags(figures)].join('\n'));
 }
 
 /** @param {Widget} widget */
 function componentOf({ tag, machine, attributes, properties }) {
-  const names = {
+  const propNames = {
     attributes: Object.fromEntries(attributes.map(({ name, property = name }) => [property, name])),
     // A boolean attribute without a default is true if it is present. The others are written as true or false.
     flags: attributes.filter(({ type, opening }) => type === 'boolean' && opening === undefined).map(({ name }) => name),
     properties: properties.filter(({ readonly }) => !readonly).map(({ name }) => name),
   };
-  return `export const ${machine} = component('${machine}', '${tag}', ${JSON.stringify(names)});\n`;
+  return `export const ${machine} = component('${machine}', '${tag}', ${JSON.stringify(propNames)});\n`;
 }
 
 /** @param {Widget[]} all */
-function imported(all) {
+function imports(all) {
   const elements = all.map(({ machine }) => `${machine}Element`);
   return (
     "import type { ClassAttributes, ForwardRefExoticComponent, HTMLAttributes, RefAttributes } from 'react';\n" +
@@ -37,7 +37,7 @@ function imported(all) {
   );
 }
 
-const COMMON = `/** Type of a prop: numbers and lists of words also as text, as in attributes, and digits also as numbers. */
+const PROP_TYPES = `/** Type of a prop: numbers and lists of words also as text, as in attributes, and digits also as numbers. */
 type Given<Value> = Value extends number
   ? Value | \`\${number}\`
   : Value extends \`\${infer Digit extends number}\`
@@ -65,7 +65,7 @@ type OwnProps<Element extends FigureElement<any, any>, Names extends keyof Eleme
 type Props<Element extends FigureElement<any, any>, Names extends keyof Element> = OwnProps<Element, Names> &
   Omit<HTMLAttributes<Element>, keyof OwnProps<Element, Names>>;
 
-/** Type of an attribute. React sets properties of a tag only if its element is defined already, which cannot be relied on. */
+/** Type of an attribute in a tag. React would set properties only if the element is already defined, which is not certain. */
 type Said<Value> = Value extends boolean
   ? true | \`\${Value}\`
   : Value extends number
@@ -86,19 +86,19 @@ type Tag<Element extends FigureElement<any, any>, Names extends keyof Element> =
 
 /** @param {Widget} widget */
 function typesOf({ tag, machine, attributes, properties }) {
-  const own = union(attributes.map(({ name, property = name }) => property));
-  const others = union(properties.filter(({ readonly }) => !readonly).map(({ name }) => name));
+  const attributeNames = unionType(attributes.map(({ name, property = name }) => property));
+  const propertyNames = unionType(properties.filter(({ readonly }) => !readonly).map(({ name }) => name));
   return (
-    `type ${machine}Attributes = ${own};\n\n` +
+    `type ${machine}Attributes = ${attributeNames};\n\n` +
     `/** Props of \`<${machine}>\`. */\n` +
-    `export type ${machine}Props = Props<${machine}Element, ${machine}Attributes | ${others}>;\n\n` +
+    `export type ${machine}Props = Props<${machine}Element, ${machine}Attributes | ${propertyNames}>;\n\n` +
     `/** \`<${tag}>\` as a component. */\n` +
     `export declare const ${machine}: ForwardRefExoticComponent<${machine}Props & RefAttributes<${machine}Element>>;\n`
   );
 }
 
 /** @param {Widget[]} all */
-function tagsIn(all) {
-  const tags = all.map(({ tag, machine }) => `      '${tag}': Tag<${machine}Element, ${machine}Attributes>;\n`);
-  return `declare module 'react' {\n  namespace JSX {\n    interface IntrinsicElements {\n${tags.join('')}    }\n  }\n}\n`;
+function jsxTags(all) {
+  const tagLines = all.map(({ tag, machine }) => `      '${tag}': Tag<${machine}Element, ${machine}Attributes>;\n`);
+  return `declare module 'react' {\n  namespace JSX {\n    interface IntrinsicElements {\n${tagLines.join('')}    }\n  }\n}\n`;
 }

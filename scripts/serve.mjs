@@ -18,18 +18,18 @@ export async function serve(directory, { port, base = '/', headers = {} } = {}) 
   const { default: sirv } = await import('sirv');
   const files = sirv(directory, { dev: true, etag: true, setHeaders: (response) => response.setHeaders(new Map(Object.entries(headers))) });
   const server = createServer((request, response) => {
-    const missing = () => void response.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
-    if (!request.url?.startsWith(base)) return missing();
+    const sendNotFound = () => void response.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
+    if (!request.url?.startsWith(base)) return sendNotFound();
     request.url = request.url.slice(base.length - 1);
-    files(request, response, missing);
+    files(request, response, sendNotFound);
   });
-  let candidate = port ?? 4173;
+  let triedPort = port ?? 4173;
   return new Promise((resolve, reject) => {
     server.on('error', (/** @type {NodeJS.ErrnoException} */ error) => {
       if (error.code !== 'EADDRINUSE' && error.code !== 'EACCES') {
         reject(error);
       } else if (port === undefined) {
-        server.listen(++candidate, 'localhost');
+        server.listen(++triedPort, 'localhost');
       } else {
         reject(new Missing(`Port ${port} is not free: set PORT to another one, or leave it unset.`));
       }
@@ -39,18 +39,18 @@ export async function serve(directory, { port, base = '/', headers = {} } = {}) 
       if (address === null || typeof address === 'string') return;
       resolve({ address: `http://localhost:${address.port}${base}`, close: () => server.close().closeAllConnections() });
     });
-    server.listen(candidate, 'localhost');
+    server.listen(triedPort, 'localhost');
   });
 }
 
 /** @returns {number | undefined} */
 function wantedPort() {
-  const text = process.env.PORT;
-  if (text === undefined || text === '') return undefined;
-  if (!/^\d+$/.test(text) || Number(text) > 65535) {
-    throw new Missing(`PORT is "${text}" and must be a number from 0 (any free port) to 65535.`);
+  const portText = process.env.PORT;
+  if (portText === undefined || portText === '') return undefined;
+  if (!/^\d+$/.test(portText) || Number(portText) > 65535) {
+    throw new Missing(`PORT is "${portText}" and must be a number from 0 (any free port) to 65535.`);
   }
-  return Number(text);
+  return Number(portText);
 }
 
 await runAsScript(import.meta.url, async () => {

@@ -6,15 +6,15 @@ import { join, posix } from 'node:path';
 import { build } from './build.mjs';
 import { WIDGETS, filesOf } from './bundle.mjs';
 import { Missing, ROOT, mustRun, progress, runAsScript } from './process.mjs';
-import { escaped } from './tables.mjs';
+import { escapedHtml } from './tables.mjs';
 import { ensurePackages, nativeRust } from './toolchain.mjs';
 
 const SITE = join(ROOT, 'build/site');
 const { homepage } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
-const SOURCES = homepage.replace('#readme', '/blob/main/');
+const SOURCES_URL = homepage.replace('#readme', '/blob/main/');
 
-/** Links at the top of every page, by their address from the root of the site. */
-const TOP = {
+/** Texts of the links at the top of every page, by their addresses from the root of the site. */
+const TOP_LINKS = {
   'index.html': 'Figures',
   'start.html': 'Start',
   'doc/exercises.html': 'Exercises',
@@ -26,26 +26,26 @@ const TOP = {
 };
 
 /** A figure with its content. */
-const FIGURE = new RegExp(`<(${WIDGETS.join('|')})[^>]*>.*?</\\1>`, 'gs');
+const FIGURE_RE = new RegExp(`<(${WIDGETS.join('|')})[^>]*>.*?</\\1>`, 'gs');
 
 /** Returns the address of the page of a document. */
 const pageOf = (/** @type {string} */ path) => path.replace(/^README\.md$/, 'start.md').replace(/\bREADME\.md$/, 'index.md').replace(/md$/, 'html');
 
 /** Returns a relative link from one page to another. */
-const between = (/** @type {string} */ page, /** @type {string} */ target) => '../'.repeat(page.split('/').length - 1) + target;
+const relativeLink = (/** @type {string} */ page, /** @type {string} */ target) => '../'.repeat(page.split('/').length - 1) + target;
 
 /** Returns the anchor of a heading, as GitHub makes it. */
 const anchorOf = (/** @type {string} */ heading) => heading.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-');
 
 /** @param {string} page */
 const navigation = (page) => {
-  const links = Object.entries(TOP).map(([to, name]) => `<a href="${between(page, to)}"${to === page ? ' aria-current="page"' : ''}>${name}</a>`);
+  const links = Object.entries(TOP_LINKS).map(([to, name]) => `<a href="${relativeLink(page, to)}"${to === page ? ' aria-current="page"' : ''}>${name}</a>`);
   return `<nav class="site" aria-label="Site">${links.join('\n')}\n<a href="${homepage}">Source</a></nav>`;
 };
 
-/** Returns the address for a code in a sentence or a table. The code of a tag leads to a frame with its figure. */
+/** Returns the address that a piece of code in the text links to: that of a page, or for a tag, that of its figure alone. */
 function addressOf(/** @type {string} */ code) {
-  if (code in TOP) return code;
+  if (code in TOP_LINKS) return code;
   const [, widget, rest] = code.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];
   if (!WIDGETS.includes(widget)) return undefined;
   const attributes = [...rest.matchAll(/([a-z-]+)(?:="([^"]*)")?/g)].map(([, name, value = '']) => [name, value]);
@@ -58,33 +58,33 @@ function addressOf(/** @type {string} */ code) {
  * @param {string[]} documents
  * @returns {string} its page
  */
-function rendered({ Marked }, document, documents) {
+function renderedPage({ Marked }, document, documents) {
   const page = pageOf(document);
   const linkOf = (/** @type {string} */ href) => {
     if (/^(https?:|#)/.test(href)) return href;
     const [path, anchor] = href.split('#');
     const target = posix.join(posix.dirname(document), path);
-    return (documents.includes(target) ? between(page, pageOf(target)) : SOURCES + target) + (anchor ? `#${anchor}` : '');
+    return (documents.includes(target) ? relativeLink(page, pageOf(target)) : SOURCES_URL + target) + (anchor ? `#${anchor}` : '');
   };
-  const seen = new Set();
+  const shown = new Set();
   const text = readFileSync(join(ROOT, document), 'utf8');
   const html = new Marked({
     walkTokens: (token) => void (token.type === 'link' && (token.href = linkOf(token.href))),
     renderer: {
       heading({ tokens, depth }) {
-        const words = this.parser.parseInline(tokens);
-        return `<h${depth} id="${anchorOf(this.parser.parseInline(tokens, this.parser.textRenderer))}">${words}</h${depth}>\n`;
+        const headingHtml = this.parser.parseInline(tokens);
+        return `<h${depth} id="${anchorOf(this.parser.parseInline(tokens, this.parser.textRenderer))}">${headingHtml}</h${depth}>\n`;
       },
-      image: ({ href, text }) => `<img src="${escaped(href)}" alt="${escaped(text)}">`,
+      image: ({ href, text }) => `<img src="${escapedHtml(href)}" alt="${escapedHtml(text)}">`,
       codespan({ text }) {
         const address = addressOf(text);
-        const code = `<code>${escaped(text)}</code>`;
-        return address ? `<a href="${between(page, escaped(address))}">${code}</a>` : code;
+        const code = `<code>${escapedHtml(text)}</code>`;
+        return address ? `<a href="${relativeLink(page, escapedHtml(address))}">${code}</a>` : code;
       },
       code({ text, lang }) {
-        const figures = lang === 'html' ? (text.match(FIGURE) ?? []).filter((figure) => !figure.includes('[') && !seen.has(figure)) : [];
-        for (const figure of figures) seen.add(figure);
-        return `<pre><code>${escaped(text)}</code></pre>\n${figures.join('\n')}\n`;
+        const figures = lang === 'html' ? (text.match(FIGURE_RE) ?? []).filter((each) => !each.includes('[') && !shown.has(each)) : [];
+        for (const figure of figures) shown.add(figure);
+        return `<pre><code>${escapedHtml(text)}</code></pre>\n${figures.join('\n')}\n`;
       },
     },
   }).parse(text, { async: false });
@@ -93,12 +93,12 @@ function rendered({ Marked }, document, documents) {
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>${escaped(text.match(/^# (.*)$/m)?.[1])}</title>
+<title>${escapedHtml(text.match(/^# (.*)$/m)?.[1])}</title>
 <link rel="icon" href="data:,">
-<link rel="stylesheet" href="${between(page, '')}page.css">
-<link rel="stylesheet" href="${between(page, '')}motion-widgets.css">
-<link rel="stylesheet" href="${between(page, '')}site.css">
-${seen.size > 0 ? `<script type="module" src="${between(page, '')}external.js"></script>` : ''}
+<link rel="stylesheet" href="${relativeLink(page, '')}page.css">
+<link rel="stylesheet" href="${relativeLink(page, '')}motion-widgets.css">
+<link rel="stylesheet" href="${relativeLink(page, '')}site.css">
+${shown.size > 0 ? `<script type="module" src="${relativeLink(page, '')}external.js"></script>` : ''}
 </head>
 <body>
 ${navigation(page)}
@@ -112,15 +112,15 @@ ${html.replaceAll('<table>', '<table class="api">')}</main>
 /** Throws if a page links to a missing file or heading. */
 function checkLinks() {
   const files = new Set(filesOf('build/site'));
-  const own = [...files].filter((path) => /^build\/site\/(?!rust|classroom).*html$/.test(path));
-  const pages = new Map(own.map((path) => [path, readFileSync(join(ROOT, path), 'utf8')]));
-  const links = /\s(?:href|src)="(?!https?:|data:)([^"?#]*)[^"#]*#?([^"]*)"/g;
-  const missing = [...pages].flatMap(([page, text]) => [...text.matchAll(links)].flatMap(([, path, anchor]) => {
+  const ownPages = [...files].filter((path) => /^build\/site\/(?!rust|classroom).*html$/.test(path));
+  const pages = new Map(ownPages.map((path) => [path, readFileSync(join(ROOT, path), 'utf8')]));
+  const linkPattern = /\s(?:href|src)="(?!https?:|data:)([^"?#]*)[^"#]*#?([^"]*)"/g;
+  const brokenLinks = [...pages].flatMap(([page, text]) => [...text.matchAll(linkPattern)].flatMap(([, path, anchor]) => {
     const target = path === '' ? page : posix.join(posix.dirname(page), path);
-    const found = files.has(target) && (anchor === '' || !pages.has(target) || pages.get(target)?.includes(`id="${decodeURIComponent(anchor)}"`));
-    return found ? [] : [`${page}: ${path}${anchor && `#${anchor}`}`];
+    const isFound = files.has(target) && (anchor === '' || !pages.has(target) || pages.get(target)?.includes(`id="${decodeURIComponent(anchor)}"`));
+    return isFound ? [] : [`${page}: ${path}${anchor && `#${anchor}`}`];
   }));
-  if (missing.length > 0) throw new Missing(`Links lead nowhere:\n${missing.join('\n')}`);
+  if (brokenLinks.length > 0) throw new Missing(`Links lead nowhere:\n${brokenLinks.join('\n')}`);
 }
 
 await runAsScript(import.meta.url, async () => {
@@ -128,8 +128,8 @@ await runAsScript(import.meta.url, async () => {
   await ensurePackages('scripts');
   const rust = await nativeRust();
   progress('Documenting the crate');
-  const options = ['--quiet', '--locked', '--no-deps', '--lib', '--target-dir', join(ROOT, 'build/rustdoc')];
-  await mustRun('The crate is not documented: see above.', join(rust.bin, 'cargo'), ['doc', ...options], { env: rust.env });
+  const docOptions = ['--quiet', '--locked', '--no-deps', '--lib', '--target-dir', join(ROOT, 'build/rustdoc')];
+  await mustRun('The crate is not documented: see above.', join(rust.bin, 'cargo'), ['doc', ...docOptions], { env: rust.env });
   progress('Rendering the documents');
   rmSync(SITE, { recursive: true, force: true });
   cpSync(join(ROOT, 'dist'), SITE, { recursive: true, filter: (path) => !/(\.d\.ts|\.map|cli\.js|motion-widgets\.js)$/.test(path) });
@@ -142,7 +142,7 @@ await runAsScript(import.meta.url, async () => {
   const marked = await import('marked');
   const documents = ['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))];
   mkdirSync(join(SITE, 'doc/embedding'), { recursive: true });
-  for (const document of documents) writeFileSync(join(SITE, pageOf(document)), rendered(marked, document, documents));
+  for (const document of documents) writeFileSync(join(SITE, pageOf(document)), renderedPage(marked, document, documents));
   cpSync(join(ROOT, 'doc/morph.webp'), join(SITE, 'doc/morph.webp'));
   checkLinks();
   console.log('\nThe site is in build/site/.');

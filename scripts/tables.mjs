@@ -11,20 +11,20 @@ const TABLES = {
   attributes: (_, widgets) =>
     widgets
       .map(({ tag, attributes }) => {
-        const rows = attributes.map((each) => [code(each.name), valuesOf(each), proseHtml(each.withoutRange)]);
-        return table(tag, 'attribute', code(`<${tag}>`), ['attribute', 'values', 'description'], rows);
+        const rows = attributes.map((each) => [codeHtml(each.name), valuesHtml(each), proseHtml(each.withoutRange)]);
+        return tableHtml(tag, 'attribute', codeHtml(`<${tag}>`), ['attribute', 'values', 'description'], rows);
       })
       .join('\n\n'),
-  events: (elements) => shared(elements, 'event', 'Events; all bubble except <code>error</code>', ['event', 'fired when'], ({ events }) => events),
+  events: (elements) => itemTable(elements, 'event', 'Events; all bubble except <code>error</code>', ['event', 'fired when'], ({ events }) => events),
   methods: (elements) =>
-    shared(elements, 'method', 'Methods', ['method', 'description'], ({ members }) =>
+    itemTable(elements, 'method', 'Methods', ['method', 'description'], ({ members }) =>
       members
         .filter(({ kind }) => kind === 'method')
         .map(({ name, parameters = [], description }) => ({ name: `${name}(${parameters.map((each) => each.name).join(', ')})`, description })),
     ),
-  slots: (elements) => shared(elements, 'slot', 'Slots', ['slot', 'content'], ({ slots }) => slots),
-  properties: (elements) => shared(elements, 'property', 'Custom properties', ['property', 'description'], ({ cssProperties }) => cssProperties),
-  parts: (elements) => shared(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'description'], ({ cssParts }) => cssParts),
+  slots: (elements) => itemTable(elements, 'slot', 'Slots', ['slot', 'content'], ({ slots }) => slots),
+  properties: (elements) => itemTable(elements, 'property', 'Custom properties', ['property', 'description'], ({ cssProperties }) => cssProperties),
+  parts: (elements) => itemTable(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'description'], ({ cssParts }) => cssParts),
 };
 
 /**
@@ -46,15 +46,15 @@ export function withTables(page, elements, widgets) {
  * @param {string[]} heads
  * @param {(element: Element) => Item[]} items
  */
-function shared(elements, kind, caption, heads, items) {
-  const all = new Map(elements.flatMap(items).map((item) => [item.name, item]));
-  const bearers = (/** @type {string} */ name) => elements.filter((element) => items(element).some((item) => item.name === name));
-  const rows = [...all.values()].map(({ name, description }) => {
-    const of = bearers(name);
-    const only = of.length < elements.length ? ` Only ${of.map(({ tagName }) => code(`<${tagName}>`)).join(' and ')}.` : '';
-    return [code(name), proseHtml(description) + only];
+function itemTable(elements, kind, caption, heads, items) {
+  const itemsByName = new Map(elements.flatMap(items).map((item) => [item.name, item]));
+  const elementsWith = (/** @type {string} */ name) => elements.filter((element) => items(element).some((item) => item.name === name));
+  const rows = [...itemsByName.values()].map(({ name, description }) => {
+    const bearers = elementsWith(name);
+    const only = bearers.length < elements.length ? ` Only ${bearers.map(({ tagName }) => codeHtml(`<${tagName}>`)).join(' and ')}.` : '';
+    return [codeHtml(name), proseHtml(description) + only];
   });
-  return table('both', kind, caption, heads, rows);
+  return tableHtml('both', kind, caption, heads, rows);
 }
 
 /**
@@ -64,33 +64,33 @@ function shared(elements, kind, caption, heads, items) {
  * @param {string[]} heads
  * @param {string[][]} rows of HTML
  */
-function table(of, kind, caption, heads, rows) {
-  const head = heads.map((text) => `<th scope="col">${text}</th>`).join('');
-  const body = rows.map(([name, ...cells]) => `            <tr><th scope="row">${name}</th>${cells.map((cell) => `<td>${cell}</td>`).join('')}</tr>`);
+function tableHtml(of, kind, caption, heads, rows) {
+  const headCells = heads.map((text) => `<th scope="col">${text}</th>`).join('');
+  const bodyRows = rows.map(([name, ...cells]) => `            <tr><th scope="row">${name}</th>${cells.map((cell) => `<td>${cell}</td>`).join('')}</tr>`);
   return `        <table class="api" data-of="${of}" data-kind="${kind}">
           <caption>${caption}</caption>
-          <thead><tr>${head}</tr></thead>
+          <thead><tr>${headCells}</tr></thead>
           <tbody>
-${body.join('\n')}
+${bodyRows.join('\n')}
           </tbody>
         </table>`;
 }
 
 /** @param {import('./declarations.mjs').Attribute} attribute */
-function valuesOf({ type, allowed }) {
-  const words = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => code(word));
-  return words.length ? words.join(', ') : (allowed ?? type);
+function valuesHtml({ type, allowed }) {
+  const allowedWords = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => codeHtml(word));
+  return allowedWords.length ? allowedWords.join(', ') : (allowed ?? type);
 }
 
 /** Returns text as HTML, with code between backticks marked up. @param {string} [text] */
 function proseHtml(text = '') {
-  return escaped(text).replaceAll(/`([^`]+)`/g, '<code>$1</code>');
+  return escapedHtml(text).replaceAll(/`([^`]+)`/g, '<code>$1</code>');
 }
 
 /** Returns text as an HTML code element. @param {string} text */
-function code(text) {
-  return `<code>${escaped(text)}</code>`;
+function codeHtml(text) {
+  return `<code>${escapedHtml(text)}</code>`;
 }
 
 /** Escapes text for HTML and its attributes. */
-export const escaped = (text = '') => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
+export const escapedHtml = (text = '') => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');

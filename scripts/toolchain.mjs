@@ -1,4 +1,4 @@
-// Tools of the build and of the tests, found or installed: npm packages, Rust, its WebAssembly target, lints. Each is
+// Finds or installs the tools of the build and of the tests: npm packages, Rust, its WebAssembly target, lints. Each tool is
 // looked for once; several may be installed at the same time.
 // Node built-ins only: this runs in a bare clone.
 
@@ -6,9 +6,9 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { homedir, tmpdir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
-import { Missing, ROOT, findProgram, mustRun, once, progress, queue, run, runAsScript } from './process.mjs';
+import { Missing, ROOT, findProgram, mustRun, once, progress, taskQueue, run, runAsScript } from './process.mjs';
 
-const TARGET = 'wasm32-unknown-unknown';
+const WASM_TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
 const DEBIAN_BIN = '/usr/bin';
 
@@ -20,37 +20,37 @@ export const CACHE = join(
 );
 
 /**
- * Workspaces of package.json, whose packages are installed when they are asked for. Those of the root are enough for a server
- * on this machine.
+ * Workspaces of package.json, whose packages are installed when a script needs them. For a local server, those of the root are
+ * enough.
  *
  * @typedef {'scripts' | 'tests' | 'tests/package' | 'tests/engines'} Workspace
  */
 
 /** Installations by npm, one at a time, as all go into one directory. */
-const npm = queue();
+const npmQueue = taskQueue();
 
 /** @type {Map<string, Promise<void>>} */
-const installing = new Map();
+const installations = new Map();
 
 /**
- * Installs the npm packages of the root, and those of a workspace, unless those of the present package-lock.json are there.
+ * Installs the npm packages of the root, and those of a workspace, unless the versions of package-lock.json are already installed.
  *
  * @param {Workspace} [workspace]
  * @returns {Promise<void>}
  */
 export async function ensurePackages(workspace) {
   if (workspace) await ensurePackages();
-  const key = workspace ?? 'root';
-  if (!installing.has(key)) installing.set(key, npm(() => installPackages(key)));
-  return installing.get(key);
+  const workspaceKey = workspace ?? 'root';
+  if (!installations.has(workspaceKey)) installations.set(workspaceKey, npmQueue(() => installPackages(workspaceKey)));
+  return installations.get(workspaceKey);
 }
 
 /** @param {string} key a workspace, or "root" */
 async function installPackages(key) {
-  const lock = createHash('sha256').update(readFileSync(join(ROOT, 'package-lock.json'))).digest('hex');
+  const lockHash = createHash('sha256').update(readFileSync(join(ROOT, 'package-lock.json'))).digest('hex');
   const name = `motion-widgets-${key.replace('/', '-')}`;
-  const stamp = join(ROOT, `node_modules/.installed-${name}`);
-  if (existsSync(stamp) && readFileSync(stamp, 'utf8') === lock) return;
+  const stampFile = join(ROOT, `node_modules/.installed-${name}`);
+  if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === lockHash) return;
   progress(`Installing npm packages${key === 'root' ? '' : ` of ${key}`}`);
   // No package's install script is needed. `npm ci` would remove those of the other workspaces.
   await mustRun(
@@ -59,11 +59,11 @@ async function installPackages(key) {
     ['install', '--no-save', '--ignore-scripts', '--no-audit', '--no-fund', key === 'root' ? '--workspaces=false' : `--workspace=${name}`],
     { seconds: 600 },
   );
-  writeFileSync(stamp, lock);
+  writeFileSync(stampFile, lockHash);
 }
 
 /** Locks of apt and of rustup, so that neither runs twice at the same time. */
-const [apt, rustup] = [queue(), queue()];
+const [apt, rustup] = [taskQueue(), taskQueue()];
 
 /**
  * Installs packages by apt, if that is possible without a password.
@@ -76,14 +76,14 @@ export const aptInstall = (packages, sentence) => apt(() => aptInstallNow(packag
 /** Installs Debian packages. @param {string[]} packages @param {string} sentence of the error */
 async function aptInstallNow(packages, sentence) {
   if (findProgram('apt-get') === undefined) throw new Missing(sentence);
-  const asRoot = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
-  if (asRoot.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new Missing(sentence);
+  const rootCommand = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
+  if (rootCommand.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new Missing(sentence);
   progress(`Installing ${packages.join(' ')} by apt`);
-  const [command, ...before] = [...asRoot, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
-  await run(command, [...before, 'update', '-qq'], { seconds: 300 });
+  const [command, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
+  await run(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
   // Apt must not remove an installed package, above all no other Rust.
   const options = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
-  await mustRun(sentence, command, [...before, 'install', ...options, ...packages], { seconds: 900 });
+  await mustRun(sentence, command, [...firstArguments, 'install', ...options, ...packages], { seconds: 900 });
 }
 
 /** Ensures that Python and its pip are installed, which build the Python package. */
@@ -110,8 +110,8 @@ export const nativeRust = once(/** @returns {Promise<Rust>} */ async () => {
     cargo = findProgram('cargo', [RUSTUP_BIN]) ?? join(DEBIAN_BIN, 'cargo');
   }
   if (findProgram('cc') === undefined) {
-    const how = process.platform === 'darwin' ? 'run `xcode-select --install`' : 'install gcc';
-    await aptInstall(['gcc', 'libc6-dev'], `A C compiler, which Rust links with, is missing: ${how} and start again.`);
+    const installHint = process.platform === 'darwin' ? 'run `xcode-select --install`' : 'install gcc';
+    await aptInstall(['gcc', 'libc6-dev'], `A C compiler, which Rust links with, is missing: ${installHint} and start again.`);
   }
   const bin = dirname(cargo);
   const env = bin === DEBIAN_BIN ? debianEnvironment() : searchFirst(bin);
@@ -124,7 +124,7 @@ async function installRustup() {
   progress('Installing Rust by rustup');
   const script = join(tmpdir(), `rustup-init-${process.pid}.sh`);
   const download = ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', '-o', script, 'https://sh.rustup.rs'];
-  const options = ['-y', '--no-modify-path', '--profile', 'default', '--target', TARGET];
+  const options = ['-y', '--no-modify-path', '--profile', 'default', '--target', WASM_TARGET];
   const installed =
     (await run('curl', download)).ok && (await run('sh', [script, ...options], { seconds: 600 })).ok;
   rmSync(script, { force: true });
@@ -138,14 +138,14 @@ async function installRustup() {
 export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
   const native = await nativeRust();
   if (native.bin !== DEBIAN_BIN && (await rustup(() => hasTarget(native)))) {
-    return { ...native, target: ['--target', TARGET], description: `${native.description}, ${TARGET} of rustup` };
+    return { ...native, target: ['--target', WASM_TARGET], description: `${native.description}, ${WASM_TARGET} of rustup` };
   }
-  const sentence =
-    `Rust's ${TARGET} target is missing: run \`rustup target add ${TARGET}\`, ` +
+  const missingMessage =
+    `Rust's ${WASM_TARGET} target is missing: run \`rustup target add ${WASM_TARGET}\`, ` +
     'or on Debian `sudo apt-get install rustc-web cargo-web rust-web-src lld`, and start again.';
-  const parts = ['rustc', 'cargo', 'wasm-ld'].map((name) => join(DEBIAN_BIN, name));
-  if (![...parts, '/usr/lib/rustlib/src/rust/library/Cargo.lock'].every(existsSync)) {
-    await aptInstall(['rustc-web', 'cargo-web', 'rust-web-src', 'lld'], sentence);
+  const requiredFiles = ['rustc', 'cargo', 'wasm-ld'].map((name) => join(DEBIAN_BIN, name));
+  if (![...requiredFiles, '/usr/lib/rustlib/src/rust/library/Cargo.lock'].every(existsSync)) {
+    await aptInstall(['rustc-web', 'cargo-web', 'rust-web-src', 'lld'], missingMessage);
   }
   // Tests abort on panic like the published module, and so share its compiled library.
   const env = { ...debianEnvironment(), CARGO_UNSTABLE_PANIC_ABORT_TESTS: 'true' };
@@ -153,36 +153,36 @@ export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
   return {
     bin: DEBIAN_BIN,
     env,
-    target: ['--target', TARGET, '-Zbuild-std=std,panic_abort'],
+    target: ['--target', WASM_TARGET, '-Zbuild-std=std,panic_abort'],
     description: `${version} of Debian, standard library from source`,
   };
 });
 
 /**
- * Returns whether the target's standard library is there. Asks rustup for it where it is missing.
+ * Returns whether the standard library for WebAssembly is installed. If it is missing, asks rustup to install it.
  *
  * @param {Rust} native
  * @returns {Promise<boolean>}
  */
 async function hasTarget({ bin, env }) {
   const sysroot = await run(join(bin, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
-  if (existsSync(join(sysroot.stdout.trim(), 'lib/rustlib', TARGET))) return true;
+  if (existsSync(join(sysroot.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
   const program = findProgram('rustup', [bin]);
   if (program === undefined) return false;
   // Behind some firewalls rustup never returns. A probe, once a day, finds that out; it waits longer if Debian's packages cannot replace
   // it.
-  const unreachable = join(CACHE, 'rustup-unreachable');
+  const unreachableMark = join(CACHE, 'rustup-unreachable');
   const canFallBack = findProgram('apt-get') !== undefined;
-  const aDay = 24 * 3600 * 1000;
-  if (canFallBack && existsSync(unreachable) && Date.now() - statSync(unreachable).mtimeMs < aDay) return false;
-  progress(`Asking rustup for ${TARGET}`);
-  const add = () => run(program, ['target', 'add', TARGET], { env, seconds: canFallBack ? 60 : 600 });
-  const { ok, timedOut } = canFallBack && (await isSilent()) ? { ok: false, timedOut: true } : await add();
+  const dayInMs = 24 * 3600 * 1000;
+  if (canFallBack && existsSync(unreachableMark) && Date.now() - statSync(unreachableMark).mtimeMs < dayInMs) return false;
+  progress(`Asking rustup for ${WASM_TARGET}`);
+  const addTarget = () => run(program, ['target', 'add', WASM_TARGET], { env, seconds: canFallBack ? 60 : 600 });
+  const { ok, timedOut } = canFallBack && (await isSilent()) ? { ok: false, timedOut: true } : await addTarget();
   if (ok) return true;
   if (timedOut) {
     console.log('rustup does not answer.');
     mkdirSync(CACHE, { recursive: true });
-    writeFileSync(unreachable, '');
+    writeFileSync(unreachableMark, '');
   }
   return false;
 }
@@ -196,8 +196,8 @@ async function hasTarget({ bin, env }) {
 async function isSilent() {
   const server = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';
   // Any answer will do, also one with an unknown certificate.
-  const request = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${server}/dist/channel-rust-stable.toml.sha256`];
-  return (await run('curl', request, { seconds: 15, quiet: true })).timedOut;
+  const curlArguments = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${server}/dist/channel-rust-stable.toml.sha256`];
+  return (await run('curl', curlArguments, { seconds: 15, quiet: true })).timedOut;
 }
 
 /** Debian's stable compiler, with the unstable features enabled that `-Zbuild-std` needs. */
@@ -226,39 +226,39 @@ function searchFirst(bin) {
  * @returns {Promise<string>} rustc's description of itself
  */
 async function requireVersion(bin, env, remedy) {
-  const required = manifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
+  const requiredVersion = manifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
   const { stdout } = await run(join(bin, 'rustc'), ['--version'], { env, quiet: true });
   const [, major, minor] = stdout.match(/^rustc (\d+)\.(\d+)/) ?? ['', '0', '0'];
-  const [minMajor, minMinor] = required.split('.').map(Number);
+  const [minMajor, minMinor] = requiredVersion.split('.').map(Number);
   if (Number(major) < minMajor || (Number(major) === minMajor && Number(minor) < minMinor)) {
-    throw new Missing(`Rust ${required} or newer is needed and ${join(bin, 'rustc')} is not: ${remedy} and start again.`);
+    throw new Missing(`Rust ${requiredVersion} or newer is needed and ${join(bin, 'rustc')} is not: ${remedy} and start again.`);
   }
   return stdout.split(' ').slice(0, 2).join(' ');
 }
 
 /** Ensures that rustfmt and clippy are installed for a cargo. @param {Rust} rust */
 export async function ensureLints({ bin, env }) {
-  const present = async () => {
+  const haveLints = async () => {
     const versions = ['cargo-fmt', 'cargo-clippy'].map((name) => run(join(bin, name), ['--version'], { env, quiet: true }));
     return (await Promise.all(versions)).every(({ ok }) => ok);
   };
-  if (await present()) return;
-  const sentence = 'rustfmt or clippy is missing: run `rustup component add rustfmt clippy` and start again.';
+  if (await haveLints()) return;
+  const missingMessage = 'rustfmt or clippy is missing: run `rustup component add rustfmt clippy` and start again.';
   if (bin === DEBIAN_BIN) {
-    await aptInstall(['rustfmt-web', 'rust-web-clippy'], sentence);
+    await aptInstall(['rustfmt-web', 'rust-web-clippy'], missingMessage);
   } else {
     const program = findProgram('rustup', [bin]);
-    if (program === undefined) throw new Missing(sentence);
-    await rustup(() => mustRun(sentence, program, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
+    if (program === undefined) throw new Missing(missingMessage);
+    await rustup(() => mustRun(missingMessage, program, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
   }
-  if (!(await present())) throw new Missing(sentence);
+  if (!(await haveLints())) throw new Missing(missingMessage);
 }
 
 /** Returns the part of a file that the group of a pattern matches. @param {string} file @param {RegExp} pattern */
 export function manifestValue(file, pattern) {
-  const found = readFileSync(join(ROOT, file), 'utf8').match(pattern);
-  if (found === null) throw new Error(`${file} has nothing like ${pattern}`);
-  return found[1];
+  const match = readFileSync(join(ROOT, file), 'utf8').match(pattern);
+  if (match === null) throw new Error(`${file} has nothing like ${pattern}`);
+  return match[1];
 }
 
 // `node scripts/toolchain.mjs WORKSPACE` installs packages that another script imports statically.

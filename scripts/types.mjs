@@ -4,33 +4,33 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../www/settings.js';
-import { comments, describe, oneLine, pascal, typeOf, union, widgets } from './declarations.mjs';
+import { classComments, describe, oneLine, pascalCase, typeOf, unionType, widgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 
 /** @typedef {import('./declarations.mjs').Named} Named */
 
-const HEAD = '// Generated from the declarations: not to be edited.\n';
+const HEADER = '// Generated from the declarations: not to be edited.\n';
 
 /** Declaration of `Symbol.dispose`, which may be missing in the `lib` setting of a project. */
-const DISPOSABLE = '/// <reference lib="esnext.disposable" />\n';
+const DISPOSABLE_LIBRARY = '/// <reference lib="esnext.disposable" />\n';
 
 /** Tags in templates of other frameworks: module, interface and attributes of any element there, and prefix of properties. */
-const TEMPLATES = {
+const TEMPLATE_TYPES = {
   solid: { module: 'solid-js', namespace: 'namespace JSX { interface IntrinsicElements extends Tags {} }', any: "import('solid-js').JSX.HTMLAttributes", prefix: 'prop:' },
   svelte: { module: 'svelte/elements', namespace: 'interface SvelteHTMLElements extends Tags {}', any: "import('svelte/elements').HTMLAttributes", prefix: '' },
 };
 
 /** Writes all declaration files. */
 export async function writeTypes() {
-  const all = await widgets();
+  const allWidgets = await widgets();
   const core = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
-  writeFileSync(join(ROOT, 'build/machines.d.ts'), [DISPOSABLE, HEAD, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
-  writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEAD, imported(all), await figureType(all), ...(await Promise.all(all.map(elementTypes))), tagNames(all)].join('\n'));
-  for (const [name, { module, namespace, any, prefix }] of Object.entries(TEMPLATES)) {
+  writeFileSync(join(ROOT, 'build/machines.d.ts'), [DISPOSABLE_LIBRARY, HEADER, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
+  writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEADER, importLine(allWidgets), await figureType(allWidgets), ...(await Promise.all(allWidgets.map(elementTypes))), tagNames(allWidgets)].join('\n'));
+  for (const [name, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_TYPES)) {
     writeFileSync(
       join(ROOT, `build/${name}.d.ts`),
-      `${HEAD}
+      `${HEADER}
 import type { FigureTags } from '../build/elements.d.ts';
 
 type Own<Given> = Given & { [Name in keyof Given as \`${prefix}\${Name & string}\`]?: Given[Name] };
@@ -50,8 +50,8 @@ function groupTypes() {
   for (const [tag, declared] of Object.entries(settings)) {
     for (const { key, type } of declared) {
       if (type !== 'group') continue;
-      const parts = declared.filter((part) => part.in === key).map((part) => named({ ...part, key: part.field ?? part.key }));
-      const text = asInterface(pascal(key), parts);
+      const partFields = declared.filter((part) => part.in === key).map((part) => fieldOf({ ...part, key: part.field ?? part.key }));
+      const text = asInterface(pascalCase(key), partFields);
       if ((groups.get(key) ?? text) !== text) throw new Error(`${tag}: ${key} is not the group that it is in another widget; call it otherwise.`);
       groups.set(key, text);
     }
@@ -61,27 +61,27 @@ function groupTypes() {
 
 /** @param {string} tag */
 function settingTypes(tag) {
-  return asInterface(`${pascal(tag)}Settings`, settings[tag].filter((declaration) => !declaration.in && !declaration.of).map(named));
+  return asInterface(`${pascalCase(tag)}Settings`, settings[tag].filter((declaration) => !declaration.in && !declaration.of).map(fieldOf));
 }
 
 /** @param {import('../www/settings.js').Declaration} declaration */
-function named(declaration) {
+function fieldOf(declaration) {
   return { name: declaration.field ?? declaration.key, type: typeOf(declaration), description: describe(declaration) };
 }
 
 /** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} all */
 async function figureType([{ attributes }]) {
   const { COMMON_ATTRS } = await importTypeScript('www/figure/attributes.ts');
-  const { classes } = await comments();
+  const { classes } = await classComments();
   /** @type {any[]} */
   const members = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
   /** Replaces the type of any widget by a type parameter. @param {{ type: { text: string } }} [typed] */
   const typeIn = (typed) => (typed?.type.text ?? 'void').replace(/\bMachine\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
   const fields = members.map(({ kind, name, description, parameters = [], type, return: result, readonly }) => {
-    const given = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);
-    return { name: kind === 'method' ? `${name}(${given.join(', ')})` : name, type: typeIn(kind === 'method' ? result : { type }), description: oneLine(description), readonly };
+    const parameterTexts = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);
+    return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeIn(kind === 'method' ? result : { type }), description: oneLine(description), readonly };
   });
-  const common = attributes.filter(({ name }) => name in COMMON_ATTRS).map(({ property, ...each }) => ({ ...each, name: property ?? each.name }));
+  const commonFields = attributes.filter(({ name }) => name in COMMON_ATTRS).map(({ property, ...each }) => ({ ...each, name: property ?? each.name }));
   const events = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
     const text = type?.text ?? 'Event';
     return { name, type: text === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : text, description: oneLine(description) };
@@ -89,58 +89,58 @@ async function figureType([{ attributes }]) {
   return (
     `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its machine. */\n${asInterface('FigureEvents<Stats>', events)}\n` +
     '/** Members of every element. */\n' +
-    asInterface('FigureElement<State extends FigureState, Stats>', [...common, ...fields, ...LISTENERS], 'HTMLElement')
+    asInterface('FigureElement<State extends FigureState, Stats>', [...commonFields, ...fields, ...LISTENER_FIELDS], 'HTMLElement')
   );
 }
 
 /** Listeners get the events of a figure, and those that every element has. @type {Named[]} */
-const LISTENERS = ['add', 'remove'].flatMap((verb) => {
+const LISTENER_FIELDS = ['add', 'remove'].flatMap((verb) => {
   const options = `options?: boolean | ${verb === 'add' ? 'AddEventListenerOptions' : 'EventListenerOptions'}`;
-  const typed = (/** @type {string} */ events) =>
+  const listenerType = (/** @type {string} */ events) =>
     `${verb}EventListener<Type extends keyof ${events}>(type: Type, listener: (this: FigureElement<State, Stats>, event: ${events}[Type]) => unknown, ${options})`;
-  const names = [typed('FigureEvents<Stats>'), typed('HTMLElementEventMap'), `${verb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${options})`];
-  return names.map((name) => ({ name, type: 'void', description: '' }));
+  const overloads = [listenerType('FigureEvents<Stats>'), listenerType('HTMLElementEventMap'), `${verb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${options})`];
+  return overloads.map((name) => ({ name, type: 'void', description: '' }));
 });
 
 /** @param {import('./declarations.mjs').Widget} widget */
 async function elementTypes({ tag, machine, attributes, properties, state }) {
   const { COMMON_ATTRS } = await importTypeScript('www/figure/attributes.ts');
   const element = `FigureElement<${machine}State, ${machine}['stats']>`;
-  const widget = { name: 'widget', type: `'${tag}'`, description: '' };
+  const widgetField = { name: 'widget', type: `'${tag}'`, description: '' };
   // Members of every figure are in FigureElement.
-  const own = attributes.filter(({ name }) => !(name in COMMON_ATTRS)).map((each) => ({ ...each, isText: true }));
+  const ownFields = attributes.filter(({ name }) => !(name in COMMON_ATTRS)).map((each) => ({ ...each, isText: true }));
   return (
-    `${asInterface(`${machine}State`, [widget, ...state], 'FigureState')}\n` +
+    `${asInterface(`${machine}State`, [widgetField, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +
-    asInterface(`${machine}Element`, [...own, ...properties], element)
+    asInterface(`${machine}Element`, [...ownFields, ...properties], element)
   );
 }
 
 /** @param {import('./declarations.mjs').Widget[]} all */
-function imported(all) {
+function importLine(all) {
   const types = all.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
-  const names = new Set(['FigureState', ...all.map(({ machine }) => machine), ...types]);
-  const ours = [...names].filter((name) => !(name in globalThis));
-  return `import type { ${ours.sort().join(', ')} } from '../www/types.d.ts';\n`;
+  const neededNames = new Set(['FigureState', ...all.map(({ machine }) => machine), ...types]);
+  const importedNames = [...neededNames].filter((name) => !(name in globalThis));
+  return `import type { ${importedNames.sort().join(', ')} } from '../www/types.d.ts';\n`;
 }
 
 /** @param {import('./declarations.mjs').Widget[]} all */
 function tagNames(all) {
-  const names = all.map(({ tag, machine }) => `    '${tag}': ${machine}Element;\n`);
-  const given = all.map(({ tag, machine, attributes, properties }) => {
+  const mapLines = all.map(({ tag, machine }) => `    '${tag}': ${machine}Element;\n`);
+  const givenLines = all.map(({ tag, machine, attributes, properties }) => {
     const fields = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
-    return `  '${tag}': Given<${machine}Element, ${union(fields)}>;\n`;
+    return `  '${tag}': Given<${machine}Element, ${unionType(fields)}>;\n`;
   });
   return `/** Values that a template gives to an element: numbers and lists also as text, as attributes have them. */
 type Given<Element, Names extends keyof Element> = { [Name in Names]?: Element[Name] | string | null } & { 'heading-level'?: string };
 
 /** Values that templates give to each tag. */
 export interface FigureTags {
-${given.join('')}}
+${givenLines.join('')}}
 
 declare global {
   interface HTMLElementTagNameMap {
-${names.join('')}  }
+${mapLines.join('')}  }
 }
 `;
 }

@@ -5,10 +5,10 @@ import { pathToFileURL } from 'node:url';
 import { once, ROOT } from './process.mjs';
 
 /** Installs the loader. A bare clone has it only after the packages are installed. */
-const loader = once(async () => (await import('tsx/esm/api')).register());
+const registerLoader = once(async () => (await import('tsx/esm/api')).register());
 
 /** Imports a module. @param {string} path from the root @returns {Promise<any>} */
 export async function importTypeScript(path) {
-  await loader();
+  await registerLoader();
   return import(pathToFileURL(join(ROOT, path)).href);
 }

@@ -1,54 +1,54 @@
 //! Arc Anatomy under any settings and calls.
 
-use super::input::{Input, turn_of};
-use super::settings::{allowed, changed};
+use super::input::{Input, is_one_in};
+use super::settings::{are_allowed, with_changes};
 use super::{banana, laws};
 use motion::geom::se2::SE2;
 use motion::sim::arc_anatomy::{ArcAnatomy, ArcWithCircle, SurfaceKind, Paths, Settings, Stats, Surface, Table};
 use motion::sim::views::Grid;
 
 /// Maximum number of calls in a run.
-const CALLS: usize = 4;
+const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let with_paths = input.choice(8) == 1;
-    let opening = changed(&Settings::default(), &mut input);
-    if !allowed(&opening) {
-        assert!(ArcAnatomy::new(opening).is_err());
+    let with_paths = input.next_choice(8) == 1;
+    let opening_settings = with_changes(&Settings::default(), &mut input);
+    if !are_allowed(&opening_settings) {
+        assert!(ArcAnatomy::new(opening_settings).is_err());
         return;
     }
-    let mut machine = ArcAnatomy::new(opening).expect("allowed");
-    for _ in 0..CALLS {
+    let mut machine = ArcAnatomy::new(opening_settings).expect("allowed");
+    for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
-        if input.choice(3) == 0 {
-            underway(&machine, input.within(0.0..=1.0));
+        if input.next_choice(3) == 0 {
+            position_at(&machine, input.number_within(0.0..=1.0));
         } else {
             configure(&mut machine, &mut input);
         }
     }
     assert_results(&machine);
     // Paths are checked rarely: they have a thousand points, each with a sine and a cosine.
-    if with_paths && turn_of(4, bytes) {
+    if with_paths && is_one_in(4, bytes) {
         assert_paths(&machine);
     }
     // Maps are checked rarely: one takes as long as hundreds of other calls.
-    if turn_of(256, bytes) {
+    if is_one_in(256, bytes) {
         assert_surface(&machine, &mut input);
     }
 }
 
 fn configure(machine: &mut ArcAnatomy, input: &mut Input) {
-    let settings = changed(machine.settings(), input);
-    if allowed(&settings) {
+    let settings = with_changes(machine.settings(), input);
+    if are_allowed(&settings) {
         machine.configure(settings).expect("allowed");
         return;
     }
-    let before = *machine.settings();
+    let settings_before = *machine.settings();
     assert!(machine.configure(settings).is_err());
-    assert_eq!(*machine.settings(), before);
+    assert_eq!(*machine.settings(), settings_before);
 }
 
 /// Asserts that all results are finite, or as documented where they are undefined.
@@ -65,24 +65,24 @@ fn assert_results(machine: &ArcAnatomy) {
         laws::assert_finite("factor", &[factor.estimate, factor.residual, factor.deviation, factor.value]);
         assert!(factor.deviation >= 0.0 && factor.value >= 0.0, "{factor:?}");
         assert!((0.0..=1.0).contains(&factor.share), "{factor:?}");
-        let off = factor.deviations.abs();
-        assert!(off <= factors[weakest].deviations.abs(), "{factor:?} {weakest}");
-        assert!(off.is_finite() || factor.deviation == 0.0, "{factor:?}");
+        let deviation = factor.deviations.abs();
+        assert!(deviation <= factors[weakest].deviations.abs(), "{factor:?} {weakest}");
+        assert!(deviation.is_finite() || factor.deviation == 0.0, "{factor:?}");
     }
     assert!(prob >= 0.0 && (0.0..=1.0).contains(&share), "p = {prob}, {share} of its highest");
-    let noisy = factors.iter().all(|factor| factor.deviation > 0.0);
-    assert!(density.is_some() == noisy && density.is_none_or(|density| density >= 0.0), "{density:?}");
+    let all_noisy = factors.iter().all(|factor| factor.deviation > 0.0);
+    assert!(density.is_some() == all_noisy && density.is_none_or(|density| density >= 0.0), "{density:?}");
     assert!(settings.printed || driven == inverted, "{driven:?} {inverted:?}");
 
     let (start, next) = poses(settings);
-    let size =
+    let largest_extent =
         [start.x(), start.y(), next.x(), next.y()].iter().fold(0.0, |most: f64, at| most.max(at.abs()));
-    let off = |[x, y]: [f64; 2]| (x - next.x()).hypot(y - next.y());
+    let distance_to_next = |[x, y]: [f64; 2]| (x - next.x()).hypot(y - next.y());
     // Asserts that, with a signed radius, the inverted arc leads to the final pose, and so does the constant twist.
-    let ends = [[inverted.end[0], inverted.end[1]], underway(machine, 1.0)];
-    let allowed = laws::ROUNDING * size + f64::MIN_POSITIVE;
-    assert!(ends.iter().all(|end| off(*end) <= allowed), "{ends:?} for {settings:?}");
-    assert_eq!(underway(machine, 0.0), [start.x(), start.y()]);
+    let arc_ends = [[inverted.end[0], inverted.end[1]], position_at(machine, 1.0)];
+    let tolerance = laws::ROUNDING * largest_extent + f64::MIN_POSITIVE;
+    assert!(arc_ends.iter().all(|end| distance_to_next(*end) <= tolerance), "{arc_ends:?} for {settings:?}");
+    assert_eq!(position_at(machine, 0.0), [start.x(), start.y()]);
     assert_table(machine, prob);
 }
 
@@ -95,9 +95,9 @@ fn assert_table(machine: &ArcAnatomy, prob: f64) {
     let (start, next) = poses(machine.settings());
     let Table { lines: [mu, x, y, radius, controls @ ..], middle, normal } = machine.table();
     let step = start.inverse() * next;
-    let stays = [step.x(), step.y()] == [0.0; 2];
+    let stays_in_place = [step.x(), step.y()] == [0.0; 2];
     assert!([x, y, radius].iter().all(|line| !line.is_nan()), "{x} {y} {radius}");
-    assert!(!mu.is_nan() || stays, "{mu} for {step:?}");
+    assert!(!mu.is_nan() || stays_in_place, "{mu} for {step:?}");
     assert!(!machine.settings().printed || radius >= 0.0, "{radius}");
     laws::assert_finite("controls", &controls[..4]);
     laws::assert_same_numbers("p", &controls[4..], &[prob]);
@@ -125,7 +125,7 @@ fn assert_bend(what: &str, bend: &ArcWithCircle) {
 }
 
 /// Returns the position on the path of constant twist after a fraction of the time.
-fn underway(machine: &ArcAnatomy, share: f64) -> [f64; 2] {
+fn position_at(machine: &ArcAnatomy, share: f64) -> [f64; 2] {
     let poses = machine.poses_at(share);
     poses.iter().for_each(|pose| laws::assert_pose("underway", pose));
     [poses[2].x(), poses[2].y()]
@@ -133,13 +133,13 @@ fn underway(machine: &ArcAnatomy, share: f64) -> [f64; 2] {
 
 /// Asserts that contours have finite points inside the rectangle.
 fn assert_surface(machine: &ArcAnatomy, input: &mut Input) {
-    let Grid { min, max, .. } = banana::grid(input);
+    let Grid { min, max, .. } = banana::read_grid(input);
     let surface = machine.surface(min, max);
     assert_eq!(surface.is_none(), machine.settings().map == SurfaceKind::Nothing);
     let Some(Surface { columns, rows, shades, prob, density }) = surface else { return };
     assert!(shades.len() == columns * rows && !shades.is_empty(), "{columns} × {rows}");
     for [x, y] in prob.iter().chain(&density).flatten() {
-        let inside = (min[0]..=max[0]).contains(x) && (min[1]..=max[1]).contains(y);
-        assert!(inside, "{x}, {y} of {min:?} to {max:?}");
+        let is_inside = (min[0]..=max[0]).contains(x) && (min[1]..=max[1]).contains(y);
+        assert!(is_inside, "{x}, {y} of {min:?} to {max:?}");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::input::Input;
 use super::laws;
-use super::settings::{allowed, changed};
+use super::settings::{are_allowed, with_changes};
 use motion::geom::se2::SE2;
 use motion::sim::View;
 use motion::sim::banana::{
@@ -13,22 +13,22 @@ use motion::sim::settings::QUANTITY_RANGE;
 use motion::sim::views::{EXTENT_RANGE, Grid};
 
 /// Maximum number of samples and calls in a run: enough for every branch, few enough for many runs.
-const SAMPLES: usize = 12;
-const CALLS: usize = 4;
+const MAX_SAMPLES: usize = 12;
+const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let [with_curves, with_double] = [0; 2].map(|_| input.choice(4) == 1);
-    let opening = changed(&with_few_samples(Settings::default()), &mut input);
-    if !allowed(&opening) {
-        assert!(BananaMachine::showing(opening, 0).is_err());
+    let [checks_curves, checks_second_machine] = [0; 2].map(|_| input.next_choice(4) == 1);
+    let opening_settings = with_changes(&with_few_samples(Settings::default()), &mut input);
+    if !are_allowed(&opening_settings) {
+        assert!(BananaMachine::showing(opening_settings, 0).is_err());
         return;
     }
-    let mut machine = BananaMachine::showing(with_few_samples(opening), 0).expect("allowed");
-    if input.truth() {
-        machine.add_samples(SAMPLES);
+    let mut machine = BananaMachine::showing(with_few_samples(opening_settings), 0).expect("allowed");
+    if input.next_bool() {
+        machine.add_samples(MAX_SAMPLES);
     }
-    for _ in 0..CALLS {
+    for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
@@ -36,28 +36,28 @@ pub fn run(bytes: &[u8]) {
     }
     assert_results(&machine);
     // Slow checks run for some inputs only.
-    if with_curves {
+    if checks_curves {
         assert_contours(&machine);
     }
-    if with_double {
+    if checks_second_machine {
         assert_as_new(&machine);
     }
 }
 
 /// Returns the same settings with fewer samples.
 fn with_few_samples(settings: Settings) -> Settings {
-    Settings { samples: settings.samples.min(SAMPLES), ..settings }
+    Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
 fn call(machine: &mut BananaMachine, input: &mut Input) {
-    match input.choice(9) {
+    match input.next_choice(9) {
         0 => configure(machine, input),
         1 => assert_same_in_blocks(machine, input),
         2 => {
-            let before = machine.shown();
-            let count = input.choice(SAMPLES);
-            let after = machine.add_samples(count);
-            assert_eq!(after, (before + count).min(machine.settings().samples));
+            let count_before = machine.shown();
+            let count = input.next_choice(MAX_SAMPLES);
+            let count_after = machine.add_samples(count);
+            assert_eq!(count_after, (count_before + count).min(machine.settings().samples));
         }
         3 => {
             machine.configure_first(*machine.settings(), 0).expect("allowed");
@@ -65,21 +65,21 @@ fn call(machine: &mut BananaMachine, input: &mut Input) {
         }
         4 => assert_painted(machine, input),
         5 => assert_nearest(machine, input),
-        6 => assert_executed(machine, usize::from(input.byte())),
+        6 => assert_executed(machine, usize::from(input.next_byte())),
         7 => assert_table(machine),
         _ => {
-            let [x, y] = [0; 2].map(|_| input.within(QUANTITY_RANGE));
-            let near = machine.settings().command;
-            let reaching = command_reaching(x, y, &near);
+            let [x, y] = [0; 2].map(|_| input.number_within(QUANTITY_RANGE));
+            let command_nearby = machine.settings().command;
+            let reaching_command = command_reaching(x, y, &command_nearby);
             // The circle of a nearly straight arc is so long that a double overflows.
-            assert!(!reaching.v.is_nan() && reaching.omega.is_finite(), "{reaching:?} to {x}, {y}");
+            assert!(!reaching_command.v.is_nan() && reaching_command.omega.is_finite(), "{reaching_command:?} to {x}, {y}");
         }
     }
 }
 
 fn configure(machine: &mut BananaMachine, input: &mut Input) {
-    let settings = changed(machine.settings(), input);
-    if allowed(&settings) {
+    let settings = with_changes(machine.settings(), input);
+    if are_allowed(&settings) {
         machine.configure(with_few_samples(settings)).expect("allowed");
         return;
     }
@@ -91,42 +91,42 @@ fn configure(machine: &mut BananaMachine, input: &mut Input) {
 
 /// Asserts that samples added in blocks equal the samples of one call.
 fn assert_same_in_blocks(machine: &mut BananaMachine, input: &mut Input) {
-    let settings = changed(machine.settings(), input);
-    if !allowed(&settings) {
+    let settings = with_changes(machine.settings(), input);
+    if !are_allowed(&settings) {
         return;
     }
-    let mut other = machine.clone();
-    other.configure(with_few_samples(settings)).expect("allowed");
-    let count = 1 + usize::from(input.byte());
+    let mut machine_in_one_call = machine.clone();
+    machine_in_one_call.configure(with_few_samples(settings)).expect("allowed");
+    let count = 1 + usize::from(input.next_byte());
     machine.configure_first(with_few_samples(settings), count).expect("allowed");
     while machine.shown() < machine.settings().samples {
         machine.add_samples(count);
     }
-    laws::assert_same_numbers("in blocks", &all_results(machine), &all_results(&other));
+    laws::assert_same_numbers("in blocks", &all_results(machine), &all_results(&machine_in_one_call));
 }
 
 /// Asserts that a machine depends on its settings only, and not on earlier calls.
 fn assert_as_new(machine: &BananaMachine) {
-    let mut other = BananaMachine::showing(*machine.settings(), 0).expect("allowed");
+    let mut machine_in_one_call = BananaMachine::showing(*machine.settings(), 0).expect("allowed");
     if machine.shown() > 0 {
-        other.add_samples(machine.shown());
-        laws::assert_same_numbers("as if new", &all_results(machine), &all_results(&other));
+        machine_in_one_call.add_samples(machine.shown());
+        laws::assert_same_numbers("as if new", &all_results(machine), &all_results(&machine_in_one_call));
     }
 }
 
 /// Returns all results except curves.
 fn all_results(machine: &BananaMachine) -> Vec<f64> {
-    let mut numbers: Vec<f64> = machine.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
+    let mut all_numbers: Vec<f64> = machine.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
     let figures @ Figures { cartesian, exponential, coverage, .. } = machine.figures();
-    numbers.extend(cartesian.mean.iter().chain(cartesian.cov.iter()));
-    numbers.extend(exponential.mean.iter().chain(exponential.cov.iter()));
-    numbers.extend([figures.cross_track_skew, figures.cross_track_skew_error]);
-    numbers.extend([figures.rho_cross_heading, figures.gaussian_skew]);
-    numbers.extend([coverage.ellipse, coverage.exponential, figures.area_ratio, figures.area_ratio_error]);
+    all_numbers.extend(cartesian.mean.iter().chain(cartesian.cov.iter()));
+    all_numbers.extend(exponential.mean.iter().chain(exponential.cov.iter()));
+    all_numbers.extend([figures.cross_track_skew, figures.cross_track_skew_error]);
+    all_numbers.extend([figures.rho_cross_heading, figures.gaussian_skew]);
+    all_numbers.extend([coverage.ellipse, coverage.exponential, figures.area_ratio, figures.area_ratio_error]);
     for gain in [figures.likelihood_gain, figures.likelihood_gain_error] {
-        numbers.extend([gain.pose, gain.floor]);
+        all_numbers.extend([gain.pose, gain.floor]);
     }
-    numbers
+    all_numbers
 }
 
 /// Asserts that all results are finite, or NaN where they are undefined.
@@ -135,8 +135,8 @@ fn assert_results(machine: &BananaMachine) {
     machine.poses().for_each(|pose| laws::assert_pose("a pose", &pose));
     assert_eq!(machine.poses().len(), n);
     laws::assert_finite("executed", machine.executed().collect::<Vec<_>>().as_flattened());
-    let charted = machine.chart_holds();
-    if charted {
+    let is_charted = machine.chart_holds();
+    if is_charted {
         machine.twists().for_each(|twist| laws::assert_finite("a twist", twist.as_slice()));
     }
     if n > 0 {
@@ -145,7 +145,7 @@ fn assert_results(machine: &BananaMachine) {
     if n > 1 {
         laws::assert_moments("pose", &figures.cartesian.mean, &figures.cartesian.cov);
     }
-    if charted && n > 1 {
+    if is_charted && n > 1 {
         laws::assert_moments("exponential", &figures.exponential.mean, &figures.exponential.cov);
     } else {
         assert!(n == 1 || figures.exponential.cov.iter().all(|number| number.is_nan()));
@@ -153,14 +153,14 @@ fn assert_results(machine: &BananaMachine) {
     let (skew, skew_error) = (figures.cross_track_skew, figures.cross_track_skew_error);
     laws::assert_finite_or_none("skew", &[skew, skew_error]);
     // The largest skew of n samples is that of n − 1 equal samples and one different.
-    let most = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
-    assert!(skew.is_nan() || skew.abs() <= most * (1.0 + 1e-9), "{skew} of {n}");
+    let max_skew = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
+    assert!(skew.is_nan() || skew.abs() <= max_skew * (1.0 + 1e-9), "{skew} of {n}");
     assert!(skew_error.is_nan() || skew_error >= 0.0, "{skew_error}");
     let rho = figures.rho_cross_heading;
     assert!(rho.is_nan() || rho.abs() <= 1.0, "{rho}");
     laws::assert_finite_or_none("gaussian skew", &[figures.gaussian_skew]);
-    laws::assert_share("inside the ellipse", figures.coverage.ellipse);
-    laws::assert_share("inside the contour", figures.coverage.exponential);
+    laws::assert_fraction("inside the ellipse", figures.coverage.ellipse);
+    laws::assert_fraction("inside the contour", figures.coverage.exponential);
     assert!(figures.area_ratio.is_nan() || figures.area_ratio >= 0.0, "{}", figures.area_ratio);
     let (gain, error) = (figures.likelihood_gain, figures.likelihood_gain_error);
     for (gain, error) in [(gain.pose, error.pose), (gain.floor, error.floor)] {
@@ -219,16 +219,16 @@ fn assert_executed(machine: &BananaMachine, index: usize) {
     }
     let [x, y] = *sample.path.last().expect("a path has an end");
     // Paths use the scalar functions, poses the SIMD functions. They agree to 2e-15 of the length.
-    let length = sample.path.windows(2).map(|ends| distance(ends[0], ends[1])).sum::<f64>();
+    let path_length = sample.path.windows(2).map(|ends| distance(ends[0], ends[1])).sum::<f64>();
     let command = machine.settings().command;
-    let commanded = (command.v * command.dt).abs();
-    let most = sample.legs.map_or((sample.v_hat * command.dt).abs(), |legs| legs.trans.abs());
-    assert!(length <= most * (1.0 + 1e-9) + 1e-9, "{length}, {most}");
+    let commanded_length = (command.v * command.dt).abs();
+    let longest_motion = sample.legs.map_or((sample.v_hat * command.dt).abs(), |legs| legs.trans.abs());
+    assert!(path_length <= longest_motion * (1.0 + 1e-9) + 1e-9, "{path_length}, {longest_motion}");
     // If the noise nearly cancels the command, the rounding error of the command remains.
-    let turned = 1.0 + (command.omega * command.dt).abs();
-    let rounding = 1e-14 * (most * turned + commanded) + f64::MIN_POSITIVE;
+    let turn_factor = 1.0 + (command.omega * command.dt).abs();
+    let rounding_error = 1e-14 * (longest_motion * turn_factor + commanded_length) + f64::MIN_POSITIVE;
     assert!(
-        distance([x, y], [sample.pose[0], sample.pose[1]]) <= rounding,
+        distance([x, y], [sample.pose[0], sample.pose[1]]) <= rounding_error,
         "{sample:?} of {:?}",
         machine.settings()
     );
@@ -239,15 +239,15 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Returns a rectangle of a view with few cells.
-pub fn grid(input: &mut Input) -> Grid {
-    let min = [0; 2].map(|_| input.within(EXTENT_RANGE));
-    let max = min.map(|least| input.within(least..=*EXTENT_RANGE.end()));
-    let [columns, rows] = [0; 2].map(|_| 1 + input.choice(40));
+pub fn read_grid(input: &mut Input) -> Grid {
+    let min = [0; 2].map(|_| input.number_within(EXTENT_RANGE));
+    let max = min.map(|least| input.number_within(least..=*EXTENT_RANGE.end()));
+    let [columns, rows] = [0; 2].map(|_| 1 + input.next_choice(40));
     Grid { min, max, columns, rows }
 }
 
 fn assert_painted(machine: &mut BananaMachine, input: &mut Input) {
-    let (view, grid) = (input.of(&[View::Plane, View::Twist]), grid(input));
+    let (view, grid) = (input.one_of(&[View::Plane, View::Twist]), read_grid(input));
     let counts = machine.density(view, &grid);
     assert_eq!(counts.len(), grid.columns * grid.rows);
     assert!(counts.iter().sum::<u32>() as usize <= machine.shown(), "{grid:?}: {counts:?}");
@@ -257,12 +257,12 @@ fn assert_painted(machine: &mut BananaMachine, input: &mut Input) {
 }
 
 fn assert_nearest(machine: &BananaMachine, input: &mut Input) {
-    let target = [0; 2].map(|_| input.number());
-    let radii = [0; 2].map(|_| input.within(0.0..=f64::INFINITY));
+    let target = [0; 2].map(|_| input.next_number());
+    let radii = [0; 2].map(|_| input.number_within(0.0..=f64::INFINITY));
     let Some(index) = machine.nearest(View::Plane, target, radii) else { return };
-    let found: SE2 = machine.pose(index).expect("a sample that is shown");
-    let away = |pose: &SE2| ((pose.x() - target[0]) / radii[0]).hypot((pose.y() - target[1]) / radii[1]);
+    let found_pose: SE2 = machine.pose(index).expect("a sample that is shown");
+    let distance_to = |pose: &SE2| ((pose.x() - target[0]) / radii[0]).hypot((pose.y() - target[1]) / radii[1]);
     // The square of a distance below 1e-154 underflows to 0.
-    let least = machine.poses().map(|pose| away(&pose)).fold(f64::INFINITY, f64::min);
-    assert!(away(&found) <= least * (1.0 + 1e-9) + 1e-150, "{target:?} {radii:?}: {index}");
+    let least_distance = machine.poses().map(|pose| distance_to(&pose)).fold(f64::INFINITY, f64::min);
+    assert!(distance_to(&found_pose) <= least_distance * (1.0 + 1e-9) + 1e-150, "{target:?} {radii:?}: {index}");
 }

@@ -2,26 +2,26 @@
 
 use super::input::Input;
 use super::laws;
-use super::settings::{allowed, changed};
+use super::settings::{are_allowed, with_changes};
 use motion::geom::se2::SE2;
 use motion::models::{OdomDelta, MAX_SPIN_DISTANCE};
 use motion::sim::odometry_decomposer::{Drifted, OdometryDecomposer, Settings, Stats};
 use motion::sim::settings::QUANTITY_RANGE;
 
 /// Maximum number of outcomes, points of a curve and calls in a run.
-const SAMPLES: usize = 12;
-const POINTS: usize = 6;
-const CALLS: usize = 4;
+const MAX_SAMPLES: usize = 12;
+const MAX_POINTS: usize = 6;
+const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let opening = changed(&with_few_samples(Settings::default()), &mut input);
-    if !allowed(&opening) {
-        assert!(OdometryDecomposer::new(opening).is_err());
+    let opening_settings = with_changes(&with_few_samples(Settings::default()), &mut input);
+    if !are_allowed(&opening_settings) {
+        assert!(OdometryDecomposer::new(opening_settings).is_err());
         return;
     }
-    let mut machine = OdometryDecomposer::new(with_few_samples(opening)).expect("allowed");
-    for _ in 0..CALLS {
+    let mut machine = OdometryDecomposer::new(with_few_samples(opening_settings)).expect("allowed");
+    for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
@@ -32,36 +32,36 @@ pub fn run(bytes: &[u8]) {
 
 /// Returns the same settings with fewer outcomes.
 fn with_few_samples(settings: Settings) -> Settings {
-    Settings { samples: settings.samples.min(SAMPLES), ..settings }
+    Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
 fn call(machine: &mut OdometryDecomposer, input: &mut Input) {
-    let shown = machine.poses().len();
-    match input.choice(7) {
+    let shown_count = machine.poses().len();
+    match input.next_choice(7) {
         0 | 1 => configure(machine, input),
         2 => {
-            let count = input.choice(SAMPLES);
-            assert_eq!(machine.add_samples(count), (shown + count).min(machine.settings().samples));
+            let count = input.next_choice(MAX_SAMPLES);
+            assert_eq!(machine.add_samples(count), (shown_count + count).min(machine.settings().samples));
         }
         3 => {
             machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert!(machine.poses().is_empty());
         }
         4 => {
-            let ghosts = machine.ghosts(usize::from(input.byte()));
-            assert!(ghosts.len() <= shown);
+            let ghosts = machine.ghosts(usize::from(input.next_byte()));
+            assert!(ghosts.len() <= shown_count);
             ghosts.as_flattened().iter().for_each(|pose| laws::assert_pose("a ghost", pose));
             assert!(ghosts.iter().zip(machine.poses()).all(|(ghost, pose)| ghost[3] == *pose));
         }
-        5 => assert_curve(machine, input.within(0.0..=*QUANTITY_RANGE.end()), 1 + input.choice(POINTS)),
+        5 => assert_curve(machine, input.number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_choice(MAX_POINTS)),
         _ => assert_nearest(machine, input),
     }
 }
 
 fn configure(machine: &mut OdometryDecomposer, input: &mut Input) {
-    let settings = changed(machine.settings(), input);
+    let settings = with_changes(machine.settings(), input);
     let (before, poses) = (*machine.settings(), machine.poses().to_vec());
-    if !allowed(&settings) {
+    if !are_allowed(&settings) {
         assert!(machine.configure(settings).is_err());
         assert_eq!(*machine.settings(), before);
         assert_eq!(machine.poses(), poses);
@@ -82,14 +82,14 @@ fn assert_curve(machine: &OdometryDecomposer, longest: f64, count: usize) {
 }
 
 fn assert_nearest(machine: &OdometryDecomposer, input: &mut Input) {
-    let target = [0; 2].map(|_| input.number());
-    let radius = input.within(0.0..=f64::INFINITY);
+    let target = [0; 2].map(|_| input.next_number());
+    let radius = input.number_within(0.0..=f64::INFINITY);
     let Some(index) = machine.nearest(target, radius) else { return };
-    let away = |pose: &SE2| ((pose.x() - target[0]) / radius).hypot((pose.y() - target[1]) / radius);
-    let least = machine.poses().iter().map(away).fold(f64::INFINITY, f64::min);
+    let distance_to = |pose: &SE2| ((pose.x() - target[0]) / radius).hypot((pose.y() - target[1]) / radius);
+    let least_distance = machine.poses().iter().map(distance_to).fold(f64::INFINITY, f64::min);
     // The square of a distance below 1e-154 of the radius underflows to 0.
-    let found = away(&machine.poses()[index]);
-    assert!(found <= least * (1.0 + 1e-9) + 1e-150 && found <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
+    let found_distance = distance_to(&machine.poses()[index]);
+    assert!(found_distance <= least_distance * (1.0 + 1e-9) + 1e-150 && found_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
 }
 
 /// Asserts that all results are finite, or NaN without outcomes.
@@ -115,41 +115,41 @@ fn assert_results(machine: &OdometryDecomposer) {
         independent_heading,
     } = machine.stats();
     assert_eq!(n, machine.poses().len());
-    let exact = [exact_cross_track, lever, exact_heading, independent_heading];
-    let measured = [cross_track, cross_track_error, heading, heading_error];
-    laws::assert_finite("exact", &exact);
-    laws::assert_finite_or_none("measured", &measured);
+    let exact_moments = [exact_cross_track, lever, exact_heading, independent_heading];
+    let measured_moments = [cross_track, cross_track_error, heading, heading_error];
+    laws::assert_finite("exact", &exact_moments);
+    laws::assert_finite_or_none("measured", &measured_moments);
     assert_eq!(n == 0, cross_track.is_nan());
     assert!(
-        exact.iter().chain(&measured).all(|figure| figure.is_nan() || *figure >= 0.0),
-        "{exact:?} {measured:?}"
+        exact_moments.iter().chain(&measured_moments).all(|figure| figure.is_nan() || *figure >= 0.0),
+        "{exact_moments:?} {measured_moments:?}"
     );
 
     for figures in machine.rules() {
         assert_legs("legs", &figures.legs);
-        let all = [&figures.deviations[..], &[figures.cross_track, figures.heading]].concat();
-        laws::assert_finite("a rule", &all);
-        assert!(all.iter().all(|figure| *figure >= 0.0), "{figures:?}");
+        let all_figures = [&figures.deviations[..], &[figures.cross_track, figures.heading]].concat();
+        laws::assert_finite("a rule", &all_figures);
+        assert!(all_figures.iter().all(|figure| *figure >= 0.0), "{figures:?}");
         if figures.rule == settings.rule {
             assert_eq!(figures.legs, machine.legs());
-            laws::assert_same_numbers("exact", &all[4..], &[exact_cross_track, exact_heading]);
+            laws::assert_same_numbers("exact", &all_figures[4..], &[exact_cross_track, exact_heading]);
         }
     }
 
     // Without noise the robot ends at the odometry pose, except for the direction of a tiny translation, which a spin ignores.
     let [x, y, _] = settings.to.0;
     let [.., end] = machine.linkage();
-    let off = (end.x() - x).hypot(end.y() - y);
-    let size = settings.from.0.iter().chain(&settings.to.0).fold(0.0, |most: f64, at| most.max(at.abs()));
-    assert!(off <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * size, "{end:?} for {settings:?}: {off}");
+    let distance_to_end = (end.x() - x).hypot(end.y() - y);
+    let largest_coordinate = settings.from.0.iter().chain(&settings.to.0).fold(0.0, |most: f64, at| most.max(at.abs()));
+    assert!(distance_to_end <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * largest_coordinate, "{end:?} for {settings:?}: {distance_to_end}");
 
     // Asserts that a machine depends on its settings only, and not on earlier calls.
-    let mut other = OdometryDecomposer::new(*settings).expect("allowed");
+    let mut new_machine = OdometryDecomposer::new(*settings).expect("allowed");
     if n < settings.samples {
-        other.configure_first(*settings, 0).expect("allowed");
-        other.add_samples(n);
+        new_machine.configure_first(*settings, 0).expect("allowed");
+        new_machine.add_samples(n);
     }
-    assert_eq!(other.poses(), machine.poses());
+    assert_eq!(new_machine.poses(), machine.poses());
 }
 
 fn assert_legs(what: &str, legs: &OdomDelta) {

@@ -10,9 +10,9 @@ use motion::map::{
 use motion::sim::settings::QUANTITY_RANGE;
 
 /// Maximum number of arcs that are tested on a grid.
-const ARCS: usize = 3;
+const MAX_ARCS: usize = 3;
 /// Maximum number of cells along a side.
-const SIDE: usize = 3;
+const MAX_SIDE: usize = 3;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
@@ -20,7 +20,7 @@ pub fn run(bytes: &[u8]) {
     let [columns, rows] = grid.size();
     assert_eq!(grid.cells().len(), columns * rows);
     // The distance field of a plan takes a hundred times as long as everything else.
-    if input.choice(16) != 1 {
+    if input.next_choice(16) != 1 {
         assert_outlined(&grid.with_unknown(unknown), unknown);
         return;
     }
@@ -31,10 +31,10 @@ pub fn run(bytes: &[u8]) {
     };
     let grid = plan.grid().expect("made of a grid");
     assert_outlined(grid, unknown);
-    for (middle, blocks) in middles(grid, unknown) {
+    for (middle, blocks) in cell_middles(grid, unknown) {
         assert_eq!(plan.point_free(middle, 0.0).free, !blocks, "{middle:?} in {grid:?}");
     }
-    for _ in 0..ARCS {
+    for _ in 0..MAX_ARCS {
         plan::assert_verdict(&plan, &mut input);
         if input.is_empty() {
             break;
@@ -44,49 +44,49 @@ pub fn run(bytes: &[u8]) {
 
 /// Returns the middle of each cell, and whether the cell is an obstacle; empty if the coordinates are too large to
 /// distinguish cells.
-fn middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)> {
-    let ([columns, rows], origin, side) = (grid.size(), grid.origin(), grid.resolution());
-    let size = origin.x().abs().max(origin.y().abs()) + (columns + rows) as f64 * side;
-    if side <= 1e3 * f64::EPSILON * size {
+fn cell_middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)> {
+    let ([columns, rows], origin, cell_side) = (grid.size(), grid.origin(), grid.resolution());
+    let largest_coordinate = origin.x().abs().max(origin.y().abs()) + (columns + rows) as f64 * cell_side;
+    if cell_side <= 1e3 * f64::EPSILON * largest_coordinate {
         return Vec::new();
     }
-    let blocks =
+    let is_blocking =
         |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown == Unknown::Blocked);
     let cells = grid.cells().enumerate();
-    let middle = |i: usize| {
-        let [u, v] = [i % columns, i / columns].map(|at| (at as f64 + 0.5) * side);
-        let middle = origin * SE2::new(u, v, 0.0);
-        [middle.x(), middle.y()]
+    let middle_of = |i: usize| {
+        let [u, v] = [i % columns, i / columns].map(|at| (at as f64 + 0.5) * cell_side);
+        let middle_of = origin * SE2::new(u, v, 0.0);
+        [middle_of.x(), middle_of.y()]
     };
-    cells.map(|(i, cell)| (middle(i), blocks(cell))).collect()
+    cells.map(|(i, cell)| (middle_of(i), is_blocking(cell))).collect()
 }
 
 /// Asserts that each cell contains its middle, and that outlines separate obstacle cells from others: their total
 /// length is that of the sides between them.
 fn assert_outlined(grid: &OccupancyGrid, unknown: Unknown) {
-    let middles = middles(grid, unknown);
-    for (middle, blocks) in &middles {
+    let cell_middles = cell_middles(grid, unknown);
+    for (middle, blocks) in &cell_middles {
         assert_eq!(grid.is_blocked_at(*middle), *blocks, "{middle:?} in {grid:?}");
     }
     let [columns, rows] = grid.size();
-    let at = |column: usize, row: usize| {
+    let is_obstacle_at = |column: usize, row: usize| {
         (column < columns && row < rows)
-            .then(|| middles.get(row * columns + column))
+            .then(|| cell_middles.get(row * columns + column))
             .flatten()
             .is_some_and(|cell| cell.1)
     };
-    let mut sides = 0;
+    let mut obstacle_sides = 0;
     for row in 0..=rows {
         for column in 0..=columns {
-            let here = at(column, row);
-            sides += usize::from(here != at(column.wrapping_sub(1), row));
-            sides += usize::from(here != at(column, row.wrapping_sub(1)));
+            let is_obstacle_here = is_obstacle_at(column, row);
+            obstacle_sides += usize::from(is_obstacle_here != is_obstacle_at(column.wrapping_sub(1), row));
+            obstacle_sides += usize::from(is_obstacle_here != is_obstacle_at(column, row.wrapping_sub(1)));
         }
     }
     let outlines = grid.outlines(usize::MAX).expect("no limit");
-    let length: f64 = outlines.iter().map(length_of).sum();
-    if !middles.is_empty() {
-        assert!((length / grid.resolution() - sides as f64).abs() < 1e-3 * (1 + sides) as f64, "{grid:?}");
+    let total_length: f64 = outlines.iter().map(length_of).sum();
+    if !cell_middles.is_empty() {
+        assert!((total_length / grid.resolution() - obstacle_sides as f64).abs() < 1e-3 * (1 + obstacle_sides) as f64, "{grid:?}");
     }
 }
 
@@ -96,22 +96,22 @@ fn length_of(wall: &Segment) -> f64 {
 
 /// Reads a grid of a few cells, and the treatment of its unknown cells.
 pub fn read(input: &mut Input) -> Option<(OccupancyGrid, Unknown)> {
-    let resolution = input.near(&RESOLUTION_RANGE);
-    let [x, y, yaw] = [0; 3].map(|_| input.near(&QUANTITY_RANGE));
+    let resolution = input.number_near(&RESOLUTION_RANGE);
+    let [x, y, yaw] = [0; 3].map(|_| input.number_near(&QUANTITY_RANGE));
     if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|number| QUANTITY_RANGE.contains(number)) {
         return None;
     }
-    let [width, height] = [0; 2].map(|_| 1 + input.choice(SIDE));
-    let mode = input.of(&[Mode::Trinary, Mode::Scale, Mode::Raw]);
-    let negate = input.truth();
-    let [a, b] = [0; 2].map(|_| f64::from(input.byte()) / 255.0);
+    let [width, height] = [0; 2].map(|_| 1 + input.next_choice(MAX_SIDE));
+    let mode = input.one_of(&[Mode::Trinary, Mode::Scale, Mode::Raw]);
+    let negate = input.next_bool();
+    let [a, b] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
     let interpretation = Interpretation { mode, negate, occupied_thresh: a.max(b), free_thresh: a.min(b) };
-    let unknown = input.of(&[Unknown::Free, Unknown::Blocked]);
-    let opaque = input.truth();
+    let unknown = input.one_of(&[Unknown::Free, Unknown::Blocked]);
+    let is_opaque = input.next_bool();
     let pixels: Vec<Pixel> = (0..width * height)
         .map(|_| Pixel {
-            shade: f32::from(input.byte()) / 255.0,
-            opacity: if opaque { 1.0 } else { f32::from(input.byte()) / 255.0 },
+            shade: f32::from(input.next_byte()) / 255.0,
+            opacity: if is_opaque { 1.0 } else { f32::from(input.next_byte()) / 255.0 },
         })
         .collect();
     for pixel in &pixels {
@@ -126,14 +126,14 @@ fn assert_cell(interpretation: &Interpretation, pixel: Pixel) {
     let Interpretation { mode, negate, occupied_thresh, free_thresh } = *interpretation;
     let shade = f64::from(pixel.shade);
     let occupancy = if negate { shade } else { 1.0 - shade };
-    let value = (255.0 * shade).round();
-    let near = |threshold: f64| (occupancy - threshold).abs() < 2.0 * f64::from(f32::EPSILON);
+    let grey_value = (255.0 * shade).round();
+    let is_near = |threshold: f64| (occupancy - threshold).abs() < 2.0 * f64::from(f32::EPSILON);
     let expected = match mode {
-        Mode::Raw if value == 100.0 => Cell::Occupied,
-        Mode::Raw if value > 100.0 => Cell::Unknown,
+        Mode::Raw if grey_value == 100.0 => Cell::Occupied,
+        Mode::Raw if grey_value > 100.0 => Cell::Unknown,
         Mode::Raw => Cell::Free,
         Mode::Scale if pixel.opacity < 1.0 => Cell::Unknown,
-        _ if near(occupied_thresh) || near(free_thresh) => return,
+        _ if is_near(occupied_thresh) || is_near(free_thresh) => return,
         _ if occupancy > occupied_thresh => Cell::Occupied,
         Mode::Trinary if occupancy > free_thresh => Cell::Unknown,
         _ => Cell::Free,

@@ -8,15 +8,15 @@ pub struct Input<'a>(pub &'a [u8]);
 /// Returns true for one in `one_in` inputs, chosen by a hash of all their bytes. Slow checks run for those only.
 ///
 /// A byte of the input is no choice for that, because most mutations of the input keep it.
-pub fn turn_of(one_in: u64, bytes: &[u8]) -> bool {
+pub fn is_one_in(one_in: u64, bytes: &[u8]) -> bool {
     // FNV-1a.
-    let mix = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
-    let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix);
+    let mix_byte = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix_byte);
     (hash >> 32) % one_in == 0
 }
 
 /// Limits of ranges, of settings or of the formats of numbers.
-const LIMITS: [f64; 24] = [
+const NUMBER_LIMITS: [f64; 24] = [
     0.0,
     -0.0,
     1.0,
@@ -48,63 +48,63 @@ impl Input<'_> {
         self.0.is_empty()
     }
 
-    pub fn byte(&mut self) -> u8 {
+    pub fn next_byte(&mut self) -> u8 {
         let Some((first, rest)) = self.0.split_first() else { return 0 };
         self.0 = rest;
         *first
     }
 
-    pub fn bytes<const N: usize>(&mut self) -> [u8; N] {
-        std::array::from_fn(|_| self.byte())
+    pub fn next_bytes<const N: usize>(&mut self) -> [u8; N] {
+        std::array::from_fn(|_| self.next_byte())
     }
 
-    pub fn truth(&mut self) -> bool {
-        self.byte() & 1 == 1
+    pub fn next_bool(&mut self) -> bool {
+        self.next_byte() & 1 == 1
     }
 
     /// Returns a whole number from 0 that is less than `count`.
-    pub fn choice(&mut self, count: usize) -> usize {
-        usize::from(self.byte()) % count
+    pub fn next_choice(&mut self, count: usize) -> usize {
+        usize::from(self.next_byte()) % count
     }
 
-    pub fn of<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[self.choice(choices.len())]
+    pub fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[self.next_choice(choices.len())]
     }
 
     /// Returns any double: a round one, a limit of a range, or one with any bits.
-    pub fn number(&mut self) -> f64 {
-        match self.choice(8) {
-            0 => f64::from_le_bytes(self.bytes()),
-            1 => self.of(&LIMITS),
-            2 => f64::from(self.byte() as i8),
-            3 => f64::from(self.byte() as i8) * 10f64.powi(i32::from(self.byte() as i8) / 4),
-            4 => f64::from(i16::from_le_bytes(self.bytes())) * 1e-4,
-            _ => f64::from(i16::from_le_bytes(self.bytes())) * 0.01,
+    pub fn next_number(&mut self) -> f64 {
+        match self.next_choice(8) {
+            0 => f64::from_le_bytes(self.next_bytes()),
+            1 => self.one_of(&NUMBER_LIMITS),
+            2 => f64::from(self.next_byte() as i8),
+            3 => f64::from(self.next_byte() as i8) * 10f64.powi(i32::from(self.next_byte() as i8) / 4),
+            4 => f64::from(i16::from_le_bytes(self.next_bytes())) * 1e-4,
+            _ => f64::from(i16::from_le_bytes(self.next_bytes())) * 0.01,
         }
     }
 
     /// Returns a double, mostly in this range.
-    pub fn near(&mut self, range: &RangeInclusive<f64>) -> f64 {
-        let number = self.number();
-        if self.choice(8) == 0 || number.is_nan() {
-            return number;
+    pub fn number_near(&mut self, range: &RangeInclusive<f64>) -> f64 {
+        let next_number = self.next_number();
+        if self.next_choice(8) == 0 || next_number.is_nan() {
+            return next_number;
         }
-        number.clamp(*range.start(), *range.end())
+        next_number.clamp(*range.start(), *range.end())
     }
 
     /// Returns a double in this range.
-    pub fn within(&mut self, range: RangeInclusive<f64>) -> f64 {
-        let number = self.number();
-        if number.is_nan() { *range.start() } else { number.clamp(*range.start(), *range.end()) }
+    pub fn number_within(&mut self, range: RangeInclusive<f64>) -> f64 {
+        let next_number = self.next_number();
+        if next_number.is_nan() { *range.start() } else { next_number.clamp(*range.start(), *range.end()) }
     }
 
     /// Returns a whole number, mostly in this range.
     pub fn whole_near(&mut self, range: &RangeInclusive<u64>) -> u64 {
-        let whole = match self.choice(4) {
-            0 => u64::from_le_bytes(self.bytes()),
-            1 => u64::from(u16::from_le_bytes(self.bytes())),
-            _ => u64::from(self.byte()),
+        let whole_number = match self.next_choice(4) {
+            0 => u64::from_le_bytes(self.next_bytes()),
+            1 => u64::from(u16::from_le_bytes(self.next_bytes())),
+            _ => u64::from(self.next_byte()),
         };
-        if self.choice(8) == 0 { whole } else { whole.clamp(*range.start(), *range.end()) }
+        if self.next_choice(8) == 0 { whole_number } else { whole_number.clamp(*range.start(), *range.end()) }
     }
 }

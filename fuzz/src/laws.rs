@@ -15,7 +15,7 @@ pub fn assert_finite_or_none(what: &str, numbers: &[f64]) {
     }
 }
 
-pub fn assert_share(what: &str, share: f64) {
+pub fn assert_fraction(what: &str, share: f64) {
     assert!(share.is_nan() || (0.0..=1.0).contains(&share), "{what}: {share}");
 }
 
@@ -29,16 +29,17 @@ pub fn assert_pose(what: &str, pose: &SE2) {
 pub fn assert_moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
     assert_finite(what, mean.as_slice());
     assert_finite(what, cov.as_slice());
-    let sizes = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
-    let extent = sizes.x + sizes.y;
-    let sizes = [extent, extent, sizes.z];
+    let value_sizes = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
+    let extent = value_sizes.x + value_sizes.y;
+    let value_sizes = [extent, extent, value_sizes.z];
     for i in 0..3 {
         assert!(cov[(i, i)] >= 0.0, "{what}: {mean:?} {cov:?}");
         for j in 0..i {
-            let most = cov[(i, i)].sqrt() * cov[(j, j)].sqrt();
-            let rounding = ROUNDING * sizes[i] * sizes[j] + UNDERFLOW * (sizes[i] + sizes[j]);
-            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= rounding, "{what}: {mean:?} {cov:?}");
-            assert!(cov[(i, j)].abs() <= most + rounding, "{what}: {mean:?} {cov:?}");
+            let max_cov = cov[(i, i)].sqrt() * cov[(j, j)].sqrt();
+            let tolerance =
+                ROUNDING * value_sizes[i] * value_sizes[j] + UNDERFLOW * (value_sizes[i] + value_sizes[j]);
+            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{what}: {mean:?} {cov:?}");
+            assert!(cov[(i, j)].abs() <= max_cov + tolerance, "{what}: {mean:?} {cov:?}");
         }
     }
 }
@@ -51,6 +52,6 @@ pub const UNDERFLOW: f64 = 1e-161;
 
 /// Asserts that lists have the same numbers, where NaN equals NaN.
 pub fn assert_same_numbers(what: &str, a: &[f64], b: &[f64]) {
-    let alike = |(a, b): (&f64, &f64)| a == b || (a.is_nan() && b.is_nan());
-    assert!(a.len() == b.len() && a.iter().zip(b).all(alike), "{what}: {a:?} and {b:?}");
+    let are_equal = |(a, b): (&f64, &f64)| a == b || (a.is_nan() && b.is_nan());
+    assert!(a.len() == b.len() && a.iter().zip(b).all(are_equal), "{what}: {a:?} and {b:?}");
 }

@@ -5,7 +5,7 @@ use motion::map::{FloorPlan, Image, Interpretation, MAX_PIXELS, OccupancyGrid, P
 use std::fmt::Write;
 
 pub fn run(bytes: &[u8]) {
-    match read(bytes) {
+    match read_image(bytes) {
         Ok(image) => {
             let Image { width, height, ref pixels } = image;
             assert!(width > 0 && height > 0 && width * height <= MAX_PIXELS);
@@ -28,7 +28,7 @@ pub fn run(bytes: &[u8]) {
 }
 
 /// Returns the whole image, or the reason of the refusal.
-fn read(bytes: &[u8]) -> Result<Image<Vec<Pixel>>, String> {
+fn read_image(bytes: &[u8]) -> Result<Image<Vec<Pixel>>, String> {
     let Image { width, height, pixels } = read_pgm(bytes).map_err(|error| error.to_string())?;
     Ok(Image { width, height, pixels: pixels.map(Pixel::from).collect() })
 }
@@ -36,18 +36,18 @@ fn read(bytes: &[u8]) -> Result<Image<Vec<Pixel>>, String> {
 /// Asserts that an image that is written with 16 bits, plain or binary, is read as the same image. Shades may differ by a 65 535th, to
 /// which they are rounded.
 fn assert_written_reads_the_same(image: &Image<Vec<Pixel>>) {
-    const GREATEST: f32 = 65_535.0;
-    let mut plain = format!("P2\n{} {}\n{GREATEST}", image.width, image.height);
-    let mut binary = format!("P5 {} {} {GREATEST}\n", image.width, image.height).into_bytes();
+    const MAX_VALUE: f32 = 65_535.0;
+    let mut plain_text = format!("P2\n{} {}\n{MAX_VALUE}", image.width, image.height);
+    let mut binary_file = format!("P5 {} {} {MAX_VALUE}\n", image.width, image.height).into_bytes();
     for pixel in &image.pixels {
-        let value = (pixel.shade * GREATEST).round() as u16;
-        write!(plain, " {value}").expect("memory");
-        binary.extend(value.to_be_bytes());
+        let grey_value = (pixel.shade * MAX_VALUE).round() as u16;
+        write!(plain_text, " {grey_value}").expect("memory");
+        binary_file.extend(grey_value.to_be_bytes());
     }
-    let again = read(plain.as_bytes()).expect("a plain file");
-    assert_eq!(again, read(&binary).expect("a binary file"));
-    assert_eq!((again.width, again.height), (image.width, image.height));
-    for (before, after) in image.pixels.iter().zip(&again.pixels) {
-        assert!((before.shade - after.shade).abs() <= 0.51 / GREATEST, "{before:?} {after:?}");
+    let image_read_again = read_image(plain_text.as_bytes()).expect("a plain file");
+    assert_eq!(image_read_again, read_image(&binary_file).expect("a binary file"));
+    assert_eq!((image_read_again.width, image_read_again.height), (image.width, image.height));
+    for (before, after) in image.pixels.iter().zip(&image_read_again.pixels) {
+        assert!((before.shade - after.shade).abs() <= 0.51 / MAX_VALUE, "{before:?} {after:?}");
     }
 }

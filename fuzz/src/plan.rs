@@ -7,13 +7,13 @@ use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, FloorPlanError};
 
 /// Maximum number of walls of a plan, whose distance field grows with it, and number of arcs that are tested.
-const WALLS: usize = 4;
-const ARCS: usize = 3;
+const MAX_WALLS: usize = 4;
+const MAX_ARCS: usize = 3;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let Some(plan) = read(&mut input) else { return };
-    for _ in 0..ARCS {
+    let Some(plan) = read_plan(&mut input) else { return };
+    for _ in 0..MAX_ARCS {
         assert_verdict(&plan, &mut input);
         if input.is_empty() {
             break;
@@ -22,29 +22,29 @@ pub fn run(bytes: &[u8]) {
 }
 
 /// Reads a plan of a few walls; None if it is refused.
-pub fn read(input: &mut Input) -> Option<FloorPlan> {
-    let bounds: [f64; 4] = if input.truth() {
-        std::array::from_fn(|_| input.number())
+pub fn read_plan(input: &mut Input) -> Option<FloorPlan> {
+    let bounds: [f64; 4] = if input.next_bool() {
+        std::array::from_fn(|_| input.next_number())
     } else {
-        let [left, bottom] = [0, 1].map(|_| input.within(-1e6..=1e6));
-        let [width, height] = [0, 1].map(|_| input.within(0.01..=1e5));
+        let [left, bottom] = [0, 1].map(|_| input.number_within(-1e6..=1e6));
+        let [width, height] = [0, 1].map(|_| input.number_within(0.01..=1e5));
         [left, bottom, left + width, bottom + height]
     };
     let [left, bottom, right, top] = bounds;
-    let of = |input: &mut Input, low: f64, high: f64| {
-        let share = f64::from(input.byte()) / 255.0;
-        let inside = low + (high - low) * share;
-        if input.choice(16) == 0 { input.number() } else { inside }
+    let coordinate_between = |input: &mut Input, low: f64, high: f64| {
+        let share = f64::from(input.next_byte()) / 255.0;
+        let value_inside = low + (high - low) * share;
+        if input.next_choice(16) == 0 { input.next_number() } else { value_inside }
     };
-    let count = input.choice(1 + WALLS);
+    let count = input.next_choice(1 + MAX_WALLS);
     let mut walls: Vec<Segment> = Vec::new();
     for i in 0..count {
-        let known = walls.get(i.wrapping_sub(1)).copied();
-        let mut point = || [of(input, left, right), of(input, bottom, top)];
+        let earlier_wall = walls.get(i.wrapping_sub(1)).copied();
+        let mut point = || [coordinate_between(input, left, right), coordinate_between(input, bottom, top)];
         let from = point();
         let to = point();
-        // Corners, and walls over walls.
-        walls.push(match (input.choice(8), known) {
+        // Some walls equal the previous wall, or start at its end.
+        walls.push(match (input.next_choice(8), earlier_wall) {
             (0, Some(wall)) => wall,
             (1, Some(wall)) => Segment { from: wall.to, to },
             (2, _) => Segment { from, to: from },
@@ -53,16 +53,16 @@ pub fn read(input: &mut Input) -> Option<FloorPlan> {
             _ => Segment { from, to },
         });
     }
-    let are_good = bounds.iter().all(|bound| bound.abs() <= 1e6)
+    let are_valid_bounds = bounds.iter().all(|bound| bound.abs() <= 1e6)
         && [right - left, top - bottom].iter().all(|side| (0.01..=1e5).contains(side));
     // The edge has a tolerance for rounding.
-    let edge = 1e-12 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
+    let edge_tolerance = 1e-12 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
     let is_outside = |[x, y]: [f64; 2]| {
-        !(left - edge..=right + edge).contains(&x) || !(bottom - edge..=top + edge).contains(&y)
+        !(left - edge_tolerance..=right + edge_tolerance).contains(&x) || !(bottom - edge_tolerance..=top + edge_tolerance).contains(&y)
     };
     match FloorPlan::new(walls.clone(), bounds) {
         Ok(plan) => {
-            assert!(are_good && !walls.iter().any(|wall| is_outside(wall.from) || is_outside(wall.to)));
+            assert!(are_valid_bounds && !walls.iter().any(|wall| is_outside(wall.from) || is_outside(wall.to)));
             Some(plan)
         }
         Err(error) => {
@@ -70,7 +70,7 @@ pub fn read(input: &mut Input) -> Option<FloorPlan> {
             assert!(message.contains("; allowed is "), "{message}");
             match error {
                 FloorPlanError::BadBounds(which) => {
-                    assert!(!are_good, "{message}");
+                    assert!(!are_valid_bounds, "{message}");
                     super::laws::assert_same_numbers(&message, &which, &bounds);
                 }
                 FloorPlanError::BadWall { index, end } => {
@@ -88,64 +88,64 @@ pub fn read(input: &mut Input) -> Option<FloorPlan> {
 }
 
 /// Returns a pose, mostly inside the bounds.
-pub fn pose(plan: &FloorPlan, input: &mut Input) -> SE2 {
+pub fn random_pose(plan: &FloorPlan, input: &mut Input) -> SE2 {
     let [left, bottom, right, top] = plan.bounds();
     let [x, y] = [[left, right], [bottom, top]].map(|[low, high]| {
-        let share = f64::from(u16::from_le_bytes(input.bytes())) / 65_535.0;
+        let share = f64::from(u16::from_le_bytes(input.next_bytes())) / 65_535.0;
         low + (high - low) * share
     });
-    SE2::new(x, y, input.within(-1e6..=1e6))
+    SE2::new(x, y, input.number_within(-1e6..=1e6))
 }
 
 /// Asserts that the verdicts on an arc and on its end are those of a loop over all walls.
 pub fn assert_verdict(plan: &FloorPlan, input: &mut Input) {
-    let start = pose(plan, input);
-    let length = input.within(-1e12..=1e12);
-    let turn = input.within(-1e12..=1e12);
-    let clearance = input.within(0.0..=10.0);
+    let start = random_pose(plan, input);
+    let length = input.number_within(-1e12..=1e12);
+    let turn = input.number_within(-1e12..=1e12);
+    let clearance = input.number_within(0.0..=10.0);
     let arc = Arc { start, length, turn };
     let tolerance = rounding_error(plan, &arc, clearance);
-    let depth = |x: f64, y: f64| depth(plan, [x, y]);
+    let depth_inside = |x: f64, y: f64| depth_inside(plan, [x, y]);
 
-    // Upper bound of the least distance of the path from the edge of the map, by some of its points.
-    // `least - between` is a lower bound.
-    const CHORDS: u32 = 16;
-    let least = (0..=CHORDS).fold(f64::INFINITY, |least, i| {
-        let f = f64::from(i) / f64::from(CHORDS);
-        let at = Arc { length: f * length, turn: f * turn, ..arc }.end();
-        least.min(depth(at.x(), at.y()))
+    // Upper bound of the least distance of the path from the edge of the map, by some points of the path.
+    // `least_depth - half_chord` is a lower bound.
+    const CHORD_COUNT: u32 = 16;
+    let least_depth = (0..=CHORD_COUNT).fold(f64::INFINITY, |least, i| {
+        let f = f64::from(i) / f64::from(CHORD_COUNT);
+        let point_on_path = Arc { length: f * length, turn: f * turn, ..arc }.end();
+        least.min(depth_inside(point_on_path.x(), point_on_path.y()))
     });
-    // No point of an arc is further from a looked-at one than half the piece between two, or the circle is wide.
-    let circle = if turn == 0.0 { f64::INFINITY } else { 2.0 * (length / turn).abs() };
-    let between = (0.5 * length.abs() / f64::from(CHORDS)).min(circle);
-    let buried = plan.grid().is_some_and(|grid| grid.is_blocked_at([start.x(), start.y()]));
-    let room = plan.walls().iter().map(|wall| wall.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min);
+    // No point of an arc is further from a tested point than half the length between two of them, or than the circle's diameter.
+    let circle_diameter = if turn == 0.0 { f64::INFINITY } else { 2.0 * (length / turn).abs() };
+    let half_chord = (0.5 * length.abs() / f64::from(CHORD_COUNT)).min(circle_diameter);
+    let is_in_obstacle = plan.grid().is_some_and(|grid| grid.is_blocked_at([start.x(), start.y()]));
+    let wall_distance = plan.walls().iter().map(|wall| wall.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min);
 
-    let found = plan.arc_free(&arc, clearance).free;
-    let about = format!("{arc:?} with {clearance} to spare: room {room}, at the edge {least}");
-    if found {
-        assert!(room > clearance - tolerance && least >= -tolerance && !buried, "through a wall: {about}");
+    let is_free = plan.arc_free(&arc, clearance).free;
+    let situation = format!("{arc:?} with {clearance} to spare: walls {wall_distance}, edge {least_depth}");
+    if is_free {
+        assert!(wall_distance > clearance - tolerance && least_depth >= -tolerance && !is_in_obstacle, "through a wall: {situation}");
     } else {
-        let clear = room > clearance + tolerance && least - between > tolerance && !buried;
-        assert!(!clear, "refused for nothing: {about}");
+        let is_clear = wall_distance > clearance + tolerance && least_depth - half_chord > tolerance && !is_in_obstacle;
+        assert!(!is_clear, "refused for nothing: {situation}");
     }
 
     let end = arc.end();
     let point = [end.x(), end.y()];
-    let room = plan.walls().iter().map(|wall| wall.distance_to_point(point)).fold(f64::INFINITY, f64::min);
-    let found = plan.point_free(point, clearance).free;
-    let buried = plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
-    let inside = depth(point[0], point[1]);
-    if found {
-        assert!(room > clearance - tolerance && inside >= -tolerance && !buried, "{point:?}, {clearance}");
+    let wall_distance = plan.walls().iter().map(|wall| wall.distance_to_point(point)).fold(f64::INFINITY, f64::min);
+    let is_free = plan.point_free(point, clearance).free;
+    let is_in_obstacle = plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
+    let depth_of_end = depth_inside(point[0], point[1]);
+    if is_free {
+        assert!(wall_distance > clearance - tolerance && depth_of_end >= -tolerance && !is_in_obstacle, "{point:?}, {clearance}");
     } else {
-        let clear = room > clearance + tolerance && inside > tolerance && !buried;
-        assert!(!clear, "refused for nothing: {point:?}, {clearance}");
+        let is_clear = wall_distance > clearance + tolerance && depth_of_end > tolerance && !is_in_obstacle;
+        assert!(!is_clear, "refused for nothing: {point:?}, {clearance}");
     }
 }
 
 /// Returns the distance (m) of a point inside the map from its edge; negative outside.
-fn depth(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
+fn depth_inside(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
     let ([x, y], [left, bottom, right, top]) = match plan.grid() {
         None => ([x, y], plan.bounds()),
         Some(grid) => {
@@ -160,6 +160,6 @@ fn depth(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
 /// Tolerance for rounding in m, as `FloorPlan` has it at the edge of a map: some thousand units in the last place of the
 /// largest number.
 fn rounding_error(plan: &FloorPlan, arc: &Arc, clearance: f64) -> f64 {
-    let furthest = plan.bounds().iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
-    1e-12 * (furthest + arc.length.abs() + clearance)
+    let largest_coordinate = plan.bounds().iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
+    1e-12 * (largest_coordinate + arc.length.abs() + clearance)
 }

@@ -3,18 +3,18 @@
 use motion::map::{Image, MAX_PIXELS, read_png};
 
 /// Maximum number of pixels of an image. Larger images are slow, and other tests cover them.
-const PIXELS: usize = 1 << 16;
+const MAX_TESTED_PIXELS: usize = 1 << 16;
 
 pub fn run(bytes: &[u8]) {
-    if (PIXELS..=MAX_PIXELS).contains(&area(bytes)) {
+    if (MAX_TESTED_PIXELS..=MAX_PIXELS).contains(&announced_area(bytes)) {
         return;
     }
-    read(bytes);
-    // Most mutations would end at a checksum.
-    read(&corrected(bytes));
+    check_reading(bytes);
+    // The reader would refuse most mutations because of a wrong checksum.
+    check_reading(&with_checksums_corrected(bytes));
 }
 
-fn read(bytes: &[u8]) {
+fn check_reading(bytes: &[u8]) {
     match read_png(bytes) {
         Ok(Image { width, height, pixels }) => {
             assert!(width > 0 && height > 0);
@@ -28,33 +28,33 @@ fn read(bytes: &[u8]) {
 }
 
 /// Number of pixels that the header announces, or 0 if the header is cut short.
-fn area(bytes: &[u8]) -> usize {
-    let side = |at| number(bytes, at).unwrap_or_default();
-    side(16).saturating_mul(side(20))
+fn announced_area(bytes: &[u8]) -> usize {
+    let side_at = |at| number_at(bytes, at).unwrap_or_default();
+    side_at(16).saturating_mul(side_at(20))
 }
 
-fn number(bytes: &[u8], at: usize) -> Option<usize> {
-    let four = bytes.get(at..at + 4)?;
-    Some(four.iter().fold(0, |number, byte| number << 8 | usize::from(*byte)))
+fn number_at(bytes: &[u8], at: usize) -> Option<usize> {
+    let four_bytes = bytes.get(at..at + 4)?;
+    Some(four_bytes.iter().fold(0, |number, byte| number << 8 | usize::from(*byte)))
 }
 
 /// Returns the image with the checksum of every complete chunk corrected.
-fn corrected(bytes: &[u8]) -> Vec<u8> {
+fn with_checksums_corrected(bytes: &[u8]) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
-    let mut at = 8;
-    while let Some(length) = number(&bytes, at) {
-        let end = at + 8 + length;
-        if end + 4 > bytes.len() {
+    let mut chunk_start = 8;
+    while let Some(length) = number_at(&bytes, chunk_start) {
+        let data_end = chunk_start + 8 + length;
+        if data_end + 4 > bytes.len() {
             break;
         }
-        let checksum = crc32(&bytes[at + 4..end]);
-        bytes[end..end + 4].copy_from_slice(&checksum.to_be_bytes());
-        at = end + 4;
+        let checksum = crc32(&bytes[chunk_start + 4..data_end]);
+        bytes[data_end..data_end + 4].copy_from_slice(&checksum.to_be_bytes());
+        chunk_start = data_end + 4;
     }
     bytes
 }
 
 fn crc32(bytes: &[u8]) -> u32 {
-    let shift = |crc: u32| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg());
-    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| shift(crc)))
+    let shift_bit = |crc: u32| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg());
+    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| shift_bit(crc)))
 }

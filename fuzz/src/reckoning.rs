@@ -1,117 +1,117 @@
 //! Dead Reckoning under any settings and calls.
 
-use super::input::{Input, turn_of};
+use super::input::{Input, is_one_in};
 use super::laws;
-use super::settings::{allowed, changed};
+use super::settings::{are_allowed, with_changes};
 use motion::sim::dead_reckoning::{
     DeadReckoning, MAX_SHOWN_ROBOTS, Measured, Misses, Outlines, RECURSIONS, Settings, Stats, StraightGrowth,
 };
 use nalgebra::Matrix3;
 
 /// Maximum numbers of robots, steps and calls in a run. Robots are driven in blocks of 256. Most runs have one block, and some several.
-const FEW_SAMPLES: usize = 200;
-const SAMPLES: usize = 800;
-const STEPS: u32 = 5;
-const CALLS: usize = 4;
+const MAX_SAMPLES_OF_MOST: usize = 200;
+const MAX_SAMPLES: usize = 800;
+const MAX_STEPS: u32 = 5;
+const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let [with_straight, with_double] = [0; 2].map(|_| input.choice(4) == 1);
-    let opening = Settings { samples: 3, steps: STEPS, ..Settings::default() };
-    let opening = changed(&opening, &mut input);
-    if !allowed(&opening) {
-        assert!(DeadReckoning::showing(opening, 0).is_err());
+    let [checks_straight_growth, checks_second_machine] = [0; 2].map(|_| input.next_choice(4) == 1);
+    let opening_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
+    let opening_settings = with_changes(&opening_settings, &mut input);
+    if !are_allowed(&opening_settings) {
+        assert!(DeadReckoning::showing(opening_settings, 0).is_err());
         return;
     }
-    let most = if turn_of(16, bytes) { SAMPLES } else { FEW_SAMPLES };
-    let few = |settings| few(settings, most);
-    let mut machine = DeadReckoning::showing(few(opening), 0).expect("allowed");
-    if input.truth() {
-        machine.add_samples(SAMPLES);
+    let max_samples = if is_one_in(16, bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST };
+    let with_few_robots = |settings| with_few_robots(settings, max_samples);
+    let mut machine = DeadReckoning::showing(with_few_robots(opening_settings), 0).expect("allowed");
+    if input.next_bool() {
+        machine.add_samples(MAX_SAMPLES);
     }
-    for _ in 0..CALLS {
+    for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
-        call(&mut machine, &few, &mut input);
+        call(&mut machine, &with_few_robots, &mut input);
     }
     assert_results(&machine);
     // Slow checks run for some inputs only.
-    if with_straight && turn_of(8, bytes) {
+    if checks_straight_growth && is_one_in(8, bytes) {
         assert_straight_growth(&machine);
     }
-    if with_double && turn_of(8, bytes) {
+    if checks_second_machine && is_one_in(8, bytes) {
         assert_as_new(&machine);
     }
 }
 
 /// Returns the same settings with few robots and steps.
-fn few(settings: Settings, most: usize) -> Settings {
+fn with_few_robots(settings: Settings, most: usize) -> Settings {
     Settings {
         samples: settings.samples.min(most),
-        steps: settings.steps.min(STEPS),
-        step: settings.step.min(settings.steps.min(STEPS)),
+        steps: settings.steps.min(MAX_STEPS),
+        step: settings.step.min(settings.steps.min(MAX_STEPS)),
         ..settings
     }
 }
 
 fn call(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
-    let shown = machine.shown();
-    match input.choice(9) {
+    let shown_count = machine.shown();
+    match input.next_choice(9) {
         0 | 1 => configure(machine, few, input),
         2 | 3 => assert_same_in_blocks(machine, few, input),
         4 => {
-            let count = usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES;
-            assert_eq!(machine.add_samples(count), (shown + count).min(machine.settings().samples));
+            let count = usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
+            assert_eq!(machine.add_samples(count), (shown_count + count).min(machine.settings().samples));
         }
         5 => {
             machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert_eq!(machine.shown(), 0);
         }
         6 => assert_nearest(machine, input),
-        7 => assert_outlines(machine, 1 + input.choice(STEPS as usize) as u32),
-        _ => assert_rollout(machine, usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES),
+        7 => assert_outlines(machine, 1 + input.next_choice(MAX_STEPS as usize) as u32),
+        _ => assert_rollout(machine, usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES),
     }
 }
 
 fn configure(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
-    let settings = changed(machine.settings(), input);
-    if allowed(&settings) {
+    let settings = with_changes(machine.settings(), input);
+    if are_allowed(&settings) {
         machine.configure(few(settings)).expect("allowed");
         return;
     }
-    let before = results(machine);
+    let results_before = all_results(machine);
     assert!(machine.configure(settings).is_err() && machine.configure_first(settings, 0).is_err());
-    assert_eq!(results(machine), before);
+    assert_eq!(all_results(machine), results_before);
 }
 
 /// Asserts that robots added in blocks equal the robots of one call.
 fn assert_same_in_blocks(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
-    let settings = changed(machine.settings(), input);
-    if !allowed(&settings) {
+    let settings = with_changes(machine.settings(), input);
+    if !are_allowed(&settings) {
         return;
     }
     let settings = few(settings);
-    let mut other = machine.clone();
-    other.configure(settings).expect("allowed");
-    let count = 1 + usize::from(u16::from_le_bytes(input.bytes())) % SAMPLES;
+    let mut machine_in_one_call = machine.clone();
+    machine_in_one_call.configure(settings).expect("allowed");
+    let count = 1 + usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
     machine.configure_first(settings, count).expect("allowed");
     while machine.shown() < settings.samples {
         machine.add_samples(count);
     }
-    assert_eq!(results(machine), results(&other));
+    assert_eq!(all_results(machine), all_results(&machine_in_one_call));
     assert_results(machine);
 }
 
 /// Asserts that a machine depends on its settings only, and not on earlier calls.
 fn assert_as_new(machine: &DeadReckoning) {
-    let mut other = DeadReckoning::showing(*machine.settings(), 0).expect("allowed");
-    other.add_samples(machine.shown());
-    assert_eq!(results(&other), results(machine));
+    let mut machine_in_one_call = DeadReckoning::showing(*machine.settings(), 0).expect("allowed");
+    machine_in_one_call.add_samples(machine.shown());
+    assert_eq!(all_results(&machine_in_one_call), all_results(machine));
 }
 
 /// Returns all results: those of the selected step as bits, and the others as text, in which NaN equals NaN.
-fn results(machine: &DeadReckoning) -> (String, Vec<u64>) {
+fn all_results(machine: &DeadReckoning) -> (String, Vec<u64>) {
     let (settings, stats, measured) = (machine.settings(), machine.stats(), machine.measured());
     let outlines = machine.outlines(settings.step);
     let lines = outlines.iter().flat_map(|Outlines { ellipse, exponential, predicted, measured }| {
@@ -125,7 +125,7 @@ fn results(machine: &DeadReckoning) -> (String, Vec<u64>) {
 fn assert_results(machine: &DeadReckoning) {
     let settings = machine.settings();
     let (n, steps) = (machine.shown(), settings.steps as usize);
-    assert!(n <= SAMPLES && (1..=settings.steps).contains(&settings.step), "{settings:?} of {n}");
+    assert!(n <= MAX_SAMPLES && (1..=settings.steps).contains(&settings.step), "{settings:?} of {n}");
     assert_eq!([machine.measured().len(), machine.nominal().len()], [steps; 2]);
     machine.nominal().iter().for_each(|pose| laws::assert_pose("nominal", pose));
     laws::assert_finite("commanded", machine.commanded().as_flattened());
@@ -139,8 +139,8 @@ fn assert_results(machine: &DeadReckoning) {
         for (i, error) in measured.relative_error.iter().enumerate() {
             assert!(error.is_nan() || *error >= 0.0, "{measured:?}");
             // A relative error needs a variance above 0.
-            let spreads = n > 1 && measured.cov[(i, i)] > 0.0;
-            assert!(error.is_nan() || spreads, "{measured:?} of {n}");
+            let has_variance = n > 1 && measured.cov[(i, i)] > 0.0;
+            assert!(error.is_nan() || has_variance, "{measured:?} of {n}");
         }
     }
     let step = settings.step;
@@ -150,18 +150,18 @@ fn assert_results(machine: &DeadReckoning) {
     machine.twists().for_each(|twist| laws::assert_finite("a twist", &twist));
     assert_eq!(machine.twists().len(), n.min(MAX_SHOWN_ROBOTS));
     for order in RECURSIONS {
-        let (predicted, compared) = (machine.predicted(order), machine.comparison(order));
-        assert_eq!([predicted.len(), compared.ratios.len()], [steps; 2]);
-        for (cov, ratio) in predicted.iter().zip(&compared.ratios) {
+        let (predicted, comparison) = (machine.predicted(order), machine.comparison(order));
+        assert_eq!([predicted.len(), comparison.ratios.len()], [steps; 2]);
+        for (cov, ratio) in predicted.iter().zip(&comparison.ratios) {
             assert!(
                 ratio.iter().all(|ratio| ratio.is_nan() || (cov.is_some() && *ratio >= 0.0)),
                 "{ratio:?}"
             );
             let Some(cov) = cov else { continue };
-            // Each step turns along and across into each other.
+            // The heading of each step mixes the errors along and across.
             assert_covariance("predicted", cov, |_, _| 1e-12 * cov.amax());
         }
-        compared.misses.iter().for_each(|misses| assert_misses(misses, steps));
+        comparison.misses.iter().for_each(|misses| assert_misses(misses, steps));
     }
     let Stats { n: counted, .. } = machine.stats();
     assert_eq!(counted, n);
@@ -174,10 +174,10 @@ fn assert_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, us
     for i in 0..3 {
         assert!(cov[(i, i)] >= 0.0, "{what}: {cov:?}");
         for j in 0..i {
-            let rounded = rounding(i, j) + f64::MIN_POSITIVE;
-            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= rounded, "{what}: {cov:?}");
+            let tolerance = rounding(i, j) + f64::MIN_POSITIVE;
+            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{what}: {cov:?}");
             let [first, second] = [i, j].map(|k| (cov[(k, k)] + rounding(k, k)).sqrt());
-            assert!(cov[(i, j)].abs() <= first * second + rounded, "{what}: {cov:?}");
+            assert!(cov[(i, j)].abs() <= first * second + tolerance, "{what}: {cov:?}");
         }
     }
 }
@@ -193,8 +193,8 @@ fn assert_misses(misses: &Misses, steps: usize) {
     let Misses { told, first, last, end, error } = *misses;
     assert_eq!(first.is_some(), last.is_some(), "{misses:?}");
     assert!(told || first.is_none(), "{misses:?}");
-    let in_order = 1 <= first.unwrap_or(1) && first <= last && last.unwrap_or(1) as usize <= steps;
-    assert!(in_order && !end.is_infinite() && (error.is_nan() || error >= 0.0), "{misses:?}");
+    let are_in_order = 1 <= first.unwrap_or(1) && first <= last && last.unwrap_or(1) as usize <= steps;
+    assert!(are_in_order && !end.is_infinite() && (error.is_nan() || error >= 0.0), "{misses:?}");
 }
 
 fn assert_straight_growth(machine: &DeadReckoning) {
@@ -218,32 +218,32 @@ fn assert_outlines(machine: &DeadReckoning, step: u32) {
         laws::assert_finite("an outline", outline.as_flattened());
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
-    let none = machine.predicted(settings.compounding)[step as usize - 1].is_none();
-    assert!([&ellipse, &exponential, &predicted].iter().all(|outline| outline.is_empty() == none));
+    let has_none = machine.predicted(settings.compounding)[step as usize - 1].is_none();
+    assert!([&ellipse, &exponential, &predicted].iter().all(|outline| outline.is_empty() == has_none));
     assert_eq!(measured.is_empty(), machine.shown() < 2);
 }
 
 /// Asserts that the path of one robot has the poses that the steps show.
 fn assert_rollout(machine: &DeadReckoning, index: usize) {
-    let Some(way) = machine.rollout(index) else {
+    let Some(path) = machine.rollout(index) else {
         assert!(index >= machine.shown());
         return;
     };
-    assert_eq!(way.len(), machine.settings().steps as usize);
-    laws::assert_finite("a way", way.as_flattened());
-    for (step, pose) in (1..).zip(&way) {
+    assert_eq!(path.len(), machine.settings().steps as usize);
+    laws::assert_finite("a way", path.as_flattened());
+    for (step, pose) in (1..).zip(&path) {
         assert!(machine.poses(step).get(index).is_none_or(|shown| shown == pose), "{index} at {step}");
     }
 }
 
 fn assert_nearest(machine: &DeadReckoning, input: &mut Input) {
-    let target = [0; 2].map(|_| input.number());
-    let radius = input.within(0.0..=f64::INFINITY);
+    let target = [0; 2].map(|_| input.next_number());
+    let radius = input.number_within(0.0..=f64::INFINITY);
     let Some(index) = machine.nearest(target, radius) else { return };
     let poses = machine.poses(machine.settings().step);
-    let away = |[x, y, _]: &[f64; 3]| ((x - target[0]) / radius).hypot((y - target[1]) / radius);
-    let least = poses.iter().map(away).fold(f64::INFINITY, f64::min);
+    let distance_to = |[x, y, _]: &[f64; 3]| ((x - target[0]) / radius).hypot((y - target[1]) / radius);
+    let least_distance = poses.iter().map(distance_to).fold(f64::INFINITY, f64::min);
     // A square of a distance below 1e-154 of the radius is 0.
-    let found = away(&poses[index]);
-    assert!(found <= least * (1.0 + 1e-9) + 1e-150 && found <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
+    let found_distance = distance_to(&poses[index]);
+    assert!(found_distance <= least_distance * (1.0 + 1e-9) + 1e-150 && found_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
 }

@@ -4,54 +4,56 @@ use super::input::Input;
 use motion::sim::settings::{Allowed, Group, Rules, Setting, SettingsError};
 
 /// Returns the present settings with some of them changed.
-pub fn changed<S: Rules>(present: &S, input: &mut Input) -> S {
-    let (mut settings, mut named) = (*present, Vec::new());
-    let chosen = u16::from_le_bytes(input.bytes());
-    let mut number = 0;
+pub fn with_changes<S: Rules>(present: &S, input: &mut Input) -> S {
+    let (mut settings, mut changed_keys) = (*present, Vec::new());
+    let chosen_bits = u16::from_le_bytes(input.next_bytes());
+    let mut settings_seen = 0;
     let _: Result<(), ()> = settings.try_each(|declaration, setting| {
-        number += 1;
-        if chosen >> (number - 1) & 1 == 1 {
-            named.push(declaration.key);
-            set(setting, input);
+        settings_seen += 1;
+        if chosen_bits >> (settings_seen - 1) & 1 == 1 {
+            changed_keys.push(declaration.key);
+            set_any_value(setting, input);
         }
         Ok(())
     });
-    settings.settle(present, &named);
+    settings.settle(present, &changed_keys);
     settings
 }
 
-fn set(setting: Setting, input: &mut Input) {
+fn set_any_value(setting: Setting, input: &mut Input) {
     match setting {
-        Setting::Number(slot, allowed) => *slot = input.near(&allowed),
+        Setting::Number(slot, allowed) => *slot = input.number_near(&allowed),
         Setting::Whole(slot, allowed) => slot.set(input.whole_near(&allowed)),
         Setting::WholeOrNone(slot, allowed) => {
-            *slot = input.truth().then(|| input.whole_near(&allowed) as usize);
+            *slot = input.next_bool().then(|| input.whole_near(&allowed) as usize);
         }
-        Setting::Truth(slot) => *slot = input.truth(),
+        Setting::Truth(slot) => *slot = input.next_bool(),
         Setting::Word(slot) => {
             let words = slot.all();
-            assert!(slot.set(input.of(&words)) && !slot.set("") && !slot.set("__proto__"));
+            assert!(slot.set(input.one_of(&words)) && !slot.set("") && !slot.set("__proto__"));
         }
-        Setting::Numbers(slots, allowed) => slots.iter_mut().for_each(|slot| *slot = input.near(&allowed)),
+        Setting::Numbers(slots, allowed) => {
+            slots.iter_mut().for_each(|slot| *slot = input.number_near(&allowed))
+        }
         // A level is refused before it is taken apart.
-        Setting::Level(slot, allowed) => slot.set(input.within(allowed)),
+        Setting::Level(slot, allowed) => slot.set(input.number_within(allowed)),
         Setting::Group(group) => {
             for (i, field) in group.fields().iter().enumerate() {
-                *group.number(i) = input.near(&field.allowed);
+                *group.number(i) = input.number_near(&field.allowed);
             }
         }
     }
 }
 
 /// Returns true if the settings are allowed, and checks the message if not.
-pub fn allowed<S: Rules>(settings: &S) -> bool {
+pub fn are_allowed<S: Rules>(settings: &S) -> bool {
     let Err(error) = settings.check() else {
         assert_in_range(settings);
         return true;
     };
     let SettingsError { field, value, allowed } = &error;
-    let root = field.split(['.', '[']).next();
-    assert!(S::KEYS.iter().any(|key| Some(*key) == root), "{error}");
+    let root_key = field.split(['.', '[']).next();
+    assert!(S::KEYS.iter().any(|key| Some(*key) == root_key), "{error}");
     let message = error.to_string();
     assert!(message.starts_with(field) && message.contains("; allowed is "), "{message}");
     match allowed {
@@ -69,7 +71,7 @@ pub fn allowed<S: Rules>(settings: &S) -> bool {
 fn assert_in_range<S: Rules>(settings: &S) {
     let mut settings = *settings;
     let _: Result<(), ()> = settings.try_each(|declaration, setting| {
-        let all_are = match setting {
+        let all_in_range = match setting {
             Setting::Number(number, range) => range.contains(number),
             Setting::Whole(whole, range) => range.contains(&whole.get()),
             Setting::WholeOrNone(whole, range) => whole.is_none_or(|whole| range.contains(&(whole as u64))),
@@ -77,7 +79,7 @@ fn assert_in_range<S: Rules>(settings: &S) {
             Setting::Group(group) => is_group_in_range(group),
             Setting::Truth(_) | Setting::Word(_) | Setting::Level(..) => true,
         };
-        assert!(all_are, "{}", declaration.key);
+        assert!(all_in_range, "{}", declaration.key);
         Ok(())
     });
 }

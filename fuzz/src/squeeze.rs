@@ -1,7 +1,7 @@
 //! Map Squeeze under any settings, maps and calls.
 
 use super::input::Input;
-use super::settings::{allowed, changed};
+use super::settings::{are_allowed, with_changes};
 use super::{banana, grid, laws, plan};
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, Sampler};
@@ -10,13 +10,13 @@ use motion::sim::squeeze::{OUTCOME_KINDS, MapSqueeze, Settings};
 use std::cell::LazyCell;
 
 /// Maximum numbers of samples, of parts of a sample, and of calls in a run.
-const SAMPLES: usize = 8;
-const PARTS: u32 = 3;
-const CALLS: usize = 3;
+const MAX_SAMPLES: usize = 8;
+const MAX_PARTS: u32 = 3;
+const MAX_CALLS: usize = 3;
 
 thread_local! {
     /// Machine in a room with one wall.
-    static OPENING: LazyCell<MapSqueeze> = LazyCell::new(|| {
+    static OPENING_MACHINE: LazyCell<MapSqueeze> = LazyCell::new(|| {
         let wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
         let plan = FloorPlan::new(vec![wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
         let mut machine = MapSqueeze::new(with_few_samples(Settings::default(), false)).expect("the opening state");
@@ -28,8 +28,8 @@ thread_local! {
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let mut machine = OPENING.with(|opening| (**opening).clone());
-    for _ in 0..CALLS {
+    let mut machine = OPENING_MACHINE.with(|opening| (**opening).clone());
+    for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
@@ -40,9 +40,9 @@ pub fn run(bytes: &[u8]) {
 
 /// Returns the settings with few samples. A wedged robot takes 10 000 draws, so that most settings get a sampler that checks once.
 fn with_few_samples(settings: Settings, patient: bool) -> Settings {
-    let steps = settings.steps.min(PARTS);
+    let steps = settings.steps.min(MAX_PARTS);
     let sampler = if patient { settings.sampler.in_parts(steps) } else { without_parts(settings.sampler) };
-    Settings { samples: settings.samples.min(SAMPLES), steps, sampler, ..settings }
+    Settings { samples: settings.samples.min(MAX_SAMPLES), steps, sampler, ..settings }
 }
 
 fn without_parts(sampler: Sampler) -> Sampler {
@@ -50,24 +50,24 @@ fn without_parts(sampler: Sampler) -> Sampler {
 }
 
 fn call(machine: &mut MapSqueeze, input: &mut Input) {
-    match input.choice(10) {
+    match input.next_choice(10) {
         0 => configure(machine, input),
         1 => assert_same_in_blocks(machine, input),
         2 => {
-            if let Some(plan) = plan::read(input) {
+            if let Some(plan) = plan::read_plan(input) {
                 machine.set_plan(plan);
             }
         }
         3 => {
             if let Some((grid, _)) = grid::read(input) {
-                let (walls, refused) = (machine.plan().walls().len(), machine.set_grid(grid).is_err());
-                assert!(!refused || machine.plan().walls().len() == walls);
+                let (wall_count, was_refused) = (machine.plan().walls().len(), machine.set_grid(grid).is_err());
+                assert!(!was_refused || machine.plan().walls().len() == wall_count);
             }
         }
         4 => {
-            let before = machine.attempts().len();
-            let after = machine.add_samples(input.choice(SAMPLES));
-            assert!(before <= after && after <= machine.settings().samples);
+            let count_before = machine.attempts().len();
+            let count_after = machine.add_samples(input.next_choice(MAX_SAMPLES));
+            assert!(count_before <= count_after && count_after <= machine.settings().samples);
         }
         5 => {
             machine.configure_first(*machine.settings(), 0).expect("allowed");
@@ -75,62 +75,62 @@ fn call(machine: &mut MapSqueeze, input: &mut Input) {
         }
         6 => assert_painted(machine, input),
         7 => {
-            let target = [0; 2].map(|_| input.number());
-            let radius = input.within(0.0..=f64::INFINITY);
-            let found = machine.nearest(target, radius);
-            assert!(found.is_none_or(|index| index < machine.attempts().len()));
+            let target = [0; 2].map(|_| input.next_number());
+            let radius = input.number_within(0.0..=f64::INFINITY);
+            let found_index = machine.nearest(target, radius);
+            assert!(found_index.is_none_or(|index| index < machine.attempts().len()));
         }
         // A new machine looks along 72 headings for an open place, which takes as long as ten other calls; so it is rare.
         8 => assert_as_new(machine),
-        _ if input.choice(64) == 1 => assert_free_pose(machine),
+        _ if input.next_choice(64) == 1 => assert_free_pose(machine),
         _ => {}
     }
 }
 
 fn configure(machine: &mut MapSqueeze, input: &mut Input) {
-    let settings = changed(machine.settings(), input);
-    let before = *machine.settings();
-    if allowed(&settings) {
-        let patient = input.choice(16) == 1;
-        machine.configure(with_few_samples(settings, patient)).expect("allowed");
+    let settings = with_changes(machine.settings(), input);
+    let count_before = *machine.settings();
+    if are_allowed(&settings) {
+        let checks_parts = input.next_choice(16) == 1;
+        machine.configure(with_few_samples(settings, checks_parts)).expect("allowed");
         return;
     }
     let attempts = machine.attempts().to_vec();
     assert!(machine.configure(settings).is_err());
-    assert_eq!(*machine.settings(), before);
+    assert_eq!(*machine.settings(), count_before);
     assert_eq!(machine.attempts(), attempts);
 }
 
 /// Asserts that attempts made in several blocks equal the attempts of one call.
 fn assert_same_in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
-    let settings = with_few_samples(changed(machine.settings(), input), false);
-    if !allowed(&settings) {
+    let settings = with_few_samples(with_changes(machine.settings(), input), false);
+    if !are_allowed(&settings) {
         return;
     }
-    let mut other = machine.clone();
-    other.configure(settings).expect("allowed");
-    let count = 1 + input.choice(SAMPLES);
+    let mut machine_in_one_call = machine.clone();
+    machine_in_one_call.configure(settings).expect("allowed");
+    let count = 1 + input.next_choice(MAX_SAMPLES);
     machine.configure_first(settings, count).expect("allowed");
     while machine.shown() < settings.samples && !machine.gave_up() {
         machine.add_samples(count);
     }
-    assert_eq!(machine.attempts(), other.attempts());
+    assert_eq!(machine.attempts(), machine_in_one_call.attempts());
 }
 
 /// Asserts that a machine depends on its settings and its map only, and not on earlier calls.
 fn assert_as_new(machine: &MapSqueeze) {
-    let mut other = MapSqueeze::showing(*machine.settings(), 0).expect("allowed");
-    other.set_plan(machine.plan().clone());
-    other.add_samples(machine.attempts().len());
-    assert_eq!(other.attempts(), machine.attempts());
+    let mut machine_in_one_call = MapSqueeze::showing(*machine.settings(), 0).expect("allowed");
+    machine_in_one_call.set_plan(machine.plan().clone());
+    machine_in_one_call.add_samples(machine.attempts().len());
+    assert_eq!(machine_in_one_call.attempts(), machine.attempts());
 }
 
 /// Asserts that the robot fits at the free pose that the machine finds.
 fn assert_free_pose(machine: &MapSqueeze) {
-    let Some(place) = machine.open_place() else { return };
-    laws::assert_pose("in the open", &place);
-    let fits = machine.plan().point_free([place.x(), place.y()], machine.settings().clearance).free;
-    assert!(fits, "{place:?}");
+    let Some(free_pose) = machine.open_place() else { return };
+    laws::assert_pose("in the open", &free_pose);
+    let fits_there = machine.plan().point_free([free_pose.x(), free_pose.y()], machine.settings().clearance).free;
+    assert!(fits_there, "{free_pose:?}");
 }
 
 /// Asserts that all results are finite and agree with each other.
@@ -139,10 +139,10 @@ fn assert_results(machine: &MapSqueeze) {
     assert_eq!(stats.attempts, attempts.len());
     assert!(attempts.len() <= settings.samples);
     assert_eq!(stats.accepted, attempts.iter().filter(|attempt| attempt.accepted).count());
-    let through = attempts.iter().filter(|attempt| attempt.accepted && !attempt.path_free).count();
-    assert_eq!(stats.through_wall, through);
-    laws::assert_share("acceptance", stats.acceptance_rate);
-    laws::assert_share("through a wall", stats.through_wall_rate);
+    let through_wall = attempts.iter().filter(|attempt| attempt.accepted && !attempt.path_free).count();
+    assert_eq!(stats.through_wall, through_wall);
+    laws::assert_fraction("acceptance", stats.acceptance_rate);
+    laws::assert_fraction("through a wall", stats.through_wall_rate);
     let [low, high] = stats.through_wall_interval;
     assert!(0.0 <= low && low <= high && high <= 1.0, "{stats:?}");
     if stats.accepted > 0 {
@@ -182,9 +182,9 @@ fn assert_finite_plan(plan: &FloorPlan) {
 }
 
 fn assert_painted(machine: &mut MapSqueeze, input: &mut Input) {
-    let grid = banana::grid(input);
-    let shown = machine.attempts().len();
+    let grid = banana::read_grid(input);
+    let shown_count = machine.attempts().len();
     let pixels = machine.paint(&grid, &[[[1; 4]; RAMP_STEPS]; OUTCOME_KINDS]);
     assert_eq!(pixels.len(), grid.columns * grid.rows);
-    assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() <= shown);
+    assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() <= shown_count);
 }

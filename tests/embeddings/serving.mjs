@@ -7,7 +7,7 @@
 import { spawn } from 'node:child_process';
 import { createServer } from 'node:net';
 import { join } from 'node:path';
-import { ROOT, end, endWithUs, hasEnded } from '../../scripts/process.mjs';
+import { ROOT, endGroup, endWithUs, forgetGroup } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 
 /** Seconds until a server has to answer. */
@@ -96,7 +96,7 @@ export function start(command, args, { env = {}, cwd = ROOT } = {}) {
       resolve();
     });
     child.on('close', () => {
-      if (group !== undefined) hasEnded(group);
+      if (group !== undefined) forgetGroup(group);
       resolve();
     });
   });
@@ -114,7 +114,7 @@ export function start(command, args, { env = {}, cwd = ROOT } = {}) {
       }),
     ended,
     stop() {
-      if (group !== undefined) end(group);
+      if (group !== undefined) endGroup(group);
       return ended;
     },
   };

@@ -6,7 +6,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { filesOf } from '../../scripts/bundle.mjs';
-import { LEGS, TRUTH } from '../../scripts/example-log.mjs';
+import { LEG_LIMIT, TRUE_MODEL } from '../../scripts/example-log.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { presets } from '../../www/settings.js';
 
@@ -39,8 +39,8 @@ test('README.md has the presets of each figure', () => {
 
 test('README of the example log has its true parameters', () => {
   const readme = read('examples/calibration/README.md');
-  const { alphas, mountYaw, clockOffset, distanceScale } = TRUTH;
-  for (const said of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEGS.distance} m`, `${LEGS.angle} rad`]) {
+  const { alphas, mountYaw, clockOffset, distanceScale } = TRUE_MODEL;
+  for (const said of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEG_LIMIT.distance} m`, `${LEG_LIMIT.angle} rad`]) {
     assert.ok(readme.includes(said), said);
   }
 });

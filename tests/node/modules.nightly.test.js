@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import { test } from 'node:test';
-import { pascal } from '../../scripts/declarations.mjs';
+import { pascalCase } from '../../scripts/declarations.mjs';
 import { differences, digest, widgets } from '../digest/digest.js';
 
 const DIST = new URL('../../dist/', import.meta.url);
@@ -18,8 +18,8 @@ for (const tag of Object.keys(widgets)) {
     assert.equal(names.length, 1, `one module for ${tag}`);
     const { default: instantiate } = await import(`../../build/${tag}.js`);
     const core = await instantiate(new WebAssembly.Module(readFileSync(new URL(`chunks/${names[0]}`, DIST))));
-    const machines = Object.keys(widgets).map(pascal).filter((name) => name in core);
-    assert.deepEqual(machines, [pascal(tag)]);
+    const machines = Object.keys(widgets).map(pascalCase).filter((name) => name in core);
+    assert.deepEqual(machines, [pascalCase(tag)]);
     const own = golden.split('\n').filter((line) => line.startsWith(`${tag}/`)).map((line) => `${line}\n`).join('');
     assert.deepEqual(differences(own, await digest(core, configurations, [tag])), []);
   });

@@ -71,7 +71,7 @@ impl Trajectory {
     }
 
     /// Integrates commands from the origin, each (time in s, v in m/s, ω in rad/s) held until the next. While a command is held, poses are
-    /// added at most [`MAX_COMMAND_STEP`] apart, so that there are no pauses.
+    /// added at most 0.1 s apart, so that there are no pauses.
     ///
     /// # Errors
     /// [`TrajectoryError`] at the first command that is not finite or not later than the one before.

@@ -40,10 +40,12 @@ impl SE2 {
         Self { x: 0.0, y: 0.0, theta: 0.0 }
     }
 
+    /// Returns the position x, m.
     pub fn x(&self) -> f64 {
         self.x
     }
 
+    /// Returns the position y, m.
     pub fn y(&self) -> f64 {
         self.y
     }

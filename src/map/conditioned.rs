@@ -208,6 +208,9 @@ impl MapConditioned<'_> {
     }
 
     /// Returns the cost of one accepted motion in a filter, which makes only the deciding test for each draw.
+    ///
+    /// # Errors
+    /// [`NoAcceptedSample`] after [`MAX_DRAWS`] rejected draws.
     pub fn cost<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,

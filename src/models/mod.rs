@@ -18,6 +18,8 @@ use rand::Rng;
 
 /// Probabilistic motion model. All poses are in the same frame. A model whose control is a command can predict; one with an
 /// odometry reading is used after the motion.
+///
+/// Arguments are not checked: a negative α, or a command whose `dt` is not positive, gives meaningless results, NaN for most.
 pub trait MotionModel {
     type Control: Copy;
 

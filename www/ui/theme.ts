@@ -86,6 +86,8 @@ export const theme = css`
     display: flow-root;
     container-type: inline-size;
     background: var(--motion-paper, var(--back));
+    /* Margin around a figure whose theme differs from the page's. */
+    box-shadow: 0 0 0 0.6em var(--back, transparent);
     color: var(--ink);
   }
 

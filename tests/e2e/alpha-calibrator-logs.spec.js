@@ -145,8 +145,11 @@ test('of several drives all files are read at once, and files whose names do not
 test('names and units of columns that a table does not state are asked for, and the answer holds for that file', async ({ page }) => {
   const widget = await openCalibrator(page);
   const inMillimetres = rowsOf('odometry').map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
-  await choose(widget, { 'odom.csv': inMillimetres.join('\n'), 'truth.csv': example('reference') });
   const alert = widget.getByRole('alert');
+  await choose(widget, { 'notes.txt': 'hello', 'empty.csv': '' });
+  await expect(alert).toHaveText(/^notes\.txt: it does not look like a log,/);
+  await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: empty\.csv: there is nothing in it/]);
+  await choose(widget, { 'odom.csv': inMillimetres.join('\n'), 'truth.csv': example('reference') });
   await expect(alert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv' }).getByLabel('time', { exact: true })).toBeFocused();
   await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');

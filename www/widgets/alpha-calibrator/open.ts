@@ -144,10 +144,11 @@ export class LogOpener extends FileOpener<Figure> {
   /** Plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
   async #plan(chosen: ChosenFiles, reader: Reader): Promise<LogPlan> {
     try {
+      if (chosen.recordings.length === 0) throw chosen.skipped[0];
       return planOf(reader, chosen, this.kind);
     } catch (error) {
       // A skipped file may be the missing log, so its question comes first.
-      const skipped = chosen.skipped.find(({ ask }) => ask) ?? (chosen.recordings.length === 0 && chosen.skipped[0]);
+      const skipped = chosen.skipped.find(({ ask }) => ask);
       if (skipped) throw skipped;
       const before = this.#lone;
       const isLoneLog = chosen.recordings.length === 1 && (error as LogError).ask !== undefined;

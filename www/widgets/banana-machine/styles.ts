@@ -22,6 +22,22 @@ export const styles = css`
     }
   }
 
+  /* On a phone the title, which judges the ellipse, stays visible with the picture. */
+  @media (min-height: 40em) {
+    @container (width < 30em) {
+      .panel-title {
+        position: sticky;
+        top: var(--top);
+        z-index: 3;
+        background: var(--paper);
+      }
+
+      .stage[part='picture'] {
+        top: calc(var(--top) + 1.3em);
+      }
+    }
+  }
+
   /* Margin for the fade below the pictures. */
   .morphing {
     display: flex;

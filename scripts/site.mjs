@@ -46,9 +46,9 @@ const navigation = (page) => {
 /** Returns the address that a piece of code in the text links to: that of a page, or for a tag, that of its figure alone. */
 function addressOf(/** @type {string} */ code) {
   if (code in TOP_LINKS) return code;
-  const [, widget, rest] = code.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];
+  const [, widget, attributeText] = code.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];
   if (!WIDGETS.includes(widget)) return undefined;
-  const attributes = [...rest.matchAll(/([a-z-]+)(?:="([^"]*)")?/g)].map(([, name, value = '']) => [name, value]);
+  const attributes = [...attributeText.matchAll(/([a-z-]+)(?:="([^"]*)")?/g)].map(([, name, value = '']) => [name, value]);
   return `embed.html?${new URLSearchParams([['widget', widget], ...attributes])}`;
 }
 

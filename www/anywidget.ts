@@ -63,7 +63,7 @@ function renderWidget({ model, el }: { model: Model, el: HTMLElement }): (() => 
       const traitValues = ownTraits.map(([trait, property]) => [trait, jsonValue(element[property])] as [string, unknown]);
       // Nulls come last, because a null (no preset, for example) follows from the other values, and other views apply values in this order.
       isWriting = true;
-      for (const none of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === none) put(trait, value);
+      for (const isNull of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === isNull) put(trait, value);
       isWriting = false;
       // All values at one time, with the number of the last applied request, from which the kernel knows which requests are newer.
       put('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(traitValues.filter(([trait]) => model.get(trait) !== undefined)) });

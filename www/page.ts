@@ -21,13 +21,13 @@ export const figureOf = (element: Element): Figure => element.closest('article')
  * Returns a figure to the state that it opened with, and then sets values in their order. Each is a property of the element, or else a field
  * of its state. A preset has to be the first value, because it replaces the others.
  */
-export async function enter(figure: Figure, values: Record<string, unknown>) {
+export async function enterState(figure: Figure, values: Record<string, unknown>) {
   if (!openings.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
-  const opening = openings.get(figure) ?? {};
+  const openingState = openings.get(figure) ?? {};
   // Shows the whole cloud at once, because the item refers to it.
-  const grown = 'shown' in opening ? { shown: opening.samples, playing: false } : {};
-  const { widget, version } = opening;
-  figure.setState({ ...opening, ...grown });
+  const wholeCloud = 'shown' in openingState ? { shown: openingState.samples, playing: false } : {};
+  const { widget, version } = openingState;
+  figure.setState({ ...openingState, ...wholeCloud });
   for (const [key, value] of Object.entries(values)) {
     if (key in figure) figure[key] = value;
     else figure.setState({ widget, version, [key]: value });
@@ -37,14 +37,14 @@ export async function enter(figure: Figure, values: Record<string, unknown>) {
 async function tryOut(button: HTMLElement) {
   const figure = figureOf(button);
   for (const each of button.closest('article')?.querySelectorAll('[data-try]') ?? []) each.removeAttribute('aria-current');
-  await enter(figure, JSON.parse(button.dataset.try ?? '{}'));
+  await enterState(figure, JSON.parse(button.dataset.try ?? '{}'));
   button.setAttribute('aria-current', 'true');
-  const changed = () => button.removeAttribute('aria-current');
-  figure.addEventListener('input', changed, { once: true });
+  const unmarkButton = () => button.removeAttribute('aria-current');
+  figure.addEventListener('input', unmarkButton, { once: true });
 }
 
 /** Highlights the line that a term names while the pointer or the focus is on the term. */
-function light({ type, target }: Event) {
+function highlightTerm({ type, target }: Event) {
   const term = target instanceof Element ? (target.closest('[data-line]') as HTMLElement | null) : null;
   if (!term) return;
   figureOf(term).highlight = /over|in$/.test(type) ? term.dataset.line : null;
@@ -82,7 +82,7 @@ document.addEventListener('click', ({ target }) => {
   const button = target instanceof Element ? target.closest('button[data-try]') : null;
   if (button) void tryOut(button as HTMLElement);
 });
-for (const type of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(type, light);
-for (const form of document.querySelectorAll('form')) (form.matches('.sketch') ? prepareSketch : prepareBet)(form, (values) => enter(figureOf(form), values), figureOf(form));
+for (const type of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(type, highlightTerm);
+for (const form of document.querySelectorAll('form')) (form.matches('.sketch') ? prepareSketch : prepareBet)(form, (values) => enterState(figureOf(form), values), figureOf(form));
 followSections();
 followItems();

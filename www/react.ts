@@ -45,18 +45,18 @@ class Figure {
   }
 
   say(element: any, props: Props) {
-    const { props: before } = this;
+    const { props: previousProps } = this;
     Object.assign(this, { element, props });
     for (const type of EVENTS) element.addEventListener(type, this);
-    if (!before && element.stats) this.catchUp(element, props);
+    if (!previousProps && element.stats) this.catchUp(element, props);
     for (const [name, attribute] of Object.entries(this.names.attributes)) {
       const text = this.text(name, props);
       // Attributes sent by the server are kept at first: the reader may have changed the figure since.
-      if (before ? text === this.text(name, before) : text === null || element.hasAttribute(attribute)) continue;
+      if (previousProps ? text === this.text(name, previousProps) : text === null || element.hasAttribute(attribute)) continue;
       if (text === null) element.removeAttribute(attribute);
       else element.setAttribute(attribute, text);
     }
-    for (const name of this.names.properties) if (differ(before?.[name], props[name])) element[name] = props[name];
+    for (const name of this.names.properties) if (areDifferent(previousProps?.[name], props[name])) element[name] = props[name];
   }
 
   /** Repeats events and properties for an element that the server sent: it was running before React attached the listeners. */
@@ -79,12 +79,12 @@ class Figure {
   }
 }
 
-function differ(one: unknown, other: unknown) {
+function areDifferent(one: unknown, other: unknown) {
   return one !== other && JSON.stringify(one) !== JSON.stringify(other);
 }
 
 export function component(displayName: string, tag: string, names: Names) {
-  const own = new Set([...Object.keys(names.attributes), ...names.properties, ...Object.values(HANDLERS)]);
+  const ownProps = new Set([...Object.keys(names.attributes), ...names.properties, ...Object.values(HANDLERS)]);
   const render = (props: Props, ref: import('react').ForwardedRef<unknown>) => {
     const element = useRef(null);
     const [figure] = useState(() => new Figure(names));
@@ -92,9 +92,9 @@ export function component(displayName: string, tag: string, names: Names) {
     useLayout(() => figure.say(element.current, props));
     useLayout(() => () => figure.leave(), [figure]);
     // React 18 does not know className of elements that HTML does not know.
-    const { className, ...others } = Object.fromEntries(Object.entries(props).filter(([name]) => !own.has(name)));
-    const sent = onServer ? Object.entries(names.attributes).map(([name, attribute]) => [attribute, figure.text(name, props)]) : [];
-    return createElement(tag, { ...others, ...Object.fromEntries(sent), class: className, ref: element, suppressHydrationWarning: true });
+    const { className, ...others } = Object.fromEntries(Object.entries(props).filter(([name]) => !ownProps.has(name)));
+    const texts = onServer ? Object.entries(names.attributes).map(([name, attribute]) => [attribute, figure.text(name, props)]) : [];
+    return createElement(tag, { ...others, ...Object.fromEntries(texts), class: className, ref: element, suppressHydrationWarning: true });
   };
   return Object.assign(forwardRef(render), { displayName });
 }

@@ -77,16 +77,16 @@ fn best_match(
     let correlations: Vec<f64> = (0..offset_count)
         .map(|offset| correlation(&odometry_turns, &reference_turns[offset..], min_pairs))
         .collect();
-    let (best, most) = correlations.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    if most < MIN_CORRELATION {
+    let (best, peak) = correlations.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    if peak < MIN_CORRELATION {
         return None;
     }
     // Vertex of the parabola through the best and its neighbours.
-    let correlation_at = |offset: usize| correlations.get(offset).copied().unwrap_or(most);
-    let (before, after) = (correlation_at(best.wrapping_sub(1)), correlation_at(best + 1));
-    let curvature = before - 2.0 * most + after;
-    let fraction = if curvature < 0.0 { 0.5 * (before - after) / curvature } else { 0.0 };
-    Some((from + (best as f64 + fraction) * step, most))
+    let correlation_at = |offset: usize| correlations.get(offset).copied().unwrap_or(peak);
+    let (before_peak, after_peak) = (correlation_at(best.wrapping_sub(1)), correlation_at(best + 1));
+    let curvature = before_peak - 2.0 * peak + after_peak;
+    let fraction = if curvature < 0.0 { 0.5 * (before_peak - after_peak) / curvature } else { 0.0 };
+    Some((from + (best as f64 + fraction) * step, peak))
 }
 
 /// Returns the turns (rad) from each of `count` evenly spaced times to the next. None before and after the trajectory, and across gaps.
@@ -111,8 +111,8 @@ fn turns(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Op
     let headings: Vec<Option<(usize, f64)>> =
         (0..=count).map(|i| heading_at(start + i as f64 * step)).collect();
     let turn_between = |pair: &[Option<(usize, f64)>]| {
-        let [(before, from), (after, to)] = [pair[0]?, pair[1]?];
-        (before == after).then_some(to - from)
+        let [(gaps_at_start, from), (gaps_at_end, to)] = [pair[0]?, pair[1]?];
+        (gaps_at_start == gaps_at_end).then_some(to - from)
     };
     headings.windows(2).map(turn_between).collect()
 }

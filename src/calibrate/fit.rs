@@ -64,19 +64,19 @@ impl Sample {
     }
 
     /// Returns all legs, or evenly spread blocks of neighbouring legs if there are more than [`MAX_LEGS`].
-    fn thinned(legs: &[Leg], estimated: ErrorMask, options: &Options) -> Self {
+    fn with_max_legs(legs: &[Leg], estimated: ErrorMask, options: &Options) -> Self {
         if legs.len() <= MAX_LEGS {
             return Self::new(legs.to_vec(), estimated, options);
         }
         let blocks = MAX_LEGS / LEGS_PER_BLOCK;
-        let mut thinned = Vec::with_capacity(MAX_LEGS);
+        let mut kept_legs = Vec::with_capacity(MAX_LEGS);
         for block in 0..blocks {
             let first_leg = block * (legs.len() - LEGS_PER_BLOCK) / (blocks - 1);
-            thinned.extend_from_slice(&legs[first_leg..first_leg + LEGS_PER_BLOCK]);
-            let start = thinned.len() - LEGS_PER_BLOCK;
-            thinned[start].follows = false;
+            kept_legs.extend_from_slice(&legs[first_leg..first_leg + LEGS_PER_BLOCK]);
+            let start = kept_legs.len() - LEGS_PER_BLOCK;
+            kept_legs[start].follows = false;
         }
-        Self::new(thinned, estimated, options)
+        Self::new(kept_legs, estimated, options)
     }
 
     fn observe(&mut self, corrected: &Systematic, position_std: f64) {
@@ -165,14 +165,14 @@ impl<'a> Log<'a> {
 
     /// Cuts all drives into legs. `clock_offset` (s) is the offset of the first drive.
     pub fn legs(&self, options: &Options, clock_offset: f64) -> (Vec<Leg>, LostLegs) {
-        let (mut all, mut lost) = (Vec::new(), LostLegs::default());
+        let (mut all, mut lost_legs) = (Vec::new(), LostLegs::default());
         for (index, drive) in self.drives.iter().enumerate() {
             let (offset, first_leg_of_drive) =
                 (clock_offset + self.offsets[index] - self.clock_offset(), all.len());
-            drive.cut_into_legs(options.legs, offset, &mut all, &mut lost);
+            drive.cut_into_legs(options.legs, offset, &mut all, &mut lost_legs);
             all[first_leg_of_drive..].iter_mut().for_each(|leg| leg.drive = index);
         }
-        (all, lost)
+        (all, lost_legs)
     }
 
     /// Moves the reference poses of a leg by a change of the clock offset. `clock_offset` is the new offset of the first drive. A leg that
@@ -192,7 +192,7 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
     if legs.len() < MIN_LEGS {
         return Err(CalibrateError::TooFewLegs { legs: legs.len() });
     }
-    let mut sample = Sample::thinned(&legs, [true; ERROR_COUNT], options);
+    let mut sample = Sample::with_max_legs(&legs, [true; ERROR_COUNT], options);
     let mut systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&sample.legs), ..initial };
     let mut parameters: Option<Parameters> = None;
     for round in 1.. {
@@ -202,18 +202,18 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
         let guess = parameters.unwrap_or_else(|| sample.initial_guess());
         sample.estimated =
             identifiable_errors(&sample.inlier_residuals(0..legs.len()).least_squares(&guess).information);
-        let gate = if parameters.is_some() { 1.0 } else { FIRST_ROUND_GATE_FACTOR };
-        let mut has_converged = !sample.mark_outliers(&guess, gate, round) && round > 1;
+        let gate_factor = if parameters.is_some() { 1.0 } else { FIRST_ROUND_GATE_FACTOR };
+        let mut has_converged = !sample.mark_outliers(&guess, gate_factor, round) && round > 1;
         let (residuals, maximum) = sample.fit(guess)?;
         let least_squares = &maximum.expansion.filtered.least_squares;
-        let previous = systematic;
+        let previous_errors = systematic;
         for (i, error) in SystematicError::ALL.into_iter().enumerate() {
             if sample.estimated[i] {
                 let max_change = 4.0 * error.identifiability_limit();
-                let change = -least_squares.errors[i];
+                let error_change = -least_squares.errors[i];
                 has_converged &=
-                    change.abs() <= CONVERGENCE_TOLERANCE * least_squares.covariance[(i, i)].sqrt();
-                *systematic.get_mut(error) += change.clamp(-max_change, max_change);
+                    error_change.abs() <= CONVERGENCE_TOLERANCE * least_squares.covariance[(i, i)].sqrt();
+                *systematic.get_mut(error) += error_change.clamp(-max_change, max_change);
             } else {
                 *systematic.get_mut(error) = initial.get(error);
             }
@@ -226,8 +226,8 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
             let stds = std::array::from_fn(std);
             return Ok(Fit { sample, residuals, maximum, stds });
         }
-        let change = systematic.clock_offset - previous.clock_offset;
-        sample.legs.iter_mut().for_each(|leg| log.realign(leg, systematic.clock_offset, change));
+        let offset_change = systematic.clock_offset - previous_errors.clock_offset;
+        sample.legs.iter_mut().for_each(|leg| log.realign(leg, systematic.clock_offset, offset_change));
         parameters = Some(maximum.parameters);
     }
     unreachable!("the last round returns")
@@ -242,7 +242,7 @@ pub(super) fn fit_corrected(
     start: &Parameters,
 ) -> Result<(Fit, Sample, LostLegs), CalibrateError> {
     let (legs, lost) = log.legs(options, corrected.clock_offset);
-    let mut sample = Sample::thinned(&legs, mask, options);
+    let mut sample = Sample::with_max_legs(&legs, mask, options);
     let mut parameters = *start;
     let mut last_fit = None;
     for round in 1..=MAX_ROUNDS {

@@ -190,17 +190,17 @@ impl Drive<'_> {
         let Self { odometry, reference } = *self;
         // Reading at which the present leg began, and its start if the reference has a pose there.
         let mut start: Option<((f64, SE2), Option<End>)> = None;
-        let (mut follows, mut paused) = (false, false);
+        let (mut follows_previous, mut pause_seen) = (false, false);
         for (sample, (time, pose)) in odometry.samples().enumerate() {
             if odometry.has_break_before(sample) && start.take().is_some() {
                 lost.across_breaks += 1;
             }
             let Some(((start_time, start_pose), start_end)) = start else {
                 start = Some(((time, pose), self.end_at(sample, clock_offset)));
-                (follows, paused) = (false, false);
+                (follows_previous, pause_seen) = (false, false);
                 continue;
             };
-            paused |= odometry.has_gap_before(sample);
+            pause_seen |= odometry.has_gap_before(sample);
             let is_complete = [start_pose, pose];
             if !length.is_complete(&is_complete, time - start_time) {
                 continue;
@@ -212,7 +212,7 @@ impl Drive<'_> {
                     || length.length_ratio(&is_complete, time - start_time) > MAX_RATIO_ACROSS_PAUSE
                 {
                     lost.without_reference += 1;
-                    (start, follows) = (Some(((time, pose), end_end)), false);
+                    (start, follows_previous) = (Some(((time, pose), end_end)), false);
                 }
                 continue;
             };
@@ -222,19 +222,19 @@ impl Drive<'_> {
             }
             start = Some(((time, pose), Some(to)));
             let (has_paused, did_follow) =
-                (std::mem::take(&mut paused), std::mem::replace(&mut follows, true));
+                (std::mem::take(&mut pause_seen), std::mem::replace(&mut follows_previous, true));
             let motion = from.odometry.between(&to.odometry);
             if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
                 lost.across_breaks += 1;
-                follows = false;
+                follows_previous = false;
             } else if has_paused
                 && length.length_ratio(&is_complete, time - start_time) > MAX_RATIO_ACROSS_PAUSE
             {
                 lost.across_pauses += 1;
-                follows = false;
+                follows_previous = false;
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
                 lost.standing += 1;
-                follows = false;
+                follows_previous = false;
             } else {
                 legs.push(Leg {
                     times: [from.time, to.time],
@@ -260,7 +260,7 @@ pub fn split_into_legs(
     length: LegLength,
     clock_offset: f64,
 ) -> (Vec<Leg>, LostLegs) {
-    let (mut legs, mut lost) = (Vec::new(), LostLegs::default());
-    Drive { odometry, reference }.cut_into_legs(length, clock_offset, &mut legs, &mut lost);
-    (legs, lost)
+    let (mut legs, mut lost_legs) = (Vec::new(), LostLegs::default());
+    Drive { odometry, reference }.cut_into_legs(length, clock_offset, &mut legs, &mut lost_legs);
+    (legs, lost_legs)
 }

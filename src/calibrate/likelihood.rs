@@ -242,16 +242,16 @@ impl Residuals {
         let error_variances = reference_variances(parameters);
         let (mut log_det, mut gram) = (0.0, Gram::ZERO);
         let initial_state = (JacobianAndResidual::ZERO, Matrix3::from_diagonal(&error_variances));
-        let (mut mean, mut prior) = initial_state;
+        let (mut mean, mut prior_cov) = initial_state;
         // A product is cheaper than as many logarithms.
         let mut det = 1.0;
         for (term, follows) in self.terms() {
             if !follows {
-                (mean, prior) = initial_state;
+                (mean, prior_cov) = initial_state;
             }
             let columns = term.columns.with_added(&mean.left_multiplied(&-term.start));
             let end_covariance = scaled_columns(&term.end, &error_variances);
-            let mut covariance = product(&product(&term.start, &prior), &term.start.transpose())
+            let mut covariance = product(&product(&term.start, &prior_cov), &term.start.transpose())
                 + product(&end_covariance, &term.end.transpose());
             let wheel_variances = self.model.wheel_variances(&term.coefficients, parameters);
             for k in 0..3 {
@@ -267,7 +267,7 @@ impl Residuals {
             let gain = product(&end_covariance.transpose(), &weight);
             gram.add_product(&columns, &columns.left_multiplied(&weight));
             mean = columns.left_multiplied(&gain);
-            prior = Matrix3::from_diagonal(&error_variances)
+            prior_cov = Matrix3::from_diagonal(&error_variances)
                 - scaled_columns(&product(&gain, &term.end), &error_variances);
             if let Some(all_innovations) = &mut innovations {
                 let variance = |k: usize| if term.observed[k] { covariance[(k, k)] } else { f64::NAN };
@@ -324,21 +324,21 @@ impl Residuals {
         let innovations = &expansion.filtered.innovations;
         for (i, ((term, follows), innovation)) in self.terms().zip(innovations).enumerate().rev() {
             let Innovation { columns, weight, gain, .. } = innovation;
-            let (mut solved, mut block) = (columns.left_multiplied(weight), *weight);
+            let (mut solved_columns, mut block) = (columns.left_multiplied(weight), *weight);
             let (mut at_end, mut end_block) = (JacobianAndResidual::ZERO, Matrix3::zeros());
             if let Some((next, next_block, start)) = &next_leg {
                 let carried_gain = product(start, gain);
                 at_end = next.left_multiplied(&start.transpose());
-                solved = solved.with_added(&at_end.left_multiplied(&-gain.transpose()));
+                solved_columns = solved_columns.with_added(&at_end.left_multiplied(&-gain.transpose()));
                 let off_diagonal = -product(next_block, &carried_gain);
                 block -= product(&carried_gain.transpose(), &off_diagonal);
                 let cross_block = product(&product(&start.transpose(), &off_diagonal), &term.end);
                 let start_product = product(&product(&start.transpose(), next_block), start);
                 end_block = start_product + cross_block + cross_block.transpose();
             }
-            at_end = at_end.with_added(&solved.left_multiplied(&term.end.transpose()));
+            at_end = at_end.with_added(&solved_columns.left_multiplied(&term.end.transpose()));
             end_block += product(&product(&term.end.transpose(), &block), &term.end);
-            let leg_projection = residual_without_errors(&solved, &errors);
+            let leg_projection = residual_without_errors(&solved_columns, &errors);
             let score = &mut expansion.scores[i];
             let mut add_to_score = |parameter: usize, factor: f64, square: f64, trace: f64| {
                 expansion.quadratic[parameter] += factor * square;
@@ -347,7 +347,7 @@ impl Residuals {
             };
             for component in 0..3 {
                 let trace = block[(component, component)]
-                    - estimated_covariance.quadratic_form(solved.matrix_row(component));
+                    - estimated_covariance.quadratic_form(solved_columns.matrix_row(component));
                 for (alpha, factor) in alphas[component].into_iter().zip(term.coefficients[component]) {
                     add_to_score(alpha, factor, leg_projection[component] * leg_projection[component], trace);
                 }
@@ -371,10 +371,10 @@ impl Residuals {
                 Vector3::zeros()
             } else {
                 let start_block = product(&product(&term.start.transpose(), &block), &term.start);
-                add_reference_error(&solved.left_multiplied(&term.start.transpose()), &start_block)
+                add_reference_error(&solved_columns.left_multiplied(&term.start.transpose()), &start_block)
             };
             projected_residuals[i] = [leg_projection, start, end];
-            next_leg = (follows && i > 0).then_some((solved, block, term.start));
+            next_leg = (follows && i > 0).then_some((solved_columns, block, term.start));
         }
         expansion.information = self.average_information(innovations, &projected_residuals, &covariance);
         expansion
@@ -455,21 +455,21 @@ fn masked_inverse(information: &ErrorMatrix, mask: &ErrorMask) -> (ErrorMatrix, 
 /// Returns the systematic errors that are identifiable. They are chosen one after the other, the one with the smallest standard error
 /// first. The choice ends when all other errors, estimated together with the chosen ones, have too large a standard error.
 pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
-    let (mut swept, mut chosen) = (*information, [false; ERROR_COUNT]);
+    let (mut swept_information, mut chosen_errors) = (*information, [false; ERROR_COUNT]);
     loop {
         let significance = |error: usize| {
             let error_limit = SystematicError::ALL[error].identifiability_limit();
-            swept[(error, error)] * error_limit * error_limit
+            swept_information[(error, error)] * error_limit * error_limit
         };
         let candidates =
-            (0..ERROR_COUNT).filter(|error| !chosen[*error]).map(|error| (error, significance(error)));
+            (0..ERROR_COUNT).filter(|error| !chosen_errors[*error]).map(|error| (error, significance(error)));
         let Some((pivot, _)) =
             candidates.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, known)| *known > 1.0)
         else {
-            return chosen;
+            return chosen_errors;
         };
-        chosen[pivot] = true;
-        sweep_variable(&mut swept, pivot);
+        chosen_errors[pivot] = true;
+        sweep_variable(&mut swept_information, pivot);
     }
 }
 

@@ -77,7 +77,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
         *corrected.get_mut(error) = errors.get(error);
     }
-    let (fit, all_legs, lost) =
+    let (fit, all_legs, lost_legs) =
         fit_corrected(&log, options, &corrected, is_corrected, &systematic.maximum.parameters)?;
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
@@ -94,7 +94,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let leg_fits = all_legs.leg_fits(parameters);
     let recommendation = windows::recommend(&fit, &all_legs, &identified_alphas);
     let inflation = recommendation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
-    let mut checks = checks::log_checks(&all_legs, &lost, &errors, inflation);
+    let mut checks = checks::log_checks(&all_legs, &lost_legs, &errors, inflation);
     checks.extend(scale_checks);
     checks.extend(checks::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
     checks.extend(recommendation.checks);
@@ -114,7 +114,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         legs: all_legs.legs,
         observations: all_legs.observations,
         leg_fits,
-        lost,
+        lost: lost_legs,
         diagnostics: Diagnostics { verdict, checks, windows: recommendation.windows },
         recommended: recommendation.recommended.filter(|_| verdict != Verdict::Unusable),
     })

@@ -40,15 +40,15 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask
                 break;
             }
         }
-        let (next, better) = accepted.unwrap_or_else(|| {
+        let (next, next_expansion) = accepted.unwrap_or_else(|| {
             let candidate = minorized_step(&parameters, &expansion, free);
             (candidate, residuals.expansion(residuals.filtered(&candidate)))
         });
-        let gain = better.log_likelihood() - expansion.log_likelihood();
+        let gain = next_expansion.log_likelihood() - expansion.log_likelihood();
         if gain <= 0.0 {
             break;
         }
-        (parameters, expansion) = (next, better);
+        (parameters, expansion) = (next, next_expansion);
         if gain < MIN_GAIN {
             break;
         }
@@ -66,19 +66,19 @@ fn scoring_step(parameters: &Parameters, expansion: &Expansion, free: &FreeMask)
     loop {
         let (factor, scale) = scaled_cholesky(information, &free_parameters, [1e-9, 1e-9])?;
         let gradient = DVector::from_fn(free_parameters.len(), |a, _| score[free_parameters[a]] / scale[a]);
-        let moves = factor.solve(&gradient);
+        let scaled_steps = factor.solve(&gradient);
         // A variance of 0 that would become negative stays 0, and the step of the others is computed without it.
-        if let Some(stuck) =
-            (0..free_parameters.len()).find(|a| parameters[free_parameters[*a]] == 0.0 && moves[*a] < 0.0)
+        if let Some(stuck) = (0..free_parameters.len())
+            .find(|a| parameters[free_parameters[*a]] == 0.0 && scaled_steps[*a] < 0.0)
         {
             free_parameters.remove(stuck);
             continue;
         }
-        if 0.5 * gradient.dot(&moves) < MIN_GAIN {
+        if 0.5 * gradient.dot(&scaled_steps) < MIN_GAIN {
             return None;
         }
         let mut step = Parameters::zeros();
-        free_parameters.iter().enumerate().for_each(|(a, j)| step[*j] = moves[a] / scale[a]);
+        free_parameters.iter().enumerate().for_each(|(a, j)| step[*j] = scaled_steps[a] / scale[a]);
         return Some(step);
     }
 }
@@ -120,11 +120,11 @@ impl Maximum {
         if let Some(place) = free_parameters.iter().position(|j| *j == parameter)
             && let Some((factor, scale)) = scaled_cholesky(information, &free_parameters, [1e-12, 0.0])
         {
-            let moves = factor.solve(&DVector::from_fn(scale.len(), |a, _| f64::from(u8::from(a == place))));
+            let steps = factor.solve(&DVector::from_fn(scale.len(), |a, _| f64::from(u8::from(a == place))));
             free_parameters
                 .iter()
                 .enumerate()
-                .for_each(|(a, j)| column[*j] = moves[a] / (scale[a] * scale[place]));
+                .for_each(|(a, j)| column[*j] = steps[a] / (scale[a] * scale[place]));
         }
         column
     }

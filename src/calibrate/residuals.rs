@@ -138,13 +138,13 @@ fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_li
     let turn_residual = wrap_angle(motion.theta() - rot1 - rot2);
     let (residuals, coefficients, lateral_coefficients) = if has_direction(read.trans, along_drive, is_linear)
     {
-        let (off, longer) = if is_linear {
+        let (dir_error, length_error) = if is_linear {
             (left / trans, along_drive - trans)
         } else {
             (libm::atan2(left, along_drive), libm::hypot(along_drive, left) - trans)
         };
         let across_row = RowVector3::new(-sin, cos, 0.0) / trans;
-        ([off, longer, wrap_angle(turn_residual - off)], [first, along, second], across_row)
+        ([dir_error, length_error, wrap_angle(turn_residual - dir_error)], [first, along, second], across_row)
     } else {
         let both_rotations = [first[0] + second[0], first[1] + second[1]];
         (

@@ -148,11 +148,11 @@ impl Trajectory {
 
     /// Returns the index of the sample nearest to a time (s). None if it is further away than half of the shortest pause.
     pub(super) fn nearest(&self, time: f64) -> Option<usize> {
-        let after = self.times.partition_point(|each| *each < time);
+        let next = self.times.partition_point(|each| *each < time);
         let time_distance =
             |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
-        let before = after.saturating_sub(1);
-        let nearest = if time_distance(before) < time_distance(after) { before } else { after };
+        let previous = next.saturating_sub(1);
+        let nearest = if time_distance(previous) < time_distance(next) { previous } else { next };
         (time_distance(nearest) <= 0.5 * MAX_PERIOD_RATIO * self.median_period).then_some(nearest)
     }
 

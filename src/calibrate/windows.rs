@@ -58,8 +58,8 @@ impl Sample {
             expected = expected * *expected_motion;
             driven_distance += distance(expected_motion);
             if driven_distance >= length {
-                let (seen, reference) = self.reference_motion(first, leg, parameters);
-                windows.push(Window { error: seen.boxminus(&expected), wheels, reference });
+                let (base_motion, reference) = self.reference_motion(first, leg, parameters);
+                windows.push(Window { error: base_motion.boxminus(&expected), wheels, reference });
                 first = leg + 1;
             }
         }
@@ -166,18 +166,18 @@ pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Reco
     let fit_parameters =
         |half: &Residuals| maximize(half, fit.maximum.parameters, &fit.maximum.free).parameters;
     let by_other_half = [fit_parameters(&residuals[1]), fit_parameters(&residuals[0])];
-    let (mut inside, mut compared_count) = (0, 0);
+    let (mut within_count, mut compared_count) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&by_other_half) {
         compared_count += residuals.len();
         let filtered = residuals.filtered(parameters);
-        inside += filtered
+        within_count += filtered
             .leg_fits()
             .filter(|fit| fit.observed() > 0 && fit.squared < CHI2_95[fit.observed() - 1])
             .count();
     }
     // Variances estimated from the 3n components of n legs have the relative variance 2/3n; several α's share them.
     let scale_std = (2.0 * alphas.len() as f64 / (3 * count / 2).max(1) as f64).sqrt();
-    let coverage_by_other_half = inside as f64 / compared_count as f64;
+    let coverage_by_other_half = within_count as f64 / compared_count as f64;
     let expected_coverage = coverage_range(compared_count, scale_std);
     let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected_coverage)];
     // Windows of the whole log, each under the fit to the other half.

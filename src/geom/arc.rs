@@ -129,14 +129,14 @@ impl Arc {
     /// Returns a box that holds the arc: least x, least y, greatest x, greatest y.
     pub fn bounding_box(&self) -> [f64; 4] {
         // No point of the arc is further from its middle than half its length, or than the diameter of its circle.
-        let middle = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
+        let middle_pose = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
         let diameter = if self.turn == 0.0 { f64::INFINITY } else { 2.0 * (self.length / self.turn).abs() };
         let max_distance = (0.5 * self.length.abs()).min(diameter);
         [
-            middle.x() - max_distance,
-            middle.y() - max_distance,
-            middle.x() + max_distance,
-            middle.y() + max_distance,
+            middle_pose.x() - max_distance,
+            middle_pose.y() - max_distance,
+            middle_pose.x() + max_distance,
+            middle_pose.y() + max_distance,
         ]
     }
 
@@ -289,20 +289,20 @@ impl ArcPiece {
         let (per_metre, curvature) =
             if length > MIN_LENGTH { (1.0 / (length * half_sinc), turn / length) } else { (0.0, 0.0) };
         let tangent = [(to[0] - from[0]) * per_metre, (to[1] - from[1]) * per_metre];
-        let half = 0.5 * length;
+        let half_length = 0.5 * length;
         let flat_course = Self {
             middle: [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])],
             tangent,
             curvature,
-            half_length: half,
+            half_length,
             error: 0.0,
         };
-        let [_, rise]: [f64; 2] = flat_course.local_point(half);
+        let [_, rise]: [f64; 2] = flat_course.local_point(half_length);
         let middle = [flat_course.middle[0] + rise * tangent[1], flat_course.middle[1] - rise * tangent[0]];
         let half_turn_squared = 0.25 * turn * turn;
         Self {
-            middle,
-            error: half * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
+            middle: middle,
+            error: half_length * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
             ..flat_course
         }
     }

@@ -63,9 +63,9 @@ impl Add for DoubleDouble {
     type Output = Self;
     /// Returns the sum, with a relative error of at most 2⁻¹⁰⁵.
     fn add(self, other: Self) -> Self {
-        let (sum, rest) = (two_sum(self.high, other.high), two_sum(self.low, other.low));
-        let sum = quick_two_sum(sum.high, sum.low + rest.high);
-        quick_two_sum(sum.high, sum.low + rest.low)
+        let (sum, low_sum) = (two_sum(self.high, other.high), two_sum(self.low, other.low));
+        let sum = quick_two_sum(sum.high, sum.low + low_sum.high);
+        quick_two_sum(sum.high, sum.low + low_sum.low)
     }
 }
 

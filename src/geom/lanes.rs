@@ -68,17 +68,17 @@ impl Trigonometry {
     #[inline(never)]
     pub fn any_circle(&self, x: f64x4) -> Circle {
         let half_circles = whole_half_circles(x);
-        let reduced = self.circle(without_half_circles(x, half_circles));
+        let reduced_circle = self.circle(without_half_circles(x, half_circles));
         // +1 or −1: rounded to an even number, an odd one is off by one.
         let parity = half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
         let sign = f64x4::splat(1.0) - 2.0 * parity.abs();
-        let (sin, cos) = (reduced.sin * sign, reduced.cos * sign);
-        let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(reduced.sinc, sin / x);
+        let (sin, cos) = (reduced_circle.sin * sign, reduced_circle.cos * sign);
+        let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(reduced_circle.sinc, sin / x);
         if !any_beyond(x, MAX_REDUCED) {
             return Circle { sinc, sin, cos };
         }
         let lane_by_lane = |of: f64x4, scalar: fn(f64) -> f64| {
-            lanes(|i| {
+            from_lanes(|i| {
                 let angle = x.to_array()[i];
                 if angle.abs() > MAX_REDUCED { scalar(angle) } else { of.to_array()[i] }
             })
@@ -105,7 +105,7 @@ impl Trigonometry {
         if any_beyond(half - near, MAX_REDUCED) {
             let by_scalar = |half: f64| near + 0.5 * wrap_angle(2.0 * (half - near));
             let is_far = (half - near).abs().simd_gt(f64x4::splat(MAX_REDUCED));
-            wrapped_half = is_far.bitselect(lanes(|i| by_scalar(half.to_array()[i])), wrapped_half);
+            wrapped_half = is_far.bitselect(from_lanes(|i| by_scalar(half.to_array()[i])), wrapped_half);
         }
         let Circle { sinc, sin, cos } = self.any_circle(wrapped_half);
         HalfTurn { half: wrapped_half, cotangent: cos / sinc, sinc, sin, cos }
@@ -146,8 +146,8 @@ pub(crate) fn halves(lanes: f64x4) -> [f64x2; 2] {
 }
 
 /// Returns a vector from a function of the lane's index.
-pub(crate) fn lanes(lane: impl FnMut(usize) -> f64) -> f64x4 {
-    f64x4::new(std::array::from_fn(lane))
+pub(crate) fn from_lanes(value_of_lane: impl FnMut(usize) -> f64) -> f64x4 {
+    f64x4::new(std::array::from_fn(value_of_lane))
 }
 
 /// Returns ln of positive normal numbers, operation for operation that of `libm::log` (FreeBSD's e_log.c, where the

@@ -81,8 +81,8 @@ impl SE2 {
     }
 
     fn log_of_turn(&self, turn: f64) -> Vector3<f64> {
-        let (half, diagonal) = (0.5 * turn, half_cotangent(turn));
-        Vector3::new(diagonal * self.x + half * self.y, diagonal * self.y - half * self.x, turn)
+        let (half_turn, diagonal) = (0.5 * turn, half_cotangent(turn));
+        Vector3::new(diagonal * self.x + half_turn * self.y, diagonal * self.y - half_turn * self.x, turn)
     }
 
     /// Returns x ⊞ τ = x · exp(τ): this pose moved by a twist in its own body frame (eq. 25).
@@ -133,9 +133,9 @@ impl SE2 {
     ///
     /// Entries have the accuracy of [`SE2::right_jacobian`] for |ω| ≤ π. They grow without bound towards |ω| = 2π.
     pub fn right_jacobian_inverse(twist: &Vector3<f64>) -> Matrix3<f64> {
-        let (x, y, half) = (twist.x, twist.y, 0.5 * twist.z);
+        let (x, y, half_turn) = (twist.x, twist.y, 0.5 * twist.z);
         let (k, g) = (half_cotangent(twist.z), cotangent_defect(twist.z));
-        Matrix3::new(k, -half, g * x + 0.5 * y, half, k, g * y - 0.5 * x, 0.0, 0.0, 1.0)
+        Matrix3::new(k, -half_turn, g * x + 0.5 * y, half_turn, k, g * y - 0.5 * x, 0.0, 0.0, 1.0)
     }
 }
 

@@ -156,8 +156,8 @@ impl PartMotion {
         unit_noise: &[f64x4; 3],
     ) -> impl Fn(usize) -> (SE2, DrivenArc) {
         let [length, turn, last] = self.executed(*unit_noise);
-        let (driven, last) = (from.drive_four(trigonometry, length, turn), last.to_array());
-        move |lane| with_last_turn(driven(lane), last[lane])
+        let (driven_arc, last) = (from.drive_four(trigonometry, length, turn), last.to_array());
+        move |lane| with_last_turn(driven_arc(lane), last[lane])
     }
 
     /// Returns the length (m) and turn of the arc, and the turn after it (rad): see [`VelocityModel::executed`].
@@ -233,15 +233,15 @@ impl MapConditioned<'_> {
     ) -> (Draw, bool) {
         let (steps, step) = self.parts(u);
         let draw_from = |from: &SE2, unit_noise| self.tester_of_part(step, from).judge(unit_noise);
-        let mut draw = draw_from(x, self.unit_noise(rng));
-        along(&draw.arc);
-        let mut path_free = draw.path.free;
+        let mut complete_draw = draw_from(x, self.unit_noise(rng));
+        along(&complete_draw.arc);
+        let mut path_free = complete_draw.path.free;
         for _ in 1..steps {
-            draw = draw_from(&draw.pose, self.unit_noise(rng));
-            along(&draw.arc);
-            path_free &= draw.path.free;
+            complete_draw = draw_from(&complete_draw.pose, self.unit_noise(rng));
+            along(&complete_draw.arc);
+            path_free &= complete_draw.path.free;
         }
-        (draw, path_free)
+        (complete_draw, path_free)
     }
 
     /// Returns the number of parts of a motion, and each of them.
@@ -268,8 +268,8 @@ impl MapConditioned<'_> {
     ) -> Result<SE2, NoAcceptedSample> {
         let (steps, step) = self.parts(u);
         (0..steps).try_fold(*x, |pose, _| {
-            let (pose, driven, end) = self.draw_until_accepted(&step, &PreparedPose::new(pose), rng, cost)?;
-            along(&driven, end);
+            let (pose, arc, end) = self.draw_until_accepted(&step, &PreparedPose::new(pose), rng, cost)?;
+            along(&arc, end);
             Ok(pose)
         })
     }
@@ -283,17 +283,17 @@ impl MapConditioned<'_> {
         cost: &mut Cost,
     ) -> Result<(SE2, DrivenArc, Verdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
-            let (end_pose, driven) = part.motion(from, self.unit_noise(rng));
-            let end_verdict = self.plan.point_free(driven.end, self.clearance);
-            let deciding = if self.sampler == Sampler::WholeArc {
-                self.plan.path_free(&driven, end_verdict, self.clearance)
+            let (end_pose, driven_arc) = part.motion(from, self.unit_noise(rng));
+            let end_verdict = self.plan.point_free(driven_arc.end, self.clearance);
+            let deciding_verdict = if self.sampler == Sampler::WholeArc {
+                self.plan.path_free(&driven_arc, end_verdict, self.clearance)
             } else {
                 end_verdict
             };
             cost.draws += 1;
-            cost.wall_tests += deciding.wall_tests;
-            if deciding.free {
-                return Ok((end_pose, driven, end_verdict));
+            cost.wall_tests += deciding_verdict.wall_tests;
+            if deciding_verdict.free {
+                return Ok((end_pose, driven_arc, end_verdict));
             }
         }
         Err(NoAcceptedSample(*cost))

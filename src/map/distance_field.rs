@@ -2,7 +2,7 @@
 
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::WallTree;
-use crate::geom::lanes::{ROUND_TO_INTEGER, lanes};
+use crate::geom::lanes::{ROUND_TO_INTEGER, from_lanes};
 use std::f64::consts::FRAC_1_SQRT_2;
 use wide::f64x4;
 
@@ -84,7 +84,7 @@ impl DistanceField {
         });
         // Adding this number to a small whole number puts that number into the last bits of the sum.
         let cells = (row * self.columns as f64 + column + ROUND_TO_INTEGER).to_array();
-        lanes(|i| {
+        from_lanes(|i| {
             f64::from(
                 self.lower_bounds.get(cells[i].to_bits() as u32 as usize).copied().unwrap_or(NOT_COMPUTED),
             )
@@ -140,9 +140,9 @@ impl FieldBuilder {
         let (width, height) = (right - left, top - bottom);
         let cell_count = (CELLS_PER_WALL * tree.count() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map could otherwise get more cells than that in a single row.
-        let side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
-        let [columns, rows] = [width, height].map(|length| (length / side).ceil() as usize + 1);
-        let radius = FRAC_1_SQRT_2 * side;
+        let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
+        let [columns, rows] = [width, height].map(|length| (length / cell_side).ceil() as usize + 1);
+        let radius = FRAC_1_SQRT_2 * cell_side;
         let candidates = if tree.is_leaf(1) {
             tree.distinct_walls(1).map(|wall| Candidate::Wall(wall as u32)).collect()
         } else {
@@ -153,7 +153,7 @@ impl FieldBuilder {
         Self {
             field: DistanceField {
                 corner: [left, bottom],
-                cells_per_metre: 1.0 / side,
+                cells_per_metre: 1.0 / cell_side,
                 columns,
                 last: [columns, rows].map(|count| count as f64 - 1.0),
                 radius,
@@ -161,7 +161,7 @@ impl FieldBuilder {
                 lower_bounds: vec![NOT_COMPUTED; columns * rows],
             },
             rows,
-            side,
+            side: cell_side,
             slack: rounding_bound(&bounds),
             near: candidates,
             blocks: vec![whole_block],

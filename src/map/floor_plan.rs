@@ -135,8 +135,8 @@ impl FloorPlan {
         if !bounds.iter().all(|bound| COORDINATE_RANGE.contains(bound))
             || !side_lengths.iter().all(|side| SIDE_RANGE.contains(side))
         {
-            let refused = if solid.is_some() { FloorPlanError::BadGrid } else { FloorPlanError::BadBounds };
-            return Err(refused(bounds));
+            let error = if solid.is_some() { FloorPlanError::BadGrid } else { FloorPlanError::BadBounds };
+            return Err(error(bounds));
         }
         if walls.len() > Self::MAX_WALLS {
             return Err(FloorPlanError::TooManyWalls(walls.len()));
@@ -201,8 +201,8 @@ impl FloorPlan {
     /// Tests whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the
     /// bounds.
     pub fn arc_free(&self, arc: &Arc, clearance: f64) -> Verdict {
-        let driven = PreparedPose::new(arc.start).drive(arc.length, arc.turn);
-        self.path_free(&driven, self.point_free(driven.end, clearance), clearance)
+        let driven_arc = PreparedPose::new(arc.start).drive(arc.length, arc.turn);
+        self.path_free(&driven_arc, self.point_free(driven_arc.end, clearance), clearance)
     }
 
     /// Tests an arc as [`FloorPlan::arc_free`] does, after its end was tested. The result includes the cost of that test.
@@ -350,21 +350,21 @@ impl Sweep<'_> {
     fn walls_keep_clear(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
         let local_arc = || self.unrolled.get_or_init(|| arc.local_arc());
-        let (near, touching) = (reach + clearance, (clearance - error).max(0.0));
+        let (outer, inner) = (reach + clearance, (clearance - error).max(0.0));
         self.plan.all_near_walls(
             middle,
-            near,
+            outer,
             &mut self.wall_tests,
             |node| {
-                node.is_beyond(middle, near)
+                node.is_beyond(middle, outer)
                     // Worth its cost only if the walls of the node are closer to one line than the part is long.
                     || node.thickness < reach
                         && node.line().distance_to_local_arc(local_arc()) - node.thickness > clearance
             },
             |wall| {
                 let squared_distance = wall.squared_distance_to_point(middle);
-                if squared_distance > near * near || squared_distance < touching * touching {
-                    return squared_distance > near * near;
+                if squared_distance > outer * outer || squared_distance < inner * inner {
+                    return squared_distance > outer * outer;
                 }
                 wall.distance_to_local_arc(local_arc()) > clearance
             },

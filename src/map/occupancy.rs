@@ -260,7 +260,7 @@ impl OccupancyGrid {
     /// A lower bound of their number, where there are more than `most`.
     pub fn outlines(&self, most: usize) -> Result<Vec<Segment>, usize> {
         let [columns, rows] = self.size();
-        let (mut sides, mut upright) = (Vec::new(), Vec::new());
+        let (mut walls, mut upright) = (Vec::new(), Vec::new());
         // An outline separates blocked cells from all others. `outline_starts` has, for each grid line between columns, the
         // row at which the current outline began.
         let mut outline_starts = vec![None; columns + 1];
@@ -275,7 +275,7 @@ impl OccupancyGrid {
                 let [is_here_blocked, is_below_blocked] =
                     [row_cells, row_below_cells].map(|row| self.is_blocked(row, column));
                 if let Some(from) = outline_end(&mut row_start, is_below_blocked != is_here_blocked, column) {
-                    sides.push(self.side([from, row], [column, row]));
+                    walls.push(self.side([from, row], [column, row]));
                 }
                 if let Some(began) =
                     outline_end(&mut outline_starts[column], was_left_different != is_here_blocked, row)
@@ -284,13 +284,13 @@ impl OccupancyGrid {
                 }
                 was_left_different = is_here_blocked;
             }
-            if sides.len() + upright.len() > most {
+            if walls.len() + upright.len() > most {
                 return Err(most + 1);
             }
         }
         upright.sort_unstable();
-        sides.extend(upright.into_iter().map(|[column, from, to]| self.side([column, from], [column, to])));
-        Ok(sides)
+        walls.extend(upright.into_iter().map(|[column, from, to]| self.side([column, from], [column, to])));
+        Ok(walls)
     }
 
     fn side(&self, from: [usize; 2], to: [usize; 2]) -> Segment {

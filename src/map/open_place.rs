@@ -40,8 +40,8 @@ impl<'a> SquareRaster<'a> {
         }
         let [left, bottom, right, top] = plan.bounds();
         let (width, height) = (right - left, top - bottom);
-        let side = width.max(height) / SQUARES_ALONG_SIDE;
-        let square_sides = [width, height].map(|length| side.min(length));
+        let longest_side = width.max(height) / SQUARES_ALONG_SIDE;
+        let square_sides = [width, height].map(|length| longest_side.min(length));
         let [columns, rows] = [width / square_sides[0], height / square_sides[1]].map(|count| count as usize);
         Self { plan, columns, rows, sides: square_sides }
     }
@@ -73,9 +73,9 @@ impl<'a> SquareRaster<'a> {
         if let Some(grid) = self.grid() {
             return grid.is_known_free(column, row);
         }
-        let middle = self.point([column as f64 + 0.5, row as f64 + 0.5]);
+        let square_middle = self.point([column as f64 + 0.5, row as f64 + 0.5]);
         let is_inside = column < self.columns && row < self.rows;
-        is_inside && self.plan.field().lower_bound(middle) > 0.75 * self.longer_side()
+        is_inside && self.plan.field().lower_bound(square_middle) > 0.75 * self.longer_side()
     }
 
     /// Returns the middle of the largest square of free ones, in squares from the lower left corner; None where none is

@@ -40,7 +40,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
     let height = reader.number("the height", 1, MAX_PIXELS / width)?;
     let max_value = reader.number("the greatest value", 1, 65_535)?;
     let pixel_count = width * height;
-    let coding = if is_plain {
+    let pixel_coding = if is_plain {
         let mut pixels = reader.clone();
         for _ in 0..pixel_count {
             pixels.number("a pixel", 0, max_value)?;
@@ -63,7 +63,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
     Ok(Image {
         width,
         height,
-        pixels: Shades { reader, remaining: pixel_count, greatest: max_value as u16, coding },
+        pixels: Shades { reader, remaining: pixel_count, greatest: max_value as u16, coding: pixel_coding },
     })
 }
 
@@ -177,12 +177,12 @@ impl<'a> Reader<'a> {
 
     fn error(&self, field: &'static str, token: &[u8], allowed: String) -> PgmError {
         // Other bytes may be pixels of another image format. A message cannot show them.
-        let printable = |byte: &u8| {
+        let printable_char = |byte: &u8| {
             if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
         };
         let mut value = String::from("missing");
         if !token.is_empty() {
-            let quoted: String = token.iter().take(MAX_QUOTED_CHARACTERS).map(printable).collect();
+            let quoted: String = token.iter().take(MAX_QUOTED_CHARACTERS).map(printable_char).collect();
             value = format!("\"{quoted}{}\"", if token.len() > MAX_QUOTED_CHARACTERS { "…" } else { "" });
         }
         PgmError { field, line: self.line, value, allowed }

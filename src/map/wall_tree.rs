@@ -67,15 +67,15 @@ impl WallTree {
     /// Sorts the walls of a node into two halves, one for each child. The sort key is the coordinate of [`sort_keys`] that varies
     /// most: x or y of the midpoint, or x or y of the direction.
     fn divide_in_half(&mut self, at: usize) {
-        let (range, middle) = (self.range(at), self.range(2 * at).end);
+        let (range, middle_index) = (self.range(at), self.range(2 * at).end);
         let walls = &mut self.walls[range.clone()];
-        let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
+        let mut key_ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
         for wall in &*walls {
-            for ([least, most], place) in ends.iter_mut().zip(sort_keys(wall)) {
-                (*least, *most) = (smaller(*least, place), larger(*most, place));
+            for ([least, most], place) in key_ranges.iter_mut().zip(sort_keys(wall)) {
+                (*least, *most) = (min_of(*least, place), max_of(*most, place));
             }
         }
-        let coordinate_ranges = ends.map(|[least, most]| most - least);
+        let coordinate_ranges = key_ranges.map(|[least, most]| most - least);
         let axis =
             (1..4).fold(
                 0,
@@ -83,7 +83,7 @@ impl WallTree {
                     if coordinate_ranges[axis] > coordinate_ranges[widest] { axis } else { widest }
                 },
             );
-        select_smallest(walls, middle - range.start, axis);
+        select_smallest(walls, middle_index - range.start, axis);
     }
 
     fn make_node(&self, at: usize) -> Node {
@@ -102,16 +102,16 @@ impl WallTree {
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
             for ([x, y], [back, right, front, left]) in candidate_axes.iter().zip(&mut axis_extents) {
                 let (along, off) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
-                (*back, *right) = (smaller(*back, along), smaller(*right, off));
-                (*front, *left) = (larger(*front, along), larger(*left, off));
+                (*back, *right) = (min_of(*back, along), min_of(*right, off));
+                (*front, *left) = (max_of(*front, along), max_of(*left, off));
             }
         }
         let mut narrowest_capsule = (f64::INFINITY, PreparedWall::AT_ORIGIN);
         for ([x, y], [back, right, front, left]) in candidate_axes.into_iter().zip(axis_extents) {
-            let (middle, width) = (0.5 * (right + left), left - right);
+            let (axis_offset, width) = (0.5 * (right + left), left - right);
             // The ends of a capsule are round, so that a capsule as wide as it is long is a disc.
             let cap_radius = (0.25 * width).min(0.5 * (front - back));
-            let point_at = |along: f64| [along * x - middle * y, along * y + middle * x];
+            let point_at = |along: f64| [along * x - axis_offset * y, along * y + axis_offset * x];
             if width < narrowest_capsule.0 {
                 narrowest_capsule = (
                     width,
@@ -124,8 +124,8 @@ impl WallTree {
         }
         let capsule_axis = narrowest_capsule.1;
         // No point of a wall is further from the capsule's axis than the further end of the wall.
-        let ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
-        let max_distance = ends.map(|end| capsule_axis.squared_distance(end)).fold(0.0, larger).sqrt();
+        let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
+        let max_distance = wall_ends.map(|end| capsule_axis.squared_distance(end)).fold(0.0, max_of).sqrt();
         Node {
             hull: capsule_axis,
             thickness: max_distance + self.slack,
@@ -200,8 +200,8 @@ impl Node {
     /// Returns true if no wall of the node comes within `reach` (m) of a point.
     #[inline(always)]
     pub fn is_beyond(&self, point: [f64; 2], reach: f64) -> bool {
-        let reach = reach + self.thickness;
-        self.hull.squared_distance(point) > reach * reach
+        let reach_of_hull = reach + self.thickness;
+        self.hull.squared_distance(point) > reach_of_hull * reach_of_hull
     }
 
     /// Returns a lower bound (m) on the distance from a point to the walls of the node.
@@ -285,12 +285,12 @@ const MAX_SELECTION_ROUNDS: usize = 64;
 
 /// Returns the smaller of two numbers, neither of which is NaN. `f64::min` and `f64::max` take several times as long.
 #[inline(always)]
-fn smaller(one: f64, other: f64) -> f64 {
+fn min_of(one: f64, other: f64) -> f64 {
     if other < one { other } else { one }
 }
 
 #[inline(always)]
-fn larger(one: f64, other: f64) -> f64 {
+fn max_of(one: f64, other: f64) -> f64 {
     if other > one { other } else { one }
 }
 

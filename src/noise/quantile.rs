@@ -2,7 +2,7 @@
 //! precision form PPND16.
 #![expect(clippy::excessive_precision, reason = "the digits as published")]
 
-use crate::geom::lanes::{LANES, any_lane_set, lanes, log};
+use crate::geom::lanes::{LANES, any_lane_set, from_lanes, log};
 use std::ops::{Add, Div, Mul};
 use wide::{bytemuck, f64x4};
 
@@ -55,7 +55,7 @@ fn normals_of_chunk(fours: &mut [f64x4]) {
     for (tails, places) in
         tail_numbers[..tail_count].chunks(LANES).zip(tail_indices[..tail_count].chunks(LANES))
     {
-        let tail_quantiles = tail_lanes(lanes(|lane| *tails.get(lane).unwrap_or(&0.45)));
+        let tail_quantiles = tail_lanes(from_lanes(|lane| *tails.get(lane).unwrap_or(&0.45)));
         for (place, quantile) in places.iter().zip(tail_quantiles.to_array()) {
             chunk_numbers[usize::from(*place)] = quantile;
         }

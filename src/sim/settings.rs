@@ -72,9 +72,9 @@ pub(crate) fn check_whole(
     value: f64,
     allowed: &RangeInclusive<u64>,
 ) -> Result<u64, SettingsError> {
-    let whole = value as u64;
-    if whole as f64 == value && allowed.contains(&whole) {
-        return Ok(whole);
+    let whole_number = value as u64;
+    if whole_number as f64 == value && allowed.contains(&whole_number) {
+        return Ok(whole_number);
     }
     Err(SettingsError { field: field.to_owned(), value, allowed: Allowed::Whole(allowed.clone()) })
 }

@@ -153,17 +153,17 @@ impl ExponentialContour {
             return f64::NAN;
         }
         // The sum of twice the areas of the triangles from the start to each chord. Motions in reverse have the other sign.
-        let (mut twice, mut before) = (0.0, [0.0; 2]);
+        let (mut doubled_area, mut previous_point) = (0.0, [0.0; 2]);
         for (i, (along, [x, y])) in self.outline(segments).enumerate() {
             let [x, y] = [x - self.start.x(), y - self.start.y()];
             if i > 0 {
-                let doubled_triangle = before[0] * y - before[1] * x;
-                twice += if along < 0.0 { -doubled_triangle } else { doubled_triangle };
+                let doubled_triangle = previous_point[0] * y - previous_point[1] * x;
+                doubled_area += if along < 0.0 { -doubled_triangle } else { doubled_triangle };
             }
-            before = [x, y];
+            previous_point = [x, y];
         }
         // A circle drawn as n chords has sinc(2π/n) times its area.
-        ellipse.area() * sinc(TAU / segments as f64) / (0.5 * twice.abs())
+        ellipse.area() * sinc(TAU / segments as f64) / (0.5 * doubled_area.abs())
     }
 
     /// Returns the coordinate of ξ along the track (m), and the position, of each point of the outline.

@@ -55,9 +55,9 @@ impl CrossTrack {
             let terms = [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, squared_distance, c];
             product_sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
         }
-        let [products @ .., spread, resultant] = product_sums.map(|sum| sum / pose_count);
+        let [products @ .., spread_squared, resultant] = product_sums.map(|sum| sum / pose_count);
         let (x, y) = (first.x() + x, first.y() + y);
-        let moments = TrackMoments { products, resultant, extent_squared: spread + (x * x + y * y) };
+        let moments = TrackMoments { products, resultant, extent_squared: spread_squared + (x * x + y * y) };
         Self::from_moments(poses.len(), &moments)
     }
 

@@ -86,10 +86,10 @@ impl PolarMotion {
         let (arc, ratio) = self.arc_moments();
         let mean_log_jacobians = [chart, mean_log_length + ratio - LN_2];
         let charts = ChartGaussians::new((plain.mean, plain.cov), twist, arc, mean_log_jacobians);
-        let [turn, by_bearing, after] = self.turn;
+        let [turn, by_bearing, turn_after] = self.turn;
         let one_if_short_of_circle =
             |turn: f64, reach: f64| if turn.abs() + reach < TAU { 1.0 } else { f64::NAN };
-        let pose_or_nan = one_if_short_of_circle(turn, self.integration_limit(by_bearing, after));
+        let pose_or_nan = one_if_short_of_circle(turn, self.integration_limit(by_bearing, turn_after));
         let floor_or_nan =
             one_if_short_of_circle(2.0 * bearing, self.integration_limit(2.0 * deviation, 0.0));
         let gain = charts.gain();
@@ -118,15 +118,15 @@ impl PolarMotion {
     /// Returns the moments of ξ, and the mean of ln sinc²(ξ_ω/2). A chord r on the bearing β with the final heading θ
     /// has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
     fn twist_moments(&self) -> (Moments, f64) {
-        let ([bearing, deviation], [turn, by_bearing, after]) = (self.bearing, self.turn);
-        let integration_limit = self.integration_limit(by_bearing, after);
+        let ([bearing, deviation], [turn, by_bearing, turn_after]) = (self.bearing, self.turn);
+        let integration_limit = self.integration_limit(by_bearing, turn_after);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
-        let last_turn_nodes = self.nodes(after, NO_BREAKS);
+        let last_turn_nodes = self.nodes(turn_after, NO_BREAKS);
         for first in self.nodes(deviation, NO_BREAKS) {
             let bearing = bearing + deviation * first.value;
             let chord = if self.is_arc { sinc(bearing) } else { 1.0 };
             for last in &last_turn_nodes {
-                let excess_turn = by_bearing * first.value + after * last.value;
+                let excess_turn = by_bearing * first.value + turn_after * last.value;
                 let weight = first.weight * last.weight;
                 if excess_turn.abs() > integration_limit {
                     continue;
@@ -146,14 +146,14 @@ impl PolarMotion {
     /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
     /// mean of ln|c·sinc²(φ/2)|, with c the length of that arc divided by the driven length.
     fn arc_moments(&self) -> (Moments, f64) {
-        let ([bearing, deviation], near) = (self.bearing, 0.5 * self.turn[0]);
+        let ([bearing, deviation], half_turn) = (self.bearing, 0.5 * self.turn[0]);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
         // Statistics of a cloud use the arc whose turn is nearest to the commanded one. That arc is driven in the opposite
         // direction if the bearing differs from half the commanded turn by more than π/2.
-        let reversal_breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (near + aside - bearing) / deviation);
+        let reversal_breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (half_turn + aside - bearing) / deviation);
         for node in self.nodes(deviation, reversal_breaks) {
             let driven_bearing = bearing + deviation * node.value;
-            let half_circles = ((driven_bearing - near) / PI).round();
+            let half_circles = ((driven_bearing - half_turn) / PI).round();
             let half_turn_of_arc = driven_bearing - half_circles * PI;
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
             let half_sinc = sinc(half_turn_of_arc);
@@ -213,12 +213,12 @@ fn normal_mean_log(m: f64) -> f64 {
         return libm::log(m) - inverse_square * (0.5 + inverse_square * (0.75 + inverse_square * 2.5));
     }
     let poisson_mean = 0.5 * m * m;
-    let (mut chance, mut digamma, mut sum) = (libm::exp(-poisson_mean), DIGAMMA_HALF, LN_2);
+    let (mut poisson_probability, mut digamma, mut sum) = (libm::exp(-poisson_mean), DIGAMMA_HALF, LN_2);
     // Terms up to twelve standard deviations or more beyond the Poisson mean, which is at most 450.
     for j in 0..720 {
         let j = f64::from(j);
-        sum += chance * digamma;
-        chance *= poisson_mean / (j + 1.0);
+        sum += poisson_probability * digamma;
+        poisson_probability *= poisson_mean / (j + 1.0);
         digamma += 1.0 / (j + 0.5);
     }
     0.5 * sum
@@ -229,11 +229,11 @@ fn normal_mean_log(m: f64) -> f64 {
 fn triangular_mean_log(m: f64, edge: f64) -> f64 {
     if edge < 0.5 * m {
         let ratio_squared = (edge / m) * (edge / m);
-        let (mut power, mut sum) = (1.0, libm::log(m));
+        let (mut ratio_power, mut sum) = (1.0, libm::log(m));
         for k in 1..=24 {
             let even_index = f64::from(2 * k);
-            power *= ratio_squared;
-            sum -= 2.0 * power / (even_index * (even_index + 1.0) * (even_index + 2.0));
+            ratio_power *= ratio_squared;
+            sum -= 2.0 * ratio_power / (even_index * (even_index + 1.0) * (even_index + 2.0));
         }
         return sum;
     }

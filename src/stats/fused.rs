@@ -283,7 +283,7 @@ impl SecondPass {
     ) -> CloudFigures {
         let n = count as f64;
         let means = self.sums.finish().map(|sum| sum / n);
-        let [products @ .., ta, inside, in_contour] = means;
+        let [products @ .., ta, inside_count, in_contour] = means;
         let [.., t, tt, td] = products;
         let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.spread;
         let (sin, cos) = self.heading;
@@ -321,7 +321,7 @@ impl SecondPass {
             cartesian: CartesianMoments { mean: Vector3::new(x, y, wrap_angle(self.spread.mean_turn)), cov },
             exponential: self.spread.exponential,
             cross_track: CrossTrack::from_moments(count, &track_moments),
-            inside_ellipse: fraction_or_nan(&self.ellipse, inside),
+            inside_ellipse: fraction_or_nan(&self.ellipse, inside_count),
             inside_exponential: fraction_or_nan(&self.twist_ellipse, in_contour),
             gain: differences.finish(count),
             log_area_error: differences.log_area_error(count),

@@ -119,10 +119,10 @@ impl Differences {
         let twist_distance = twist.squared_distances(&robots.twist)[2];
         let arc_distance = arc.squared_distances(&robots.arc)[1];
         let plain_log_volumes = [2, 1].map(|last| plain.log_volumes[last]);
-        let (bent, gains) = ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
+        let (bent_log_volumes, gains) = ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
         let distances = [plain_distances[2] - twist_distance, plain_distances[1] - arc_distance];
         for i in 0..2 {
-            let log_volume_difference = plain_log_volumes[i] - bent[i] - gains[i];
+            let log_volume_difference = plain_log_volumes[i] - bent_log_volumes[i] - gains[i];
             let differences =
                 (distances[i] * 0.5 - log(robots.jacobians[i]) + log_volume_difference) & has_robot;
             self.squares[i] += differences * differences * weights;

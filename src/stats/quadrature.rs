@@ -91,12 +91,12 @@ fn legendre_nodes(points: usize) -> Vec<Node> {
             let mut x = libm::cos(PI * (i as f64 + 0.75) / (n + 0.5));
             let mut slope = 1.0;
             for _ in 0..4 {
-                let (mut before, mut value) = (1.0, x);
+                let (mut previous, mut value) = (1.0, x);
                 for k in 2..=points {
                     let k = k as f64;
-                    (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+                    (previous, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k);
                 }
-                slope = n * (x * value - before) / (x * x - 1.0);
+                slope = n * (x * value - previous) / (x * x - 1.0);
                 x -= value / slope;
             }
             Node { value: x, weight: 2.0 / ((1.0 - x * x) * slope * slope) }

@@ -14,8 +14,8 @@ pub struct Sums<const N: usize> {
 
 impl<const N: usize> Sums<N> {
     pub fn new() -> Self {
-        let zero = [f64x2::splat(0.0); N];
-        Self { block: zero, total: zero, compensation: zero }
+        let zero_sums = [f64x2::splat(0.0); N];
+        Self { block: zero_sums, total: zero_sums, compensation: zero_sums }
     }
 
     pub fn close_block(&mut self) {

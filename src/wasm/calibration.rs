@@ -230,7 +230,7 @@ pub fn columns_to_js(calibration: &Calibration) -> JsValue {
     let room = |width: usize| Vec::with_capacity(width * legs.len());
     let [mut times, mut odometry, mut reference] = [2, 6, 6].map(room);
     let [mut readings, mut residuals, mut standardized, mut stds] = [3; 4].map(room);
-    let [mut squared, mut outliers] = [1; 2].map(room);
+    let [mut squared_distances, mut outliers] = [1; 2].map(room);
     let base = corrected.base();
     for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
         times.extend_from_slice(&leg.times);
@@ -242,7 +242,7 @@ pub fn columns_to_js(calibration: &Calibration) -> JsValue {
         residuals.extend_from_slice(&observation.residuals);
         standardized.extend_from_slice(&fit.standardized);
         stds.extend_from_slice(&fit.stds);
-        squared.push(fit.squared);
+        squared_distances.push(fit.squared);
         outliers.push(f64::from(u8::from(fit.is_outlier)));
     }
     js_object(&[
@@ -254,7 +254,7 @@ pub fn columns_to_js(calibration: &Calibration) -> JsValue {
         ("residuals", float_array(&residuals)),
         ("standardized", float_array(&standardized)),
         ("stds", float_array(&stds)),
-        ("squared", float_array(&squared)),
+        ("squared", float_array(&squared_distances)),
         ("outliers", float_array(&outliers)),
     ])
 }

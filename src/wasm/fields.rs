@@ -32,9 +32,9 @@ impl<'a> Fields<'a> {
         }
         for key in Reflect::own_keys(object)?.iter().filter_map(|key| key.as_string()) {
             if !known.contains(&key.as_str()) {
-                let (key, known) = (shorten(&key), known.join(", "));
+                let (key, keys) = (shorten(&key), known.join(", "));
                 return Err(
-                    TypeError::new(&format!("{prefix}{key} is an unknown key; allowed are {known}")).into()
+                    TypeError::new(&format!("{prefix}{key} is an unknown key; allowed are {keys}")).into()
                 );
             }
         }
@@ -161,21 +161,21 @@ pub fn read_opening<S: Rules>(options: &JsValue) -> Result<S, JsValue> {
 /// Returns the current settings with the values in `options`. The simulation checks ranges of doubles.
 pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = Fields::new("options", "", options, S::KEYS)?;
-    let (mut settings, mut named) = (*present, Vec::new());
+    let (mut settings, mut given_keys) = (*present, Vec::new());
     settings.try_each(|declaration, setting| {
         let key = declaration.key;
         let value = fields.value(key)?;
         if value.is_undefined() {
             return Ok(());
         }
-        if let Some(original) = declaration.of.filter(|original| named.contains(original)) {
+        if let Some(original) = declaration.of.filter(|original| given_keys.contains(original)) {
             let message = format!("{key} is given beside {original}; allowed is one of the two");
             return Err(TypeError::new(&message).into());
         }
-        named.push(key);
+        given_keys.push(key);
         read_setting(key, &value, setting)
     })?;
-    settings.settle(present, &named);
+    settings.settle(present, &given_keys);
     Ok(settings)
 }
 

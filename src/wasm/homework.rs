@@ -233,7 +233,7 @@ pub fn propagate(
     let sigma = fields.optional("sigma", read_covariance)?.unwrap_or_default();
     let command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
-    let order = fields.optional("compounding", read_word)?.unwrap_or(Compounding::Chapter);
+    let recursion_order = fields.optional("compounding", read_word)?.unwrap_or(Compounding::Chapter);
     let steps = fields
         .optional("steps", |field, value| read_integer(field, read_number(field, value)?, 1..=MAX_STEPS))?
         .unwrap_or(1);
@@ -243,9 +243,9 @@ pub fn propagate(
     let twist = TangentNoiseModel::twist(&command);
     let mut last_sigma = sigma;
     for step in 0..steps {
-        last_sigma = read_noise.propagate(&last_sigma, &twist, order);
+        last_sigma = read_noise.propagate(&last_sigma, &twist, recursion_order);
         // The other two methods give sums of covariances, up to rounding.
-        if order == Compounding::FourthOrder && covariance_root(&last_sigma).is_err() {
+        if recursion_order == Compounding::FourthOrder && covariance_root(&last_sigma).is_err() {
             let message = format!(
                 "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
             );
@@ -389,12 +389,12 @@ fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue
         let row = read_quantities(&format!("{field}[{i}]"), &array_item(value, i)?)?;
         matrix.set_row(i, &Vector3::from(row).transpose());
     }
-    let refusal = match covariance_root(&matrix) {
+    let refusal_reason = match covariance_root(&matrix) {
         Ok(_) => return Ok(matrix),
         Err(TangentNoiseError::NotSymmetric) => "it differs from its transpose",
         Err(_) => "some direction has a negative variance",
     };
-    Err(RangeError::new(&format!("{field} is no covariance: {refusal}; allowed are {allowed}")).into())
+    Err(RangeError::new(&format!("{field} is no covariance: {refusal_reason}; allowed are {allowed}")).into())
 }
 
 fn pose_to_js(pose: SE2) -> JsValue {

@@ -116,20 +116,20 @@ fn checked_trajectory(
     trajectory: Result<Trajectory, TrajectoryError>,
 ) -> Result<Trajectory, JsValue> {
     let trajectory = trajectory.map_err(|error| {
-        let (sample, what) = match error {
+        let (sample, problem) = match error {
             TrajectoryError::NotFinite { sample } => (
                 sample,
                 "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned(),
             ),
             TrajectoryError::NotLater { sample, before } => {
-                let before = number_text(before);
+                let earlier = number_text(before);
                 let what =
-                    format!("is not later than the one before, at {before} s; allowed are times that rise");
+                    format!("is not later than the one before, at {earlier} s; allowed are times that rise");
                 (sample, what)
             }
         };
         let field = fields.path("");
-        JsValue::from(RangeError::new(&format!("{}: sample {sample} {what}", field.trim_end_matches('.'))))
+        JsValue::from(RangeError::new(&format!("{}: sample {sample} {problem}", field.trim_end_matches('.'))))
     })?;
     with_stated_breaks(fields, trajectory)
 }

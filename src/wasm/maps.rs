@@ -78,8 +78,8 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(defaults.occupied_thresh);
     let free_thresh = threshold("free_thresh")?;
     if let Some(free) = free_thresh.filter(|free| *free > occupied_thresh) {
-        let [free, limit] = [free, occupied_thresh].map(number_text);
-        let message = format!("free_thresh is {free}; allowed is at most occupied_thresh, {limit}");
+        let [free_text, limit_text] = [free, occupied_thresh].map(number_text);
+        let message = format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
         return Err(RangeError::new(&message).into());
     }
     let mode = fields.optional("mode", read_word)?.unwrap_or(defaults.mode);

@@ -52,9 +52,9 @@ pub fn read_ramps<const RAMP_COUNT: usize>(field: &str, bytes: &[u8]) -> Result<
     let mut ramps = [[[0; 4]; RAMP_STEPS]; RAMP_COUNT];
     let ramp_bytes = ramps.as_flattened_mut().as_flattened_mut();
     if bytes.len() != ramp_bytes.len() {
-        let (length, wanted) = (bytes.len(), ramp_bytes.len());
+        let (length, expected_length) = (bytes.len(), ramp_bytes.len());
         let message = format!(
-            "{field} has length {length}; allowed is a Uint8Array of {wanted} bytes, {} colours of four",
+            "{field} has length {length}; allowed is a Uint8Array of {expected_length} bytes, {} colours of four",
             RAMP_STEPS * RAMP_COUNT
         );
         return Err(RangeError::new(&message).into());

@@ -9,7 +9,7 @@ import { readFileSync } from 'node:fs';
 import { deflateRawSync, gunzipSync } from 'node:zlib';
 import { load } from '../../dist/core.js';
 import { attributesIn, propertiesOf } from '../../www/figure/attributes.ts';
-import { pack, unpack } from '../../www/figure/packing.ts';
+import { packJson, unpack } from '../../www/figure/packing.ts';
 import { settings } from '../../www/settings.js';
 import { LogError } from '../../www/logs/log-error.ts';
 import { openRecordings } from '../../www/logs/open.ts';
@@ -190,7 +190,7 @@ export const targets = {
     },
   }])),
   link: {
-    corpus: [...texts(...(await Promise.all(states().map(pack)))), ...texts(...states().map((state) => JSON.stringify(state)))],
+    corpus: [...texts(...(await Promise.all(states().map(packJson)))), ...texts(...states().map((state) => JSON.stringify(state)))],
     async run(bytes) {
       const text = bytes.length % 2 ? deflateRawSync(bytes, STORED).toString('base64url') : bytes.toString('latin1');
       try {

@@ -15,7 +15,7 @@ import { reportText } from '../../www/cli/report.ts';
 import { run } from '../../www/cli/run.ts';
 import { warningsOf } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
-import { speak } from '../../www/messages/registry.ts';
+import { useLanguageOf } from '../../www/messages/registry.ts';
 import { judgementOf } from '../../www/widgets/alpha-calibrator/words.ts';
 import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
 
@@ -364,7 +364,7 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
 });
 
 test('the report, the lines for Nav2 and the figure’s verdict agree whether the reference is a localizer’s', async () => {
-  speak(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }) }));
+  useLanguageOf(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }) }));
   for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
     const args = [...FILES.slice(0, 3), file(`${name}.csv`, readFileSync(example('reference')))];
     const [{ out }, { out: json }] = [await outputOf(args), await outputOf([...args, '--json'])];

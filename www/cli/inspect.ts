@@ -7,7 +7,7 @@ import { LogError, cut } from '../logs/log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { summarySentences } from '../logs/summary.ts';
 import { optionAdvice, shellQuoted } from './advice.ts';
-import { aligned } from './report.ts';
+import { alignRows } from './report.ts';
 
 const FORMAT_NAMES: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
 
@@ -66,7 +66,7 @@ export function inspectionText({ recordings, missing, command }: Inspected): str
   const contentLines = recordings.flatMap(({ name, format, series, refused }) => {
     const tableRows = series.map(({ name: its, type, rows: count, uses, summary }) => [its || '(all columns)', isTable({ format }) ? cut(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
     const summaryLines = series.flatMap(({ name: its, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : its ? `${its}: ${line}` : line)));
-    return [`${name}: ${FORMAT_NAMES[format] ?? format}`, ...[...aligned([[isTable({ format }) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...tableRows]), ...summaryLines].map((line) => `  ${line}`), ...refused];
+    return [`${name}: ${FORMAT_NAMES[format] ?? format}`, ...[...alignRows([[isTable({ format }) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...tableRows]), ...summaryLines].map((line) => `  ${line}`), ...refused];
   });
   return [...contentLines, ...(missing ? [missing] : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
 }

@@ -204,8 +204,8 @@ const listOfAlternatives = (names: readonly string[]) => new Intl.ListFormat('en
 /** Returns true for systematic errors that are corrected, and false for those that are not. Single names override `all`. */
 function corrections(left?: string, corrected?: string): Record<string, boolean> | undefined {
   const nameLists = [errorNames('no-correct', left), errorNames('correct', corrected)];
-  const [all, single] = [true, false].map((isAll) => nameLists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
-  const entries = [...all.flatMap(([, is]) => SYSTEMATIC_ERRORS.map((name) => [name, is] as const)), ...single];
+  const [all, singleNames] = [true, false].map((isAll) => nameLists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
+  const entries = [...all.flatMap(([, is]) => SYSTEMATIC_ERRORS.map((name) => [name, is] as const)), ...singleNames];
   return entries.length ? Object.fromEntries(entries) : undefined;
 }
 
@@ -249,7 +249,7 @@ function nearestOptions(name: string): string {
 
 function parseFrames(name: string, value: string | undefined): Frames | undefined {
   if (value === undefined) return undefined;
-  const [parent, child, ...more] = value.split(',').map((each) => each.trim());
-  if (parent && child && more.length === 0) return { parent, child };
+  const [parent, child, ...excessNames] = value.split(',').map((each) => each.trim());
+  if (parent && child && excessNames.length === 0) return { parent, child };
   throw new UsageError(`--${name} must be a parent and a child frame, as in map,base_link (got “${cut(value)}”).`);
 }

@@ -65,13 +65,13 @@ export function reportText({ calibration, options, logs, start, begins, date }: 
     '',
     ...alphaTable(calibration, model),
     '',
-    ...aligned([['', 'value', '95 %', ''], ...noiseRows(calibration, options), ...SYSTEMATIC_ROWS.map((each) => systematicRow(each, calibration)), persistenceRow(calibration)]),
+    ...alignRows([['', 'value', '95 %', ''], ...noiseRows(calibration, options), ...SYSTEMATIC_ROWS.map((each) => systematicRow(each, calibration)), persistenceRow(calibration)]),
     '',
-    ...aligned([['check', 'value', 'expected', ''], ...checks.map(checkRow)]),
+    ...alignRows([['check', 'value', 'expected', ''], ...checks.map(checkRow)]),
     ...failedChecks.map(({ name, message }) => `${name}: ${message}`),
     '',
     ...(excludedLegs.length ? [...excludedLegs, ''] : []),
-    ...aligned([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windows.map(windowRow)]),
+    ...alignRows([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windows.map(windowRow)]),
     '',
     ...nav2Section({ calibration, options, logs, start, begins, date }),
     '',
@@ -124,7 +124,7 @@ function alphaTable({ alphas, intervals, notIdentifiable, recommended, diagnosti
     const { lack, drive } = adviceOf(lacking, model, reason);
     return alphaNames.length ? [`${new Intl.ListFormat('en').format(alphaNames)} not identifiable: ${lack}; ${drive}`] : [];
   });
-  return [...aligned([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...advice, ...(recommended ? [recommended.reason] : [])];
+  return [...alignRows([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...advice, ...(recommended ? [recommended.reason] : [])];
 }
 
 function noiseRows({ referenceNoise }: any, options: CalibrationResult['options']): string[][] {
@@ -190,7 +190,7 @@ export function nav2Yaml({ calibration, options: { model = 'odometry', rule = 't
 }
 
 /** Aligns the columns of a table. */
-export function aligned(rows: string[][]): string[] {
+export function alignRows(rows: string[][]): string[] {
   const columnWidths = rows[0].map((_, column) => Math.max(...rows.map((row) => (row[column] ?? '').length)));
   return rows.map((row) => row.map((cell, column) => cell.padEnd(columnWidths[column])).join('  ').trimEnd());
 }

@@ -30,12 +30,12 @@ export class Colours extends FigureController {
     const style = this.#find('.surface')?.style;
     if (!style) return;
     const { renderer: { printing }, theme } = this.host;
-    const { scheme, ...around } = surroundings(this.#find('.scheme-probe'));
+    const { scheme, ...pageColours } = surroundings(this.#find('.scheme-probe'));
     // Forced colours override the theme.
     const isAuto = theme === 'auto' || matchMedia('(forced-colors: active)').matches;
     style.colorScheme = printing ? 'light' : isAuto ? scheme : theme;
     const isOwnTheme = printing || style.colorScheme !== scheme;
-    for (const [name, colour] of Object.entries(around)) style.setProperty(`--${name}`, isOwnTheme ? '' : colour);
+    for (const [name, colour] of Object.entries(pageColours)) style.setProperty(`--${name}`, isOwnTheme ? '' : colour);
     style.setProperty('--back', isOwnTheme ? 'var(--paper)' : '');
     // Colours that the page sets for its background do not fit the figure's own.
     for (const role of ['muted', 'rule']) style.setProperty(`--mw-${role}`, isOwnTheme ? 'initial' : '');
@@ -76,15 +76,15 @@ function surroundings(probe: Element): Surroundings {
   const textColour = colourChannels(color);
   const isDarkByDefault = colorScheme === 'normal' && lightness(textColour) > 0.5;
   const ancestorBackgrounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
-  const ground = colourChannels(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvas].reverse());
-  const backgroundLightness = lightness(ground);
-  const isLegible = contrast(textColour, ground) >= MIN_CONTRAST;
+  const backColour = colourChannels(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvas].reverse());
+  const backgroundLightness = lightness(backColour);
+  const isLegible = contrast(textColour, backColour) >= MIN_CONTRAST;
   const scheme = backgroundLightness < (isLegible ? lightness(textColour) : 0.5) ? 'dark' : 'light';
   // The darkening grows with the darkness of the background. Nearly white backgrounds need none.
   const darkening = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
-  const mutedText = (share: number) => ground.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
-  const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrast(mutedText(share), ground) >= MIN_CONTRAST) ?? 100}%` : '';
-  return { ground: `rgb(${ground})`, text: isLegible ? color : '', shade: darkening, strength: mutedStrength, scheme };
+  const mutedText = (share: number) => backColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
+  const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrast(mutedText(share), backColour) >= MIN_CONTRAST) ?? 100}%` : '';
+  return { ground: `rgb(${backColour})`, text: isLegible ? color : '', shade: darkening, strength: mutedStrength, scheme };
 }
 
 /** Returns the contrast by WCAG 2. */

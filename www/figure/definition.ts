@@ -72,7 +72,7 @@ export function definitionOf(tag: string, { lines, opening = Object.keys(lines),
 }
 
 /** Returns a value for a field of the state of the element after a check; throws a TypeError or RangeError if it is invalid. */
-export function validated({ converter, words = [], min = -Infinity, max = Infinity, check }: ElementField, field: string, value: unknown, selectableCount: number) {
+export function validatedValue({ converter, words = [], min = -Infinity, max = Infinity, check }: ElementField, field: string, value: unknown, selectableCount: number) {
   if (check) return check(field, value, selectableCount);
   if (converter === NUMBER_CONVERTER) return numberWithin(field, value, min, max);
   return converter === WORD_LIST_CONVERTER ? checkedSubset(field, value, words) : checkedWord(field, value, words);

@@ -2,7 +2,7 @@
 
 import { LitElement, type CSSResultGroup } from 'lit';
 import { en } from '../messages/en.ts';
-import { addEnglish, speak, words } from '../messages/registry.ts';
+import { addEnglish, useLanguageOf, words } from '../messages/registry.ts';
 import { layoutStyles } from '../ui/layout.ts';
 import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
@@ -189,7 +189,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   refresh() {
     const { machine } = this;
     if (!machine) return;
-    speak(this);
+    useLanguageOf(this);
     this.cloud?.unmark();
     this.reading = this.read(machine);
     this.settings.stale = false;
@@ -206,7 +206,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   /** Reading of the machine after all pending changes are applied. */
   get currentReading(): Reading {
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
-    speak(this);
+    useLanguageOf(this);
     this.settings.settle();
     if (this.settings.stale) this.refresh();
     return this.reading;

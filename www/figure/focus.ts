@@ -16,19 +16,19 @@ export class Focus extends FigureController {
 
   hostUpdate() {
     this.#held = [];
-    const control = (this.host.renderRoot as ShadowRoot | undefined)?.activeElement;
+    const focusedControl = (this.host.renderRoot as ShadowRoot | undefined)?.activeElement;
     // The placeholder moves the focus itself.
-    if (!control || control.matches('.reserved')) return;
-    for (let at = control as Element | null; at; at = at.parentElement) this.#held.push(at);
+    if (!focusedControl || focusedControl.matches('.reserved')) return;
+    for (let at = focusedControl as Element | null; at; at = at.parentElement) this.#held.push(at);
   }
 
   hostUpdated() {
-    const [control, ...around] = this.#held;
-    if (!control || (control.isConnected && control.checkVisibility() && !control.matches(':disabled'))) return;
-    for (const each of around) {
-      const [stop] = each.isConnected ? focusableIn(each) : [];
-      if (!stop) continue;
-      stop.focus({ preventScroll: true });
+    const [heldControl, ...ancestors] = this.#held;
+    if (!heldControl || (heldControl.isConnected && heldControl.checkVisibility() && !heldControl.matches(':disabled'))) return;
+    for (const each of ancestors) {
+      const [nextControl] = each.isConnected ? focusableIn(each) : [];
+      if (!nextControl) continue;
+      nextControl.focus({ preventScroll: true });
       return;
     }
   }

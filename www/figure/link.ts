@@ -3,7 +3,7 @@
  * A figure opens its part and keeps it up to date; with `share`, it adds one.
  */
 
-import { pack, unpack } from './packing.ts';
+import { packJson, unpack } from './packing.ts';
 import { FigureController } from './controller.ts';
 
 export class Link extends FigureController {
@@ -77,7 +77,7 @@ export class Link extends FigureController {
   }
 
   #pack() {
-    return pack(this.host.getState() ?? {});
+    return packJson(this.host.getState() ?? {});
   }
 }
 

@@ -6,7 +6,7 @@ import { refusalError } from './checks.ts';
 const MAX_BYTES = 12_000_000;
 
 /** Returns compressed data as letters, digits, - and _. */
-export async function pack(data: object): Promise<string> {
+export async function packJson(data: object): Promise<string> {
   const compressed = new Blob([JSON.stringify(data)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
   const compressedBytes = new Uint8Array(await new Response(compressed).arrayBuffer());
   return toBase64(compressedBytes).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');

@@ -173,10 +173,10 @@ export class Reflection extends FigureController {
   }
 
   #write(texts: AttributeTexts) {
-    const written = this.#written;
+    const writtenTexts = this.#written;
     this.#written = texts;
-    if (!written) return;
-    const changedNames = new Set([...texts.keys()].filter((name) => texts.get(name) !== written.get(name)));
+    if (!writtenTexts) return;
+    const changedNames = new Set([...texts.keys()].filter((name) => texts.get(name) !== writtenTexts.get(name)));
     for (const [name, { covers }] of Object.entries(this.#attributes)) {
       if (!covers || texts.get(name) !== null || !changedNames.has(name)) continue;
       const defaultTexts = this.#textsOf(this.#defaultConfig);

@@ -161,9 +161,9 @@ export class Renderer extends FigureController {
     }
     host.placeHandles(scene);
     const now = performance.now();
-    const since = this.#textPendingSince;
+    const pendingSince = this.#textPendingSince;
     // The first picture is drawn without text.
-    if (this.opening ? since : !this.#resizing && (now - beganAt < MAX_SAME_FRAME_MS || now - (since ?? now) > MAX_TEXT_DELAY_MS)) this.#renderText();
+    if (this.opening ? pendingSince : !this.#resizing && (now - beganAt < MAX_SAME_FRAME_MS || now - (pendingSince ?? now) > MAX_TEXT_DELAY_MS)) this.#renderText();
     else {
       this.#textPendingSince ??= beganAt;
       this.#schedule();

@@ -19,11 +19,11 @@ const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
 /** Returns the height for any width as a CSS maximum over the classes. Outside of its class, a term is hugely negative. */
 function heightCss(tag: string, unit: '%' | 'cqi') {
   const heightTerms = HEIGHTS_EM[tag].map((height, i, { length }) => {
-    const [least, next] = [CLASS_WIDTHS_EM[i], CLASS_WIDTHS_EM[i + 1]];
-    const width = `min(100${unit},${next}em)`;
-    const interpolated = (from: number, to: number) => `${from}em + ${((to - from) / (next - least)).toFixed(3)}*(${width} - ${least}em)`;
-    const penaltyBelow = i > 0 ? ` - 1e6*max(0em,${least}em - 100${unit})` : '';
-    const penaltyAbove = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${next - 0.001}em)`;
+    const [fromEm, toEm] = [CLASS_WIDTHS_EM[i], CLASS_WIDTHS_EM[i + 1]];
+    const width = `min(100${unit},${toEm}em)`;
+    const interpolated = (from: number, to: number) => `${from}em + ${((to - from) / (toEm - fromEm)).toFixed(3)}*(${width} - ${fromEm}em)`;
+    const penaltyBelow = i > 0 ? ` - 1e6*max(0em,${fromEm}em - 100${unit})` : '';
+    const penaltyAbove = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${toEm - 0.001}em)`;
     return `${typeof height === 'string' ? height : interpolated(...height)}${penaltyBelow}${penaltyAbove}`;
   });
   return `max(${heightTerms})`;

@@ -1,7 +1,7 @@
 /** State of the figure as plain data. It is kept after a removal of the element and after a trap. */
 
 import { asObject, refusalError, checkedWord } from './checks.ts';
-import { validated } from './definition.ts';
+import { validatedValue } from './definition.ts';
 import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
 import type { Values } from './settings.ts';
@@ -54,7 +54,7 @@ export class State extends FigureController {
     const wholeState: Values = { ...currentState, ...host.withDerivedFields(currentState, checkedState) };
     const machine = freeOnError(host.createMachine(host.motion, wholeState), (made) => {
       const selectableCount = wholeState.playing ? made.config.samples : wholeState.shown;
-      for (const [name, field] of Object.entries(this.#fields)) wholeState[name] = validated(field, `state.${name}`, wholeState[name], selectableCount);
+      for (const [name, field] of Object.entries(this.#fields)) wholeState[name] = validatedValue(field, `state.${name}`, wholeState[name], selectableCount);
       host.restore(made, wholeState);
     });
     for (const name of Object.keys(this.own)) this.own[name] = wholeState[name];
@@ -105,7 +105,7 @@ export class State extends FigureController {
   assign(name: string, value: unknown) {
     const { settings, cloud, reflection, renderer } = this.host;
     settings.settle();
-    this.own[name] = validated(this.#fields[name], name, value, cloud?.selectableCount ?? 0);
+    this.own[name] = validatedValue(this.#fields[name], name, value, cloud?.selectableCount ?? 0);
     reflection.updateAttributes();
     renderer.requestFrame();
   }

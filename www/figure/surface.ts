@@ -1,7 +1,7 @@
 /** HTML of a figure: its content, or its placeholder, or the message of a failure. */
 
 import { html, noChange, nothing } from 'lit';
-import { language, speak, words } from '../messages/registry.ts';
+import { language, useLanguageOf, words } from '../messages/registry.ts';
 import { moveFocusInto } from './focus.ts';
 import type { Figure } from './figure.ts';
 
@@ -10,7 +10,7 @@ const RIGHT_TO_LEFT = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
 
 /** Returns the HTML of a figure, whose language and direction may differ from the page's. */
 export function figureHtml(figure: Figure) {
-  speak(figure);
+  useLanguageOf(figure);
   const { gesture, notice, presenting, colours, presentation, headingLevel } = figure;
   const updateColours = () => colours.update();
   return html`

@@ -1,6 +1,6 @@
 /** Columns of a table, recognized by their names, in groups with a common prefix. */
 
-import { LogError, cut, listed, type Place } from './log-error.ts';
+import { LogError, cut, listing, type Place } from './log-error.ts';
 import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
 
 export type Field = 't' | 'seconds' | 'nanoseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child';
@@ -124,13 +124,13 @@ interface ColumnMeaning { field: Field; rank: number; prefix: string; unit?: str
 
 /** Returns the field of a column, or undefined for another quantity. */
 function readName(name: string): ColumnMeaning | undefined {
-  const [bracketed, inside] = UNIT_IN_BRACKETS.exec(name) ?? [];
-  if (bracketed !== undefined && inside !== undefined && !EMPTY_UNIT.test(inside.trim())) {
-    const unit = unitOf(inside);
-    const reading = fieldOf(dottedName(name.slice(0, -bracketed.length)));
-    return reading && canHaveUnit(reading.field, unit) ? { ...reading, unit: unit?.unit ?? inside.trim() } : undefined;
+  const [bracketText, unitText] = UNIT_IN_BRACKETS.exec(name) ?? [];
+  if (bracketText !== undefined && unitText !== undefined && !EMPTY_UNIT.test(unitText.trim())) {
+    const unit = unitOf(unitText);
+    const reading = fieldOf(dottedName(name.slice(0, -bracketText.length)));
+    return reading && canHaveUnit(reading.field, unit) ? { ...reading, unit: unit?.unit ?? unitText.trim() } : undefined;
   }
-  const nameWithoutUnit = bracketed === undefined ? name : name.slice(0, -bracketed.length);
+  const nameWithoutUnit = bracketText === undefined ? name : name.slice(0, -bracketText.length);
   const dottedPath = dottedName(nameWithoutUnit);
   const wholeMeaning = fieldOf(dottedPath);
   // Times of rostopic are always in nanoseconds, also the small times of a simulation.
@@ -141,8 +141,8 @@ function readName(name: string): ColumnMeaning | undefined {
   const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
   const reading = last !== undefined && unit ? fieldOf(dottedName(nameWithoutUnit.slice(0, -last.length))) : undefined;
   if (reading && unit && canHaveUnit(reading.field, unit)) return { ...reading, unit: unit.unit };
-  const [, front, suffix] = SUFFIXED_NAME.exec(dottedPath) ?? [];
-  const frontMeaning = front === undefined ? undefined : fieldOf(front);
+  const [, baseName, suffix] = SUFFIXED_NAME.exec(dottedPath) ?? [];
+  const frontMeaning = baseName === undefined ? undefined : fieldOf(baseName);
   return frontMeaning && suffix !== undefined && !OTHER_QUANTITIES.test(suffix) ? { ...frontMeaning, prefix: suffix } : undefined;
 }
 
@@ -244,7 +244,7 @@ export interface Layout {
  * @throws {LogError} if a field is missing, or two columns can be the same field
  */
 export function layoutOf(group: Group | undefined, names: string[], place: Place, wanted: LogKind | undefined): Layout {
-  const all = listed(names.map((name) => name.trim()));
+  const all = listing(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };
   if (!group) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', all), ask);
   const { columns, twice, clocks } = group;
@@ -255,19 +255,19 @@ export function layoutOf(group: Group | undefined, names: string[], place: Place
   const headingFields: Field[] = has('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : has('yaw') ? ['yaw'] : has('qz', 'qw') ? ['qz', 'qw'] : [];
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {
-    const [one, other] = [columns[field], twice[field]];
-    if (one && other) throw new LogError(place, (say) => say.twice(field, cut(one.name), cut(other.name)));
+    const [firstColumn, secondColumn] = [columns[field], twice[field]];
+    if (firstColumn && secondColumn) throw new LogError(place, (say) => say.twice(field, cut(firstColumn.name), cut(secondColumn.name)));
   }
   const readColumns = fields.map((field) => columns[field] as Column);
-  const [length, ...others] = new Set((takesCommands ? readColumns.slice(0, 1) : readColumns.slice(0, 2)).map(({ unit }) => unit));
-  const angle = takesCommands ? columns.omega?.unit : headingFields[0] === 'yaw' ? columns.yaw?.unit : undefined;
+  const [lengthUnit, ...others] = new Set((takesCommands ? readColumns.slice(0, 1) : readColumns.slice(0, 2)).map(({ unit }) => unit));
+  const angleUnit = takesCommands ? columns.omega?.unit : headingFields[0] === 'yaw' ? columns.yaw?.unit : undefined;
   const isUnknownUnit = (unit: string | undefined, known: readonly string[]) => unit !== undefined && !known.includes(unit);
-  const unknownUnit = [length, ...others].find((unit) => isUnknownUnit(unit, UNITS.lengthUnit)) ?? (isUnknownUnit(angle, UNITS.angleUnit) ? angle : undefined);
+  const unknownUnit = [lengthUnit, ...others].find((unit) => isUnknownUnit(unit, UNITS.lengthUnit)) ?? (isUnknownUnit(angleUnit, UNITS.angleUnit) ? angleUnit : undefined);
   if (unknownUnit !== undefined) throw new LogError(place, (say) => say.unknownUnit(cut(unknownUnit)));
-  if (others.length > 0) throw new LogError(place, (say) => say.unknownUnit([length, ...others].map((unit) => unit ?? '–').join(', ')));
+  if (others.length > 0) throw new LogError(place, (say) => say.unknownUnit([lengthUnit, ...others].map((unit) => unit ?? '–').join(', ')));
   return {
     kind: takesCommands ? 'commands' : headingFields.length > 0 ? 'poses' : 'positions',
-    clocks, columns: readColumns, fields, length: length as LengthUnit | undefined, angle: angle as AngleUnit | undefined,
+    clocks, columns: readColumns, fields, length: lengthUnit as LengthUnit | undefined, angle: angleUnit as AngleUnit | undefined,
   };
 }
 

@@ -2,7 +2,7 @@
 
 import { greatest } from 'd3-array';
 import { ROLES, type Log, type Role } from './log.ts';
-import { pathOf, poseAt, wrapped, type Pose } from './path.ts';
+import { pathOf, poseAt, wrapAngle, type Pose } from './path.ts';
 import { quantile } from './quantile.ts';
 
 /** Motion in a step in the frame of the robot, in m and rad. */
@@ -85,7 +85,7 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
   const correctedPath = { ...path, poses: path.poses.map(correct) };
   const poses = Array.from({ length: count + 1 }, (_, i) => poseAt(correctedPath, from + i * step));
   return poses.slice(1).map(([x, y, heading], i) => {
-    const [dx, dy, turn] = [x - poses[i][0], y - poses[i][1], wrapped(heading - poses[i][2])];
+    const [dx, dy, turn] = [x - poses[i][0], y - poses[i][1], wrapAngle(heading - poses[i][2])];
     const middleHeading = poses[i][2] + turn / 2;
     return [dx * Math.cos(middleHeading) + dy * Math.sin(middleHeading), dy * Math.cos(middleHeading) - dx * Math.sin(middleHeading), turn];
   });

@@ -1,7 +1,7 @@
 /** Search for the odometry and the reference of each drive in recordings. */
 
 import { GOAL_NAMES, candidates, isTable, likeliestFrames, namesFor, roleByName, seriesNamed, readableSeries } from './candidates.ts';
-import { LogError, listed } from './log-error.ts';
+import { LogError, listing } from './log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
 import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pairs.ts';
 
@@ -32,7 +32,7 @@ export interface Wishes {
 }
 
 /** Returns the series with their types, for a sentence. */
-const describeSeries = (series: Series[]) => listed(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+$)/, '')})` : type)));
+const describeSeries = (series: Series[]) => listing(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+$)/, '')})` : type)));
 
 const isSame = (one: Choice, other?: Choice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
 
@@ -125,7 +125,7 @@ function wishedChoice(recording: Recording, role: Role, wishes: Wishes): Choice 
     const names = namesFor(recording, role);
     throw new LogError(
       { file: recording.name, topic: series },
-      (say) => (isTable(recording) ? say.noGroup(describeSeries(recording.series)) : series === undefined ? say.noTransforms(describeSeries(readableSeries(recording))) : say.noTopic(listed(names))),
+      (say) => (isTable(recording) ? say.noGroup(describeSeries(recording.series)) : series === undefined ? say.noTransforms(describeSeries(readableSeries(recording))) : say.noTopic(listing(names))),
       { what: 'series', role, choices: names },
     );
   }
@@ -137,7 +137,7 @@ function wishedChoice(recording: Recording, role: Role, wishes: Wishes): Choice 
 
 function framesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
   const frameTexts = [...new Set([...likeliestFrames(frames, role), ...frames])].map(framesOption);
-  return new LogError({ file, topic }, (say) => say.frames(listed(frames.map(framesText))), { what: 'frames', role, choices: frameTexts });
+  return new LogError({ file, topic }, (say) => say.frames(listing(frames.map(framesText))), { what: 'frames', role, choices: frameTexts });
 }
 
 function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {

@@ -58,15 +58,15 @@ export class FrameTree {
    */
   candidates(): Frames[] {
     const links = [...this.#links.values()];
-    const travelling = links.filter(({ isStatic, travelled }) => !isStatic && travelled > MIN_TRAVEL);
-    const moving = new Set((travelling.length ? travelling : links.filter(({ isStatic }) => !isStatic)).map(({ child }) => child));
+    const movedLinks = links.filter(({ isStatic, travelled }) => !isStatic && travelled > MIN_TRAVEL);
+    const movers = new Set((movedLinks.length ? movedLinks : links.filter(({ isStatic }) => !isStatic)).map(({ child }) => child));
     const children = [...new Set(links.map(({ child }) => child))];
     return children.flatMap((child) => {
       const ancestors = this.#ancestors(child);
-      const isMoving = moving.has(child);
-      const isInner = isMoving && children.some((other) => other !== child && moving.has(other) && this.#ancestors(other).includes(child));
+      const isMoving = movers.has(child);
+      const isInner = isMoving && children.some((other) => other !== child && movers.has(other) && this.#ancestors(other).includes(child));
       // Number of ancestors of a base up to and with the nearest moving one: they move with the base, and so are no parents of its poses.
-      const skipCount = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => moving.has(frame)) + 1;
+      const skipCount = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => movers.has(frame)) + 1;
       return isInner || (!isMoving && skipCount === 0) ? [] : ancestors.slice(skipCount).map((parent) => ({ parent, child }));
     });
   }
@@ -122,29 +122,29 @@ export class Chain {
    * @returns false if no transform ever changes
    */
   poses(each: (reading: Sample, sample: TimedEdge) => void): boolean {
-    const latest = new Map<string, Transform>();
-    const moving = new Set<string>();
+    const transforms = new Map<string, Transform>();
+    const movers = new Set<string>();
     const unknownLinks = new Set<string>();
     for (const { link, isStatic, edge: { transform } } of this.#samples) {
-      const firstTransform = latest.get(link);
-      if (!firstTransform) latest.set(link, transform);
+      const firstTransform = transforms.get(link);
+      if (!firstTransform) transforms.set(link, transform);
       else if (transform.some((value, i) => value !== firstTransform[i])) {
-        moving.add(link);
+        movers.add(link);
         if (!isStatic) unknownLinks.add(link);
       }
     }
     // A static transform may be published again with other values. That is no motion, unless no other transform changes.
-    const nearestMovingLink = this.#links.findLast((link) => unknownLinks.has(link)) ?? this.#links.findLast((link) => moving.has(link));
+    const nearestMovingLink = this.#links.findLast((link) => unknownLinks.has(link)) ?? this.#links.findLast((link) => movers.has(link));
     if (nearestMovingLink === undefined) return false;
     const timeOf = ({ message: { seconds, nanoseconds } }: TimedEdge) => seconds + nanoseconds / 1e9;
-    let pending: TimedEdge | undefined;
+    let lastEdge: TimedEdge | undefined;
     for (const sample of this.#samples.toSorted((one, other) => timeOf(one) - timeOf(other))) {
-      latest.set(sample.link, sample.edge.transform);
+      transforms.set(sample.link, sample.edge.transform);
       unknownLinks.delete(sample.link);
-      if (sample.link === nearestMovingLink) pending = sample;
-      if (!pending || unknownLinks.size > 0) continue;
-      each(sampleOfPose(pending.edge, this.#links.map((link) => latest.get(link) as Transform).reduce(composeTransforms)), pending);
-      pending = undefined;
+      if (sample.link === nearestMovingLink) lastEdge = sample;
+      if (!lastEdge || unknownLinks.size > 0) continue;
+      each(sampleOfPose(lastEdge.edge, this.#links.map((link) => transforms.get(link) as Transform).reduce(composeTransforms)), lastEdge);
+      lastEdge = undefined;
     }
     return true;
   }

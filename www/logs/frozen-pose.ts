@@ -11,10 +11,10 @@ const MIN_ODOMETRY_MOTION = 0.05;
 
 /** Removes rows of the reference that repeat a pose while the odometry, which has the same start, moves on. */
 export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
-  const { t, x, y, theta, breaks: known } = reference.data as Poses;
+  const { t, x, y, theta, breaks: knownBreaks } = reference.data as Poses;
   const odometryLengthAt = pathLength(odometry.data);
   const isKept = new Uint8Array(t.length).fill(1);
-  const breaks = new Set(known);
+  const breaks = new Set(knownBreaks);
   for (let from = 0, to; from < t.length; from = to) {
     for (to = from + 1; to < t.length && x[to] === x[from] && y[to] === y[from] && theta[to] === theta[from]; ) to += 1;
     const [start, end] = [t[from] + END_MARGIN_SECONDS, t[to - 1] - END_MARGIN_SECONDS];

@@ -50,7 +50,7 @@ export function reasonOf(error: unknown): string {
 }
 
 /** Returns the first few names of a list, for a sentence. */
-export function listed(names: string[]): string {
+export function listing(names: string[]): string {
   const maxNames = 8;
   return [...names.slice(0, maxNames).map((name) => cut(name)), ...(names.length > maxNames ? ['…'] : [])].join(', ');
 }

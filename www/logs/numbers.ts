@@ -46,8 +46,8 @@ export function timeOf(cell: string, power: number): Time | undefined {
   const pointIndex = digits.length - power + (exponent === undefined ? 0 : Number(exponent));
   const allDigits = digits + decimals;
   const seconds = pointIndex <= 0 ? 0 : Number(allDigits.slice(0, pointIndex).padEnd(pointIndex, '0'));
-  const rest = Number(`.${pointIndex < 0 ? '0'.repeat(-pointIndex) + allDigits : allDigits.slice(pointIndex)}0`);
-  return sign === '-' ? [-seconds, -rest] : [seconds, rest];
+  const fraction = Number(`.${pointIndex < 0 ? '0'.repeat(-pointIndex) + allDigits : allDigits.slice(pointIndex)}0`);
+  return sign === '-' ? [-seconds, -fraction] : [seconds, fraction];
 }
 
 /** Parses an ISO 8601 date or a duration; undefined for any other text. A date without a time zone is in UTC. */

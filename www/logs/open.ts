@@ -55,10 +55,10 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
     await attempt(async () => {
       const { listedFiles: filesOf, joinedContainer: joined } = await import('./formats/folder.ts');
       formatByFile.delete(metadata);
-      const { name, found, missing } = await filesOf(metadata, openedSources);
-      const openParts = Promise.all(found.map((source) => openContainer(source, formatByFile.get(source))));
-      for (const source of found) formatByFile.delete(source);
-      const container = joined(await openParts, missing);
+      const { name, found: foundFiles, missing: missingFiles } = await filesOf(metadata, openedSources);
+      const openParts = Promise.all(foundFiles.map((source) => openContainer(source, formatByFile.get(source))));
+      for (const source of foundFiles) formatByFile.delete(source);
+      const container = joined(await openParts, missingFiles);
       recordings.push(await (await import('./topics.ts')).recordingOf(name, container, optionsOf(name)));
     });
   }

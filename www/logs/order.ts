@@ -49,9 +49,9 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
   // Parts of the log may have the same times, so that sorting makes the steps shorter. A log that is out of order everywhere has no parts.
   const orderedRows = stepsBack > MAX_STEPS_BACK * t.length ? sortedRows : allRows;
   const medianStep = quantile(sample(t.length - 1, (i) => t[orderedRows[i + 1]] - t[orderedRows[i]]).filter((each) => each > 0), 0.5);
-  const ranks = new Uint32Array(t.length);
-  for (let rank = 0; rank < t.length; rank++) ranks[sortedRows[rank]] = rank;
-  const isFarFromOthers = (i: number) => [t[sortedRows[ranks[i] - 1]], t[sortedRows[ranks[i] + 1]]].every((other) => !(Math.abs(other - t[i]) <= MAX_GAP_STEPS * medianStep));
+  const rankOfRow = new Uint32Array(t.length);
+  for (let rank = 0; rank < t.length; rank++) rankOfRow[sortedRows[rank]] = rank;
+  const isFarFromOthers = (i: number) => [t[sortedRows[rankOfRow[i] - 1]], t[sortedRows[rankOfRow[i] + 1]]].every((other) => !(Math.abs(other - t[i]) <= MAX_GAP_STEPS * medianStep));
   for (let i = 0; i < t.length; i++) {
     const neighbourGap = t[i + 1] - t[i - 1];
     const isBetweenNeighbours = t[i] >= t[i - 1] && t[i] <= t[i + 1];
@@ -110,15 +110,15 @@ const MIN_HELD_FRACTION = 0.8;
  */
 export function repeatFactor(t: Float64Array, isRepeated: (i: number) => boolean): number {
   const runLengths: number[] = [];
-  let [single, held] = [0, 0];
+  let [singleRows, heldRows] = [0, 0];
   for (let from = 0, to; from < t.length; from = to) {
     for (to = from + 1; to < t.length && isRepeated(to); ) to += 1;
-    if (to - from === 1) single += 1;
+    if (to - from === 1) singleRows += 1;
     else if (t[to - 1] - t[from] <= MAX_HOLD) {
-      held += to - from;
+      heldRows += to - from;
       runLengths.push(to - from);
     }
   }
-  if (runLengths.length < MIN_HOLDS || held < MIN_HELD_FRACTION * (held + single)) return 1;
+  if (runLengths.length < MIN_HOLDS || heldRows < MIN_HELD_FRACTION * (heldRows + singleRows)) return 1;
   return quantile(Float64Array.from(runLengths), 0.5);
 }

@@ -9,7 +9,7 @@ export type Pose = [x: number, y: number, heading: number];
 export interface Path { t: number[]; poses: Pose[]; breaks: Set<number> }
 
 /** Returns an angle between −π and π. */
-export const wrapped = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+export const wrapAngle = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
 /**
  * Returns the path of poses, or of commands that start at the origin.
@@ -41,8 +41,8 @@ export function pathOf(data: Poses | Commands, every = 1): Path {
 export function poseAt({ t, poses }: Path, time: number): Pose {
   const nextIndex = Math.min(Math.max(bisectLeft(t, time), 1), t.length - 1);
   const fraction = Math.min(Math.max((time - t[nextIndex - 1]) / (t[nextIndex] - t[nextIndex - 1]), 0), 1);
-  const [one, other] = [poses[nextIndex - 1], poses[nextIndex]];
-  return [one[0] + fraction * (other[0] - one[0]), one[1] + fraction * (other[1] - one[1]), one[2] + fraction * wrapped(other[2] - one[2])];
+  const [one, next] = [poses[nextIndex - 1], poses[nextIndex]];
+  return [one[0] + fraction * (next[0] - one[0]), one[1] + fraction * (next[1] - one[1]), one[2] + fraction * wrapAngle(next[2] - one[2])];
 }
 
 /** Rotates and moves a path so that its squared distance to the target is smallest. Times of the target are later by `offset`. */

@@ -128,8 +128,8 @@ export class Rows {
     if (clocks[1] !== undefined) this.#sortByOtherClock();
     const usesOtherClock = this.#chooseClock(clocks[1] !== undefined);
     const rollover = this.#continueClock();
-    const { rows, late, causes, ...times } = this.#inOrder(kind);
-    const broken = this.#brokenRows(causes);
+    const { rows, late: lateRows, causes, ...times } = this.#inOrder(kind);
+    const brokenRows = this.#brokenRows(causes);
     const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
     const { count } = this;
     if (rows.length < 2) {
@@ -139,17 +139,17 @@ export class Rows {
     const columns = { ...times, a, b, c };
     const units = judgeUnits(this.#place, kind, columns, assumed, options);
     const { start, t } = columns;
-    const { breaks, jumped, ...found } = this.#events(kind, [t, a, b, c], (i) => broken.has(rows[i]));
+    const { breaks, jumped: jumpRows, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = [
       ...decisions.notes,
       ...(rollover > 0 ? [{ name: 'rollover' as const, values: [rollover] }] : []),
-      ...(late > 0 ? [{ name: 'sorted' as const, values: [late] }] : []),
+      ...(lateRows > 0 ? [{ name: 'sorted' as const, values: [lateRows] }] : []),
     ];
     const duration = t[t.length - 1] - t[0];
     const clock = clocks[usesOtherClock ? 1 : 0] ?? '';
     const summary = {
-      rows: count, used: t.length, dropped: this.#dropped, seconds: duration, distance: distanceOf(data, jumped), ...found,
+      rows: count, used: t.length, dropped: this.#dropped, seconds: duration, distance: distanceOf(data, jumpRows), ...foundGaps,
       ...decisions, ...(decisions.columns && { columns: { ...decisions.columns, t: clock } }), units, clock, notes,
     };
     return { name, kind, start, data, summary };
@@ -185,19 +185,19 @@ export class Rows {
     const numbers = this.#numbers;
     const timeStep = (row: number) => this.#time(row, this.#number(row - 1, this.#clock)) - this.#number(row - 1, this.#clock + 1);
     const maxError = MIN_GAP_STEPS * quantile(sample(this.#added - 1, (i) => Math.abs(timeStep(i + 1))), 0.5);
-    const changes: [row: number, period: number][] = [];
+    const periodChanges: [row: number, period: number][] = [];
     for (let row = 1; row < this.#added; row++) {
       const step = timeStep(row);
-      const period = step < 0 || changes.length > 0 ? CLOCK_PERIODS.find((each) => Math.abs(Math.abs(step) - each) <= maxError && each > 100 * maxError) : undefined;
-      if (period) changes.push([row, step < 0 ? period : -period]);
+      const period = step < 0 || periodChanges.length > 0 ? CLOCK_PERIODS.find((each) => Math.abs(Math.abs(step) - each) <= maxError && each > 100 * maxError) : undefined;
+      if (period) periodChanges.push([row, step < 0 ? period : -period]);
     }
-    for (const [first, period] of changes) {
+    for (const [first, period] of periodChanges) {
       for (let row = first; row < this.#added; row++) {
         numbers[WIDTH * row + this.#clock] += Math.floor(period);
         numbers[WIDTH * row + this.#clock + 1] += period - Math.floor(period);
       }
     }
-    return changes.length > 0 ? this.#number(changes[0][0], LINE) : 0;
+    return periodChanges.length > 0 ? this.#number(periodChanges[0][0], LINE) : 0;
   }
 
   /** Returns the indices of all rows that were added. */
@@ -245,9 +245,9 @@ export class Rows {
 
     // The start is computed from the first row in time. A difference to the first row in the file might be too large to be exact.
     const sortedRows = order.map((i) => usedRows[i]);
-    const [seconds, rest] = [this.#clock, this.#clock + 1].map((index) => this.#number(sortedRows[0], index));
-    const start = Math.floor(seconds) + Math.floor(seconds - Math.floor(seconds) + rest);
-    let [last, different] = [-Infinity, 0];
+    const [seconds, fraction] = [this.#clock, this.#clock + 1].map((index) => this.#number(sortedRows[0], index));
+    const start = Math.floor(seconds) + Math.floor(seconds - Math.floor(seconds) + fraction);
+    let [last, differentRows] = [-Infinity, 0];
     let rows = sortedRows.filter((row, i) => {
       const rowTime = this.#time(row, start);
       if (i === 0 || rowTime > last) {
@@ -255,12 +255,12 @@ export class Rows {
         return true;
       }
       causes.set(row, 'duplicate');
-      if (!this.#isSame(sortedRows[i - 1], row)) different += 1;
+      if (!this.#isSame(sortedRows[i - 1], row)) differentRows += 1;
       return false;
     });
-    if (sortedRows.length > 3 && different > (1 - MIN_FRACTION) * sortedRows.length) {
+    if (sortedRows.length > 3 && differentRows > (1 - MIN_FRACTION) * sortedRows.length) {
       const line = this.#number(min(causes.keys()) as number, LINE);
-      throw new LogError(this.#placeOf(line), (say) => say.sameTimes(different, sortedRows.length, this.#messageNumber(line)));
+      throw new LogError(this.#placeOf(line), (say) => say.sameTimes(differentRows, sortedRows.length, this.#messageNumber(line)));
     }
     const timesOfRows = (chosen: Uint32Array) => this.#column(chosen, (row) => this.#time(row, start));
     const distinctRows = rows;
@@ -303,7 +303,7 @@ export class Rows {
     const medianStep = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     const gaps = { count: 0, longest: 0, first: NaN };
     const jumps = { count: 0, first: NaN };
-    const [breaks, jumped]: number[][] = [[], []];
+    const [breaks, jumpRows]: number[][] = [[], []];
     const isJump = kind === 'poses' ? jumpChecker(t, a, b, c) : () => false;
     for (let i = 1; i < t.length; i++) {
       const timeStep = t[i] - t[i - 1];
@@ -315,11 +315,11 @@ export class Rows {
       if (isJump(i)) {
         if (jumps.count === 0) jumps.first = t[i] - t[0];
         jumps.count += 1;
-        jumped.push(i);
+        jumpRows.push(i);
         breaks.push(i);
       } else if (isBroken(i)) breaks.push(i);
     }
-    return { rate: 1 / medianStep, gaps, jumps, jumped, breaks: Uint32Array.from(breaks) };
+    return { rate: 1 / medianStep, gaps, jumps, jumped: jumpRows, breaks: Uint32Array.from(breaks) };
   }
 
   #placeOf(line: number): Place {

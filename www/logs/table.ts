@@ -3,7 +3,7 @@
 import { least } from 'd3-array';
 import { type Clock, type Group, type Layout, layoutOf } from './columns.ts';
 import { type Format, carmenCells, cellsOf, formatOf } from './format.ts';
-import { LogError, bytesOf, cut, listed, type Place } from './log-error.ts';
+import { LogError, bytesOf, cut, listing, type Place } from './log-error.ts';
 import type { Log, Note, OpenOptions, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
 import { type Time, dateOf, numberOf, timeOf } from './numbers.ts';
 import { quantile, sample } from './quantile.ts';
@@ -54,8 +54,8 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   // If no group can be read, `layoutOf` throws the reason for the group with most columns.
   if (readableGroups.length === 0) layoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, headerPlace, undefined);
   const seriesOfGroup = (group: Group): Series => ({
-    name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listed(columnNames(group)),
-    type: listed(columnNames(group)),
+    name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listing(columnNames(group)),
+    type: listing(columnNames(group)),
     kind: group.kind,
     hasCommands: group.hasCommands,
     count: 0,
@@ -110,20 +110,20 @@ const lineEndOf = (text: string) => (text.includes('\n') || !text.includes('\r')
 /** Calls `take` for each line from number `from` on. `isOpen` is true for text after the last line feed: the file may be cut off there. */
 async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
   const decoder = new TextDecoder(encoding);
-  let [rest, number] = ['', 0];
+  let [tail, number] = ['', 0];
   const passLine = (line: string, isOpen: boolean) => {
     number += 1;
     if (number >= from) take(line, number, isOpen);
   };
   for (let at = 0; at < source.size; at += BLOCK_BYTES) {
     onProgress?.(at / source.size);
-    const text = rest + joinZeros(decoder.decode(await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
+    const text = tail + joinZeros(decoder.decode(await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
     const headLines = text.split(end);
-    rest = headLines.pop() ?? '';
+    tail = headLines.pop() ?? '';
     for (const line of headLines) passLine(line, false);
-    if (rest.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
+    if (tail.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   }
-  passLine(rest + decoder.decode(), true);
+  passLine(tail + decoder.decode(), true);
 }
 
 /** Returns a group of columns with Y as the vertical axis: X of the robot's plane is Z, and Y is X. */
@@ -161,8 +161,8 @@ class ClockReader {
     const [{ at }, nanoseconds] = this.#clock.columns;
     const text = this.#textOf(cells[at]);
     if (nanoseconds) {
-      const [seconds, rest] = [timeOf(text, 0), numberOf(cells[nanoseconds.at])];
-      return seconds && rest !== undefined ? [seconds[0], seconds[1] + rest / 1e9] : undefined;
+      const [seconds, extraNanoseconds] = [timeOf(text, 0), numberOf(cells[nanoseconds.at])];
+      return seconds && extraNanoseconds !== undefined ? [seconds[0], seconds[1] + extraNanoseconds / 1e9] : undefined;
     }
     if (text.trim() === '') return [NaN, NaN];
     if (this.#isDate === undefined) {
@@ -287,8 +287,8 @@ class LogReader {
       if (this.#upAxis && z) this.#heights.push(numberOf(this.#textOf(cells[z.at])) ?? NaN);
       heading = headingOf(qx, qy, qz, qw);
     }
-    const [[seconds, rest], [otherSeconds, otherRest] = [0, 0]] = times;
-    this.#rows.add(seconds, rest, x, y, heading, line, otherSeconds, otherRest);
+    const [[seconds, fraction], [otherSeconds, otherFraction] = [0, 0]] = times;
+    this.#rows.add(seconds, fraction, x, y, heading, line, otherSeconds, otherFraction);
   }
 
   /** Drops a damaged row. If there are many, the log is refused with the reason of the first. */
@@ -314,12 +314,12 @@ class LogReader {
 
   end(): Log {
     const { clocks, columns, fields, kind, length, angle } = this.#layout;
-    if (kind === 'positions') throw new LogError(this.#place, (say) => say.positions(listed(columns.map(({ name }) => name))));
+    if (kind === 'positions') throw new LogError(this.#place, (say) => say.positions(listing(columns.map(({ name }) => name))));
     if (this.#firstDamaged && this.#damagedRows > MAX_DAMAGED_FRACTION * this.#rows.count) {
       const [line, reason] = this.#firstDamaged;
       this.#refuse(line, (say) => [reason(say), ...(this.#damagedRows > 1 && this.#damagedRows < this.#rows.count ? [say.manyBad(this.#damagedRows, this.#rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])].join(' '));
     }
-    if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listed([...this.#frames])));
+    if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listing([...this.#frames])));
     const { unpadded } = this.#clocks[0];
     if (unpadded !== undefined) throw new LogError(this.#place, (say) => say.unpadded(cut(unpadded)));
     if (this.isTilted) throw new LogError(this.#place, (say) => say.tilted, { what: 'columns', choices: [], columns: this.#format.names });

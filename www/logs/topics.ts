@@ -2,7 +2,7 @@
 
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
-import { LogError, cut, listed, reasonOf, type Words } from './log-error.ts';
+import { LogError, cut, listing, reasonOf, type Words } from './log-error.ts';
 import { LOG_TIME, framesOption, framesText, type Choice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
 import { edgesOf, isReadable, kindOf, poseReader, type Sample } from './messages.ts';
 import { MAX_VALUE, Rows } from './rows.ts';
@@ -98,7 +98,7 @@ class TopicReader {
     const frameCandidates = series.find(({ name }) => name === choice.series)?.frames ?? [];
     if (!choice.frames) {
       const ask = { what: 'frames' as const, choices: frameCandidates.map(framesOption) };
-      this.#refuse((say) => say.frames(listed(frameCandidates.map(framesText))), ask);
+      this.#refuse((say) => say.frames(listing(frameCandidates.map(framesText))), ask);
     }
     this.#chain = new Chain(choice.frames);
   }
@@ -110,16 +110,16 @@ class TopicReader {
 
   /** Checks that the topic has one type that can be read. */
   #checkTypes(): Series['kind'] {
-    const { series, kind: wanted, frames } = this.#choice;
+    const { series, kind: wantedKind, frames } = this.#choice;
     const channels = this.#container.channels.filter(({ topic }) => topic === series);
     const isWantedType = ({ type }: Channel) => {
       const kind = kindOf(type);
-      return frames ? kind === 'transforms' : kind !== null && !(wanted === 'poses' && kind === 'commands');
+      return frames ? kind === 'transforms' : kind !== null && !(wantedKind === 'poses' && kind === 'commands');
     };
     const fittingChannels = channels.filter(isWantedType);
     const typeNames = [...new Set((fittingChannels.length ? fittingChannels : channels).map(({ type }) => type))];
-    if (fittingChannels.length === 0) this.#refuse((say) => say.type(cut(typeNames.join(', ')), frames ? 'transforms' : wanted === 'poses' ? wanted : 'either'));
-    if (typeNames.length > 1) this.#refuse((say) => say.types(listed(typeNames)));
+    if (fittingChannels.length === 0) this.#refuse((say) => say.type(cut(typeNames.join(', ')), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
+    if (typeNames.length > 1) this.#refuse((say) => say.types(listing(typeNames)));
     if (kindOf(typeNames[0]) === 'positions') this.#refuse((say) => say.positions(typeNames[0]));
     if (!isReadable(fittingChannels[0])) this.#refuse((say) => say.encoding(cut(fittingChannels[0].encoding)));
     return kindOf(typeNames[0]);
@@ -173,12 +173,12 @@ class TopicReader {
     const { damage, cutShort, missing } = this.#container;
     const [reason] = damage.values();
     if (this.#number === 0) this.#refuse((say) => (reason ? say.damaged(reason) : say.noMessages));
-    if (this.#alternations > MAX_ALTERNATIONS) this.#refuse((say) => say.publishers(listed(this.#publishers)));
+    if (this.#alternations > MAX_ALTERNATIONS) this.#refuse((say) => say.publishers(listing(this.#publishers)));
     if (this.#chain) this.#addPoses(this.#chain);
     if (this.#damaged === this.#number) this.#refuse((say) => say.message(1, this.#reason));
     const kind = this.#kind === 'commands' ? 'commands' : 'poses';
     const notes: Note[] = [
-      ...(missing.length ? [{ name: 'missing' as const, values: [listed(missing)] }] : []),
+      ...(missing.length ? [{ name: 'missing' as const, values: [listing(missing)] }] : []),
       ...(damage.size ? [{ name: 'damaged' as const, values: [damage.size, reason] }] : []),
       ...(cutShort ? [{ name: 'cutShort' as const, values: [] }] : []),
     ];
@@ -193,9 +193,9 @@ class TopicReader {
   #addPoses(chain: Chain): void {
     const frames = this.#choice.frames as NonNullable<Choice['frames']>;
     if (this.#damaged === this.#number) return;
-    if (!chain.isConnected) this.#refuse((say) => say.noChain(framesText(frames), listed(chain.tree.links.map(framesText))));
+    if (!chain.isConnected) this.#refuse((say) => say.noChain(framesText(frames), listing(chain.tree.links.map(framesText))));
     const hasChanged = chain.poses((pose, { message, number }) => this.#add(pose, message, number));
-    if (!hasChanged) this.#refuse((say) => say.constant(framesText(frames), listed(chain.tree.candidates().map(framesText))));
+    if (!hasChanged) this.#refuse((say) => say.constant(framesText(frames), listing(chain.tree.candidates().map(framesText))));
   }
 
   #refuse(reason: (say: Words['refused']) => string, ask?: Question): never {

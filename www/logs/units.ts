@@ -111,8 +111,8 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, lengt
     return isInRange(rateWithUnit(unit), USUAL_RATES) && (!isMoving || (speedsWithUnit.every((each) => each <= MAX_SPEED) && [...speedsWithUnit, raw * rateWithUnit(unit) * medianStep].some((each) => each >= MIN_SPEED)));
   };
   if (isPlausibleUnit(assumed.unit)) return assumed;
-  const [unit, ...others] = units.filter(isPlausibleUnit);
-  if (unit && others.length === 0 && isMoving) return { unit, by: 'rate' };
+  const [unit, ...otherUnits] = units.filter(isPlausibleUnit);
+  if (unit && otherUnits.length === 0 && isMoving) return { unit, by: 'rate' };
   // A robot that is too fast may have its lengths or headings in another unit.
   if (isInRange(rateWithUnit(assumed.unit), USUAL_RATES) && Math.max(speed, turn) > MAX_SPEED) return assumed;
   return ask('timeUnit', rateWithUnit(assumed.unit), assumed.unit, units.filter((each) => isInRange(rateWithUnit(each), USUAL_RATES)));

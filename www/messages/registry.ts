@@ -2,8 +2,8 @@
  * Words of the elements, by language. English and German are included; a page adds or replaces others with `setMessages`. The words of a
  * single widget have their own key.
  *
- * An element uses the language of its nearest `lang` attribute if there are words in it, and otherwise English. `speak` makes that language
- * the current one before the element is rendered or drawn, which happens synchronously. `words` and the numbers of ui/format.ts follow it.
+ * An element uses the language of its nearest `lang` attribute if there are words in it, and otherwise English. `useLanguageOf` makes it
+ * the current language before the element is rendered or drawn, synchronously. `words` and the numbers of ui/format.ts follow.
  */
 
 export type Message = string | ((...values: any[]) => string) | Message[] | { [key: string]: Message };
@@ -39,12 +39,12 @@ sharedCatalogues.listeners.add(() => wordsByLanguage.clear());
 export function addEnglish(messages: { [key: string]: Message }) {
   sharedCatalogues.english = mergeMessages(sharedCatalogues.english, messages);
   // Checks messages of the page that were added before these keys were known.
-  for (const [lang, given] of Object.entries(sharedCatalogues.catalogues)) {
-    for (const key of Object.keys(messages).filter((key) => Object.hasOwn(given, key))) {
+  for (const [lang, pageMessages] of Object.entries(sharedCatalogues.catalogues)) {
+    for (const key of Object.keys(messages).filter((key) => Object.hasOwn(pageMessages, key))) {
       try {
-        checkMessages(messages, { [key]: given[key] }, lang);
+        checkMessages(messages, { [key]: pageMessages[key] }, lang);
       } catch (error) {
-        delete given[key];
+        delete pageMessages[key];
         reportError(error);
       }
     }
@@ -92,22 +92,22 @@ function describeMessage(value: any) {
   return value === null || value === undefined ? String(value) : typeof value === 'object' ? 'a group' : `a ${typeof value}`;
 }
 
-function mergeMessages(base: any, over: any) {
-  const merged = { ...base };
-  for (const [key, message] of Object.entries(over)) {
-    merged[key] = typeof message === 'object' && !Array.isArray(message) ? mergeMessages(base[key] ?? {}, message) : message;
+function mergeMessages(base: any, overrides: any) {
+  const mergedMessages = { ...base };
+  for (const [key, message] of Object.entries(overrides)) {
+    mergedMessages[key] = typeof message === 'object' && !Array.isArray(message) ? mergeMessages(base[key] ?? {}, message) : message;
   }
-  return merged;
+  return mergedMessages;
 }
 
 /** Makes the language of an element the current one. */
-export function speak(element: Element) {
+export function useLanguageOf(element: Element) {
   const wantedLanguage = languageOf(element);
   let cachedWords = wordsByLanguage.get(wantedLanguage);
   if (!cachedWords) {
-    const [primary] = wantedLanguage.split('-');
-    const foundLanguage = [wantedLanguage, primary].find((tag) => Object.hasOwn(sharedCatalogues.catalogues, tag)) ?? 'en';
-    const language = primary === foundLanguage && isTag(wantedLanguage) ? wantedLanguage : foundLanguage;
+    const [primaryTag] = wantedLanguage.split('-');
+    const foundLanguage = [wantedLanguage, primaryTag].find((tag) => Object.hasOwn(sharedCatalogues.catalogues, tag)) ?? 'en';
+    const language = primaryTag === foundLanguage && isTag(wantedLanguage) ? wantedLanguage : foundLanguage;
     const { english, catalogues } = sharedCatalogues;
     const mergedWords = [catalogues.en, catalogues[foundLanguage]].reduce((base, over) => mergeMessages(base, over ?? {}), english);
     wordsByLanguage.set(wantedLanguage, (cachedWords = { language, words: mergedWords as Messages }));

@@ -24,11 +24,11 @@ export function prepareBet(form: HTMLFormElement, enter: (values: Record<string,
     await enter(JSON.parse(values));
     await figure.settled;
     const number = numberAtPath(figure.stats, answer);
-    const actual = number === null ? null : isShare ? 100 * number : number;
+    const actualValue = number === null ? null : isShare ? 100 * number : number;
     form.style.setProperty('--bet', String((slider.valueAsNumber - min) / (max - min)));
-    form.style.setProperty('--truth', String(((actual ?? max) - min) / (max - min)));
+    form.style.setProperty('--truth', String(((actualValue ?? max) - min) / (max - min)));
     form.classList.add('revealed');
-    answerOutput.textContent = `Your bet: ${print(slider.valueAsNumber)}. The figure’s answer, ▲:\u00a0${actual === null ? 'never' : print(actual)}.`;
+    answerOutput.textContent = `Your bet: ${print(slider.valueAsNumber)}. The figure’s answer, ▲:\u00a0${actualValue === null ? 'never' : print(actualValue)}.`;
     submitButton.textContent = 'Reveal again';
   });
 }

@@ -50,11 +50,11 @@ export function drawCallouts({ context, view, palette, font, placed }: Brush, ca
     const halfWidth = Math.max(...textLines.map((row) => context.measureText(row).width)) / 2 + TEXT_MARGIN;
     const halfHeight = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
     const [x, y] = toPixels(at);
-    const outward = Math.atan2(y - fromY, x - fromX);
+    const angle = Math.atan2(y - fromY, x - fromX);
     let [bestBox, lowestCost]: [Box, number] = [{ x, y, across: halfWidth, down: halfHeight }, Infinity];
     for (const { turn, length, cost } of SLOTS) {
       if (cost >= lowestCost) break;
-      const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(outward + turn), y + (length + halfHeight) * Math.sin(outward + turn)];
+      const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(angle + turn), y + (length + halfHeight) * Math.sin(angle + turn)];
       const candidateBox = {
         x: clamp(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
         y: clamp(idealY, top + halfHeight, Math.max(top + halfHeight, bottom - halfHeight)),

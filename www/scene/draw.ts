@@ -35,12 +35,12 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
     });
   }
   // Squares with the area of the discs are drawn six times as fast. If they are many and small, they look like discs.
-  const side = Math.sqrt(Math.PI) * radius;
+  const sideLength = Math.sqrt(Math.PI) * radius;
   context.fillStyle = palette.cloud;
   fade(context, isSparse ? 0.9 : 0.5, () => {
     for (const [x, y] of dots) {
       if (isSparse || brush.exported) drawDisc(context, [x, y], radius, palette.cloud);
-      else context.fillRect(x - side / 2, y - side / 2, side, side);
+      else context.fillRect(x - sideLength / 2, y - sideLength / 2, sideLength, sideLength);
     }
   });
 }
@@ -181,9 +181,9 @@ export function drawOutline(brush: Brush, points: Float64Array, style: LineStrok
 /** Draws a robot seen from above: a disc with a line to the front. */
 export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, y: number, heading: number, colour: string }) {
   const { context, view, palette } = brush;
-  const place = view.toPixel(x, y);
-  drawDisc(context, place, 8, palette.paper, { colour, width: 2 });
-  strokePath(context, { colour, width: 2 }, () => headingTick(brush, place, heading, 14));
+  const position = view.toPixel(x, y);
+  drawDisc(context, position, 8, palette.paper, { colour, width: 2 });
+  strokePath(context, { colour, width: 2 }, () => headingTick(brush, position, heading, 14));
 }
 
 /** Draws a handle in files and on paper, where it is no element. Lengths are in pixels. */

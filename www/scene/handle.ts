@@ -130,8 +130,8 @@ export class Handle {
     handle.setPointerCapture(event.pointerId);
     this.#hold = { id: event.pointerId, by: handle };
     const pointer = this.#pointer(event);
-    const grasped = this.#callbacks.at?.(pointer) ?? this.#world(this.#middle);
-    this.#grip = [grasped[0] - pointer[0], grasped[1] - pointer[1]];
+    const graspedPoint = this.#callbacks.at?.(pointer) ?? this.#world(this.#middle);
+    this.#grip = [graspedPoint[0] - pointer[0], graspedPoint[1] - pointer[1]];
   };
 
   #drag = (event: PointerEvent) => {

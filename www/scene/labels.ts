@@ -79,9 +79,9 @@ export function drawLabelsAbove(brush: Brush, labels: (Text & { x: number, y: nu
   placedLabels.forEach((label, i) => {
     const { from, width, row, x, y, colour, parts } = label;
     const rowLine = top - BACKGROUND.half - ROW_HEIGHT * row;
-    const [before, after] = [placedLabels[i - 1], placedLabels[i + 1]];
-    const minLeaderX = row === 0 ? from : before.from + before.width + LABEL_GAP / 2;
-    const maxLeaderX = row === 0 ? from + width : (after?.from ?? right) - LABEL_GAP / 2;
+    const [previousLabel, nextLabel] = [placedLabels[i - 1], placedLabels[i + 1]];
+    const minLeaderX = row === 0 ? from : previousLabel.from + previousLabel.width + LABEL_GAP / 2;
+    const maxLeaderX = row === 0 ? from + width : (nextLabel?.from ?? right) - LABEL_GAP / 2;
     const leaderX = clamp(x, minLeaderX, Math.max(minLeaderX, maxLeaderX));
     const leaderStart = [clamp(leaderX, from, from + width), rowLine + BACKGROUND.half];
     drawLeader(context, [leaderStart, [leaderX, top - (row === 0 ? 0 : ROW_HEIGHT)], [leaderX, top], [x, y]], palette.muted);

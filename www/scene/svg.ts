@@ -79,8 +79,8 @@ export class SvgContext {
       return;
     }
     const pointAt = (angle: number) => `${formatLength(x + radius * Math.cos(angle))},${formatLength(y + radius * Math.sin(angle))}`;
-    const [large, clockwise] = [sweep > Math.PI, !backwards].map(Number);
-    this.#path += `${this.#path ? 'L' : 'M'}${pointAt(from)}A${r},${r} 0 ${large} ${clockwise} ${pointAt(to)}`;
+    const [isLargeArc, isClockwise] = [sweep > Math.PI, !backwards].map(Number);
+    this.#path += `${this.#path ? 'L' : 'M'}${pointAt(from)}A${r},${r} 0 ${isLargeArc} ${isClockwise} ${pointAt(to)}`;
   };
 
   rect: CanvasPath['rect'] = (x, y, width, height) => {
@@ -122,8 +122,8 @@ export class SvgContext {
   #line() {
     const dash = this.#dash.length ? ` stroke-dasharray="${this.#dash}"` : '';
     const cap = this.lineCap === 'butt' ? '' : ` stroke-linecap="${this.lineCap}"`;
-    const join = this.lineJoin === 'miter' ? '' : ` stroke-linejoin="${this.lineJoin}"`;
-    return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dash}${cap}${join}${this.#opacity()}`;
+    const lineJoinAttribute = this.lineJoin === 'miter' ? '' : ` stroke-linejoin="${this.lineJoin}"`;
+    return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dash}${cap}${lineJoinAttribute}${this.#opacity()}`;
   }
 
   measureText(text: string) {

@@ -127,11 +127,11 @@ export class View {
   fit(needed: Extent) {
     const { width, height } = this;
     const isResized = this.#snug && (width !== this.#fitted.width || height !== this.#fitted.height);
-    const [kept, released] = [isResized ? undefined : this.#target, this.#released];
+    const [kept, isReleased] = [isResized ? undefined : this.#target, this.#released];
     this.#fitted = { width, height };
     this.#released = false;
-    if (kept && (released ? this.#suits(kept, needed) : isInside(needed, kept))) return;
-    this.widened = kept !== undefined && !released;
+    if (kept && (isReleased ? this.#suits(kept, needed) : isInside(needed, kept))) return;
+    this.widened = kept !== undefined && !isReleased;
     const padded = this.#snug ? needed : extentWithMargin(needed);
     this.#room = kept && this.widened ? extentAround([padded.xMin, padded.yMin, padded.xMax, padded.yMax], 2, kept) : padded;
     this.#target = this.#cover(this.#room);

@@ -42,18 +42,18 @@ export function formatEditable(value: number, decimals: number): string {
  * a comma may separate groups of three; elsewhere a point may, if a whole number is meant.
  */
 export function parseNumber(text: string, unit: string = '', whole: boolean = false): number {
-  const compact = text.replace(/\s/g, '').replace(MINUS, '-');
-  const withoutUnit = unit && compact.endsWith(unit) ? compact.slice(0, -unit.length) : compact;
+  const compactText = text.replace(/\s/g, '').replace(MINUS, '-');
+  const withoutUnit = unit && compactText.endsWith(unit) ? compactText.slice(0, -unit.length) : compactText;
   const decimalSign = decimalSeparator();
   // In English, commas separate complete groups of three digits. Where the comma is the decimal separator, points may.
   const groupPattern = decimalSign === '.' ? /^-?[1-9]\d{0,2}(,\d{3})+$/ : whole && /^-?[1-9]\d{0,2}(\.\d{3})+$/;
-  const ungrouped = groupPattern && groupPattern.test(withoutUnit) ? withoutUnit.replace(/[,.]/g, '') : withoutUnit;
-  return withoutUnit === '' ? NaN : Number(ungrouped.replace(decimalSign, '.'));
+  const ungroupedText = groupPattern && groupPattern.test(withoutUnit) ? withoutUnit.replace(/[,.]/g, '') : withoutUnit;
+  return withoutUnit === '' ? NaN : Number(ungroupedText.replace(decimalSign, '.'));
 }
 
 /** Prints a limit: "1 000 000"; "1·10⁻⁶". */
 export function formatLimit(value: number): string {
-  return Number.isInteger(value) ? integer(value) : significant(value, 1);
+  return Number.isInteger(value) ? integer(value) : significantText(value, 1);
 }
 
 /** Magnitude below which a number counts as a rounded 0. */
@@ -65,7 +65,7 @@ const MAX_DECIMALS = 5;
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
 /** Prints a number with significant digits: "0.0070020"; below 0.0001 and from 100,000 on "1.2500·10⁻⁵". */
-export function significant(value: number, digits: number): string {
+export function significantText(value: number, digits: number): string {
   if (Math.abs(value) < MAX_ROUNDED_ZERO) return '0';
   if (!Number.isFinite(value)) return fixed(value, 0);
   const [mantissa, exponent] = value.toExponential(digits - 1).split('e').map(Number);
@@ -79,7 +79,7 @@ export function powerOfTen(exponent: number): string {
 }
 
 /** Prints a positive number rounded to significant digits: "0.47", "12", "1 200". */
-export function rounded(value: number, digits: number): string {
+export function roundedText(value: number, digits: number): string {
   const roundedValue = Number(value.toPrecision(digits));
   const decimals = digits - 1 - Math.floor(Math.log10(roundedValue));
   return decimals > 0 ? fixed(roundedValue, decimals) : integer(roundedValue);

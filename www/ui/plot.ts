@@ -253,9 +253,9 @@ function markSvg({ x, y, text }: Mark, row: number, toX: (value: number) => numb
   if (x !== undefined) {
     const markX = toX(x);
     // Text next to the line, on the side that has space.
-    const [shift, anchor] = 2 * markX > LEFT + RIGHT ? [-5, 'end'] : [5, 'start'];
+    const [labelOffset, anchor] = 2 * markX > LEFT + RIGHT ? [-5, 'end'] : [5, 'start'];
     return svg`<line class="mark" x1=${markX} x2=${markX} y1=${TOP} y2=${BOTTOM} />
-      <text class="marked" x=${markX + shift} y=${TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;
+      <text class="marked" x=${markX + labelOffset} y=${TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;
   }
   const markY = toY(y ?? NaN);
   return svg`<line class="mark" x1=${LEFT} x2=${RIGHT} y1=${markY} y2=${markY} />

@@ -1,7 +1,7 @@
 //! Common random numbers: the unit noise of every sample, drawn once for a seed.
 
 use super::{ALL_BITS_SET, BLOCK_GROUPS};
-use crate::geom::lanes::{LANES, any_lane_set, lanes};
+use crate::geom::lanes::{LANES, any_lane_set, from_lanes};
 use crate::noise::{NoiseKind, centred_uniform};
 use crate::stats::sums::PairSums;
 use rand::SeedableRng;
@@ -120,7 +120,7 @@ impl Draws {
         self.sum_blocks_to(groups);
         let mut all_sums = self.sums.clone();
         for (four, noise) in self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed) {
-            let mask = lanes(|lane| if LANES * four + lane < count { ALL_BITS_SET } else { 0.0 });
+            let mask = from_lanes(|lane| if LANES * four + lane < count { ALL_BITS_SET } else { 0.0 });
             all_sums.add([noise[0], noise[1]], mask);
         }
         all_sums.close_block();
@@ -143,7 +143,7 @@ impl Draws {
             let subsample_groups = subsample_groups(noise);
             let weight = (groups as f64 / subsample_groups as f64).max(1.0);
             (four < subsample_groups)
-                .then(|| (noise, lanes(|lane| if LANES * four + lane < count { weight } else { 0.0 })))
+                .then(|| (noise, from_lanes(|lane| if LANES * four + lane < count { weight } else { 0.0 })))
         })
     }
 

@@ -92,16 +92,16 @@ impl Drive {
     /// Returns the ends (x, y) of four motions, the arcs that lead there, and true if the arcs are regular. Regular arcs are
     /// the driven ones: their length and half turn differ from the noise-free ones by [`Drive::regular`].
     #[inline(always)]
-    pub fn ends(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
+    pub fn end_points(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;
         let is_far = self.is_far(motions);
         let bearing_functions =
             if is_far { self.trigonometry.any_circle(bearing) } else { self.trigonometry.circle(bearing) };
-        let ends = self.ends_on(motions, &bearing_functions);
+        let end_positions = self.ends_on(motions, &bearing_functions);
         if is_far || !self.is_arc {
-            return (ends, self.other_arcs(bearing, ends), false);
+            return (end_positions, self.other_arcs(bearing, end_positions), false);
         }
-        (ends, FourArcs { length, half: bearing, sinc: bearing_functions.sinc }, true)
+        (end_positions, FourArcs { length, half: bearing, sinc: bearing_functions.sinc }, true)
     }
 
     #[inline(always)]
@@ -126,7 +126,7 @@ impl Drive {
         [a * s, b * t, aa * (s * s), ab * (s * t), bb * (t * t)]
     }
 
-    /// Returns the arcs that lead to `ends`, which lie in the directions of these bearings.
+    /// Returns the arcs that lead to the points (x, y), which lie in the directions of these bearings.
     #[inline(never)]
     fn other_arcs(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
         let HalfTurn { half, sinc, sin, cos, .. } = self.trigonometry.any_half_turn(bearing, self.near);
@@ -158,8 +158,8 @@ impl Drive {
     /// Tests whether an angle is outside the range of the short formulas.
     #[inline(always)]
     fn is_far(&self, motions: &Motions) -> bool {
-        let [middle, reach] = self.short_formula_interval;
-        let is_beyond = |angle: f64x4| (angle - middle).abs().simd_gt(f64x4::splat(reach));
+        let [interval_middle, interval_reach] = self.short_formula_interval;
+        let is_beyond = |angle: f64x4| (angle - interval_middle).abs().simd_gt(f64x4::splat(interval_reach));
         any_lane_set(is_beyond(motions.bearing) | is_beyond(motions.half))
     }
 
@@ -169,9 +169,9 @@ impl Drive {
     pub fn four_robots(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);
         let circle = self.trigonometry.any_circle(motions.bearing);
-        let ends = self.ends_on(&motions, &circle);
+        let end_positions = self.ends_on(&motions, &circle);
         let turn = self.trigonometry.any_half_turn(motions.half, self.near);
-        (with_logarithms(&ends, turn), self.other_arcs(motions.bearing, ends))
+        (with_logarithms(&end_positions, turn), self.other_arcs(motions.bearing, end_positions))
     }
 
     /// Returns the coordinates of the noise-free end, which are subtracted in all sums, and the scales of the Jacobians.

@@ -7,7 +7,7 @@ pub mod views;
 
 pub use views::View;
 
-use crate::geom::lanes::{LANES, lanes};
+use crate::geom::lanes::{LANES, from_lanes};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
 use crate::stats::fused::{CloudFigures, FirstPass, SecondPass};
@@ -124,9 +124,9 @@ impl Cloud {
     /// Returns the pose of a sample that is shown.
     #[inline(always)]
     pub fn pose(&self, index: usize) -> SE2 {
-        let [four, lane] = [index / LANES, index % LANES];
-        let [x, y] = self.positions[four].map(|lanes| lanes.to_array()[lane]);
-        let half_heading = self.drive.motions(&self.draws.groups()[four]).half;
+        let [group, lane] = [index / LANES, index % LANES];
+        let [x, y] = self.positions[group].map(|lanes| lanes.to_array()[lane]);
+        let half_heading = self.drive.motions(&self.draws.groups()[group]).half;
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
     }
 
@@ -147,10 +147,10 @@ impl Cloud {
                 self.drive.unbent(&motions, &self.positions[four], morph)
             }
         };
-        let (full, rest) = (shown / LANES, shown % LANES);
+        let (full, remaining) = (shown / LANES, shown % LANES);
         (0..full).for_each(|four| see(points_of_group(four)));
-        if rest > 0 {
-            let lane_mask = lanes(|lane| if lane < rest { ALL_BITS_SET } else { 0.0 });
+        if remaining > 0 {
+            let lane_mask = from_lanes(|lane| if lane < remaining { ALL_BITS_SET } else { 0.0 });
             see(points_of_group(full).map(|points| lane_mask.bitselect(points, f64x4::splat(f64::INFINITY))));
         }
     }
@@ -160,7 +160,7 @@ impl Cloud {
 /// range of incomplete ones. Each range has the mask of its samples.
 fn blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     let fours = count.div_ceil(LANES);
-    let lane_mask = lanes(|lane| if lane < count % LANES { ALL_BITS_SET } else { 0.0 });
+    let lane_mask = from_lanes(|lane| if lane < count % LANES { ALL_BITS_SET } else { 0.0 });
     (0..fours.div_ceil(BLOCK_GROUPS).max(1)).map(move |i| {
         let (start, end) = (BLOCK_GROUPS * i, fours.min(BLOCK_GROUPS * (i + 1)));
         let full_groups = start.max(end.min(count / LANES));
@@ -184,7 +184,7 @@ fn add_to_first_pass(
     for (noise, ends) in noise.iter().zip(ends) {
         let motions = drive.motions(noise);
         let (arcs, is_regular);
-        (*ends, arcs, is_regular) = drive.ends(&motions);
+        (*ends, arcs, is_regular) = drive.end_points(&motions);
         let poses = drive.poses(&motions, ends);
         sums.add(&poses, mask);
         if is_full_group {

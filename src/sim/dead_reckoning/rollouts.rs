@@ -1,7 +1,7 @@
 //! Monte Carlo rollouts: many robots drive one command repeatedly, four at a time. Sums after each step give mean and covariance.
 
 use super::settings::Settings;
-use crate::geom::lanes::{Circle, HalfTurn, LANES, Trigonometry, any_lane_set, lanes};
+use crate::geom::lanes::{Circle, HalfTurn, LANES, Trigonometry, any_lane_set, from_lanes};
 use crate::geom::se2::SE2;
 use crate::models::TangentNoiseModel;
 use crate::noise::{NoiseKind, centred_uniform};
@@ -119,12 +119,12 @@ impl StepInErrorFrame {
         let heading_cos = 1.0 - 2.0 * four.sin * four.sin;
         let x = four.x + chord * (heading_cos * cos - heading_sin * sin) - self.end[0];
         let y = four.y + chord * (heading_sin * cos + heading_cos * sin) - self.end[1];
-        let half = four.half + (turn_noise + *third * self.half_last);
-        let is_far = any_lane_set(half.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
+        let half_turn = four.half + (turn_noise + *third * self.half_last);
+        let is_far = any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
         let HalfTurn { half, cotangent, sin, cos, .. } = if is_far {
-            self.trigonometry.any_half_turn(half, 0.0)
+            self.trigonometry.any_half_turn(half_turn, 0.0)
         } else {
-            self.trigonometry.half_turn(half)
+            self.trigonometry.half_turn(half_turn)
         };
         *four = ErrorPoses { x: x * self.cos + y * self.sin, y: y * self.cos - x * self.sin, half, sin, cos };
         [cotangent * four.x + half * four.y, cotangent * four.y - half * four.x, half * 2.0]
@@ -199,7 +199,7 @@ impl Rollouts {
                 if remaining_lanes >= LANES {
                     add_to_sums(sums, *xi);
                 } else {
-                    let mask = lanes(|lane| if lane < remaining_lanes { ALL_BITS_SET } else { 0.0 });
+                    let mask = from_lanes(|lane| if lane < remaining_lanes { ALL_BITS_SET } else { 0.0 });
                     add_to_sums(sums, xi.map(|lanes| lanes & mask));
                 }
             }
@@ -225,11 +225,11 @@ impl Rollouts {
     pub fn rollout(&self, index: usize) -> Vec<[f64; 3]> {
         let mut next_stream = Xoshiro256PlusPlus::seed_from_u64(self.seed);
         (0..index / BLOCK_ROLLOUTS).for_each(|_| next_stream.jump());
-        let (four, lane) = (index % BLOCK_ROLLOUTS / LANES, index % LANES);
+        let (group, lane) = (index % BLOCK_ROLLOUTS / LANES, index % LANES);
         let mut block = Block::new(next_stream);
         let pose_after = |nominal| {
             block.drive(&self.step);
-            block.fours[four].pose(lane, nominal)
+            block.fours[group].pose(lane, nominal)
         };
         self.nominal.iter().map(pose_after).collect()
     }
@@ -238,8 +238,8 @@ impl Rollouts {
 impl ErrorPoses {
     /// Returns x, y (m) and θ (rad) of the robot in a lane.
     fn pose(&self, lane: usize, nominal: &SE2) -> [f64; 3] {
-        let [x, y, half] = [self.x, self.y, self.half].map(|lanes| lanes.to_array()[lane]);
-        (*nominal * SE2::new(x, y, 2.0 * half)).into()
+        let [x, y, half_heading] = [self.x, self.y, self.half].map(|lanes| lanes.to_array()[lane]);
+        (*nominal * SE2::new(x, y, 2.0 * half_heading)).into()
     }
 }
 

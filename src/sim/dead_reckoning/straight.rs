@@ -42,7 +42,7 @@ impl StraightGrowth {
             (cov[(0, 0)], cov[(1, 1)])
         });
         let (along, across) = exact_variances.unzip();
-        let crossing = 2.0 / v.abs() * (alpha1 / alpha3).sqrt();
+        let crossing_time = 2.0 / v.abs() * (alpha1 / alpha3).sqrt();
         Self {
             along,
             across,
@@ -52,7 +52,7 @@ impl StraightGrowth {
                 .map(|dt| alpha3 * v * v * dt * dt * (0.5 * v * dt) * (0.5 * v * dt))
                 .collect(),
             durations,
-            crossing: (crossing.is_finite() && crossing > 0.0).then_some(crossing),
+            crossing: (crossing_time.is_finite() && crossing_time > 0.0).then_some(crossing_time),
         }
     }
 }

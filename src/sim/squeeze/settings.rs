@@ -97,7 +97,7 @@ impl Rules for Settings {
     }
 
     fn check_together(&self) -> Result<(), SettingsError> {
-        let parts = check_whole("steps", f64::from(self.parts()), &(1..=MAX_STEPS))?;
-        check_whole("samples", self.samples as f64, &(1..=MAX_SAMPLES as u64 / parts)).map(|_| ())
+        let part_count = check_whole("steps", f64::from(self.parts()), &(1..=MAX_STEPS))?;
+        check_whole("samples", self.samples as f64, &(1..=MAX_SAMPLES as u64 / part_count)).map(|_| ())
     }
 }

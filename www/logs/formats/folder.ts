@@ -1,7 +1,7 @@
 /** Recordings of rosbag2 that consist of several files, which a metadata.yaml lists. */
 
 import { load } from 'js-yaml';
-import { LogError, bytesOf, listed, reasonOf } from '../log-error.ts';
+import { LogError, bytesOf, listing, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import type { Channel, Container, Message } from './container.ts';
 
@@ -36,7 +36,7 @@ export async function listedFiles(metadata: Source, sources: Source[]): Promise<
   const fileByName = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
   const foundFiles = fileByName.filter((file) => file !== undefined);
   const missingNames = fileNames.filter((_, i) => !fileByName[i]);
-  if (foundFiles.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listed(fileNames)));
+  if (foundFiles.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listing(fileNames)));
   const folder = baseName(folderOf(metadata).replace(/\/$/, ''));
   return { name: folder || foundFiles[0].name, found: foundFiles, missing: missingNames };
 }

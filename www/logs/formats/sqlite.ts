@@ -106,7 +106,7 @@ class Rosbag2 implements Container {
   async read(isWanted: (channel: Channel) => boolean, each: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void> {
     const wantedChannels = new Map([...this.#channels].filter(([, channel]) => isWanted(channel)));
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
-    const pass = (channel: Channel, bytes: Uint8Array) => {
+    const passRow = (channel: Channel, bytes: Uint8Array) => {
       const stamp = BigInt(valueOf(bytes, timestamp) as bigint);
       const block = viewOf(valueOf(bytes, data) as Uint8Array);
       each({ channel, seconds: Number(stamp / NS_PER_S), nanoseconds: Number(stamp % NS_PER_S), block, from: 0, to: block.byteLength });
@@ -114,7 +114,7 @@ class Rosbag2 implements Container {
     await this.#eachRow(this.#messages, (row) => {
       const channel = wantedChannels.get(valueOf(row.bytes, topicId));
       if (!channel) return undefined;
-      return row.bytes.length < row.length ? this.#whole(row).then((bytes) => pass(channel, bytes)) : pass(channel, row.bytes);
+      return row.bytes.length < row.length ? this.#whole(row).then((bytes) => passRow(channel, bytes)) : passRow(channel, row.bytes);
     }, onProgress);
   }
 
@@ -219,12 +219,12 @@ function cellsOf(page: Uint8Array, number: number, type: number): number[] {
 
 /** Returns a number of one to nine bytes, and the position behind it. */
 function varintAt(bytes: Uint8Array, at: number): [value: number, next: number] {
-  let decoded = 0;
+  let decodedCount = 0;
   for (let i = 0; i < 9; i++) {
     if (at + i >= bytes.length) break;
     const byte = bytes[at + i];
-    if (i < 8 && byte & 0x80) decoded = decoded * 128 + (byte & 0x7f);
-    else return [i < 8 ? decoded * 128 + byte : decoded * 256 + byte, at + i + 1];
+    if (i < 8 && byte & 0x80) decodedCount = decodedCount * 128 + (byte & 0x7f);
+    else return [i < 8 ? decodedCount * 128 + byte : decodedCount * 256 + byte, at + i + 1];
   }
   throw new RangeError('a row is damaged');
 }

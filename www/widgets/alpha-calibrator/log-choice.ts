@@ -30,7 +30,7 @@ function optionsOf(recording: Recording, role?: Role): [label: string, Choice][]
 }
 
 /** Returns the choosers for the present files; nothing where there is nothing to choose. */
-export function choosers(opener: LogOpener) {
+export function logChoosers(opener: LogOpener) {
   const { chosen, say } = opener;
   if (!chosen || !say) return nothing;
   const { recordings, skipped, questions, plan } = chosen;
@@ -58,9 +58,9 @@ function selectField(id: string, label: string, value: string, options: [value: 
 
 function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: ChosenFiles, role: Role, { choose: say }: LogWords) {
   const choiceByLabel = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
-  const [planned] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
-  const chosenChoice = (wishes[role] as Choice | undefined) ?? planned?.choice ?? guessOf(recordings[0], role, opener.kind);
-  return selectField(`log-${role}`, say.roles[role], chosenChoice ? labelOf(chosenChoice) || (planned?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
+  const [plannedRead] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
+  const chosenChoice = (wishes[role] as Choice | undefined) ?? plannedRead?.choice ?? guessOf(recordings[0], role, opener.kind);
+  return selectField(`log-${role}`, say.roles[role], chosenChoice ? labelOf(chosenChoice) || (plannedRead?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.change({ wishes: { ...wishes, [role]: choice } });
   }, say.open);

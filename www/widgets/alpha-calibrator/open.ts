@@ -72,10 +72,10 @@ export class LogOpener extends FileOpener<Figure> {
   hostUpdated() {
     const { chosen } = this;
     if (!chosen?.log || chosen.log !== this.host.log || this.share !== undefined || this.#preferred === this.kind) return;
-    const before = choicesOf(chosen.plan);
+    const choicesBefore = choicesOf(chosen.plan);
     this.#restart(async (reader) => {
       const plan = planOf(reader, chosen, this.kind);
-      if (choicesOf(plan) !== before) await this.#read(chosen, plan, reader);
+      if (choicesOf(plan) !== choicesBefore) await this.#read(chosen, plan, reader);
     });
   }
 
@@ -150,12 +150,12 @@ export class LogOpener extends FileOpener<Figure> {
       // A skipped file may be the missing log, so its question comes first.
       const skipped = chosen.skipped.find(({ ask }) => ask);
       if (skipped) throw skipped;
-      const before = this.#lone;
+      const lonelyFiles = this.#lone;
       const isLoneLog = chosen.recordings.length === 1 && (error as LogError).ask !== undefined;
       if (isLoneLog) this.#lone = { ...chosen };
-      if (!isLoneLog || !before || before.files === chosen.files) throw error;
-      const [files, questions] = [[...before.files, ...chosen.files], [...before.questions, ...chosen.questions]];
-      Object.assign(chosen, { files, questions, answers: { ...before.answers, ...chosen.answers } });
+      if (!isLoneLog || !lonelyFiles || lonelyFiles.files === chosen.files) throw error;
+      const [files, questions] = [[...lonelyFiles.files, ...chosen.files], [...lonelyFiles.questions, ...chosen.questions]];
+      Object.assign(chosen, { files, questions, answers: { ...lonelyFiles.answers, ...chosen.answers } });
       Object.assign(chosen, await this.host.service.open(files, chosen.answers));
       return planOf(reader, chosen, this.kind);
     }
@@ -195,11 +195,11 @@ export class LogOpener extends FileOpener<Figure> {
     this.refusal = error;
     const { ask, file, place } = error;
     const { chosen } = this;
-    const asked = ask && chosen && { file: file ?? place?.file ?? '', ask };
-    if (asked && !chosen.questions.some((each) => each.file === asked.file && each.ask.what === ask.what)) chosen.questions.push(asked);
+    const query = ask && chosen && { file: file ?? place?.file ?? '', ask };
+    if (query && !chosen.questions.some((each) => each.file === query.file && each.ask.what === ask.what)) chosen.questions.push(query);
     this.host.requestUpdate();
     await this.host.updateComplete;
-    if (!(asked && this.reader?.focusChooser(this.host, asked))) await this.showRefusal();
+    if (!(query && this.reader?.focusChooser(this.host, query))) await this.showRefusal();
   }
 
   /** Cancels reading, and starts again. */
@@ -228,8 +228,8 @@ const choicesOf = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.dr
 function nameOf({ drives, unpaired }: LogPlan, reader: Reader) {
   const planParts = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
   const names = planParts.map(({ recording }) => recording.name);
-  const [only] = planParts.length === 1 ? drives : [];
-  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(only ? [only.odometry, only.reference].map(({ choice }) => reader.labelOf(choice)) : [])].filter(Boolean).join(', ');
+  const [onlyDrive] = planParts.length === 1 ? drives : [];
+  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => reader.labelOf(choice)) : [])].filter(Boolean).join(', ');
 }
 
 async function loadReader() {
@@ -248,7 +248,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
       ${say.drop}
       ${opener.button('log-files', say.files, EXTENSIONS)}
     </p>
-    ${reader?.choosers(opener)}
+    ${reader?.logChoosers(opener)}
     ${share !== undefined
       ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.close())}</p>` : nothing}

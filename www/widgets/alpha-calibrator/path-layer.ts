@@ -56,13 +56,13 @@ export class PathLayer {
       const { count, odometry, reference } = legs;
       const frameRotation = reference[2] - odometry[2];
       const [cos, sin] = [Math.cos(frameRotation), Math.sin(frameRotation)];
-      const ends = new Float64Array(2 * count);
+      const legEnds = new Float64Array(2 * count);
       for (let leg = 0; leg < count; leg++) {
         const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
-        ends[2 * leg] = reference[0] + cos * dx - sin * dy;
-        ends[2 * leg + 1] = reference[1] + sin * dx + cos * dy;
+        legEnds[2 * leg] = reference[0] + cos * dx - sin * dy;
+        legEnds[2 * leg + 1] = reference[1] + sin * dx + cos * dy;
       }
-      return ends;
+      return legEnds;
     });
   }
 

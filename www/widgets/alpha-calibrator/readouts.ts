@@ -88,8 +88,8 @@ function intervalText({ stats: { intervals } }: Reading, index: number) {
 
 /** Returns the head of the column of noises, with the symbol of the simulated value. */
 function noiseColumnHead() {
-  const [before, after] = words.calibrator.alphas.noiseTrue.split('|');
-  return html`${before}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path class="true" d="M3 1V11" /></svg>${after}`;
+  const [textBefore, textAfter] = words.calibrator.alphas.noiseTrue.split('|');
+  return html`${textBefore}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path class="true" d="M3 1V11" /></svg>${textAfter}`;
 }
 
 /** Returns a logarithmic axis over the decades of some values. */

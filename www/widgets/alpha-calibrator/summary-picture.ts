@@ -49,15 +49,15 @@ export class SummaryPicture extends Picture<Scene> {
     context.textBaseline = 'top';
     const alphasLeft = PATH_SIZE.width + 20;
     let y = 2;
-    for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = wrap(context, text, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
+    for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = print(context, text, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
     y = Math.max(PATH_SIZE.height, y) + LINE_HEIGHT;
-    for (const text of [captionOf(this.#figure), reasonOf(reading), ...systematicTexts(reading)]) y = wrap(context, text, 2, y, WIDTH - 2);
+    for (const text of [captionOf(this.#figure), reasonOf(reading), ...systematicTexts(reading)]) y = print(context, text, 2, y, WIDTH - 2);
     return false;
   }
 }
 
 /** Writes a text in lines that are not longer than the width, and returns the y of the next line. */
-function wrap(context: CanvasRenderingContext2D, text: string, x: number, y: number, width: number): number {
+function print(context: CanvasRenderingContext2D, text: string, x: number, y: number, width: number): number {
   let textLine = '';
   for (const nextWord of text.split(' ')) {
     const extendedLine = textLine && `${textLine} ${nextWord}`;

@@ -50,15 +50,15 @@ function alphaGroup(figure: Figure, isIn: (index: number) => boolean, name: stri
 function alphaSlider(figure: Figure, key: string, number: number, name: string, [path, picture]: string[]) {
   const { isolate } = figure.reading.config;
   const off = isolate !== null && isolate !== number;
-  const choose = () => figure.isolateAlpha(number);
+  const chooseAlpha = () => figure.isolateAlpha(number);
   return settingSlider(figure, key, {
     name,
     off,
-    pick: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose }),
+    pick: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose: chooseAlpha }),
     show: (value) => (off ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
     effect: html`<span class="path">${path}:</span> ${picture}.`,
     input: (value) => {
-      if (off) choose();
+      if (off) chooseAlpha();
       figure.settings.want(({ alphas }) => ({ alphas: alphas.with(number - 1, value) }));
     },
   });

@@ -26,9 +26,9 @@ const MORPH_STEP = 0.01;
 export function morphedPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {
   const halfHeading = ((1 - morph) * heading) / 2;
   const sinc = halfHeading === 0 ? 1 : Math.sin(halfHeading) / halfHeading;
-  const [ahead, aside] = [sinc * along, sinc * (1 - morph) * lateral];
+  const [ahead, sideways] = [sinc * along, sinc * (1 - morph) * lateral];
   const [cos, sin] = [Math.cos(halfHeading), Math.sin(halfHeading)];
-  return [ahead * cos - aside * sin, ahead * sin + aside * cos + morph * heading];
+  return [ahead * cos - sideways * sin, ahead * sin + sideways * cos + morph * heading];
 }
 
 /** Returns the function that transforms a line of points on the floor by a morph. */

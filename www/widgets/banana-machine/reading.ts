@@ -56,17 +56,17 @@ function gainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Ta
 function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAware }: Settings) {
   const [a1, a2, a3, a4] = alphas.map((alpha, i) => (isolate === null || isolate === i + 1 ? alpha : 0));
   if (model === 'velocity') {
-    const [straight, turning] = [a1 * v * v, a2 * omega * omega];
-    const deviation = Math.sqrt(straight + turning);
-    return turning > straight && deviation > Math.abs(v) ? { model, length: v, deviation } : null;
+    const [driveVariance, turnVariance] = [a1 * v * v, a2 * omega * omega];
+    const deviation = Math.sqrt(driveVariance + turnVariance);
+    return turnVariance > driveVariance && deviation > Math.abs(v) ? { model, length: v, deviation } : null;
   }
   const turn = omega * dt;
   const chordLength = Math.abs(v * dt * (turn === 0 ? 1 : Math.sin(turn / 2) / (turn / 2)));
   // Half of the turn is before the drive and half after it. In reverse, the table counts each rotation as π minus that half.
   const tableRotation = v < 0 && !reverseAware ? Math.PI - Math.abs(turn) / 2 : turn / 2;
-  const [straight, turning] = [a3 * chordLength * chordLength, 2 * a4 * tableRotation * tableRotation];
-  const deviation = Math.sqrt(straight + turning);
-  return turning > straight && deviation > chordLength ? { model, length: chordLength, deviation } : null;
+  const [driveVariance, turnVariance] = [a3 * chordLength * chordLength, 2 * a4 * tableRotation * tableRotation];
+  const deviation = Math.sqrt(driveVariance + turnVariance);
+  return turnVariance > driveVariance && deviation > chordLength ? { model, length: chordLength, deviation } : null;
 }
 
 /** Returns the name of an α, counted from 0. */

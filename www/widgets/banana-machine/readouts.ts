@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { NO_VALUE, integer, fixed, percent, significant, withError } from '../../ui/format.ts';
+import { NO_VALUE, integer, fixed, percent, significantText, withError } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import type { Inspection, Moments, Table } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
@@ -23,7 +23,7 @@ export function readouts(reading: Reading, pinned?: Reading) {
   const pinnedValues = pinned && printedStatistics(pinned).map((value) => `${words.banana.pinned}: ${value}`);
   const coverages = [coverage.ellipse, coverage.exponential];
   return readoutList([
-    [say.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : say.areaDetail(Number.isNaN(areaRatioError) ? '' : significant(areaRatioError, 1), percent(coverages[0]), percent(coverages[1])), pinnedValues?.[0]],
+    [say.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : say.areaDetail(Number.isNaN(areaRatioError) ? '' : significantText(areaRatioError, 1), percent(coverages[0]), percent(coverages[1])), pinnedValues?.[0]],
     [gain.unbounded ? say.gainOnFloor : say.gain, printedValues[1], gainText(gain), pinnedValues?.[1]],
     [say.skew, printedValues[2], Number.isNaN(exactSkew) ? NO_VALUE : say.exactly(fixed(exactSkew, 3)), pinnedValues?.[2]],
   ], 0);
@@ -114,8 +114,8 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
     columns: [say.quantity, say.linearized, say.exact, say.measured],
     rows: exampleRows.map(([name, of, withItsError]) => [
       name,
-      ...computedColumns.map((column) => significant(of(column), COMPUTED_DECIMALS)),
-      withItsError ?? significant(of(measured), MEASURED_DECIMALS),
+      ...computedColumns.map((column) => significantText(of(column), COMPUTED_DECIMALS)),
+      withItsError ?? significantText(of(measured), MEASURED_DECIMALS),
     ]),
   });
 }
@@ -131,8 +131,8 @@ export function twistTable({ table: { tangent }, stats: { exponential } }: Readi
     columns: [say.quantity, say.command, say.measured],
     rows: twistRows.map(([name, of]) => [
       formatMarkup(name),
-      tangent === null ? NO_VALUE : significant(of(tangent), COMPUTED_DECIMALS),
-      significant(of(exponential), MEASURED_DECIMALS),
+      tangent === null ? NO_VALUE : significantText(of(tangent), COMPUTED_DECIMALS),
+      significantText(of(exponential), MEASURED_DECIMALS),
     ]),
   });
 }

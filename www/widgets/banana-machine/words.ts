@@ -74,17 +74,17 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   const say = words.banana.bend;
   // A line break must not separate a number from its error.
   const withoutBreaks = (number: string) => number.replaceAll(' ', '\u00a0');
-  const [measured, exactly] = [withoutBreaks(withError(skew, error, 3)), fixed(exactSkew, 3)];
-  if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measured);
+  const [measuredSkew, exactText] = [withoutBreaks(withError(skew, error, 3)), fixed(exactSkew, 3)];
+  if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measuredSkew);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
-    const lean = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measured) : say.hardly(measured, exactly);
+    const lean = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measuredSkew) : say.hardly(measuredSkew, exactText);
     // No figure is exact if robots turn by more than π.
-    const least = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
-    if (least(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
-    return least(gain.value, gain.exact) > MIN_GAIN ? `${say.gains(withoutBreaks(withError(gain.value, gain.error, 3)))} ${lean}` : lean;
+    const lesserOf = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
+    if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
+    return lesserOf(gain.value, gain.exact) > MIN_GAIN ? `${say.gains(withoutBreaks(withError(gain.value, gain.error, 3)))} ${lean}` : lean;
   }
-  if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measured, exactly);
-  return exactSkew < 0 ? say.right(measured) : say.left(measured);
+  if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measuredSkew, exactText);
+  return exactSkew < 0 ? say.right(measuredSkew) : say.left(measuredSkew);
 }
 
 export function captionOf(reading: Reading) {

@@ -6,7 +6,7 @@ import { drawCallouts, type Callout } from '../../scene/callout.ts';
 import { drawDots, drawGhosts, drawSelectedSample, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
-import { significant } from '../../ui/format.ts';
+import { significantText } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, type Brush } from '../../scene/canvas.ts';
 
@@ -118,7 +118,7 @@ const NOTICEABLE_RATIO = 1.05;
 
 /** Returns the text of the factors scale x : scale y and scale y : scale x. A factor that is too small to notice is the empty text. */
 export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
-  return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > NOTICEABLE_RATIO ? significant(by, by < 10 ? 2 : 1) : ''));
+  return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > NOTICEABLE_RATIO ? significantText(by, by < 10 ? 2 : 1) : ''));
 }
 
 /** Returns the names of the axes. The upper name has the factor by which an axis is stretched, which would hide ticks near the lower name. */

@@ -5,7 +5,7 @@ import { sampleField } from '../../figure/controls.ts';
 import { legend } from '../../figure/overlays.ts';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { NO_VALUE, fixed, significant } from '../../ui/format.ts';
+import { NO_VALUE, fixed, significantText } from '../../ui/format.ts';
 import { plot, type Role } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { COMPONENTS, type Reading } from './reading.ts';
@@ -71,14 +71,14 @@ const GROWTH_AXES = { durations: [0.1, 10], variances: [1e-6, 100] };
 export function straightPlot({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
   const say = words.reckoning.straight;
   const [from, to] = GROWTH_AXES.durations;
-  const [least, most] = GROWTH_AXES.variances;
-  const crossingText = crossing === null ? '' : significant(crossing, 3);
+  const [minVariance, maxVariance] = GROWTH_AXES.variances;
+  const crossingText = crossing === null ? '' : significantText(crossing, 3);
   return html`<figure>
     <p class="panel-title">${say.title}</p>
     ${plot({
       label: say.label(crossing === null ? say.never : say.crossing(crossingText)),
       x: { name: say.x, from, to, logarithmic: true },
-      y: { name: say.y, from: least, to: most, logarithmic: true },
+      y: { name: say.y, from: minVariance, to: maxVariance, logarithmic: true },
       curves: [
         { name: say.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
         { name: say.across, role: 'prediction', x, y: acrossFirstOrder },

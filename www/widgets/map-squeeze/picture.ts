@@ -198,10 +198,10 @@ function drawWallContact(brush: Brush, contact: number[]) {
   const { context, view, palette } = brush;
   const [x, y] = view.toPixel(contact[0], contact[1]);
   const { left, right, top, bottom } = view.frame;
-  const [side, down] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
-  const [endX, endY] = [x + side * LEADER_OFFSET.x, y + down * LEADER_OFFSET.y];
+  const [signX, signY] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
+  const [endX, endY] = [x + signX * LEADER_OFFSET.x, y + signY * LEADER_OFFSET.y];
   drawLeader(context, [[endX, endY], [x, y]], palette.ink);
-  drawLabel(brush, { x: endX + 4 * side, y: endY, towards: side, text: words.squeeze.throughThisWall, colour: palette.ink });
+  drawLabel(brush, { x: endX + 4 * signX, y: endY, towards: signX, text: words.squeeze.throughThisWall, colour: palette.ink });
 }
 
 /** Returns the key of an exported picture: the marks, or the colours of a density. */

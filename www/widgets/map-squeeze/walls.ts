@@ -88,14 +88,14 @@ function isFreeEnd(walls: Float64Array, wall: number, [x, y]: readonly number[])
 
 /** Returns how far points may move along an axis within bounds. */
 function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
-  let [least, most] = [-Infinity, Infinity];
+  let [minMove, maxMove] = [-Infinity, Infinity];
   for (const wallPoint of points) {
     for (const i of [0, 1].filter((each) => Math.abs(axis[each]) > TOUCH_DISTANCE)) {
-      const moves = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - wallPoint[i]) / axis[i]).sort((a, b) => a - b);
-      [least, most] = [Math.max(least, moves[0]), Math.min(most, moves[1])];
+      const limits = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - wallPoint[i]) / axis[i]).sort((a, b) => a - b);
+      [minMove, maxMove] = [Math.max(minMove, limits[0]), Math.min(maxMove, limits[1])];
     }
   }
-  return [Math.min(0, least), Math.max(0, most)];
+  return [Math.min(0, minMove), Math.max(0, maxMove)];
 }
 
 /** Returns how far the end of a wall may move ahead before it is near another wall. */

@@ -64,8 +64,8 @@ export function drawBar({ context, view }: Brush, pose: Pose, deviation: number,
   const halfLength = deviation * view.scaleX;
   strokePath(context, { colour, width: 1.75 }, () => {
     for (const endOffset of [-halfLength, halfLength]) {
-      const [middle, [endX, endY]] = view.ray(pose, endOffset);
-      addLine(context, [middle, [endX, endY]]);
+      const [barMiddle, [endX, endY]] = view.ray(pose, endOffset);
+      addLine(context, [barMiddle, [endX, endY]]);
       addLine(context, [[endX - ARROW_HEAD.half * barDirection.y, endY + ARROW_HEAD.half * barDirection.x], [endX + ARROW_HEAD.half * barDirection.y, endY - ARROW_HEAD.half * barDirection.x]]);
     }
   });

@@ -57,15 +57,15 @@ const keyOf = (brush: Brush, { overlays }: Scene, names: LineName[]) =>
 
 /** Returns points around the start and the outcomes, as x, y pairs, that a picture has to show. */
 function neededPoints({ linkage, legs, deviations, stats }: Scene): number[] {
-  const [{ x, y }, driven] = [poseIn(linkage, 0), poseIn(linkage, 2)];
+  const [{ x, y }, drivenPose] = [poseIn(linkage, 0), poseIn(linkage, 2)];
   const alongMargin = Math.min(MARGINS.deviations * deviations.trans, legs.trans + 2);
   // No limit is needed here: a rotation moves the end across by at most the length of the drive.
   const acrossMargin = MARGINS.deviations * stats.exactCrossTrack;
-  const [dx, dy] = [Math.abs(Math.cos(driven.theta)), Math.abs(Math.sin(driven.theta))];
+  const [dx, dy] = [Math.abs(Math.cos(drivenPose.theta)), Math.abs(Math.sin(drivenPose.theta))];
   const pointMargins = [MARGINS.metres + alongMargin * dx + acrossMargin * dy, MARGINS.metres + alongMargin * dy + acrossMargin * dx];
   return [
     ...[x - MARGINS.metres, y - MARGINS.metres, x + MARGINS.metres, y + MARGINS.metres],
-    ...[driven.x - pointMargins[0], driven.y - pointMargins[1], driven.x + pointMargins[0], driven.y + pointMargins[1]],
+    ...[drivenPose.x - pointMargins[0], drivenPose.y - pointMargins[1], drivenPose.x + pointMargins[0], drivenPose.y + pointMargins[1]],
   ];
 }
 
@@ -122,27 +122,27 @@ export class LegsPicture extends OutcomesPicture {
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
     const { palette } = brush;
     const { linkage, legs, deviations, config, overlays } = scene;
-    const [start, turned, driven] = [0, 1, 2].map((index) => poseIn(linkage, index));
+    const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((index) => poseIn(linkage, index));
     drawAxes(brush, AXIS_NAMES, keyOf(brush, scene, ['legs', 'deviation', 'outcomes']));
     const [first, second] = turnRadii(this.view);
     const styles = lineStyles(brush, LINE_STYLES);
     const showsDeviation = overlays.includes('deviation');
     const { colour } = styles.deviation;
     clipToPlot(brush, () => {
-      if (showsDeviation) drawFan(brush, turned, deviations.rot1, Math.max(legs.trans * this.view.scaleX, second), colour);
+      if (showsDeviation) drawFan(brush, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, second), colour);
       if (overlays.includes('outcomes')) this.#paintGhosts(brush, scene);
       drawOutcomes(brush, scene);
-      if (overlays.includes('legs')) drawSegment(brush, start, driven, styles.legs);
-      drawHeldRobot(brush, start, ROBOT_RADIUS, palette.prior);
+      if (overlays.includes('legs')) drawSegment(brush, startPose, drivenPose, styles.legs);
+      drawHeldRobot(brush, startPose, ROBOT_RADIUS, palette.prior);
       drawHeldRobot(brush, config.to, ROBOT_RADIUS, palette.prior);
       if (showsDeviation) {
-        drawBar(brush, driven, deviations.trans, colour);
-        drawBar(brush, { ...driven, theta: driven.theta + Math.PI / 2 }, deviations.strafe, colour);
-        drawFan(brush, { ...driven, theta: driven.theta + legs.rot2 }, deviations.rot2, second, colour);
+        drawBar(brush, drivenPose, deviations.trans, colour);
+        drawBar(brush, { ...drivenPose, theta: drivenPose.theta + Math.PI / 2 }, deviations.strafe, colour);
+        drawFan(brush, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, second, colour);
       }
       if (config.phase < 3) this.#paintRobot(brush, scene.robot);
       if (overlays.includes('legs')) {
-        for (const [from, by, reach] of ([[start, legs.rot1, first], [driven, legs.rot2, second]] as [Pose, number, number][])) {
+        for (const [from, by, reach] of ([[startPose, legs.rot1, first], [drivenPose, legs.rot2, second]] as [Pose, number, number][])) {
           if (Math.abs(by) >= MIN_DRAWN_TURN) drawTurn(brush, from, by, reach, styles.legs.colour);
         }
       }
@@ -153,7 +153,7 @@ export class LegsPicture extends OutcomesPicture {
 
   /** Returns labels with the value and standard deviation of each leg that is long enough to see. The arcs of both turns have radii in pixels. */
   #labels({ view, palette: { prior: colour } }: Brush, { linkage, legs, deviations }: Scene, first: number, second: number) {
-    const [start, driven] = [0, 2].map((index) => poseIn(linkage, index));
+    const [startPose, drivenPose] = [0, 2].map((index) => poseIn(linkage, index));
     const legLabel = (sub: 'rot1' | 'trans' | 'rot2', unit: string, place: { x: number, y: number }) => ({
       ...place,
       symbol: 'δ',
@@ -168,11 +168,11 @@ export class LegsPicture extends OutcomesPicture {
         .sort((one, other) => one.y - other.y);
       return endCandidates.find((place) => place.y > view.frame.top) ?? endCandidates[endCandidates.length - 1];
     };
-    const driveMiddle = { x: view.toPixelX((start.x + driven.x) / 2), y: view.toPixelY((start.y + driven.y) / 2) };
+    const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
     return [
-      ...(Math.abs(legs.rot1) < MIN_DRAWN_TURN ? [] : [legLabel('rot1', 'rad', leaderEnd(start, legs.rot1, first))]),
+      ...(Math.abs(legs.rot1) < MIN_DRAWN_TURN ? [] : [legLabel('rot1', 'rad', leaderEnd(startPose, legs.rot1, first))]),
       ...(legs.trans * view.scaleX < MIN_LABELLED_DRIVE ? [] : [legLabel('trans', 'm', driveMiddle)]),
-      ...(Math.abs(legs.rot2) < MIN_DRAWN_TURN ? [] : [legLabel('rot2', 'rad', leaderEnd(driven, legs.rot2, second))]),
+      ...(Math.abs(legs.rot2) < MIN_DRAWN_TURN ? [] : [legLabel('rot2', 'rad', leaderEnd(drivenPose, legs.rot2, second))]),
     ];
   }
 

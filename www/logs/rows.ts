@@ -170,12 +170,13 @@ export class Rows {
 
   /** Switches to the other clock if the first one is mostly 0, or stands. Returns whether it did. */
   #chooseClock(hasOther: boolean): boolean {
+    if (!hasOther) return false;
     let [unset, changes] = [0, 0];
     for (let row = 0; row < this.#added; row++) {
       if (this.#isUnset(row)) unset += 1;
       if (row > 0 && this.#time(row, 0) !== this.#time(row - 1, 0)) changes += 1;
     }
-    if (!hasOther || (2 * unset <= this.#added && changes > MAX_STANDING_CHANGES * this.#added)) return false;
+    if (2 * unset <= this.#added && changes > MAX_STANDING_CHANGES * this.#added) return false;
     this.#clock = OTHER_SECONDS;
     return true;
   }

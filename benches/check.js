@@ -15,21 +15,21 @@ export function differences(motion, samples) {
   const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 11, command: commandAt(0) });
   const baseline = new Baseline(ALPHAS, unitNoiseOf(machine));
   /** @type {string[]} */
-  const differing = [];
+  const differenceTexts = [];
   for (const event of [0, 30]) {
     const { stats } = statsAndContours(machine, event);
     const baselineResult = baseline.refresh(commandAt(event), VIEW, COLOUR_RAMP);
     for (const [name, value] of numbersByPath(baselineResult.stats)) {
       const coreValue = name.split('.').reduce((part, key) => part[key], /** @type {any} */ (stats));
       // NaN is a difference too.
-      if (!(Math.abs(value - coreValue) <= TOLERANCE)) differing.push(`${name}: ${value}, core ${coreValue}`);
+      if (!(Math.abs(value - coreValue) <= TOLERANCE)) differenceTexts.push(`${name}: ${value}, core ${coreValue}`);
     }
     const pixels = densityPixels(machine);
     const differingCount = baselineResult.pixels.filter((value, i) => value !== pixels[i]).length;
-    if (differingCount > 0) differing.push(`pixels: ${differingCount} differ`);
+    if (differingCount > 0) differenceTexts.push(`pixels: ${differingCount} differ`);
   }
   machine.free();
-  return differing;
+  return differenceTexts;
 }
 
 /**

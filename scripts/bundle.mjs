@@ -412,8 +412,8 @@ function inlinedPage(name) {
   const styleLink = /<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g;
   const scriptTag = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;
   const page = read(name);
-  const reference = page.replace(styleLink, '').replace(scriptTag, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
-  if (reference) throw new Missing(`${name}: ${reference[0]} cannot be put into one file; expected is "./" and a file of www/.`);
+  const outerLink = page.replace(styleLink, '').replace(scriptTag, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
+  if (outerLink) throw new Missing(`${name}: ${outerLink[0]} cannot be put into one file; expected is "./" and a file of www/.`);
   const inlineScript = (/** @type {string} */ path) =>
     `<script type="module">${read(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
   // Replaces links to other pages by their text: a copied file does not have them next to it.

@@ -62,7 +62,7 @@ function odometryPoses(motion) {
   const poses = [pose];
   let [v, omega, steps] = [0, 0, 0];
   for (const command of commands()) {
-    for (let rest = Math.round(command.seconds / STEP); rest > 0; rest--) {
+    for (let stepsLeft = Math.round(command.seconds / STEP); stepsLeft > 0; stepsLeft--) {
       if (steps >= DURATION / STEP) return poses;
       v = limitedChange(v, command.v, MAX_ACCELERATIONS.v * STEP);
       omega = limitedChange(omega, command.omega, MAX_ACCELERATIONS.omega * STEP);
@@ -110,14 +110,14 @@ function truePoses(motion, drivenPoses, seed) {
   const legEnds = legEndsOf(rows);
   for (const [leg, end] of legEnds.entries()) {
     if (leg === 0) continue;
-    const from = legEnds[leg - 1];
-    const [start, goal] = [from, end].map((row) => scaledPose(poseOf(rows[row])));
-    const trueStart = trueDrive[from];
+    const fromRow = legEnds[leg - 1];
+    const [start, goal] = [fromRow, end].map((row) => scaledPose(poseOf(rows[row])));
+    const trueStart = trueDrive[fromRow];
     const [x, y, theta] = model.sample(motion.decompose(start, goal), trueStart, 1, seed + leg);
     const motionTo = (/** @type {Pose} */ pose) => se2.compose(se2.inverse(start), pose);
     const legError = se2.boxminus(se2.compose(se2.inverse(trueStart), { x, y, theta }), motionTo(goal));
-    for (let i = from + 1; i <= end; i++) {
-      const legShare = (i - from) / (end - from);
+    for (let i = fromRow + 1; i <= end; i++) {
+      const legShare = (i - fromRow) / (end - fromRow);
       const smoothShare = legShare * legShare * (3 - 2 * legShare);
       trueDrive.push(se2.boxplus(se2.compose(trueStart, motionTo(scaledPose(drivenPoses[i]))), legError.map((each) => smoothShare * each)));
     }

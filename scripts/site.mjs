@@ -63,8 +63,8 @@ function renderedPage({ Marked }, document, documents) {
   const linkOf = (/** @type {string} */ href) => {
     if (/^(https?:|#)/.test(href)) return href;
     const [path, anchor] = href.split('#');
-    const target = posix.join(posix.dirname(document), path);
-    return (documents.includes(target) ? relativeLink(page, pageOf(target)) : SOURCES_URL + target) + (anchor ? `#${anchor}` : '');
+    const file = posix.join(posix.dirname(document), path);
+    return (documents.includes(file) ? relativeLink(page, pageOf(file)) : SOURCES_URL + file) + (anchor ? `#${anchor}` : '');
   };
   const shown = new Set();
   const text = readFileSync(join(ROOT, document), 'utf8');

@@ -89,7 +89,7 @@ export async function instantiateShared({ module, glue }: SharedCore): Promise<M
 }
 
 /** Prevents the garbage collector from freeing a machine of a core that has trapped: the memory of the core may be damaged. */
-export function abandon(machine: { free(): void }) {
+export function abandonMachine(machine: { free(): void }) {
   (machine as unknown as { __destroy_into_raw(): number }).__destroy_into_raw();
 }
 

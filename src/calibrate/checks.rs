@@ -175,7 +175,7 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 
 /// Range of the median difference of the motions by odometry and reference, over the median motion, of logs of the same drive. Two
 /// measurements differ by more than 0.05 %: one that differs by less is a copy of the other.
-const MISMATCH: [f64; 2] = [0.0005, 0.7];
+const MISMATCH_RANGE: [f64; 2] = [0.0005, 0.7];
 
 /// Scales that wheels can have. Any other scale shows that the reference has another unit.
 const PLAUSIBLE_SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
@@ -207,7 +207,7 @@ pub(super) fn log_checks(
         .collect();
     let outlier_count = sample.outliers.iter().filter(|is| **is).count();
     let lost_count = lost.total() - lost.standing;
-    let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, MISMATCH));
+    let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, MISMATCH_RANGE));
     let mut checks = Vec::from_iter(mismatch);
     checks.extend([
         Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),

@@ -6,7 +6,7 @@ use crate::geom::se2::SE2;
 use std::f64::consts::TAU;
 
 /// Number of headings that are tried, one in five degrees.
-const HEADINGS: u32 = 72;
+const HEADING_COUNT: u32 = 72;
 
 /// Number of squares along the longer side of a plan without a grid.
 const SQUARES_ALONG_SIDE: f64 = 256.0;
@@ -113,8 +113,8 @@ impl<'a> SquareRaster<'a> {
     /// Returns the heading in which the robot gets furthest over free squares.
     fn heading_of_longest_path(&self, [x, y]: [f64; 2], fits: impl Fn(&[f64; 2]) -> bool) -> f64 {
         let (mut most_steps, mut heading) = (0, 0.0);
-        for i in 0..HEADINGS {
-            let tried_heading = TAU * f64::from(i) / f64::from(HEADINGS);
+        for i in 0..HEADING_COUNT {
+            let tried_heading = TAU * f64::from(i) / f64::from(HEADING_COUNT);
             let (sin, cos) = libm::sincos(tried_heading);
             let free_steps = (1..)
                 .map(|steps| 0.5 * self.longer_side() * f64::from(steps))

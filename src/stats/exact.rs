@@ -59,14 +59,14 @@ impl RayMoments {
             ray_cov[(i, i)] = non_negative(ray_cov[(i, i)]);
         }
         let [x, y] = self.reference.unwrap_or_default();
-        let unit = [mean.x + x, mean.y + y, 0.0];
+        let mean_ray = [mean.x + x, mean.y + y, 0.0];
         let factors = [length, length, 1.0];
         let cov = Matrix3::from_fn(|i, j| {
             // The spread of the length moves the position along u.
-            let length_term = if i < 2 && j < 2 { ray_cov[(i, j)] + unit[i] * unit[j] } else { 0.0 };
+            let length_term = if i < 2 && j < 2 { ray_cov[(i, j)] + mean_ray[i] * mean_ray[j] } else { 0.0 };
             ray_cov[(i, j)] * factors[i] * factors[j] + length_term * deviation * deviation
         });
-        (Vector3::new(length * unit[0], length * unit[1], mean.z), cov)
+        (Vector3::new(length * mean_ray[0], length * mean_ray[1], mean.z), cov)
     }
 }
 

@@ -112,15 +112,15 @@ export class Cloud extends FigureController {
 
   /** Adds samples for `limit` milliseconds; returns true if all are shown. */
   refine(limit = MS_PER_FRAME): boolean {
-    const { asked } = this;
+    const { asked: askedCount } = this;
     const endTime = performance.now() + limit;
-    const latest = this.#latest;
-    const { block } = latest;
-    let { shown } = latest;
-    while (shown < asked) {
+    const latestRequest = this.#latest;
+    const { block } = latestRequest;
+    let { shown } = latestRequest;
+    while (shown < askedCount) {
       if (performance.now() > endTime) return false;
       const shownBefore = shown;
-      shown = this.#machine.addSamples(Math.min(asked - shown, block));
+      shown = this.#machine.addSamples(Math.min(askedCount - shown, block));
       // The machine has given up.
       if (shown === shownBefore) break;
       this.host.settings.stale = true;

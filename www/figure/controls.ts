@@ -67,11 +67,11 @@ export function editableSlider(figure: Figure, symbol: string, { min, max: most,
     effect: sliderEnd === undefined ? row.effect : words.sliderEnds(row.show(sliderEnd)),
     keys: min < 0 ? 'text' : isInteger ? 'numeric' : 'decimal',
     type: (text) => {
-      const number = parseEntered(figure, row.id, symbol, text, { min, max, type, unit });
-      if (number === undefined) return undefined;
-      row.input(number);
+      const enteredNumber = parseEntered(figure, row.id, symbol, text, { min, max, type, unit });
+      if (enteredNumber === undefined) return undefined;
+      row.input(enteredNumber);
       row.commit();
-      return row.show(number);
+      return row.show(enteredNumber);
     },
     refusal: figure.settings.refusalOf(row.id),
     forget: () => figure.settings.forgetRefusal(),
@@ -206,7 +206,7 @@ interface SampleFieldOptions {
 /** Returns the field with the number of the selected sample. Refused text stays until the reader corrects or leaves it. */
 export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, selected, hint }: SampleFieldOptions) {
   const { cloud, settings } = figure;
-  const refusal = settings.refusalOf('marked');
+  const refusalText = settings.refusalOf('marked');
   const enterIndex = (event: Event) => {
     const text = inputOf(event).value;
     const number = text === '' ? 0 : parseEntered(figure, 'marked', label, text, { min: 1, max: shown, type: 'whole' });
@@ -224,12 +224,12 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
         max=${Math.max(1, shown)}
         placeholder=${shown === 0 ? '' : `1–${integer(shown)}`}
         ?disabled=${shown === 0}
-        .value=${refusal ? noChange : live(cloud.index < 0 ? '' : String(cloud.index + 1))}
+        .value=${refusalText ? noChange : live(cloud.index < 0 ? '' : String(cloud.index + 1))}
         @input=${enterIndex}
         @blur=${() => settings.forgetRefusal()}
       />
     </label>
-    <output for=${id} role=${refusal ? 'alert' : nothing}>${refusal || selected || html`<span class="hint">${hint}</span>`}</output>
+    <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selected || html`<span class="hint">${hint}</span>`}</output>
   </p>`;
 }
 

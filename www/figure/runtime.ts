@@ -1,6 +1,6 @@
 /** Core of a figure. It is freed when the element is removed. After a trap, a new core gets the last valid state. */
 
-import { abandon, instantiateFor } from '../core.ts';
+import { abandonMachine, instantiateFor } from '../core.ts';
 import { FigureController } from './controller.ts';
 
 export class Runtime extends FigureController {
@@ -95,7 +95,7 @@ export class Runtime extends FigureController {
   }
 
   #abandon() {
-    if (this.machine) abandon(this.machine);
+    if (this.machine) abandonMachine(this.machine);
     this.host.settings.reset();
     this.machine = this.motion = undefined;
   }

@@ -173,9 +173,9 @@ function columnGroups(names: string[], row: string[] | undefined): Group[] {
 /** Returns the header: the last line above the rows with names of fields, or a comment with as many names as a row has cells. */
 function headerOf(above: { line: string; number: number }[], separator: string, width: number, row: string[] | undefined) {
   for (const { line, number } of above.toReversed()) {
-    const text = line.trim().replace(/^\/\//, '');
-    const isComment = /^#|^%(?!time)/.test(text) || text !== line.trim();
-    const commentText = text.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
+    const textLine = line.trim().replace(/^\/\//, '');
+    const isComment = /^#|^%(?!time)/.test(textLine) || textLine !== line.trim();
+    const commentText = textLine.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
     // A commented header may have another separator than the rows.
     const possibleCells = [cellsOf(commentText, separator), ...(isComment ? [commentText.split(/[\s,;]+(?![[(])/)] : [])];
     const names = possibleCells.find((each) => each.length === width) ?? possibleCells[0];

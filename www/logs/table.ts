@@ -166,16 +166,16 @@ class ClockReader {
     }
     if (text.trim() === '') return [NaN, NaN];
     if (this.#isDate === undefined) {
-      const date = dateOf(cells[at]);
-      this.#isDate = date !== undefined;
-      if (date) [this.unit, this.by, this.hasZone] = ['s', 'date', date.hasZone];
+      const dateTime = dateOf(cells[at]);
+      this.#isDate = dateTime !== undefined;
+      if (dateTime) [this.unit, this.by, this.hasZone] = ['s', 'date', dateTime.hasZone];
     }
     if (this.#isDate) return dateOf(cells[at])?.time;
     if (this.unit === undefined) {
-      const value = numberOf(text);
-      if (value && Number.isFinite(value)) {
-        this.unit = unitOfSize(value) ?? 's';
-        if (unitOfSize(value)) this.by = 'size';
+      const timeNumber = numberOf(text);
+      if (timeNumber && Number.isFinite(timeNumber)) {
+        this.unit = unitOfSize(timeNumber) ?? 's';
+        if (unitOfSize(timeNumber)) this.by = 'size';
       }
     }
     this.#noteFraction(text);

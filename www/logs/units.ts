@@ -138,10 +138,10 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, assumed: Units['angle
     const turn = quantile(sample(b.length, (i) => Math.abs(b[i])), 0.9) * RADIANS[assumed.unit as AngleUnit];
     return turn > MAX_SPEED ? ask('angleUnit', turn, assumed.unit, choices) : assumed;
   }
-  const path = unitOfPath(t, a, b, c);
+  const byPath = unitOfPath(t, a, b, c);
   const turn = turnRateOf(t, c);
   if (assumed.by !== 'usage') {
-    const isDoubted = path !== undefined && path !== assumed.unit && (assumed.unit === 'deg') !== turn > MAX_SPEED;
+    const isDoubted = byPath !== undefined && byPath !== assumed.unit && (assumed.unit === 'deg') !== turn > MAX_SPEED;
     return isDoubted ? ask('angleUnit', turn * RADIANS[assumed.unit as AngleUnit], assumed.unit, choices) : assumed;
   }
   let largestHeading = 0;
@@ -151,11 +151,11 @@ function angleUnit(kind: LogKind, { t, a, b, c }: Columns, assumed: Units['angle
     const step = Math.abs(c[i] - c[i - 1]);
     if (step >= WRAP_STEP[0] && step <= WRAP_STEP[1]) wraps += 1;
   }
-  const signCount = [path === 'deg', wraps > 0, turn > MAX_SPEED].filter(Boolean).length;
+  const signCount = [byPath === 'deg', wraps > 0, turn > MAX_SPEED].filter(Boolean).length;
   // Headings beyond a full circle are no proof of degrees: those in radians may be unwrapped.
   const isBeyond = largestHeading > 2 * Math.PI + 0.1;
-  if (path !== 'rad' && signCount >= 2 && isBeyond) return { unit: 'deg', by: 'size' };
-  if (path === 'rad' ? turn > MAX_SPEED && wraps > 0 : turn > MAX_SPEED || isBeyond) return ask('angleUnit', turn, assumed.unit, choices);
+  if (byPath !== 'rad' && signCount >= 2 && isBeyond) return { unit: 'deg', by: 'size' };
+  if (byPath === 'rad' ? turn > MAX_SPEED && wraps > 0 : turn > MAX_SPEED || isBeyond) return ask('angleUnit', turn, assumed.unit, choices);
   return assumed;
 }
 

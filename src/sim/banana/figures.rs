@@ -4,7 +4,7 @@ use super::OUTLINE_SEGMENTS;
 use crate::geom::arc::ArcInversion;
 use crate::js::js_structs;
 use crate::models::OdomDelta;
-use crate::sim::cloud::START;
+use crate::sim::cloud::START_POSE;
 use crate::stats::fused::CloudFigures;
 use crate::stats::{
     CartesianMoments, Ellipse, ExponentialContour, ExponentialMoments, LikelihoodGain,
@@ -104,7 +104,7 @@ impl Figures {
                 figures.gaussian_skew = predicted_cross_track_skew(&exponential.mean, &exponential.cov);
                 figures.coverage.exponential = cloud.inside_exponential;
             }
-            let contour = ExponentialContour::new(&exponential, &START);
+            let contour = ExponentialContour::new(&exponential, &START_POSE);
             figures.area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
             figures.area_ratio_error = figures.area_ratio * cloud.log_area_error;
         }

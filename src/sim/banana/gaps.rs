@@ -3,7 +3,7 @@
 use super::{BananaMachine, OUTLINE_SEGMENTS};
 use crate::geom::arc::arc_near;
 use crate::geom::se2::SE2;
-use crate::sim::cloud::START;
+use crate::sim::cloud::START_POSE;
 use crate::stats::{Ellipse, ExponentialContour};
 
 /// Minimum area ratio for gaps. Below it the outlines nearly coincide.
@@ -24,14 +24,14 @@ impl BananaMachine {
             return Vec::new();
         }
         let plane_ellipse = Ellipse::from_moments(&figures.cartesian);
-        let contour = ExponentialContour::new(&figures.exponential, &START);
+        let contour = ExponentialContour::new(&figures.exponential, &START_POSE);
         let mean = figures.exponential.mean;
         let candidates: Vec<_> = plane_ellipse
             .boundary(OUTLINE_SEGMENTS)
             .into_iter()
             .map(|point| {
                 let [x, y] = plane_ellipse.inside(point, GAP_FRACTION);
-                let (length, turn) = arc_near(&START, &SE2::new(x, y, 0.0), mean.z);
+                let (length, turn) = arc_near(&START_POSE, &SE2::new(x, y, 0.0), mean.z);
                 ([x, y], contour.ellipse().distance([length, turn]), length < mean.x)
             })
             .filter(|(_, distance, _)| *distance > MIN_DISTANCE)

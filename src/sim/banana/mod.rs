@@ -11,7 +11,7 @@ pub use settings::*;
 use super::cloud::drive::Drive;
 use super::cloud::picture::{self, Ramp};
 use super::cloud::views::{Grid, Nearest, View};
-use super::cloud::{Cloud, START};
+use super::cloud::{Cloud, START_POSE};
 use super::settings::{Rules, SettingsError};
 use crate::geom::arc::{Arc, ArcInversion, arc_near};
 use crate::geom::lanes::LANES;
@@ -38,7 +38,7 @@ impl Settings {
             }
             ModelKind::Odometry => {
                 let alphas = OdomAlphas(self.effective(self.odometry_alphas));
-                let reading = OdomDelta::from_poses(&START, &command_end(&command));
+                let reading = OdomDelta::from_poses(&START_POSE, &command_end(&command));
                 let model = OdometryModel { alphas, noise: self.noise };
                 ModelWithInput::Odometry(
                     ConfiguredOdometry { model, reverse_aware: self.reverse_aware },
@@ -83,8 +83,8 @@ impl ModelWithInput {
 
     fn linearized_cov(&self) -> Matrix3<f64> {
         match self {
-            Self::Velocity(model, command) => model.cartesian_cov(command, &START),
-            Self::Odometry(model, reading) => model.cartesian_cov(reading, &START),
+            Self::Velocity(model, command) => model.cartesian_cov(command, &START_POSE),
+            Self::Odometry(model, reading) => model.cartesian_cov(reading, &START_POSE),
         }
     }
 
@@ -100,7 +100,7 @@ impl ModelWithInput {
 /// whose turn is nearest to that of `near`.
 pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
     let dt = near.dt;
-    let (length, turn) = arc_near(&START, &SE2::new(x, y, 0.0), near.omega * dt);
+    let (length, turn) = arc_near(&START_POSE, &SE2::new(x, y, 0.0), near.omega * dt);
     VelocityCmd { v: length / dt, omega: turn / dt, dt }
 }
 
@@ -331,7 +331,7 @@ impl BananaMachine {
     fn exact_column(&self) -> TableColumn {
         let (ExactMoments { mean, cov, cross_track_skew }, gain) = (self.exact(), self.exact_gain());
         let ellipse = Ellipse::from_moments(&CartesianMoments { mean, cov });
-        let contour = ExponentialContour::new(&gain.exponential, &START);
+        let contour = ExponentialContour::new(&gain.exponential, &START_POSE);
         let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
         TableColumn { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
     }
@@ -358,7 +358,7 @@ impl BananaMachine {
         let has_outlines = self.shown() > 1;
         let defined_charts = has_outlines && self.chart_holds();
         let VelocityCmd { v, omega, dt } = self.settings.command;
-        let contour = ExponentialContour::new(exponential, &START);
+        let contour = ExponentialContour::new(exponential, &START_POSE);
         Contours {
             command: arc_points(v * dt, omega * dt),
             ellipse: outline_if(has_outlines, Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS)),
@@ -377,7 +377,7 @@ impl BananaMachine {
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs, path) = match executed {
             Executed::Arc { arc, dt } => (arc, None, arc_points(arc.v_hat * dt, arc.omega_hat * dt)),
             Executed::Legs(legs) => {
-                (undefined_arc, Some(legs), vec![[START.x(), START.y()], [pose.x(), pose.y()]])
+                (undefined_arc, Some(legs), vec![[START_POSE.x(), START_POSE.y()], [pose.x(), pose.y()]])
             }
         };
         let (pose, twist) = (pose.into(), self.twist(&pose).into());
@@ -396,7 +396,7 @@ impl BananaMachine {
 
     /// Returns the noise-free odometry reading of the command.
     pub fn reading(&self) -> OdomDelta {
-        OdomDelta::from_poses(&START, &command_end(&self.settings.command))
+        OdomDelta::from_poses(&START_POSE, &command_end(&self.settings.command))
     }
 
     /// Counts the shown samples in each cell of a grid over a view: see [`picture::density`].
@@ -423,5 +423,5 @@ impl BananaMachine {
 
 /// Returns the points of an arc from the start.
 fn arc_points(length: f64, turn: f64) -> Vec<[f64; 2]> {
-    Arc { start: START, length, turn }.points()
+    Arc { start: START_POSE, length, turn }.points()
 }

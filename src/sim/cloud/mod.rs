@@ -18,7 +18,7 @@ use std::ops::Range;
 use wide::f64x4;
 
 /// Start pose of every robot: the origin, heading along x.
-pub const START: SE2 = SE2::identity();
+pub const START_POSE: SE2 = SE2::identity();
 
 /// Number of groups of four (256 poses) that are summed without compensation for rounding. With fewer, compensation would take
 /// noticeable time; with more, the rounding error would grow in proportion.
@@ -57,7 +57,7 @@ impl Cloud {
             first_pass = self.run_first_pass(FirstPass::new(better, first_pass.scale()));
         }
         let regular_sums = drive.sums_of_regular(self.draws.pair_sums(shown));
-        let mut second_pass = SecondPass::new(first_pass.finish(shown, regular_sums), &START);
+        let mut second_pass = SecondPass::new(first_pass.finish(shown, regular_sums), &START_POSE);
         for parts in blocks(shown) {
             for (fours, mask) in parts {
                 add_to_second_pass(

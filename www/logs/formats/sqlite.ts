@@ -124,9 +124,9 @@ class Rosbag2 implements Container {
     for (const [i, number] of leafPages.entries()) {
       if (!this.#has(number)) continue;
       try {
-        const page = await this.#page(number);
-        for (const cell of cellsOf(page, number, LEAF)) {
-          const pendingRow = each(this.#rowAt(page, cell));
+        const pageBytes = await this.#page(number);
+        for (const cell of cellsOf(pageBytes, number, LEAF)) {
+          const pendingRow = each(this.#rowAt(pageBytes, cell));
           if (pendingRow) await pendingRow;
         }
       } catch (error) {
@@ -143,16 +143,16 @@ class Rosbag2 implements Container {
     let levelPages = [root];
     for (let depth = 0; depth < MAX_DEPTH; depth++) {
       const nextLevel: number[] = [];
-      for (const number of levelPages.filter((each) => this.#has(each))) {
+      for (const index of levelPages.filter((each) => this.#has(each))) {
         // These pages are far from each other, so that reading ahead would be slow.
-        const page = await bytesOf(this.#source, (number - 1) * this.#pageSize, number * this.#pageSize);
-        if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF && nextLevel.length === 0) return levelPages;
+        const page = await bytesOf(this.#source, (index - 1) * this.#pageSize, index * this.#pageSize);
+        if (page.length === this.#pageSize && page[index === 1 ? HEADER_BYTES : 0] === LEAF && nextLevel.length === 0) return levelPages;
         try {
           const view = viewOf(page);
-          for (const cell of cellsOf(page, number, INTERIOR)) nextLevel.push(view.getUint32(cell));
-          nextLevel.push(view.getUint32((number === 1 ? HEADER_BYTES : 0) + 8));
+          for (const cell of cellsOf(page, index, INTERIOR)) nextLevel.push(view.getUint32(cell));
+          nextLevel.push(view.getUint32((index === 1 ? HEADER_BYTES : 0) + 8));
         } catch (error) {
-          this.damage.set(number, reasonOf(error));
+          this.damage.set(index, reasonOf(error));
         }
       }
       // A file that was cut short has no pages behind its end.

@@ -26,8 +26,8 @@ export function systematicTexts({ stats: { systematicErrors: errors } }: Reading
 /** Returns a sentence on significant systematic errors that the settings leave uncorrected; empty if there are none. */
 export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }: Reading): string {
   const say = words.calibrator.systematic;
-  const uncorrected = SYSTEMATIC_ERRORS.filter((key) => !fitted[key] && isSignificant(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
-  return uncorrected.length > 0 ? say.matters(uncorrected.join('; ')) : '';
+  const uncorrectedTexts = SYSTEMATIC_ERRORS.filter((key) => !fitted[key] && isSignificant(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
+  return uncorrectedTexts.length > 0 ? say.matters(uncorrectedTexts.join('; ')) : '';
 }
 
 /** Returns true if the interval of an error excludes 0, or that of a scale excludes 1. */

@@ -23,7 +23,7 @@ export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line:
 export const ROBOT_RADIUS = 0.06;
 
 /** Maximum radius at which the centre is shown: a multiple of the length of the path, but at least some metres. */
-const MAX_CENTRE = { ways: 3, metres: 1.5 };
+const MAX_RADIUS = { ways: 3, metres: 1.5 };
 
 /** Margin around everything, m. */
 const MARGIN_METRES = 0.15;
@@ -65,7 +65,7 @@ export class ArcPicture extends Picture<Scene> {
     for (const path of [paths.commanded, paths.inverted, paths.driven]) box = extentAround(path, 2, box);
     const pathExtent = Math.hypot(box.xMax - box.xMin, box.yMax - box.yMin);
     for (const { center, radius } of [commanded, inverted]) {
-      if (center && Math.abs(radius) < Math.max(MAX_CENTRE.metres, MAX_CENTRE.ways * pathExtent)) box = extentAround(center, 2, box);
+      if (center && Math.abs(radius) < Math.max(MAX_RADIUS.metres, MAX_RADIUS.ways * pathExtent)) box = extentAround(center, 2, box);
     }
     const { xMin, yMin, xMax, yMax } = box;
     this.view.fit({ xMin: xMin - MARGIN_METRES, yMin: yMin - MARGIN_METRES, xMax: xMax + MARGIN_METRES, yMax: yMax + MARGIN_METRES });

@@ -17,7 +17,7 @@ import type { Misses } from '../../types.d.ts';
 const CHART_HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
 
 /** Relative error up to which a predicted variance counts as correct. */
-const TOLERANCE = 0.05;
+const RATIO_TOLERANCE = 0.05;
 
 /** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */
 export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, reading: Reading) {
@@ -27,7 +27,7 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
   const x = Array.from({ length: steps }, (_, i) => i + 1);
   const highestRatio = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
   const shownCurves = COMPONENTS.map((name, axis) => ({ ...curveStyle(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
-  const toleranceBand = { name: say.overlays.tolerance, ...curveStyle('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [TOLERANCE, TOLERANCE], area: true };
+  const toleranceBand = { name: say.overlays.tolerance, ...curveStyle('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], area: true };
   return plot({
     label: ratioText(reading, overlays),
     x: { name: say.stepAxis, from: 0, to: steps },

@@ -29,12 +29,12 @@ export function verdictText(verdict: number, config: Settings) {
 const DENOMINATORS = [2, 3, 4, 5, 6, 7, 8, 9, 10];
 
 /** Fraction below which the headline says "1 in n", and fraction above which it says "nearly all". */
-const ONE_IN_N_BELOW = 0.075;
-const NEARLY_ALL_ABOVE = 0.95;
+const MAX_ONE_IN_N = 0.075;
+const MIN_NEARLY_ALL = 0.95;
 
 /** Returns a share between 0 and 1 as a simple fraction. */
 function fractionOf(share: number): [few: number, of: number] {
-  if (share < ONE_IN_N_BELOW) return [1, Number((1 / share).toPrecision(2))];
+  if (share < MAX_ONE_IN_N) return [1, Number((1 / share).toPrecision(2))];
   const simpleFractions = DENOMINATORS.map((of) => [clamp(Math.round(share * of), 1, of - 1), of] as [number, number]);
   const roundingError = ([few, of]: [number, number]) => Math.abs(few / of - share);
   return simpleFractions.reduce((best, each) => (roundingError(each) < roundingError(best) - 1e-9 ? each : best));
@@ -48,7 +48,7 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
   if (throughWall === 0) return say.none;
   const throughShare = throughWall / accepted;
   if (throughShare === 1) return say.all;
-  return throughShare > NEARLY_ALL_ABOVE ? say.most : say.share(...fractionOf(throughShare));
+  return throughShare > MIN_NEARLY_ALL ? say.most : say.share(...fractionOf(throughShare));
 }
 
 /** Returns the caption: the counts of the samples, or why the robot cannot move. */

@@ -27,9 +27,9 @@ pub enum LegLength {
 impl LegLength {
     /// Defaults of AMCL in Navigation2.
     pub const AMCL: Self = Self::Displacement { distance: Self::AMCL_DISTANCE, angle: Self::AMCL_ANGLE };
-    /// `update_min_d`, m.
+    /// AMCL's parameter `update_min_d`, m.
     pub const AMCL_DISTANCE: f64 = 0.25;
-    /// `update_min_a`, rad.
+    /// AMCL's parameter `update_min_a`, rad.
     pub const AMCL_ANGLE: f64 = 0.2;
 
     /// Returns the length of a leg divided by the length at which it should end.

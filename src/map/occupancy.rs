@@ -87,12 +87,12 @@ impl Interpretation {
         let occupancy = if self.negate { shade } else { 1.0 - shade };
         // Rounded as the grey value is, so that a pixel at a threshold is not beyond it.
         let (occupied_threshold, free_threshold) = (self.occupied_thresh as f32, self.free_thresh as f32);
-        // Rounding takes long where there is no instruction for it.
+        // Computed only if needed: rounding is slow on processors without an instruction for it.
         let grey_value = || (shade * 255.0).round();
         match self.mode {
             Mode::Scale if opacity < 1.0 => Cell::Unknown,
             Mode::Trinary | Mode::Scale if occupancy > occupied_threshold => Cell::Occupied,
-            // 1 less a rounded shade may be below the threshold that the shade is at.
+            // For a shade exactly at the threshold, rounding may make the occupancy (1 − shade) slightly less than the threshold.
             Mode::Trinary if occupancy > free_threshold - f32::EPSILON => Cell::Unknown,
             Mode::Raw if grey_value() == 100.0 => Cell::Occupied,
             Mode::Raw if grey_value() > 100.0 => Cell::Unknown,

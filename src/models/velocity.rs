@@ -127,7 +127,7 @@ impl MotionModel for VelocityModel {
         if squared_distance_dt == 0.0 {
             return Some(if self.noise.prob(u.v, v_variance) > 0.0 { f64::INFINITY } else { 0.0 });
         }
-        // On one circle the length driven is proportional to the turn; a straight line closes no circle.
+        // All turns that lead to the pose are on one circle, so that the length is proportional to the turn. A line has no windings.
         let density_with_windings = |windings: f64| {
             let (v_hat, turn) = if windings == 0.0 {
                 (executed.v_hat, shortest_turn)

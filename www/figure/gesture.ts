@@ -67,13 +67,13 @@ export class Gesture extends FigureController {
     this.commit();
   }
 
-  /** Changes settings in one step, with its end. */
+  /** Changes settings as a complete gesture, such as a click. */
   decide(change: Values | ((wanted: Values) => Values)) {
     this.host.settings.want(change);
     this.commit();
   }
 
-  /** Changes a field of the element's state in one step, with its end. It has no outcome to announce. */
+  /** Changes a field of the element's state as a complete gesture. No outcome is announced. */
   choose(name: string, value: unknown) {
     this.host.settings.want({ [name]: value });
     this.#finish();

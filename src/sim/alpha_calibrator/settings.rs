@@ -12,7 +12,7 @@ pub enum Model {
     Odometry,
     /// Odometry model with five α's of a robot that can drive sideways: [`OdometryRule::Omni`].
     Omnidirectional,
-    /// Velocity model with six α's, of commands.
+    /// Velocity model with six α's, whose logs contain commands instead of odometry.
     Velocity,
 }
 

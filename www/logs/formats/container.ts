@@ -90,7 +90,7 @@ export const viewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new Da
 /** Returns a number of eight bytes that is below 2^53. */
 export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
 
-/** Splits a time in nanoseconds into seconds and nanoseconds. A BigInt would take as long as the rest of a message. */
+/** Splits a time in nanoseconds into seconds and nanoseconds. Reading a BigInt takes as long as the rest of the message. */
 export function stampAt(view: DataView, at: number) {
   // The quotient of rounded numbers may be wrong by 1. The lower 32 bits of the remainder are exact, and reveal it.
   const seconds = Math.floor(uint53(view, at) / 1e9);

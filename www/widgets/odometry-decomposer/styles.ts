@@ -21,7 +21,7 @@ export const styles = css`
       column-gap: 1.5em;
     }
 
-    /* Both as high as the window allows. */
+    /* Both pictures are as high as the window allows. */
     :host(:not([presentation])) .stage {
       height: clamp(12.5em, 100svh - 32.5em, min(45svh, 24em));
     }

@@ -61,7 +61,8 @@ fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
         (exact, machine)
     });
     let [ellipse, outline, skew, any] = page().numbers(
-        "do not give the ellipse away, # % and # %. The skew does: #, where any Gaussian in (x, y) has #.",
+        "do not give the ellipse away, # % and # %. The cross-track skew, the lopsidedness across the path, does: #, \
+         where any Gaussian in (x, y) has #, and so has the banana.",
     );
     ellipse.assert_percent(many.figures().coverage.ellipse, error);
     outline.assert_percent(many.figures().coverage.exponential, error);
@@ -72,9 +73,9 @@ fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
         [&banana, &gentle, &hard].map(|exact| exact.likelihood_gain.pose);
     page().assert(
         "The ellipse covers # times the floor of the green outline: where it alone lies, robots stop a seventh as \
-         densely as where the outline alone does. Both sides are alike, so the cross-track skew, the lopsidedness across the path, is #. The Gaussian in ξ \
-         fits better: a log-likelihood gain of # nats a robot (# nat is a factor of e), more than on the gentle arc, #, and on the hard one, #.",
-        [banana.area_ratio, banana.cross_track_skew, banana_gain, 1.0, gentle_gain, hard_gain],
+         densely as where the outline alone does. The Gaussian in ξ fits better: a log-likelihood gain of # nats a robot \
+         (# nat is a factor of e); on the gentle arc it is #, on the hard one #.",
+        [banana.area_ratio, banana_gain, 1.0, gentle_gain, hard_gain],
     );
     assert_eq!(Settings::default(), preset("banana"));
     let opened = machine(Settings::default());

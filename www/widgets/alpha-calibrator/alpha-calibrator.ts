@@ -165,7 +165,10 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       if (!this.machine) return;
       const machine = this.#machineOf(this.motion, this.settings.pick(this.settings.present), openedLog);
       freeOnError(machine, () => check?.(machine));
-      if (log !== this.log) this.state.own.leg = null;
+      if (log !== this.log) {
+        this.state.own.leg = null;
+        for (const { view } of this.pictures) view.forget();
+      }
       this.#given = openedLog;
       this.runtime.replace(machine);
       this.settings.stale = true;

@@ -183,18 +183,18 @@ testEach('code to embed opens the settings of a state, with its attributes in an
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
-test('a list that a server wrote as text is taken up, and other text is reported', async ({ page }) => {
+test('a list that is written as text is taken up, and other text is reported', async ({ page }) => {
   await showPage(page, '');
   const refused = await page.evaluate(async () => {
     const box = document.createElement('div');
     document.body.prepend(box);
     /** @type {Promise<string>} */
     const message = new Promise((resolve) => box.addEventListener('error', ({ message }) => resolve(message), true));
-    box.innerHTML = '<banana-machine alphas="0.1,0.2,0.1,0.1,0,0" command="[object Object]"></banana-machine>';
+    box.innerHTML = '<banana-machine alphas="0.1,0.2,0.1,0.1,0,0" command="[object Object]"></banana-machine><arc-anatomy alphas="[0.1, 0.2, 0.1, 0.1, 0, 0]"></arc-anatomy>';
     return message;
   });
   expect(refused).toMatch(/^command is "\[object Object\]"; allowed is an object/);
-  await expect(page.locator('banana-machine')).toHaveJSProperty('alphas', [0.1, 0.2, 0.1, 0.1, 0, 0]);
+  for (const name of ['banana-machine', 'arc-anatomy']) await expect(page.locator(name)).toHaveJSProperty('alphas', [0.1, 0.2, 0.1, 0.1, 0, 0]);
 });
 
 test('properties that were set before the element was defined are taken up, in any order', async ({ page }) => {

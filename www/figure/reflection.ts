@@ -43,12 +43,12 @@ export class Reflection extends FigureController {
     }
   }
 
-  /** Reads list properties from texts that servers write, such as `alphas="0.1,0.2"`. The property refuses and reports any other text. */
+  /** Reads list properties from texts such as `alphas="0.1,0.2"` or `"[0.1, 0.2]"`. The property refuses and reports any other text. */
   #takeUpLists(host: Record<string, unknown>) {
     for (const name of Object.keys(this.#properties)) {
       const listText = name in this.#attributes || name in this.host.state.own ? null : this.host.getAttribute(name);
       if (listText === null || Object.hasOwn(host, name)) continue;
-      const numbers = listText.split(/[\s,]+/).map(Number);
+      const numbers = (listText.match(/[^\s,[\]]+/g) ?? []).map(Number);
       host[name] = numbers.every(Number.isFinite) ? numbers : listText;
     }
   }

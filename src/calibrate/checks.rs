@@ -284,9 +284,9 @@ pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
 /// much: that is the density of ln χ² with 3 degrees of freedom at its quantile 0.95.
 pub(super) fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
     let binomial_variance = 0.95 * 0.05 / count as f64;
-    let distance_error =
+    let tolerance =
         NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (binomial_variance + (0.14 * scale_std).powi(2)).sqrt());
-    [0.95 - distance_error, (0.95 + distance_error).min(1.0)]
+    [0.95 - tolerance, (0.95 + tolerance).min(1.0)]
 }
 
 /// Returns the checks of windows, for the lengths with at least [`MIN_WINDOWS`] windows.

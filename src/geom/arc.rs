@@ -301,7 +301,7 @@ impl ArcPiece {
         let middle = [flat_course.middle[0] + rise * tangent[1], flat_course.middle[1] - rise * tangent[0]];
         let half_turn_squared = 0.25 * turn * turn;
         Self {
-            middle: middle,
+            middle,
             error: half_length * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
             ..flat_course
         }

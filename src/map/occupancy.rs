@@ -271,15 +271,13 @@ impl OccupancyGrid {
                 continue;
             }
             let (mut row_start, mut was_left_different) = (None, false);
-            for column in 0..=columns {
+            for (column, outline_start) in outline_starts.iter_mut().enumerate() {
                 let [is_here_blocked, is_below_blocked] =
                     [row_cells, row_below_cells].map(|row| self.is_blocked(row, column));
                 if let Some(from) = outline_end(&mut row_start, is_below_blocked != is_here_blocked, column) {
                     walls.push(self.side([from, row], [column, row]));
                 }
-                if let Some(began) =
-                    outline_end(&mut outline_starts[column], was_left_different != is_here_blocked, row)
-                {
+                if let Some(began) = outline_end(outline_start, was_left_different != is_here_blocked, row) {
                     upright.push([column, began, row]);
                 }
                 was_left_different = is_here_blocked;

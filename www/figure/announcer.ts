@@ -3,32 +3,32 @@
 import { html } from 'lit';
 
 export class Announcer {
-  #due = false;
-  #text = '';
+  #isDue = false;
+  #announcedText = '';
   /** Latest announced outcome. */
-  #outcome: string | undefined;
+  #latestOutcome: string | undefined;
 
   /** Requests an announcement of the next outcome. */
   announceNext() {
-    this.#due = true;
+    this.#isDue = true;
   }
 
   /** Announces an outcome if one was requested. `sentence` is only called if needed. */
   setOutcome(sentence: () => string) {
-    if (!this.#due && !this.#outcome) return;
+    if (!this.#isDue && !this.#latestOutcome) return;
     const text = sentence();
     // An outcome that the page caused clears the announced one without an announcement.
-    this.#text = this.#outcome = this.#due || text === this.#outcome ? text : '';
-    this.#due = false;
+    this.#announcedText = this.#latestOutcome = this.#isDue || text === this.#latestOutcome ? text : '';
+    this.#isDue = false;
   }
 
   /** Announces a text now. */
   announce(text: string) {
-    this.#outcome = undefined;
-    this.#text = text;
+    this.#latestOutcome = undefined;
+    this.#announcedText = text;
   }
 
   render() {
-    return html`<p class="visually-hidden" role="status">${this.#text}</p>`;
+    return html`<p class="visually-hidden" role="status">${this.#announcedText}</p>`;
   }
 }

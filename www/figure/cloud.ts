@@ -35,7 +35,7 @@ const MS_PER_FRAME = 12;
 export class Cloud extends FigureController {
   playing = false;
   /** Number of samples to show; Infinity for all. */
-  #goal = Infinity;
+  #goalCount = Infinity;
   #gaveUp;
 
   /** Creates the cloud. `gaveUp` returns true for a reading or machine that has stopped before it had all samples. */
@@ -49,13 +49,13 @@ export class Cloud extends FigureController {
   }
 
   /** Latest reading, or the machine if it has changed since. */
-  get #latest(): SampleCount {
+  get #latestCount(): SampleCount {
     return this.host.settings.stale ? this.#machine : this.host.reading;
   }
 
   /** True if the goal is all samples, or the machine has given up. */
   get isComplete() {
-    return this.#goal >= this.#samples || this.#gaveUp(this.#latest);
+    return this.#goalCount >= this.#samples || this.#gaveUp(this.#latestCount);
   }
 
   /** Number of samples of the complete cloud. */
@@ -64,35 +64,35 @@ export class Cloud extends FigureController {
   }
 
   /** Number of samples that a step adds. */
-  get #batch() {
+  get #batchSize() {
     return Math.ceil(this.#samples / GROWTH_STEPS);
   }
 
   /** Number of samples to show; all of them if the machine has given up. */
   get asked() {
-    return this.isComplete ? this.#samples : this.#goal;
+    return this.isComplete ? this.#samples : this.#goalCount;
   }
 
   /** True if all samples to show are shown. */
   get isSettled(): boolean {
-    return !this.playing && (this.#latest.shown >= this.asked || this.#gaveUp(this.#latest));
+    return !this.playing && (this.#latestCount.shown >= this.asked || this.#gaveUp(this.#latestCount));
   }
 
   /** Starts the growth, or shows a state; readers who prefer reduced motion see the complete cloud. */
   introduce(state?: Values) {
     this.playing = state ? state.playing : true;
-    this.#goal = state && state.shown < this.#samples ? state.shown : Infinity;
+    this.#goalCount = state && state.shown < this.#samples ? state.shown : Infinity;
     if (!state && !prefersReducedMotion()) this.#restart();
     if (prefersReducedMotion()) this.finish();
   }
 
   /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
   configure(values: Values): Values {
-    return this.#machine.configureFirst(values, this.#goal);
+    return this.#machine.configureFirst(values, this.#goalCount);
   }
 
   #restart() {
-    this.#goal = 0;
+    this.#goalCount = 0;
     this.configure({});
     this.host.settings.stale = true;
   }
@@ -101,12 +101,12 @@ export class Cloud extends FigureController {
   finish() {
     if (!this.playing) return;
     this.playing = false;
-    this.#goal = Infinity;
+    this.#goalCount = Infinity;
     this.refine(Infinity);
   }
 
   show(count: number) {
-    this.#goal = Math.min(count, this.#samples);
+    this.#goalCount = Math.min(count, this.#samples);
     this.refine(Infinity);
   }
 
@@ -114,7 +114,7 @@ export class Cloud extends FigureController {
   refine(limit = MS_PER_FRAME): boolean {
     const { asked: askedCount } = this;
     const endTime = performance.now() + limit;
-    const latestRequest = this.#latest;
+    const latestRequest = this.#latestCount;
     const { block } = latestRequest;
     let { shown } = latestRequest;
     while (shown < askedCount) {
@@ -168,7 +168,7 @@ export class Cloud extends FigureController {
 
   /** True if the selected sample is shown. */
   get isMarked() {
-    return this.index >= 0 && this.index < this.#latest.shown;
+    return this.index >= 0 && this.index < this.#latestCount.shown;
   }
 
   /** True if the selected sample is shown or will be. */
@@ -193,9 +193,9 @@ export class Cloud extends FigureController {
   }
 
   grow() {
-    this.show(this.#latest.shown + this.#batch);
+    this.show(this.#latestCount.shown + this.#batchSize);
     if (!this.isComplete) return;
-    this.#goal = Infinity;
+    this.#goalCount = Infinity;
     this.playing = false;
     this.host.announcer.announceNext();
   }
@@ -207,7 +207,7 @@ export class Cloud extends FigureController {
   }
 
   step() {
-    this.#control(false, () => this.show(this.#latest.shown + this.#batch));
+    this.#control(false, () => this.show(this.#latestCount.shown + this.#batchSize));
   }
 
   clear() {
@@ -235,7 +235,7 @@ export class Cloud extends FigureController {
     const [label, other] = this.playing ? [words.pause, say.play] : [say.play, words.pause];
     return html`<div class="buttons">
       ${button(label, () => this.play(), { title: say.playTitle, other })}
-      ${button(words.step, () => this.step(), { title: say.step(integer(this.#batch)), disabled: this.isComplete })}
+      ${button(words.step, () => this.step(), { title: say.step(integer(this.#batchSize)), disabled: this.isComplete })}
       ${button(words.clear, () => this.clear(), { title: say.clear })}
       ${seedField} ${button(words.newSeed, () => this.reseed(), { title: say.reseed })}
     </div>`;

@@ -9,24 +9,24 @@ import { FigureController } from './controller.ts';
 
 /** Buttons that copy a text. Each has a message, or shows the text if the clipboard cannot be used. */
 export class CopyMenu extends FigureController {
-  #copied: { kind: string, text: string, done?: boolean, note: string } | undefined;
+  #lastCopy: { kind: string, text: string, done?: boolean, note: string } | undefined;
 
-  async #copy(kind: string, text: string, note: string) {
+  async #copyText(kind: string, text: string, note: string) {
     // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
     const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
-    this.#copied = { kind, text, done: isCopied, note };
+    this.#lastCopy = { kind, text, done: isCopied, note };
     this.host.requestUpdate();
   }
 
   /** Clears the message. */
   forget() {
-    this.#copied = undefined;
+    this.#lastCopy = undefined;
     this.host.requestUpdate();
   }
 
   /** Returns a button that copies a text. The message is followed by a note, which names the parts of the state that the text lacks. */
   button(kind: string, label: string, textOf: () => string | Promise<string>, options: { title?: string, disabled?: boolean }, noteOf: () => string | undefined = () => '') {
-    return button(label, async () => this.#copy(kind, await textOf(), noteOf() ?? ''), options);
+    return button(label, async () => this.#copyText(kind, await textOf(), noteOf() ?? ''), options);
   }
 
   linkButton() {
@@ -49,7 +49,7 @@ export class CopyMenu extends FigureController {
   /** Returns the message of a button, unless its text has changed since. */
   answer(kind: string, text?: string) {
     const copyWords = words.copies;
-    const copied = this.#copied?.kind === kind && this.#copied.text === (text ?? this.#copied.text) ? this.#copied : undefined;
+    const copied = this.#lastCopy?.kind === kind && this.#lastCopy.text === (text ?? this.#lastCopy.text) ? this.#lastCopy : undefined;
     return html`<output class="copied">${copied ? `${copied.done ? copyWords.done : copyWords.byHand} ${copied.note}` : nothing}</output>
       ${copied && !copied.done
         ? html`<textarea readonly rows="3" aria-label=${copyWords.byHand} .value=${copied.text}></textarea>`

@@ -12,18 +12,18 @@ function focusableIn(root: ParentNode): HTMLElement[] {
 
 export class Focus extends FigureController {
   /** Focused control and its ancestors, the nearest first. */
-  #held: Element[] = [];
+  #focusPath: Element[] = [];
 
   hostUpdate() {
-    this.#held = [];
+    this.#focusPath = [];
     const focusedControl = (this.host.renderRoot as ShadowRoot | undefined)?.activeElement;
     // The placeholder moves the focus itself.
     if (!focusedControl || focusedControl.matches('.reserved')) return;
-    for (let at = focusedControl as Element | null; at; at = at.parentElement) this.#held.push(at);
+    for (let at = focusedControl as Element | null; at; at = at.parentElement) this.#focusPath.push(at);
   }
 
   hostUpdated() {
-    const [heldControl, ...ancestors] = this.#held;
+    const [heldControl, ...ancestors] = this.#focusPath;
     if (!heldControl || (heldControl.isConnected && heldControl.checkVisibility() && !heldControl.matches(':disabled'))) return;
     for (const each of ancestors) {
       const [nextControl] = each.isConnected ? focusableIn(each) : [];

@@ -4,48 +4,48 @@ import { FigureController } from './controller.ts';
 import type { Values } from './settings.ts';
 
 export class Gesture extends FigureController {
-  #step = false;
-  #end: boolean | undefined;
+  #hasStep = false;
+  #isAtEnd: boolean | undefined;
   /** True between an `input` event and its `change`. */
   #isOpen = false;
   /** Removes the listeners of a press. */
-  #press: AbortController | undefined;
+  #pressListeners: AbortController | undefined;
   /** Reading of the machine (see Figure.reading) before the present or latest gesture. */
   previousReading: any;
 
   /** True while a pointer is down on the figure. Views do not zoom meanwhile. */
   get pressed() {
-    return this.#press !== undefined;
+    return this.#pressListeners !== undefined;
   }
 
   press({ button }: PointerEvent) {
     if (button !== 0) return;
-    this.#release();
-    this.#press = new AbortController();
-    const { signal } = this.#press;
-    for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => this.#release(), { capture: true, signal });
+    this.#endPress();
+    this.#pressListeners = new AbortController();
+    const { signal } = this.#pressListeners;
+    for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => this.#endPress(), { capture: true, signal });
     // No `pointerup` is fired if the pointer is released over a list or dialog of the browser.
-    addEventListener('pointermove', ({ buttons }) => buttons === 0 && this.#release(), { capture: true, signal });
+    addEventListener('pointermove', ({ buttons }) => buttons === 0 && this.#endPress(), { capture: true, signal });
   }
 
-  #release() {
-    this.#press?.abort();
-    this.#press = undefined;
+  #endPress() {
+    this.#pressListeners?.abort();
+    this.#pressListeners = undefined;
     this.host.renderer.requestFrame();
   }
 
   /** Ends the gesture when the figure is removed. */
   hostDisconnected() {
-    this.#release();
-    if (this.#isOpen || this.#step) this.commit();
+    this.#endPress();
+    if (this.#isOpen || this.#hasStep) this.commit();
   }
 
   /** Records a step of a change that may continue. */
   step() {
-    if (!this.#isOpen && !this.#step) this.previousReading = this.host.reading;
-    this.#step = true;
-    this.#end = false;
-    this.#queue();
+    if (!this.#isOpen && !this.#hasStep) this.previousReading = this.host.reading;
+    this.#hasStep = true;
+    this.#isAtEnd = false;
+    this.#queueEvent();
   }
 
   /** Ends a change: applies it and announces the outcome. */
@@ -80,15 +80,15 @@ export class Gesture extends FigureController {
   }
 
   #finish() {
-    this.#end = true;
-    this.#queue();
+    this.#isAtEnd = true;
+    this.#queueEvent();
   }
 
   /** Fires one event after the running handler, which may change several values. */
-  #queue() {
+  #queueEvent() {
     queueMicrotask(() => {
-      const [step, end] = [this.#step, this.#end];
-      this.#step = this.#end = false;
+      const [step, end] = [this.#hasStep, this.#isAtEnd];
+      this.#hasStep = this.#isAtEnd = false;
       this.#isOpen ||= step;
       if (step) this.#dispatch('input');
       if (!end || !this.#isOpen) return;

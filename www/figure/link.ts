@@ -12,21 +12,21 @@ export class Link extends FigureController {
   #latestWrite = {};
 
   hostConnected() {
-    addEventListener('hashchange', this.#changed, { signal: this.host.connection.signal });
+    addEventListener('hashchange', this.#addressChanged, { signal: this.host.connection.signal });
     anchorToScroll ??= openingAnchor();
     if (isAnchor(anchorToScroll)) document.getElementById(decodeOrKeep(anchorToScroll))?.scrollIntoView();
-    else if (anchorToScroll !== fragmentParts()[0] || !this.#isOf(anchorToScroll)) return;
+    else if (anchorToScroll !== fragmentParts()[0] || !this.#isOwnPart(anchorToScroll)) return;
     else this.#scrollHere();
     anchorToScroll = '';
   }
 
-  #changed = () => {
-    if (this.#isOf(fragmentParts()[0])) this.#scrollHere();
-    void this.#follow();
+  #addressChanged = () => {
+    if (this.#isOwnPart(fragmentParts()[0])) this.#scrollHere();
+    void this.#applyAddress();
   };
 
   /** Returns true for this figure's part of the address. */
-  #isOf(part = '') {
+  #isOwnPart(part = '') {
     return part.startsWith(`${keyOf(this.host)}=`);
   }
 
@@ -39,14 +39,14 @@ export class Link extends FigureController {
 
   /** Reads the state to open with, before the first machine. */
   async prepare() {
-    if (!this.host.state.kept) await this.#follow();
+    if (!this.host.state.kept) await this.#applyAddress();
   }
 
   /** Applies the state in the page's address, if any, now or as soon as there is a machine. */
-  async #follow() {
+  async #applyAddress() {
     const { host } = this;
     const token = (this.#latestRead = {});
-    const part = fragmentParts().find((each) => this.#isOf(each));
+    const part = fragmentParts().find((each) => this.#isOwnPart(each));
     if (part === undefined) return;
     try {
       const state = await unpack(part.slice(part.indexOf('=') + 1));
@@ -58,7 +58,7 @@ export class Link extends FigureController {
 
   /** Writes the state into the address, if `share` is set or the address has the figure's state. It neither scrolls nor adds to the history. */
   async write() {
-    if (!this.host.share && !fragmentParts().some((part) => this.#isOf(part))) return;
+    if (!this.host.share && !fragmentParts().some((part) => this.#isOwnPart(part))) return;
     const token = (this.#latestWrite = {});
     const packedState = await this.#pack();
     if (token !== this.#latestWrite || !this.host.isConnected) return;

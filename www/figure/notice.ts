@@ -54,17 +54,17 @@ export const noticeStyles = css`
 `;
 
 export class Notice extends FigureController {
-  #sentence = '';
+  #sentenceText = '';
   /** Stops the work that is shown, if any. */
-  #stop: (() => void) | undefined;
+  #stopWork: (() => void) | undefined;
 
   get isShown() {
-    return this.#sentence !== '';
+    return this.#sentenceText !== '';
   }
 
   /** Shows a sentence until the reader closes it; an empty one hides it. */
   show(sentence: string) {
-    this.#sentence = sentence;
+    this.#sentenceText = sentence;
     this.host.requestUpdate();
   }
 
@@ -73,14 +73,14 @@ export class Notice extends FigureController {
     const { host } = this;
     const workEnded = new AbortController();
     const showWork = () => {
-      this.#stop = () => {
+      this.#stopWork = () => {
         host.announcer.announce(words.progress.stopped);
         stop();
       };
       host.announcer.announce(words.progress.begins);
       host.requestUpdate();
       // A capturing listener is called before the listeners of the figure.
-      document.addEventListener('keydown', this.#key, { capture: true, signal: workEnded.signal });
+      document.addEventListener('keydown', this.#onKey, { capture: true, signal: workEnded.signal });
     };
     const timer = setTimeout(showWork, DELAY_MS);
     try {
@@ -88,28 +88,28 @@ export class Notice extends FigureController {
     } finally {
       clearTimeout(timer);
       workEnded.abort();
-      this.#stop = undefined;
+      this.#stopWork = undefined;
       host.requestUpdate();
     }
   }
 
-  #key = (event: KeyboardEvent) => {
+  #onKey = (event: KeyboardEvent) => {
     if (event.key !== 'Escape' || event.defaultPrevented) return;
     // The key counts if the focus is in the figure, or on the body, such as after files were dropped.
     if (event.target !== document.body && !event.composedPath().includes(this.host)) return;
     event.preventDefault();
     event.stopPropagation();
-    this.#stop?.();
+    this.#stopWork?.();
   };
 
   render() {
     const { label, stop, stopTitle } = words.progress;
-    const workHtml = this.#stop && html`<div part="progress">
+    const workHtml = this.#stopWork && html`<div part="progress">
       <progress aria-label=${label}></progress>
       <span aria-hidden="true">${label}</span>
-      ${button(stop, this.#stop, { title: stopTitle })}
+      ${button(stop, this.#stopWork, { title: stopTitle })}
     </div>`;
-    const sentenceHtml = this.isShown && html`<div class="sentence"><span role="alert">${this.#sentence}</span> ${button(words.close, () => this.show(''))}</div>`;
+    const sentenceHtml = this.isShown && html`<div class="sentence"><span role="alert">${this.#sentenceText}</span> ${button(words.close, () => this.show(''))}</div>`;
     return [workHtml, sentenceHtml].map((content) => (content ? html`<div class="notice">${content}</div>` : nothing));
   }
 }

@@ -26,30 +26,30 @@ export class Presentation extends FigureController {
   }
 
   hostDisconnected() {
-    void this.#end();
+    void this.#endPresentation();
   }
 
   /** Begins or ends the presentation to match the attribute. */
   follow() {
     const { host } = this;
     if (!host.isConnected || host.presentation === (this.#listening !== undefined)) return;
-    if (host.presentation) void this.#begin();
-    else void this.#end();
+    if (host.presentation) void this.#beginPresentation();
+    else void this.#endPresentation();
   }
 
-  async #begin() {
+  async #beginPresentation() {
     const { host } = this;
     this.#stateAtBegin = host.machine && host.snapshot();
     host.copies.forget();
     this.#listening = new AbortController();
-    addEventListener('keydown', this.#key, { signal: this.#listening.signal });
+    addEventListener('keydown', this.#onKey, { signal: this.#listening.signal });
     const focusedButton = host.renderRoot?.querySelector('.to-present:focus-visible');
     await host.updateComplete;
     // A click should leave no focus ring in the presentation.
     this.#focus(focusedButton ? '.presenting button' : '.presenting');
     // Browsers allow a full screen only after a key press or a click. Some phones have no full screen.
     if (navigator.userActivation.isActive) await host.requestFullscreen?.().catch(() => {});
-    if (!this.#listening) await this.#exit();
+    if (!this.#listening) await this.#exitFullScreen();
     else if (!host.matches(':fullscreen')) {
       // A popover in the top layer fills the window even if an ancestor has a transform.
       host.popover = 'manual';
@@ -57,18 +57,18 @@ export class Presentation extends FigureController {
     }
   }
 
-  async #end() {
+  async #endPresentation() {
     if (!this.#listening) return;
     this.#listening.abort();
     this.#listening = undefined;
     this.#controls = false;
-    await this.#exit();
+    await this.#exitFullScreen();
     await this.host.updateComplete;
     // Focusing the button scrolls the page back to the figure.
     this.#focus('.to-present');
   }
 
-  async #exit() {
+  async #exitFullScreen() {
     this.host.popover = null;
     if (this.host.matches(':fullscreen')) await document.exitFullscreen().catch(() => {});
   }
@@ -81,17 +81,17 @@ export class Presentation extends FigureController {
     (this.host.renderRoot.querySelector(selector) as HTMLElement | null)?.focus();
   }
 
-  #key = ({ key, ctrlKey, altKey, metaKey, defaultPrevented }: KeyboardEvent) => {
+  #onKey = ({ key, ctrlKey, altKey, metaKey, defaultPrevented }: KeyboardEvent) => {
     if (defaultPrevented || ctrlKey || altKey || metaKey) return;
     const { definition, machine, state } = this.host;
     const preset = definition.attributes.preset?.words?.[Number(key) - 1];
     if (key === 'Escape') this.host.presentation = false;
     else if (key.toLowerCase() === CONTROLS_KEY) this.#toggle();
-    else if (key === RESTORE_KEY) this.#restore();
+    else if (key === RESTORE_KEY) this.#restoreState();
     else if (preset !== undefined && machine) state.choosePreset(preset);
   };
 
-  #restore() {
+  #restoreState() {
     if (this.host.machine) this.host.state.goBack(this.#stateAtBegin);
   }
 
@@ -115,7 +115,7 @@ export class Presentation extends FigureController {
     const keyHint = (key: string, label: string) => html`<kbd>${key}</kbd> ${label}`;
     return html`<div class="presenting" role="group" tabindex="-1" aria-label=${presentationWords.begin}>
       ${button(keyHint(CONTROLS_KEY.toUpperCase(), presentationWords.controls), () => this.#toggle(), { pressed: this.#controls })}
-      ${button(keyHint(RESTORE_KEY, presentationWords.back), () => this.#restore(), { title: presentationWords.backTitle })}
+      ${button(keyHint(RESTORE_KEY, presentationWords.back), () => this.#restoreState(), { title: presentationWords.backTitle })}
       ${button(keyHint('Esc', presentationWords.end), () => (this.host.presentation = false))}
     </div>`;
   }

@@ -23,9 +23,9 @@ export class Reflection extends FigureController {
   #hasConnected = false;
   #isWriting = false;
   /** Attribute that is being applied; its text is not overwritten. */
-  #incoming: string | undefined;
+  #incomingName: string | undefined;
   /** Texts as last written. */
-  #written: AttributeTexts | undefined;
+  #writtenTexts: AttributeTexts | undefined;
 
   /** Applies properties that were set before the element was upgraded, or that a server wrote as text. */
   hostConnected() {
@@ -132,11 +132,11 @@ export class Reflection extends FigureController {
   }
 
   #apply(name: string, text: string | null) {
-    this.#incoming = name;
+    this.#incomingName = name;
     try {
       Reflect.set(this.host, name, text);
     } finally {
-      this.#incoming = undefined;
+      this.#incomingName = undefined;
     }
   }
 
@@ -173,8 +173,8 @@ export class Reflection extends FigureController {
   }
 
   #write(texts: AttributeTexts) {
-    const writtenTexts = this.#written;
-    this.#written = texts;
+    const writtenTexts = this.#writtenTexts;
+    this.#writtenTexts = texts;
     if (!writtenTexts) return;
     const changedNames = new Set([...texts.keys()].filter((name) => texts.get(name) !== writtenTexts.get(name)));
     for (const [name, { covers }] of Object.entries(this.#attributes)) {
@@ -184,7 +184,7 @@ export class Reflection extends FigureController {
     }
     this.#isWriting = true;
     for (const name of changedNames) {
-      if (name === this.#incoming) continue;
+      if (name === this.#incomingName) continue;
       const text = texts.get(name) ?? null;
       if (text === null) this.host.removeAttribute(name);
       else this.host.setAttribute(name, text);

@@ -10,15 +10,15 @@ export class Runtime extends FigureController {
   /** Message of the error that stops the figure. */
   failure: string | undefined;
   /** True once the `load` event was fired. */
-  #loaded = false;
-  #starting: Promise<void> | undefined;
+  #hasLoaded = false;
+  #startPromise: Promise<void> | undefined;
   /** True from a trap to the next picture. */
   #hasTrapped = false;
 
   /** Starts the core, if it is not running. Resolves when it has started or failed. */
   start(): Promise<void> {
-    if (!this.machine && this.host.isConnected) this.#starting ??= this.#create();
-    return this.#starting ?? Promise.resolve();
+    if (!this.machine && this.host.isConnected) this.#startPromise ??= this.#create();
+    return this.#startPromise ?? Promise.resolve();
   }
 
   hostDisconnected() {
@@ -26,7 +26,7 @@ export class Runtime extends FigureController {
     queueMicrotask(() => {
       if (this.host.isConnected) return;
       this.host.renderer.setVisible(false);
-      this.#stop();
+      this.#stopMachine();
     });
   }
 
@@ -79,7 +79,7 @@ export class Runtime extends FigureController {
   /** Shows an error in the figure's place and fires it. */
   fail(error: unknown) {
     if (isWasmTrap(error)) this.#abandon();
-    this.#stop();
+    this.#stopMachine();
     this.failure = messageOf(error);
     this.report(error);
   }
@@ -111,7 +111,7 @@ export class Runtime extends FigureController {
     } catch (error) {
       this.fail(error);
     } finally {
-      this.#starting = undefined;
+      this.#startPromise = undefined;
     }
     // The element was moved meanwhile, or the core has trapped again.
     if (this.failure === undefined) void this.start();
@@ -123,13 +123,13 @@ export class Runtime extends FigureController {
     // Rendering may have trapped, and the element may be removed.
     if (!this.machine) return;
     this.host.renderer.requestFrame();
-    if (this.#loaded) return;
-    this.#loaded = true;
+    if (this.#hasLoaded) return;
+    this.#hasLoaded = true;
     this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
   }
 
-  #stop() {
-    this.#loaded = false;
+  #stopMachine() {
+    this.#hasLoaded = false;
     this.#hasTrapped = false;
     this.host.canvases.clear();
     // An element that is removed during print gets no event at its end.

@@ -11,7 +11,7 @@ const STATE_VERSION = 1;
 export class State extends FigureController {
   /** Last valid state. */
   kept: Values | undefined;
-  #opened: Values | undefined;
+  #openingState: Values | undefined;
   #fields = this.host.definition.own;
   /** Defaults of the state that the machine does not have. */
   openings: Values = Object.fromEntries(Object.entries(this.#fields).map(([name, { opening }]) => [name, opening]));
@@ -39,7 +39,7 @@ export class State extends FigureController {
     host.machineChanged();
     host.reflection.applyPending();
     // The machine is missing after a trap. The settings are not stale if a pending state was shown already.
-    if (host.machine && host.settings.stale) this.#introduce(this.kept);
+    if (host.machine && host.settings.stale) this.#showState(this.kept);
   }
 
   /** Applies a state with its widget and version. Missing fields keep their values; an error changes nothing. */
@@ -61,7 +61,7 @@ export class State extends FigureController {
     host.runtime.replace(machine);
     host.settings.reset();
     host.machineChanged();
-    this.#introduce(wholeState);
+    this.#showState(wholeState);
     host.renderer.requestFrame();
   }
 
@@ -78,11 +78,11 @@ export class State extends FigureController {
 
   /** Restores the state that the figure opened with. */
   startOver() {
-    this.goBack(this.#opened);
+    this.goBack(this.#openingState);
   }
 
   /** Restores a state, as a change by the reader. */
-  goBack(state: Values | undefined = this.#opened) {
+  goBack(state: Values | undefined = this.#openingState) {
     const { gesture, runtime } = this.host;
     runtime.attempt(() => {
       this.enter(state);
@@ -91,11 +91,11 @@ export class State extends FigureController {
   }
 
   /** Shows a state of the machine, by default the opening state. */
-  #introduce(state?: Values) {
+  #showState(state?: Values) {
     const { host } = this;
     host.renderer.releaseViews();
     host.cloud?.introduce(state);
-    this.#opened ??= { ...host.snapshot(), ...(host.cloud && { shown: 0, playing: true }) };
+    this.#openingState ??= { ...host.snapshot(), ...(host.cloud && { shown: 0, playing: true }) };
     host.refresh();
     host.reflection.updateAttributes();
     host.renderer.requestFrame();

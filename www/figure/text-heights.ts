@@ -8,32 +8,32 @@ const CHANGING_TEXTS = ':is(p, dl, li, .told):not(.told > *, .slider *, details 
 
 /** Keeps the largest height of each text at the present width of the figure and in the present language. */
 export class TextHeights extends FigureController {
-  #texts: Set<HTMLElement> = new Set();
-  #sizes: ResizeObserver | undefined;
-  #width = 0;
+  #textElements: Set<HTMLElement> = new Set();
+  #sizeObserver: ResizeObserver | undefined;
+  #lastWidth = 0;
   #language = '';
 
   hostUpdated() {
-    this.#sizes ??= new ResizeObserver((entries) => this.#keep(entries));
+    this.#sizeObserver ??= new ResizeObserver((entries) => this.#keepHeights(entries));
     for (const text of this.host.renderRoot.querySelectorAll<HTMLElement>(CHANGING_TEXTS)) {
-      if (!this.#texts.has(text)) this.#sizes.observe(text);
-      this.#texts.add(text);
+      if (!this.#textElements.has(text)) this.#sizeObserver.observe(text);
+      this.#textElements.add(text);
     }
   }
 
   /** Keeps new heights, which are never below the kept ones, or measures all texts again. */
-  #keep(entries: ResizeObserverEntry[]) {
+  #keepHeights(entries: ResizeObserverEntry[]) {
     const { clientWidth } = this.host;
-    if (clientWidth === this.#width && language === this.#language) {
+    if (clientWidth === this.#lastWidth && language === this.#language) {
       for (const { target, contentRect } of entries) (target as HTMLElement).style.minHeight = `${contentRect.height}px`;
       return;
     }
-    [this.#width, this.#language] = [clientWidth, language];
+    [this.#lastWidth, this.#language] = [clientWidth, language];
     // Changing a size now would call the observer again in this frame.
     requestAnimationFrame(() => {
-      this.#sizes?.disconnect();
-      for (const text of this.#texts) text.style.minHeight = '';
-      this.#texts.clear();
+      this.#sizeObserver?.disconnect();
+      for (const text of this.#textElements) text.style.minHeight = '';
+      this.#textElements.clear();
       this.hostUpdated();
     });
   }

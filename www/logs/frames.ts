@@ -91,14 +91,14 @@ interface TimedEdge {
 /** Poses of a frame in another, from the transforms between them. */
 export class Chain {
   readonly tree = new FrameTree();
-  readonly #ends: Frames;
+  readonly #endFrames: Frames;
   /** Names of the links, from the first to the last. */
   #links: string[] = [];
   /** Transforms in the order of their messages. They are of all links until the links of the chain are known. */
   #samples: TimedEdge[] = [];
 
   constructor({ parent, child }: Frames) {
-    this.#ends = { parent: withoutSlash(parent), child: withoutSlash(child) };
+    this.#endFrames = { parent: withoutSlash(parent), child: withoutSlash(child) };
   }
 
   /** Adds a transform. Static ones have to come first, because they hold at all times. */
@@ -107,7 +107,7 @@ export class Chain {
     const sample = { link: framesText(edge), isStatic, edge, message: { channel, seconds, nanoseconds }, number };
     if (!this.isConnected || this.#links.includes(sample.link)) this.#samples.push(sample);
     if (this.isConnected) return;
-    this.#links = (this.tree.chain(this.#ends) ?? []).map(framesText);
+    this.#links = (this.tree.chain(this.#endFrames) ?? []).map(framesText);
     if (this.isConnected) this.#samples = this.#samples.filter(({ link }) => this.#links.includes(link));
   }
 

@@ -53,10 +53,10 @@ const MIN_FRACTION = 0.6;
 const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, IS_BROKEN, WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
 
 export class Rows {
-  #place: Place;
+  #logPlace: Place;
   /** Numbers of the rows that were added, row by row. */
   #numbers = new Float64Array(1024 * WIDTH);
-  #added = 0;
+  #addedCount = 0;
   /** Index of the seconds of the clock that is used. */
   #clock = SECONDS;
   /** True if the path before the next row is unknown, because an unusable row was dropped. */
@@ -68,7 +68,7 @@ export class Rows {
 
   /** @param place for errors */
   constructor(place: Place) {
-    this.#place = place;
+    this.#logPlace = place;
   }
 
   /** Drops an unusable row. */
@@ -94,12 +94,12 @@ export class Rows {
     // A sum is finite if all of its terms are.
     if (!Number.isFinite(seconds + rest + a + b + c)) return this.drop('notFinite', line);
     this.count += 1;
-    if (this.count > MAX_ROWS) throw new LogError(this.#place, (say) => say.rows(MAX_ROWS));
+    if (this.count > MAX_ROWS) throw new LogError(this.#logPlace, (say) => say.rows(MAX_ROWS));
     if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) {
       const tooLargeValue = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE) ?? NaN;
       throw new LogError(this.#placeOf(line), (say) => say.far(tooLargeValue, MAX_VALUE, this.#messageNumber(line)));
     }
-    const at = WIDTH * this.#added++;
+    const at = WIDTH * this.#addedCount++;
     if (at === this.#numbers.length) {
       const largerNumbers = new Float64Array(2 * at);
       largerNumbers.set(this.#numbers);
@@ -137,7 +137,7 @@ export class Rows {
       throw new LogError(this.#placeOf(firstDrop?.first ?? 0), (say) => say.few(rows.length, count, cause));
     }
     const columns = { ...times, a, b, c };
-    const units = judgeUnits(this.#place, kind, columns, assumed, options);
+    const units = judgeUnits(this.#logPlace, kind, columns, assumed, options);
     const { start, t } = columns;
     const { breaks, jumped: jumpRows, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
@@ -161,8 +161,8 @@ export class Rows {
     const compareTimes = (one: number, other: number) =>
       this.#number(one, OTHER_SECONDS) - this.#number(other, OTHER_SECONDS) || this.#number(one, OTHER_REST) - this.#number(other, OTHER_REST);
     let row = 1;
-    while (row < this.#added && compareTimes(row - 1, row) <= 0) row += 1;
-    if (row >= this.#added) return;
+    while (row < this.#addedCount && compareTimes(row - 1, row) <= 0) row += 1;
+    if (row >= this.#addedCount) return;
     const order = this.#rows.sort(compareTimes);
     this.#numbers = new Float64Array(numbers.length);
     for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(WIDTH * from, WIDTH * (from + 1)), WIDTH * rank);
@@ -172,11 +172,11 @@ export class Rows {
   #chooseClock(hasOther: boolean): boolean {
     if (!hasOther) return false;
     let [unset, changes] = [0, 0];
-    for (let row = 0; row < this.#added; row++) {
+    for (let row = 0; row < this.#addedCount; row++) {
       if (this.#isUnset(row)) unset += 1;
       if (row > 0 && this.#time(row, 0) !== this.#time(row - 1, 0)) changes += 1;
     }
-    if (2 * unset <= this.#added && changes > MAX_STANDING_CHANGES * this.#added) return false;
+    if (2 * unset <= this.#addedCount && changes > MAX_STANDING_CHANGES * this.#addedCount) return false;
     this.#clock = OTHER_SECONDS;
     return true;
   }
@@ -185,15 +185,15 @@ export class Rows {
   #continueClock(): number {
     const numbers = this.#numbers;
     const timeStep = (row: number) => this.#time(row, this.#number(row - 1, this.#clock)) - this.#number(row - 1, this.#clock + 1);
-    const maxError = MIN_GAP_STEPS * quantile(sample(this.#added - 1, (i) => Math.abs(timeStep(i + 1))), 0.5);
+    const maxError = MIN_GAP_STEPS * quantile(sample(this.#addedCount - 1, (i) => Math.abs(timeStep(i + 1))), 0.5);
     const periodChanges: [row: number, period: number][] = [];
-    for (let row = 1; row < this.#added; row++) {
+    for (let row = 1; row < this.#addedCount; row++) {
       const step = timeStep(row);
       const period = step < 0 || periodChanges.length > 0 ? CLOCK_PERIODS.find((each) => Math.abs(Math.abs(step) - each) <= maxError && each > 100 * maxError) : undefined;
       if (period) periodChanges.push([row, step < 0 ? period : -period]);
     }
     for (const [first, period] of periodChanges) {
-      for (let row = first; row < this.#added; row++) {
+      for (let row = first; row < this.#addedCount; row++) {
         numbers[WIDTH * row + this.#clock] += Math.floor(period);
         numbers[WIDTH * row + this.#clock + 1] += period - Math.floor(period);
       }
@@ -203,7 +203,7 @@ export class Rows {
 
   /** Returns the indices of all rows that were added. */
   get #rows(): Uint32Array<ArrayBuffer> {
-    return new Uint32Array(this.#added).map((_, row) => row);
+    return new Uint32Array(this.#addedCount).map((_, row) => row);
   }
 
   #number(row: number, index: number): number {
@@ -279,7 +279,7 @@ export class Rows {
     usedRows.forEach((row, i) => {
       if (classes[i] === STRAY || classes[i] === SET_BACK) causes.set(row, classes[i] === STRAY ? 'stray' : 'setBack');
     });
-    if (usedRows.length < this.#added) for (const row of this.#rows) if (this.#isUnset(row)) causes.set(row, 'noStamp');
+    if (usedRows.length < this.#addedCount) for (const row of this.#rows) if (this.#isUnset(row)) causes.set(row, 'noStamp');
     return { start, t: timesOfRows(rows), rows, late: classes.reduce((count, each) => count + Number(each === LATE), 0), causes };
   }
 
@@ -287,7 +287,7 @@ export class Rows {
   #brokenRows(causes: Map<number, Cause>): Set<number> {
     const rowsAfterBreak = new Set<number>();
     let isAfterBreak = false;
-    for (let row = 0; row < this.#added; row++) {
+    for (let row = 0; row < this.#addedCount; row++) {
       const cause = causes.get(row);
       isAfterBreak ||= this.#number(row, IS_BROKEN) === 1 || cause === 'setBack';
       if (cause) this.#countDropped(cause, this.#number(row, LINE));
@@ -324,12 +324,12 @@ export class Rows {
   }
 
   #placeOf(line: number): Place {
-    return line && !this.#messageNumber(line) ? { ...this.#place, line } : this.#place;
+    return line && !this.#messageNumber(line) ? { ...this.#logPlace, line } : this.#logPlace;
   }
 
   /** Returns the number of a message of a recording; 0 in a table. */
   #messageNumber(line: number): number {
-    return this.#place.topic === undefined ? 0 : line;
+    return this.#logPlace.topic === undefined ? 0 : line;
   }
 
   #countDropped(cause: Cause, line: number): void {

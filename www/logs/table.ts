@@ -144,7 +144,7 @@ class ClockReader {
   /** True if a fraction of a second begins with 0. */
   #hasLeadingZero = false;
   /** Number of digits of the longest fraction. */
-  #longest = 0;
+  #longestFraction = 0;
   /** Times whose fractions end in 0, by the number of digits of the fraction. */
   #endingInZero = new Map<number, string[]>();
 
@@ -186,7 +186,7 @@ class ClockReader {
     const pointIndex = text.indexOf('.');
     const digitCount = text.length - pointIndex - 1;
     if (pointIndex < 0 || digitCount < 2) return;
-    this.#longest = Math.max(this.#longest, digitCount);
+    this.#longestFraction = Math.max(this.#longestFraction, digitCount);
     if (text[pointIndex + 1] === '0') this.#hasLeadingZero = true;
     if (!text.endsWith('0')) return;
     const sameDigitTimes = this.#endingInZero.get(digitCount) ?? [];
@@ -200,7 +200,7 @@ class ClockReader {
    */
   get unpadded(): string | undefined {
     if (this.#hasLeadingZero) return undefined;
-    return [...this.#endingInZero].find(([digits, { length }]) => digits < this.#longest && length === MIN_UNPADDED)?.[1][0];
+    return [...this.#endingInZero].find(([digits, { length }]) => digits < this.#longestFraction && length === MIN_UNPADDED)?.[1][0];
   }
 }
 
@@ -218,15 +218,15 @@ class LogReader {
   #clocks: ClockReader[];
   #textOf: (cell: string) => string;
   /** Number of leading cells of a row that are needed. */
-  #needed: number;
+  #neededCells: number;
   #notes: Note[] = [];
   /** Number of damaged rows, and the line and the reason of the first. */
   #damagedRows = 0;
   #firstDamaged: [number, ErrorReason] | undefined;
   #frames = new Set<string>();
   /** Cosines of the robot's tilt. They are near 1 if it drives on a plane. */
-  #tilts: number[] = [];
-  #heights: number[] = [];
+  #tiltCosines: number[] = [];
+  #robotHeights: number[] = [];
 
   constructor(name: string, file: string, format: Format, group: Group, layout: Layout, options: OpenOptions, upAxis?: 'Y' | 'Z') {
     this.#name = name;
@@ -241,7 +241,7 @@ class LogReader {
     this.#clocks = layout.clocks.map((clock, i) => new ClockReader(clock, i === 0 ? options.timeUnit : undefined, this.#textOf));
     const { z, frame, child } = group.columns;
     const columns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...[upAxis && z, frame, child].filter((column) => column !== undefined)];
-    this.#needed = Math.max(...columns.map(({ at }) => at)) + 1;
+    this.#neededCells = Math.max(...columns.map(({ at }) => at)) + 1;
   }
 
   take(line: string, number: number, isOpen: boolean): void {
@@ -251,9 +251,9 @@ class LogReader {
     if (tag !== undefined && !line.startsWith(`${tag} `)) return;
     if (/^\s*(?:[#%]|$)/.test(line)) return;
     if (line === header) return this.#rows.drop('text', number);
-    const cells = tag === undefined ? cellsOf(line, separator, this.#needed) : carmenCells(line);
-    if (cells.length < this.#needed) {
-      if (!isOpen) return this.#dropDamaged('short', number, (say) => say.cells(cells.length, this.#needed));
+    const cells = tag === undefined ? cellsOf(line, separator, this.#neededCells) : carmenCells(line);
+    if (cells.length < this.#neededCells) {
+      if (!isOpen) return this.#dropDamaged('short', number, (say) => say.cells(cells.length, this.#neededCells));
       this.#notes.push({ name: 'cutShort', values: [] });
       return this.#rows.drop('short', number);
     }
@@ -283,8 +283,8 @@ class LogReader {
     if (fields.at(-1) === 'qw') {
       const [qx, qy, qz, qw] = fields.length === 6 ? values.slice(2) : [0, 0, ...values.slice(2)];
       if (!isRotation(qx, qy, qz, qw)) return this.#rows.drop('noRotation', line);
-      this.#tilts.push(1 - 2 * (qx * qx + qy * qy));
-      if (this.#upAxis && z) this.#heights.push(numberOf(this.#textOf(cells[z.at])) ?? NaN);
+      this.#tiltCosines.push(1 - 2 * (qx * qx + qy * qy));
+      if (this.#upAxis && z) this.#robotHeights.push(numberOf(this.#textOf(cells[z.at])) ?? NaN);
       heading = headingOf(qx, qy, qz, qw);
     }
     const [[seconds, fraction], [otherSeconds, otherFraction] = [0, 0]] = times;
@@ -304,12 +304,12 @@ class LogReader {
 
   /** Returns true if the robot does not drive on a plane. */
   get isTilted(): boolean {
-    return quantileSpread(this.#tilts) > MAX_TILT_SPREAD;
+    return quantileSpread(this.#tiltCosines) > MAX_TILT_SPREAD;
   }
 
   /** Spread of the robot's heights. It is small along the vertical axis. */
   get rise(): number {
-    return quantileSpread(this.#heights);
+    return quantileSpread(this.#robotHeights);
   }
 
   end(): Log {

@@ -76,9 +76,9 @@ class TopicReader {
   #kind: Series['kind'] = null;
   #chain: Chain | undefined;
   /** Number of messages so far. */
-  #number = 0;
+  #messageCount = 0;
   /** Number of unreadable messages, and the reason why the first one is unreadable. */
-  #damaged = 0;
+  #damagedCount = 0;
   #reason = '';
   #readers = new Map<Channel, (message: Message) => void>();
   /** Nodes in the order of their first messages. */
@@ -129,12 +129,12 @@ class TopicReader {
     const { channel } = message;
     let readMessage = this.#readers.get(channel);
     if (!readMessage) this.#readers.set(channel, (readMessage = this.#readerOf(channel)));
-    this.#number += 1;
+    this.#messageCount += 1;
     try {
       readMessage(message);
     } catch (error) {
       if (error instanceof LogError) throw error;
-      return this.#drop(this.#number, reasonOf(error));
+      return this.#drop(this.#messageCount, reasonOf(error));
     }
     if (channel.publisher === this.#publisher || this.#chain) return;
     this.#publisher = channel.publisher;
@@ -146,11 +146,11 @@ class TopicReader {
     const chain = this.#chain;
     if (!chain) {
       const readPose = poseReader(channel);
-      return (message) => this.#add(readPose(message), message, this.#number);
+      return (message) => this.#add(readPose(message), message, this.#messageCount);
     }
     const isStaticChannel = isStaticTopic(channel);
     return (message) => {
-      for (const edge of edgesOf(message)) chain.take(edge, isStaticChannel, message, this.#number);
+      for (const edge of edgesOf(message)) chain.take(edge, isStaticChannel, message, this.#messageCount);
     };
   }
 
@@ -162,7 +162,7 @@ class TopicReader {
 
   /** Drops a damaged message. */
   #drop(number: number, reason: string): void {
-    this.#damaged += 1;
+    this.#damagedCount += 1;
     this.#reason ||= reason;
     this.#rows.drop('damaged', number);
   }
@@ -172,10 +172,10 @@ class TopicReader {
     const { series, frames } = this.#choice;
     const { damage, cutShort, missing } = this.#container;
     const [reason] = damage.values();
-    if (this.#number === 0) this.#refuse((say) => (reason ? say.damaged(reason) : say.noMessages));
+    if (this.#messageCount === 0) this.#refuse((say) => (reason ? say.damaged(reason) : say.noMessages));
     if (this.#alternations > MAX_ALTERNATIONS) this.#refuse((say) => say.publishers(listing(this.#publishers)));
     if (this.#chain) this.#addPoses(this.#chain);
-    if (this.#damaged === this.#number) this.#refuse((say) => say.message(1, this.#reason));
+    if (this.#damagedCount === this.#messageCount) this.#refuse((say) => say.message(1, this.#reason));
     const kind = this.#kind === 'commands' ? 'commands' : 'poses';
     const notes: Note[] = [
       ...(missing.length ? [{ name: 'missing' as const, values: [listing(missing)] }] : []),
@@ -192,7 +192,7 @@ class TopicReader {
 
   #addPoses(chain: Chain): void {
     const frames = this.#choice.frames as NonNullable<Choice['frames']>;
-    if (this.#damaged === this.#number) return;
+    if (this.#damagedCount === this.#messageCount) return;
     if (!chain.isConnected) this.#refuse((say) => say.noChain(framesText(frames), listing(chain.tree.links.map(framesText))));
     const hasChanged = chain.poses((pose, { message, number }) => this.#add(pose, message, number));
     if (!hasChanged) this.#refuse((say) => say.constant(framesText(frames), listing(chain.tree.candidates().map(framesText))));

@@ -62,18 +62,18 @@ class LogSession {
       unpaired: { odometry: unpaired.odometry.map(openedPart), reference: unpaired.reference.map(openedPart) },
     };
     const readLogs = await readDrives(plan, onProgress);
-    this.#take(logOf(readLogs));
+    this.#takeLog(logOf(readLogs));
     return readLogs;
   }
 
   /** Returns the fit to `log`, or to the log that was read last, for `AlphaCalibrator.restored`. */
   calibrate(_: OnProgress, config: AlphaCalibratorSettings, log?: CalibrationLog): Uint8Array {
-    if (log) this.#take(log);
+    if (log) this.#takeLog(log);
     this.#machine.configure(config);
     return this.#machine.save();
   }
 
-  #take({ odometry, reference }: CalibrationLog) {
+  #takeLog({ odometry, reference }: CalibrationLog) {
     this.#machine.setLog(odometry, reference);
   }
 }

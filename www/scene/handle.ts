@@ -62,11 +62,11 @@ export class Handle {
   #part;
   #callbacks;
   /** Pointer that drags the handle, and its element. */
-  #hold: { id: number, by: Element } | undefined;
+  #heldPointer: { id: number, by: Element } | undefined;
   /** Vector (m) from the pointer to the target. It keeps a target that is grasped at its edge from jumping. */
-  #grip = [0, 0];
+  #gripOffset = [0, 0];
   /** Position of the middle in pixels of the view, before it is rounded on the screen. */
-  #middle = [0, 0];
+  #middlePixels = [0, 0];
 
   /** Creates the handle. `part` has the CSS classes of its element. */
   constructor(part: string, callbacks: HandleCallbacks) {
@@ -76,12 +76,12 @@ export class Handle {
 
   /** True while a pointer drags the handle. Browsers release the pointer of a removed element without an event. */
   get held() {
-    return this.#hold?.by.hasPointerCapture(this.#hold.id) ?? false;
+    return this.#heldPointer?.by.hasPointerCapture(this.#heldPointer.id) ?? false;
   }
 
   element({ name, keys, title, range, now, text, stop, hint }: HandleLabels) {
     // The text about the limit is on the side that faces the middle of the picture.
-    const limitTextSide = 2 * this.#middle[0] > this.#callbacks.view().width ? 'right' : '';
+    const limitTextSide = 2 * this.#middlePixels[0] > this.#callbacks.view().width ? 'right' : '';
     return html`<div
       class="handle ${this.#part} ${limitTextSide} ${this.held ? 'held' : ''}"
       role="slider"
@@ -95,7 +95,7 @@ export class Handle {
       data-stop=${stop || nothing}
       data-hint=${hint || nothing}
       title=${title}
-      @pointerdown=${this.#take}
+      @pointerdown=${this.#takePointer}
       @pointermove=${this.#drag}
       @pointerup=${this.#release}
       @pointercancel=${this.#release}
@@ -107,13 +107,13 @@ export class Handle {
   place(root: ParentNode, x: number, y: number, size?: number) {
     const handle = root.querySelector(`.handle.${this.#part.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
-    this.#middle = [x, y];
+    this.#middlePixels = [x, y];
     if (size !== undefined) handle.style.width = handle.style.height = emOfPixels(size);
     handle.style.translate = `${emOfPixels(x)} ${emOfPixels(y)}`;
   }
 
   /** Converts a point from pixels of the view to metres. */
-  #world([x, y]: number[]): number[] {
+  #toWorld([x, y]: number[]): number[] {
     const view = this.#callbacks.view();
     return [view.toWorldX(x), view.toWorldY(y)];
   }
@@ -121,28 +121,28 @@ export class Handle {
   /** Returns the place of the pointer in metres. */
   #pointer(event: PointerEvent): number[] {
     const { parentElement } = event.currentTarget as Element;
-    return this.#world(pointOn(parentElement as Element, this.#callbacks.view(), event));
+    return this.#toWorld(pointOn(parentElement as Element, this.#callbacks.view(), event));
   }
 
-  #take = (event: PointerEvent) => {
+  #takePointer = (event: PointerEvent) => {
     if (event.button !== 0) return;
     const handle = event.currentTarget as Element;
     handle.setPointerCapture(event.pointerId);
-    this.#hold = { id: event.pointerId, by: handle };
+    this.#heldPointer = { id: event.pointerId, by: handle };
     const pointer = this.#pointer(event);
-    const graspedPoint = this.#callbacks.at?.(pointer) ?? this.#world(this.#middle);
-    this.#grip = [graspedPoint[0] - pointer[0], graspedPoint[1] - pointer[1]];
+    const graspedPoint = this.#callbacks.at?.(pointer) ?? this.#toWorld(this.#middlePixels);
+    this.#gripOffset = [graspedPoint[0] - pointer[0], graspedPoint[1] - pointer[1]];
   };
 
   #drag = (event: PointerEvent) => {
     if (!this.held) return;
     const [x, y] = this.#pointer(event);
-    this.#callbacks.drag(x + this.#grip[0], y + this.#grip[1]);
+    this.#callbacks.drag(x + this.#gripOffset[0], y + this.#gripOffset[1]);
   };
 
   #release = () => {
-    if (!this.#hold) return;
-    this.#hold = undefined;
+    if (!this.#heldPointer) return;
+    this.#heldPointer = undefined;
     this.#callbacks.commit();
   };
 

@@ -10,7 +10,7 @@ import type { Brush } from './canvas.ts';
  */
 export class Pixels {
   #grid = new OffscreenCanvas(1, 1);
-  #inked: ReturnType<typeof opaqueBox>;
+  #inkedBox: ReturnType<typeof opaqueBox>;
 
   /**
    * Replaces the pixels.
@@ -21,14 +21,14 @@ export class Pixels {
     const rows = pixels.length / (4 * columns);
     if (this.#grid.width !== columns) this.#grid.width = columns;
     if (this.#grid.height !== rows) this.#grid.height = rows;
-    this.#inked = opaqueBox(pixels, columns, rows);
+    this.#inkedBox = opaqueBox(pixels, columns, rows);
     // All pixels are copied, because scaling blends the edges of the visible part with their neighbours.
-    if (this.#inked) hiddenContext(this.#grid).putImageData(new ImageData(pixels, columns, rows), 0, 0);
+    if (this.#inkedBox) hiddenContext(this.#grid).putImageData(new ImageData(pixels, columns, rows), 0, 0);
   }
 
   draw({ context, view }: Brush) {
-    if (!this.#inked) return;
-    const [x, y, width, height] = this.#inked;
+    if (!this.#inkedBox) return;
+    const [x, y, width, height] = this.#inkedBox;
     const { left, right, top, bottom } = view.frame;
     const [across, down] = [(right - left) / this.#grid.width, (bottom - top) / this.#grid.height];
     context.imageSmoothingEnabled = true;

@@ -26,19 +26,19 @@ export class View {
   extent: Extent = { xMin: -1, yMin: -1, xMax: 1, yMax: 1 };
   #target: Extent | undefined;
   /** Part of the world that the view has to show, also after a change of the canvas size. */
-  #room: Extent | undefined;
+  #neededRoom: Extent | undefined;
   /** True if the next fit may also zoom in and recenter. */
-  #released = false;
+  #isReleased = false;
   /** True after the view has zoomed out. The picture resets it. */
   widened = false;
   /** Limits of the extent. A larger extent is centred on them. */
   within: Extent | undefined;
   /** True if a metre is as long in y as in x. */
-  #equal;
+  #hasEqualScales;
   /** True if the extent is exactly the needed part of the world, without a margin. After a change of size the view is then fitted anew. */
-  #snug;
+  #isSnug;
   /** Canvas size at the last fit, CSS pixels. */
-  #fitted = { width: 1, height: 1 };
+  #fittedSize = { width: 1, height: 1 };
   /** Canvas size, CSS pixels. */
   width = 1;
   height = 1;
@@ -47,8 +47,8 @@ export class View {
   #inset;
 
   constructor({ equal = true, snug = false, left = 42, right = 8, top = 24, bottom = 30 }: { equal?: boolean, snug?: boolean, left?: number, right?: number, top?: number, bottom?: number } = {}) {
-    this.#equal = equal;
-    this.#snug = snug;
+    this.#hasEqualScales = equal;
+    this.#isSnug = snug;
     this.#inset = { left, right, top, bottom };
   }
 
@@ -58,7 +58,7 @@ export class View {
     this.height = height;
     const { left, right, top, bottom } = this.#inset;
     this.frame = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
-    if (this.#room) this.extent = this.#target = this.#cover(this.#room);
+    if (this.#neededRoom) this.extent = this.#target = this.#coveringExtent(this.#neededRoom);
   }
 
   /** True after the first fit. */
@@ -68,12 +68,12 @@ export class View {
 
   /** Allows the next fit to zoom in and recenter. */
   release() {
-    this.#released = true;
+    this.#isReleased = true;
   }
 
   /** Resets the view, so that the next fit takes effect without an animation. */
   forget() {
-    this.#target = this.#room = undefined;
+    this.#target = this.#neededRoom = undefined;
   }
 
   /** Pixels per unit of x. With equal scales it is also that of y. */
@@ -126,15 +126,15 @@ export class View {
   /** Sets the target of the view, which stays if it contains `needed`. Otherwise the view zooms out. A released view may also zoom in. */
   fit(needed: Extent) {
     const { width, height } = this;
-    const isResized = this.#snug && (width !== this.#fitted.width || height !== this.#fitted.height);
-    const [kept, isReleased] = [isResized ? undefined : this.#target, this.#released];
-    this.#fitted = { width, height };
-    this.#released = false;
-    if (kept && (isReleased ? this.#suits(kept, needed) : isInside(needed, kept))) return;
+    const isResized = this.#isSnug && (width !== this.#fittedSize.width || height !== this.#fittedSize.height);
+    const [kept, isReleased] = [isResized ? undefined : this.#target, this.#isReleased];
+    this.#fittedSize = { width, height };
+    this.#isReleased = false;
+    if (kept && (isReleased ? this.#isSuitable(kept, needed) : isInside(needed, kept))) return;
     this.widened = kept !== undefined && !isReleased;
-    const padded = this.#snug ? needed : extentWithMargin(needed);
-    this.#room = kept && this.widened ? extentAround([padded.xMin, padded.yMin, padded.xMax, padded.yMax], 2, kept) : padded;
-    this.#target = this.#cover(this.#room);
+    const padded = this.#isSnug ? needed : extentWithMargin(needed);
+    this.#neededRoom = kept && this.widened ? extentAround([padded.xMin, padded.yMin, padded.xMax, padded.yMax], 2, kept) : padded;
+    this.#target = this.#coveringExtent(this.#neededRoom);
     if (!kept) this.extent = this.#target;
   }
 
@@ -152,19 +152,19 @@ export class View {
   }
 
   /** Returns true if an extent contains the needed part of the world, and is filled enough by it. */
-  #suits(shown: Extent, needed: Extent) {
+  #isSuitable(shown: Extent, needed: Extent) {
     const fractions = [(needed.xMax - needed.xMin) / (shown.xMax - shown.xMin), (needed.yMax - needed.yMin) / (shown.yMax - shown.yMin)];
-    return isInside(needed, shown) && Math[this.#equal ? 'max' : 'min'](...fractions) >= MIN_FILL;
+    return isInside(needed, shown) && Math[this.#hasEqualScales ? 'max' : 'min'](...fractions) >= MIN_FILL;
   }
 
   /** Returns an extent around `room`, moved into the limits. Its size is rounded unless the view is snug. Equal scales determine its aspect ratio. */
-  #cover(room: Extent) {
+  #coveringExtent(room: Extent) {
     const { left, right, top, bottom } = this.frame;
-    const sizeFunction = this.#snug ? (needed: number) => needed : niceSize;
+    const sizeFunction = this.#isSnug ? (needed: number) => needed : niceSize;
     const aspectRatio = (bottom - top) / (right - left);
     const [roomX, roomY] = [room.xMax - room.xMin, room.yMax - room.yMin];
-    const width = sizeFunction(this.#equal ? Math.max(roomX, roomY / aspectRatio) : roomX);
-    const height = this.#equal ? width * aspectRatio : sizeFunction(roomY);
+    const width = sizeFunction(this.#hasEqualScales ? Math.max(roomX, roomY / aspectRatio) : roomX);
+    const height = this.#hasEqualScales ? width * aspectRatio : sizeFunction(roomY);
     const limits = this.within ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
     const x = movedMiddle((room.xMin + room.xMax) / 2, width, limits.xMin, limits.xMax);
     const y = movedMiddle((room.yMin + room.yMax) / 2, height, limits.yMin, limits.yMax);

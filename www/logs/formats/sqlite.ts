@@ -55,7 +55,7 @@ class Rosbag2 implements Container {
   #source;
   #pageSize = 0;
   /** Bytes of a page without those reserved at its end. */
-  #usable = 0;
+  #usableBytes = 0;
   #messages: Table = { root: 0, columns: [] };
   #channels = new Map<SqliteValue, Channel>();
   #bytesAt;
@@ -75,12 +75,12 @@ class Rosbag2 implements Container {
     this.cutShort = view.byteLength < HEADER_BYTES;
     if (this.cutShort) return;
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
-    this.#usable = this.#pageSize - view.getUint8(20);
-    if (this.#usable < 480) throw notRosbag2();
+    this.#usableBytes = this.#pageSize - view.getUint8(20);
+    if (this.#usableBytes < 480) throw notRosbag2();
     this.cutShort = view.getUint32(28) * this.#pageSize > this.#source.size;
     const tablesByName = new Map<string, Table>();
     await this.#eachRow({ root: 1, columns: [] }, async (row) => {
-      const bytes = await this.#whole(row);
+      const bytes = await this.#wholeRow(row);
       const [name, root, sql] = [1, 3, 4].map((column) => valueOf(bytes, column));
       const columns = textOf(sql).replace(/^[^(]*\(|\)[^)]*$/g, '').split(',').map((column) => column.trim().split(/\s/)[0]);
       tablesByName.set(textOf(name), { root: Number(root), columns });
@@ -92,7 +92,7 @@ class Rosbag2 implements Container {
     }
     this.#messages = messages;
     await this.#eachRow(topics, async (row) => {
-      const bytes = await this.#whole(row);
+      const bytes = await this.#wholeRow(row);
       const [topic, type, encoding] = ['name', 'type', 'serialization_format'].map((column) => textOf(valueOf(bytes, topics.columns.indexOf(column))));
       this.#channels.set(row.id, { topic, type, encoding, publisher: `${row.id}`, count: 0 });
     });
@@ -114,7 +114,7 @@ class Rosbag2 implements Container {
     await this.#eachRow(this.#messages, (row) => {
       const channel = wantedChannels.get(valueOf(row.bytes, topicId));
       if (!channel) return undefined;
-      return row.bytes.length < row.length ? this.#whole(row).then((bytes) => passRow(channel, bytes)) : passRow(channel, row.bytes);
+      return row.bytes.length < row.length ? this.#wholeRow(row).then((bytes) => passRow(channel, bytes)) : passRow(channel, row.bytes);
     }, onProgress);
   }
 
@@ -122,7 +122,7 @@ class Rosbag2 implements Container {
   async #eachRow({ root }: Table, each: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
     const leafPages = await this.#leavesOf(root);
     for (const [i, number] of leafPages.entries()) {
-      if (!this.#has(number)) continue;
+      if (!this.#hasPage(number)) continue;
       try {
         const pageBytes = await this.#page(number);
         for (const cell of cellsOf(pageBytes, number, LEAF)) {
@@ -143,7 +143,7 @@ class Rosbag2 implements Container {
     let levelPages = [root];
     for (let depth = 0; depth < MAX_DEPTH; depth++) {
       const nextLevel: number[] = [];
-      for (const index of levelPages.filter((each) => this.#has(each))) {
+      for (const index of levelPages.filter((each) => this.#hasPage(each))) {
         // These pages are far from each other, so that reading ahead would be slow.
         const page = await bytesOf(this.#source, (index - 1) * this.#pageSize, index * this.#pageSize);
         if (page.length === this.#pageSize && page[index === 1 ? HEADER_BYTES : 0] === LEAF && nextLevel.length === 0) return levelPages;
@@ -163,7 +163,7 @@ class Rosbag2 implements Container {
   }
 
   /** Returns true if the file has a page. Otherwise the file was cut short. */
-  #has(number: number): boolean {
+  #hasPage(number: number): boolean {
     const hasPage = number * this.#pageSize <= this.#source.size;
     this.cutShort ||= !hasPage;
     return hasPage;
@@ -185,21 +185,21 @@ class Rosbag2 implements Container {
 
   /** Returns the number of bytes of a row on its own page. The other bytes are on overflow pages. */
   #localBytes(length: number): number {
-    const maxLocal = this.#usable - 35;
+    const maxLocal = this.#usableBytes - 35;
     if (length <= maxLocal) return length;
-    const minLocal = Math.floor(((this.#usable - 12) * 32) / 255) - 23;
-    const preferredLocal = minLocal + ((length - minLocal) % (this.#usable - 4));
+    const minLocal = Math.floor(((this.#usableBytes - 12) * 32) / 255) - 23;
+    const preferredLocal = minLocal + ((length - minLocal) % (this.#usableBytes - 4));
     return preferredLocal <= maxLocal ? preferredLocal : minLocal;
   }
 
   /** Returns all bytes of a row, including those on overflow pages. */
-  async #whole({ bytes, length, next }: Row): Promise<Uint8Array> {
+  async #wholeRow({ bytes, length, next }: Row): Promise<Uint8Array> {
     if (bytes.length === length) return bytes;
     const row = new Uint8Array(length);
     row.set(bytes);
     for (let filledBytes = bytes.length; filledBytes < length; ) {
       const page = await this.#page(next);
-      const overflowPart = page.subarray(4, Math.min(this.#usable, 4 + length - filledBytes));
+      const overflowPart = page.subarray(4, Math.min(this.#usableBytes, 4 + length - filledBytes));
       row.set(overflowPart, filledBytes);
       filledBytes += overflowPart.length;
       next = viewOf(page).getUint32(0);

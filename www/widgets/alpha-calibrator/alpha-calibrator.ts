@@ -53,20 +53,20 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   static definition = definition;
 
-  #path = new PathPicture();
+  #pathPicture = new PathPicture();
   #legPicture = new LegPicture();
-  pictures = [this.#path, this.#legPicture];
+  pictures = [this.#pathPicture, this.#legPicture];
   exportPicture = new SummaryPicture(this);
   #opener = new LogOpener(this);
   dropped = this.#opener;
   service = new LogService('alpha-calibrator');
-  #predicted: Memo<LegView | null> = new Memo();
+  #predictedLeg: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();
   /** Log of the reader or of the page; null for the simulated log. */
-  #given: OpenedLog | null = null;
+  #givenLog: OpenedLog | null = null;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) =>
-    state ? this.#machineOf(motion, this.settings.pick(state), this.#given) : new motion.AlphaCalibrator();
+    state ? this.#machineOf(motion, this.settings.pick(state), this.#givenLog) : new motion.AlphaCalibrator();
 
   #machineOf({ AlphaCalibrator }: Motion, requested: Partial<Machine['config']>, given: OpenedLog | null): Machine {
     if (!given) return new AlphaCalibrator(requested);
@@ -97,7 +97,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   /** Predicted cloud and ends of the leg that is shown, by the latest complete fit; null without a leg. */
   get predicted() {
     const { chosen, machine, reading: { config } } = this;
-    return chosen < 0 || !machine ? null : this.#predicted.of([config, chosen], () => machine.leg(chosen));
+    return chosen < 0 || !machine ? null : this.#predictedLeg.of([config, chosen], () => machine.leg(chosen));
   }
 
   /** Bins of squared residuals against the chosen regressor; empty without legs. */
@@ -127,8 +127,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     this.runtime.attempt(() => {
       const { machine } = this;
       if (!machine || !(event.target instanceof HTMLCanvasElement)) return;
-      const [x, y] = pointOn(event.target, this.#path.view, event);
-      const leg = this.#path.nearest(machine, x, y);
+      const [x, y] = pointOn(event.target, this.#pathPicture.view, event);
+      const leg = this.#pathPicture.nearest(machine, x, y);
       if (leg >= 0) this.choose(leg);
     });
   };
@@ -139,7 +139,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
    * @public
    */
   get log(): CalibrationLog | null {
-    return this.#given?.log ?? null;
+    return this.#givenLog?.log ?? null;
   }
 
   set log(log) {
@@ -169,7 +169,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         this.state.own.leg = null;
         for (const { view } of this.pictures) view.forget();
       }
-      this.#given = openedLog;
+      this.#givenLog = openedLog;
       this.runtime.replace(machine);
       this.settings.stale = true;
       this.renderer.requestFrame();
@@ -196,7 +196,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Notes on the logs that make the α's doubtful. */
   get warnings() {
-    return this.#given?.warnings ?? [];
+    return this.#givenLog?.warnings ?? [];
   }
 
   get logName() {
@@ -237,7 +237,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       ${dropZone(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictLine(this))}</p>
-        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#path, pathText(reading, chosen))}</div>`)}
+        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#pathPicture, pathText(reading, chosen))}</div>`)}
         <div class="one">
           ${titledPicture(say.oneLeg(integer(chosen + 1)), html`<div class="stage">${canvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
           ${this.renderer.afterFirstPicture(() => html`<div class="looked">${legControls(this)}</div>`)}

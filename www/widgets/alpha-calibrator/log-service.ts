@@ -32,14 +32,14 @@ export const isStopped = (error: unknown) => error instanceof DOMException && er
 /** Client of the worker: one request at a time. */
 export class LogService {
   #tag: string;
-  #link: Promise<WorkerLink> | undefined;
+  #workerLink: Promise<WorkerLink> | undefined;
   /** Number of the latest request. Answers to earlier requests are ignored. */
-  #number = 0;
+  #requestNumber = 0;
   #fail: ((error: unknown) => void) | undefined;
   /** True while the worker holds the recordings that were opened last. */
   isOpen = false;
   /** Odometry of the drives that the worker holds. */
-  #held: Trajectory[] | undefined;
+  #heldOdometry: Trajectory[] | undefined;
 
   /** Creates the service for a tag. The worker shares the module of that tag. */
   constructor(tag: string) {
@@ -56,7 +56,7 @@ export class LogService {
   }
 
   get #connected() {
-    return (this.#link ??= connectService(this.#tag));
+    return (this.#workerLink ??= connectService(this.#tag));
   }
 
   /** Opens files, with the options of each by its name, and aborts the request in progress. */
@@ -71,9 +71,9 @@ export class LogService {
 
   /** Reads the drives of a plan for the opened recordings. The worker then has their logs. */
   async read({ drives: planned, unpaired }: LogPlan, onProgress: OnProgress): Promise<Drive[]> {
-    this.#held = undefined;
+    this.#heldOdometry = undefined;
     const drives = await this.#ask<Drive[]>('read', [{ drives: planned, unpaired }], onProgress);
-    this.#held = drives.map(({ odometry }) => odometry.data);
+    this.#heldOdometry = drives.map(({ odometry }) => odometry.data);
     return drives;
   }
 
@@ -81,10 +81,10 @@ export class LogService {
   async calibrate(config: AlphaCalibratorSettings, log: CalibrationLog): Promise<Uint8Array> {
     this.stop();
     const odometry = [log.odometry].flat();
-    const hasWorkerLog = this.#held?.length === odometry.length && odometry.every((each, i) => each === this.#held?.[i]);
-    this.#held = undefined;
+    const hasWorkerLog = this.#heldOdometry?.length === odometry.length && odometry.every((each, i) => each === this.#heldOdometry?.[i]);
+    this.#heldOdometry = undefined;
     const fit = await this.#ask<Uint8Array>('calibrate', [config, hasWorkerLog ? undefined : log]);
-    this.#held = odometry;
+    this.#heldOdometry = odometry;
     return fit;
   }
 
@@ -95,22 +95,22 @@ export class LogService {
 
   /** Stops the worker and drops its logs. */
   end() {
-    this.#link?.then(({ end }) => end(), () => {});
-    this.#link = this.#held = undefined;
+    this.#workerLink?.then(({ end }) => end(), () => {});
+    this.#workerLink = this.#heldOdometry = undefined;
     this.isOpen = false;
-    this.#number++;
+    this.#requestNumber++;
     this.#fail?.(new DOMException('', 'AbortError'));
   }
 
   #ask<Result>(method: Request['method'], parameters: unknown[], onProgress?: OnProgress): Promise<Result> {
-    const requestNumber = ++this.#number;
+    const requestNumber = ++this.#requestNumber;
     const answerPromise = new Promise<Result>((resolve, reject) => {
       this.#fail = reject;
       const postRequest = async () => {
         const { port } = await this.#connected;
-        if (requestNumber !== this.#number) return;
+        if (requestNumber !== this.#requestNumber) return;
         port.onmessage = ({ data }: MessageEvent<Answer>) => {
-          if (data.number !== this.#number) return;
+          if (data.number !== this.#requestNumber) return;
           if ('progress' in data) onProgress?.(data.progress);
           else if ('failure' in data) reject(new LogFailure(data.failure));
           else resolve(data.result as Result);
@@ -118,12 +118,12 @@ export class LogService {
         port.postMessage({ number: requestNumber, method, parameters } satisfies Request);
       };
       postRequest().catch((error) => {
-        this.#link = undefined;
+        this.#workerLink = undefined;
         reject(error);
       });
     });
     return answerPromise.finally(() => {
-      if (requestNumber === this.#number) this.#fail = undefined;
+      if (requestNumber === this.#requestNumber) this.#fail = undefined;
     });
   }
 }

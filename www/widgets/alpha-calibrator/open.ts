@@ -50,13 +50,13 @@ export class LogOpener extends FileOpener<Figure> {
   id = 'log';
   chosen: ChosenFiles | undefined;
   /** Files with only one log of a drive. The next file may contain the other log. */
-  #lone: ChosenFiles | undefined;
+  #loneLogFiles: ChosenFiles | undefined;
   /** Module that reads and shows logs, and its words; undefined until a file is chosen. */
   reader: Reader | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
   share: number | undefined;
   /** Odometry that the model preferred when the log was read. */
-  #preferred: 'commands' | undefined;
+  #preferredKind: 'commands' | undefined;
 
   /** Kind of odometry that is preferred if a log has several: commands for the velocity model. */
   get kind(): 'commands' | undefined {
@@ -71,7 +71,7 @@ export class LogOpener extends FileOpener<Figure> {
   /** Reads the files again if the model has changed and prefers another odometry in them. */
   hostUpdated() {
     const { chosen } = this;
-    if (!chosen?.log || chosen.log !== this.host.log || this.share !== undefined || this.#preferred === this.kind) return;
+    if (!chosen?.log || chosen.log !== this.host.log || this.share !== undefined || this.#preferredKind === this.kind) return;
     const choicesBefore = choicesOf(chosen.plan);
     this.#restart(async (reader) => {
       const plan = planOf(reader, chosen, this.kind);
@@ -81,12 +81,12 @@ export class LogOpener extends FileOpener<Figure> {
 
   close() {
     this.#end();
-    this.chosen = this.#lone = this.refusal = undefined;
-    this.#zone.style.minHeight = '';
+    this.chosen = this.#loneLogFiles = this.refusal = undefined;
+    this.#dropZone.style.minHeight = '';
     this.host.open(null, []).then(() => this.host.gesture.complete());
   }
 
-  get #zone() {
+  get #dropZone() {
     return this.host.renderRoot.querySelector(`#${this.id}`) as HTMLElement;
   }
 
@@ -150,9 +150,9 @@ export class LogOpener extends FileOpener<Figure> {
       // A skipped file may be the missing log, so its question comes first.
       const skipped = chosen.skipped.find(({ ask }) => ask);
       if (skipped) throw skipped;
-      const lonelyFiles = this.#lone;
+      const lonelyFiles = this.#loneLogFiles;
       const isLoneLog = chosen.recordings.length === 1 && (error as LogError).ask !== undefined;
-      if (isLoneLog) this.#lone = { ...chosen };
+      if (isLoneLog) this.#loneLogFiles = { ...chosen };
       if (!isLoneLog || !lonelyFiles || lonelyFiles.files === chosen.files) throw error;
       const [files, questions] = [[...lonelyFiles.files, ...chosen.files], [...lonelyFiles.questions, ...chosen.questions]];
       Object.assign(chosen, { files, questions, answers: { ...lonelyFiles.answers, ...chosen.answers } });
@@ -178,7 +178,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.requestUpdate();
     await fitPromise;
     chosen.log = log;
-    this.#lone = undefined;
+    this.#loneLogFiles = undefined;
     this.host.gesture.complete();
   }
 
@@ -205,10 +205,10 @@ export class LogOpener extends FileOpener<Figure> {
   /** Cancels reading, and starts again. */
   async #restart(work: (reader: Reader) => Promise<void>) {
     this.host.service.stop();
-    this.#preferred = this.kind;
+    this.#preferredKind = this.kind;
     this.share = 0;
     // An answered question keeps its height, so that the figure does not move up.
-    this.#zone.style.minHeight = `${this.#zone.offsetHeight}px`;
+    this.#dropZone.style.minHeight = `${this.#dropZone.offsetHeight}px`;
     const isLatest = await this.run(async () => work(this.reader ??= await loadReader()));
     if (isLatest) this.#setIdle();
   }

@@ -60,11 +60,11 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   static definition = definition;
 
   cloud = new IntroducedCloud(this);
-  #inspected: Memo<Inspection> = new Memo();
-  #curve: Memo<Float64Array> = new Memo();
-  #plane = new PlanePicture();
-  #twist = new TwistPicture();
-  pictures = [this.#plane, this.#twist];
+  #inspectedSample: Memo<Inspection> = new Memo();
+  #skewCurve: Memo<Float64Array> = new Memo();
+  #planePicture = new PlanePicture();
+  #twistPicture = new TwistPicture();
+  pictures = [this.#planePicture, this.#twistPicture];
   #handle = new ArcHandle(this);
 
   #pinnedReading: Memo<Reading> = new Memo();
@@ -162,7 +162,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   }
 
   placeHandles() {
-    const { view } = this.#plane;
+    const { view } = this.#planePicture;
     const [x, y] = this.seenEnd;
     this.#handle.place(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
   }
@@ -189,7 +189,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   /** Selected robot, if it is among those shown. */
   get #inspection() {
     const { machine, reading, cloud: { isMarked, index } } = this;
-    return isMarked && machine ? this.#inspected.of([reading.stats, index], () => machine.inspect(index)) : undefined;
+    return isMarked && machine ? this.#inspectedSample.of([reading.stats, index], () => machine.inspect(index)) : undefined;
   }
 
   /** Isolates an α by its number from 1: all other α's have no effect. */
@@ -215,7 +215,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   }
 
   /** Returns a note for each outline that is on, but has no image under the morph. */
-  #missing(reading: Reading) {
+  #missingOutlineNotes(reading: Reading) {
     const { morph, overlays } = this.state.own;
     const missingOutlines = morph === 0 ? [] : Object.entries(outlinesAt(this.motion, reading, morph)).filter(([name, { length }]) => length === 0 && overlays.includes(name));
     return Object.fromEntries(missingOutlines.map(([name]) => [name, words.banana.notCarried]));
@@ -233,16 +233,16 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return html`
       <div class="views">
         ${titledPicture(this.#title, html`<div class="stage" part="picture">
-          ${canvas(this, this.#plane, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
+          ${canvas(this, this.#planePicture, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
         </div>`)}
-        ${titledPicture(say.twist, html`<div class="stage">${canvas(this, this.#twist, twistText(reading))}</div>`, 'twist')}
+        ${titledPicture(say.twist, html`<div class="stage">${canvas(this, this.#twistPicture, twistText(reading))}</div>`, 'twist')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       <div class="morphing">
         ${morphControl(this)}
         ${button(say.pin, () => this.#pin(), { title: say.pinTitle, pressed: this.#pinned !== undefined })}
       </div>
-      ${legend(this, LINE_STYLES, this.#missing(reading))}
+      ${legend(this, LINE_STYLES, this.#missingOutlineNotes(reading))}
       <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
       ${readouts(reading, this.#pinned)} ${presetButtons(this)}
       <div class="controls" part="controls">
@@ -250,27 +250,27 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       </div>
       ${disclosures(this, {
         controls: () => html`<div class="controls">${alphaControls(this)} ${modelControls(this)}</div>`,
-        numbers: () => html`${markedRobot(this, this.#inspection)} ${this.#figures(reading)}`,
+        numbers: () => html`${markedRobot(this, this.#inspection)} ${this.#figuresHtml(reading)}`,
       })}`)}
     `;
   }
 
-  #figures(reading: Reading) {
+  #figuresHtml(reading: Reading) {
     const say = words.banana;
     return html`${otherReadouts(reading)}<p>${formatMarkup(say.gainIs)}</p>
       <div class="figures" part="figures">
-        <figure>${this.#chart(reading)}<figcaption>${formatMarkup(say.chartCaption)}</figcaption></figure>
+        <figure>${this.#skewChart(reading)}<figcaption>${formatMarkup(say.chartCaption)}</figcaption></figure>
         <figure>${workedExample(reading)}</figure>
         <figure>${twistTable(reading)}<p>${twistCaption(reading)}</p></figure>
       </div>`;
   }
 
-  #chart({ config, stats, exactSkew }: Reading) {
+  #skewChart({ config, stats, exactSkew }: Reading) {
     const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
     const say = words.banana;
     const { min, max, step } = sliderSpecs.omega;
     // The curve depends only on some of the settings.
-    const curve = this.#curve.of([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
+    const curve = this.#skewCurve.of([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
     const maxSkew = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
     const chartHeight = CHART_HEIGHTS.find((each) => each >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];

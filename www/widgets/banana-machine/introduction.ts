@@ -26,7 +26,7 @@ function isFirstInSession() {
 /** Cloud of samples that starts to grow after the introduction. */
 export class IntroducedCloud extends Cloud {
   /** Time at which the first robot started, ms. */
-  #began: number | undefined;
+  #startTime: number | undefined;
   /** Phase of the introduction: first robots drive, then the ring of the handle pulses while the cloud grows. */
   #phase: 'none' | 'driving' | 'asking' = 'none';
 
@@ -38,7 +38,7 @@ export class IntroducedCloud extends Cloud {
   /** Driving robots, and the completed fraction of their path. */
   get driving(): { robots: number, share: number } | undefined {
     if (this.#phase !== 'driving') return undefined;
-    const elapsed = performance.now() - (this.#began ?? performance.now());
+    const elapsed = performance.now() - (this.#startTime ?? performance.now());
     return { robots: elapsed < DRIVE_MS ? 1 : DRIVING_ROBOTS, share: Math.min(1, (elapsed % DRIVE_MS) / DRIVE_MS) };
   }
 
@@ -67,8 +67,8 @@ export class IntroducedCloud extends Cloud {
   grow() {
     if (this.#phase === 'driving') {
       // It starts when the figure is visible.
-      this.#began ??= performance.now();
-      if (performance.now() - this.#began < 2 * DRIVE_MS) return;
+      this.#startTime ??= performance.now();
+      if (performance.now() - this.#startTime < 2 * DRIVE_MS) return;
       this.#phase = 'asking';
     }
     super.grow();

@@ -42,8 +42,8 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   #step = new StepPicture();
   pictures = [this.#floor, this.#step];
 
-  #rollout: Memo<Float64Array> = new Memo();
-  #straight: Memo<Machine['straightGrowth']> = new Memo();
+  #rolloutMemo: Memo<Float64Array> = new Memo();
+  #straightGrowth: Memo<Machine['straightGrowth']> = new Memo();
 
   // The machine starts without robots: the reader sees them appear, and the first frame does not wait for them.
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.DeadReckoning.empty(), state);
@@ -57,7 +57,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   read = readingOf;
 
   get scene() {
-    return { ...this.currentReading, marked: this.#marked, overlays: this.state.own.overlays };
+    return { ...this.currentReading, marked: this.#markedPoses, overlays: this.state.own.overlays };
   }
 
   get exportData() {
@@ -81,9 +81,9 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   announcement = (reading: Reading) => announcementOf(reading, this.state.own.overlays);
 
   /** Poses of the selected robot after each step, if that robot has been driven. */
-  get #marked() {
+  get #markedPoses() {
     const { machine, reading, cloud: { isMarked, index } } = this;
-    return isMarked && machine ? this.#rollout.of([reading.stats, index], () => machine.rollout(index)) : undefined;
+    return isMarked && machine ? this.#rolloutMemo.of([reading.stats, index], () => machine.rollout(index)) : undefined;
   }
 
   content(reading: Reading) {
@@ -105,7 +105,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
       ${legend(this, OUTLINE_STYLES)} ${presetButtons(this)} ${pathControls(this)}
       ${disclosures(this, {
         controls: () => moreControls(this),
-        numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#marked)} ${straightPlot(this.#straight.of([reading.stats], () => (this.machine as Machine).straightGrowth))}`,
+        numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#markedPoses)} ${straightPlot(this.#straightGrowth.of([reading.stats], () => (this.machine as Machine).straightGrowth))}`,
       })}`)}
     `;
   }

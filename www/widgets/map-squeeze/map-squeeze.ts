@@ -49,7 +49,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
   #wallHandles = new WallHandles(this);
   /** Treatment of unknown cells for which the picture was made. */
-  #unknown = '';
+  #pictureUnknown = '';
   /** Path of the selected sample. */
   #path: Memo<Float64Array> = new Memo();
   /** Cache of the grid of a machine's map, whose copy takes long. */
@@ -80,14 +80,14 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const grid = this.#gridOf(machine);
     this.#opener.refusal = undefined;
     this.#meter.outdate();
-    this.#unknown = this.settings.present.unknown;
+    this.#pictureUnknown = this.settings.present.unknown;
     this.picture = new FloorPicture(machine.plan, grid, this.picture);
     this.pictures = [this.picture];
   }
 
   read(machine: Machine) {
     const reading = readingOf(machine);
-    if (reading.config.unknown !== this.#unknown && this.picture.hasUnknown) this.machineChanged();
+    if (reading.config.unknown !== this.#pictureUnknown && this.picture.hasUnknown) this.machineChanged();
     return reading;
   }
 
@@ -137,7 +137,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   set preset(name) {
     this.reflection.setProperty('preset', name, (given) => {
       const presetSettings = PRESET_SETTING.change(given, {});
-      this.#leave();
+      this.#leaveOwnMap();
       this.settings.assign(presetSettings);
     });
   }
@@ -155,11 +155,11 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const isNameless = typeof map === 'object' && map !== null && !Array.isArray(map) && map.name === undefined;
     this.reflection.setProperty('map', isNameless ? { ...map, name: '' } : map, (given) => {
       if (given === null) {
-        this.#leave();
+        this.#leaveOwnMap();
         // The start pose may not be free in the new map.
         if (this.machine && !this.machine.startFree) this.settings.assign({ start: OPENING_START });
       } else {
-        this.#enter(ownMapOf(given));
+        this.#enterMap(ownMapOf(given));
       }
       this.reflection.updateAttributes();
       this.renderer.requestFrame();
@@ -205,7 +205,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   /** Leaves the reader's map, as the reader asked. The map is kept, so that the reader can return to it. */
   leaveMap() {
-    this.runtime.attempt(() => this.#leave());
+    this.runtime.attempt(() => this.#leaveOwnMap());
     this.go(OPENING_START);
   }
 
@@ -219,7 +219,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   open(map: OwnMap & { start?: Pose }) {
     if (!this.machine) return;
     this.runtime.attempt(() => {
-      this.#enter(map);
+      this.#enterMap(map);
       this.gesture.complete();
     });
   }
@@ -230,14 +230,14 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const name = this.map?.name ?? words.squeeze.edited;
     const applyWalls: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
-      this.#enter({ name, apply: applyWalls, start: this.settings.wanted.start });
+      this.#enterMap({ name, apply: applyWalls, start: this.settings.wanted.start });
       this.gesture.step();
     });
     this.renderer.requestFrame();
   }
 
   /** Leaves the reader's map, if there is one. */
-  #leave() {
+  #leaveOwnMap() {
     const { machine, map } = this;
     if (!machine) return;
     this.#opener.refusal = undefined;
@@ -252,7 +252,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
    * Puts the robot into another map, at the pose `start` if given. A new machine tries the map first; the present machine stays if the map
    * or the pose is refused.
    */
-  #enter({ name, start, apply }: OwnMap & { start?: Pose }) {
+  #enterMap({ name, start, apply }: OwnMap & { start?: Pose }) {
     const { motion, settings } = this;
     if (!motion) return;
     settings.settle();

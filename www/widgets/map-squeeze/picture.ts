@@ -58,13 +58,13 @@ export class FloorPicture extends SamplesPicture<Scene> {
   hasUnknown;
   /** False for a grid, whose walls outline its cells and cannot be moved. */
   movable;
-  #near = new View();
-  #whole = this.view;
+  #nearView = new View();
+  #wholeView = this.view;
   #walls;
   /** Corners of the known part of the map, which may be much smaller than the map. */
-  #known: ArrayLike<number>;
+  #knownCorners: ArrayLike<number>;
   #density = new Density();
-  #outline = '';
+  #outlinePath = '';
 
   /** Keeps the views of the previous picture if its map has the same bounds. */
   constructor(plan: Plan, grid: Cells | null, former?: FloorPicture) {
@@ -73,37 +73,37 @@ export class FloorPicture extends SamplesPicture<Scene> {
     this.hasUnknown = grid?.unknown !== undefined;
     this.movable = grid === null;
     this.#walls = new WallLayer(plan, grid);
-    this.#known = grid?.unknown ? knownCorners(grid, grid.unknown) : plan.walls;
+    this.#knownCorners = grid?.unknown ? knownCorners(grid, grid.unknown) : plan.walls;
     if (former?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
-      this.#near = former.#near;
-      this.#whole = former.#whole;
+      this.#nearView = former.#nearView;
+      this.#wholeView = former.#wholeView;
       this.view = former.view;
     }
   }
 
   /** Walls as a path of SVG, metres. */
   get outline() {
-    if (this.#outline) return this.#outline;
+    if (this.#outlinePath) return this.#outlinePath;
     const { walls } = this.plan;
-    for (let i = 0; i < walls.length; i += 4) this.#outline += `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`;
-    return this.#outline;
+    for (let i = 0; i < walls.length; i += 4) this.#outlinePath += `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`;
+    return this.#outlinePath;
   }
 
   /** True if the view is of the robot's surroundings only. */
   get close() {
-    return this.view === this.#near;
+    return this.view === this.#nearView;
   }
 
   set close(close) {
     if (close === this.close) return;
-    this.view = close ? this.#near : this.#whole;
+    this.view = close ? this.#nearView : this.#wholeView;
     this.view.forget();
   }
 
   fit({ commanded, config }: Scene) {
     const mappedExtent = this.mapped(config.start);
     if (!this.close) {
-      this.#whole.fit(mappedExtent);
+      this.#wholeView.fit(mappedExtent);
       return;
     }
     const driveLength = Math.abs(config.command.v * config.command.dt);
@@ -112,8 +112,8 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const arcBox = extentAround(commanded, 2);
     const pathCorners = [arcBox.xMin - PATH_MARGIN, arcBox.yMin - PATH_MARGIN, arcBox.xMax + PATH_MARGIN, arcBox.yMax + PATH_MARGIN];
     const neededExtent = extentAround([...pathCorners, x - endRoom, y - endRoom, x + endRoom, y + endRoom], 2);
-    this.#near.within = mappedExtent;
-    this.#near.fit({
+    this.#nearView.within = mappedExtent;
+    this.#nearView.fit({
       xMin: Math.max(neededExtent.xMin, mappedExtent.xMin),
       yMin: Math.max(neededExtent.yMin, mappedExtent.yMin),
       xMax: Math.min(neededExtent.xMax, mappedExtent.xMax),
@@ -124,7 +124,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   /** Returns the known part of the plan if the robot is inside it, and the whole plan otherwise. */
   mapped({ x, y }: { x: number, y: number }) {
     const [xMin, yMin, xMax, yMax] = this.plan.bounds;
-    const box = extentAround(this.#known, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
+    const box = extentAround(this.#knownCorners, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
     const isInside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
     const { xMin: left, yMin: bottom, xMax: right, yMax: top } = isInside ? box : { xMin, yMin, xMax, yMax };
     const mapMargin = MAP_MARGIN * Math.max(right - left, top - bottom);

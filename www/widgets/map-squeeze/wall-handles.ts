@@ -25,12 +25,12 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   #handles: Map<string, Handle> = new Map();
   #grips: Memo<(Grip | undefined)[]> = new Memo();
   /** Plan and view that the handles were placed in. */
-  #shown: unknown[] = [];
+  #shownInputs: unknown[] = [];
   /** Name of the handle that Tab leads to. */
-  #current = '';
+  #currentName = '';
 
   /** Grips of the plan in the picture. */
-  get #present() {
+  get #presentGrips() {
     const { plan, movable } = this.host.picture;
     return this.#grips.of([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? wallGrips(plan) : []));
   }
@@ -41,7 +41,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   render() {
     const say = words.squeeze.walls;
-    return this.#present.map((grip) => {
+    return this.#presentGrips.map((grip) => {
       if (!grip) return nothing;
       const [x, y] = this.#pointOf(grip);
       const now = x * grip.axis[0] + y * grip.axis[1];
@@ -58,24 +58,24 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   /** Returns the entry of the handles in the legend. */
   legend() {
-    if (this.#present.every((grip) => !grip)) return nothing;
+    if (this.#presentGrips.every((grip) => !grip)) return nothing;
     return html`<span class="toggle grips">${swatch({ role: 'truth', mark: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
   }
 
   /** Places new elements, which are rendered after the picture. */
   hostUpdated() {
-    this.#place(this.host.picture.view);
+    this.#placeHandles(this.host.picture.view);
   }
 
   place(view: View) {
     const planAndView = [this.host.picture.plan, view.extent, view.frame];
-    if (planAndView.some((each, i) => each !== this.#shown[i])) this.#place(view);
-    this.#shown = planAndView;
+    if (planAndView.some((each, i) => each !== this.#shownInputs[i])) this.#placeHandles(view);
+    this.#shownInputs = planAndView;
   }
 
-  #place(view: View) {
+  #placeHandles(view: View) {
     const root = this.host.renderRoot;
-    const placedHandles = this.#present.filter((grip) => grip !== undefined).map((grip) => {
+    const placedHandles = this.#presentGrips.filter((grip) => grip !== undefined).map((grip) => {
       const handleElement = root.querySelector(`.handle.${handleName(grip)}`) as HTMLElement | null;
       const gripPoint = grip.part === 'side' ? this.#middleIn(grip, view) : this.#gripOf(grip, view);
       const at = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
@@ -89,7 +89,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       return { name: handleName(grip), element: isShown ? handleElement : null };
     });
     const presentHandles = placedHandles.filter(({ element }) => element);
-    const tabHandle = presentHandles.find(({ name }) => name === this.#current) ?? presentHandles[0];
+    const tabHandle = presentHandles.find(({ name }) => name === this.#currentName) ?? presentHandles[0];
     for (const each of presentHandles) (each.element as HTMLElement).tabIndex = each === tabHandle ? 0 : -1;
   }
 
@@ -97,25 +97,25 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const gripName = handleName(grip);
     // The wall may be missing in a new plan, until its handle is removed.
     const callWithGrip = <Result>(use: (present: Grip) => Result) => {
-      const presentHandles = this.#present.find((each) => each && handleName(each) === gripName);
+      const presentHandles = this.#presentGrips.find((each) => each && handleName(each) === gripName);
       return presentHandles && use(presentHandles);
     };
     const handle = this.#handles.get(gripName) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${gripName}`, {
       view: () => this.host.picture.view,
       at: () => callWithGrip((present) => this.#pointOf(present)),
       drag: (x, y) => callWithGrip((present) => this.#move(present, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
-      key: (event) => callWithGrip((present) => this.#key(event, present)) ?? false,
+      key: (event) => callWithGrip((present) => this.#onKey(event, present)) ?? false,
       commit: () => this.host.gesture.commit(),
     });
     this.#handles.set(gripName, handle);
     return handle;
   }
 
-  #key(event: KeyboardEvent, grip: Grip) {
+  #onKey(event: KeyboardEvent, grip: Grip) {
     const turn = turnsOfKey(event);
     if (turn) {
       event.preventDefault();
-      this.#go(handleName(grip), -turn);
+      this.#focusHandle(handleName(grip), -turn);
       return false;
     }
     const steps = stepsOfKey(event);
@@ -126,18 +126,18 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   /** Moves the focus to another handle. */
-  #go(name: string, turn: number) {
+  #focusHandle(name: string, turn: number) {
     const handleElements = ([...this.host.renderRoot.querySelectorAll('.handle:is(.jamb, .side)')] as HTMLElement[]).filter(({ style }) => !style.visibility);
     const focusedIndex = handleElements.findIndex((element) => element.classList.contains(name));
     const nextHandle = handleElements[(focusedIndex + turn + handleElements.length) % handleElements.length];
-    this.#current = nextHandle.classList[2];
+    this.#currentName = nextHandle.classList[2];
     nextHandle.focus();
-    this.#place(this.host.picture.view);
+    this.#placeHandles(this.host.picture.view);
   }
 
   /** Moves a grip along its axis by the wanted distance, within its range. Returns false if the distance is NaN. */
   #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
-    this.#current = handleName(grip);
+    this.#currentName = handleName(grip);
     const moveDistance = clamp(distanceOf(this.#pointOf(grip), grip.axis), grip.range[0], grip.range[1]);
     if (moveDistance) this.host.moveWalls(movedWalls(this.#walls, grip, moveDistance));
     return !Number.isNaN(moveDistance);
@@ -172,7 +172,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const { xMin, yMin, xMax, yMax } = view.extent;
     const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     const [dx, dy] = [x1 - x, y1 - y];
-    const fractionAtEnd = (part: Grip['part']) => (this.#present.some((each) => each?.wall === wall && each.part === part) ? 2 * this.#inward(grip, view) : 0);
+    const fractionAtEnd = (part: Grip['part']) => (this.#presentGrips.some((each) => each?.wall === wall && each.part === part) ? 2 * this.#inward(grip, view) : 0);
     let [from, to] = [fractionAtEnd('from'), 1 - fractionAtEnd('to')];
     for (const [at, delta, least, most] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
       if (!delta) continue;

@@ -47,9 +47,9 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, new motion.OdometryDecomposer(), state);
 
-  #curve: Memo<Float64Array> = new Memo();
+  #curveMemo: Memo<Float64Array> = new Memo();
   #curveOf = (longest: number, points: number) =>
-    this.#curve.of([this.reading.stats, longest, points], () => (this.machine as Machine).curve(longest, points));
+    this.#curveMemo.of([this.reading.stats, longest, points], () => (this.machine as Machine).curve(longest, points));
 
   read = readingOf;
 

@@ -13,7 +13,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   refusal: unknown;
   #isDropped = false;
   /** Number of the latest attempt. Results of earlier ones are ignored. */
-  #latest = 0;
+  #latestAttempt = 0;
 
   /** Opens files that were chosen or dropped. */
   abstract choose(files: File[]): void;
@@ -36,13 +36,13 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
 
   /** Ignores the result of the latest attempt. */
   cancel() {
-    this.#latest++;
+    this.#latestAttempt++;
   }
 
   /** Runs an attempt to open files, which replaces an earlier attempt. Returns false if a later attempt has replaced this one. */
   async run(work: (isLatest: () => boolean) => Promise<void>) {
-    const attempt = ++this.#latest;
-    const isLatest = () => attempt === this.#latest;
+    const attempt = ++this.#latestAttempt;
+    const isLatest = () => attempt === this.#latestAttempt;
     this.refusal = undefined;
     this.host.requestUpdate();
     try {
@@ -63,11 +63,11 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   async showRefusal() {
     if (this.#isDropped) this.host.notice.show(this.complaint);
     await this.host.updateComplete;
-    if (!this.#isDropped) this.#place?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
+    if (!this.#isDropped) this.#statusElement?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
   }
 
   /** Element that says which files are open or why they were refused; null until the figure has been drawn. */
-  get #place() {
+  get #statusElement() {
     return this.host.renderRoot.querySelector(`#${this.id}`);
   }
 
@@ -96,7 +96,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     // The browser would otherwise navigate to the file.
     event.preventDefault();
     // The disclosure shows the result.
-    if (this.#place instanceof HTMLDetailsElement) this.#place.open = true;
+    if (this.#statusElement instanceof HTMLDetailsElement) this.#statusElement.open = true;
     droppedFiles(event.dataTransfer).then((files) => this.take(files, true));
   };
 

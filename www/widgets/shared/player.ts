@@ -18,13 +18,13 @@ interface PlayedSetting {
 export class Player<Key extends string> extends FigureController {
   /** Key of the animated setting. */
   #key: Key | undefined;
-  #played;
+  #playedSettings;
   /** Fraction of a step that remains from the last movement of a setting with whole steps. */
-  #beyond = 0;
+  #stepRemainder = 0;
 
   constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, PlayedSetting>) {
     super(host);
-    this.#played = played;
+    this.#playedSettings = played;
   }
 
   stop() {
@@ -34,26 +34,26 @@ export class Player<Key extends string> extends FigureController {
   /** Sets a value that the reader has chosen, and stops the animation. */
   put(key: Key, value: number) {
     this.stop();
-    this.#put(key, value);
+    this.#setValue(key, value);
   }
 
-  #at(key: Key): number {
+  #valueAt(key: Key): number {
     const { settings, state } = this.host;
     return key in state.own ? state.own[key] : settings.wanted[key];
   }
 
-  #put(key: Key, value: number) {
-    const nextValue = this.#played[key].whole ? Math.floor(value) : value;
-    if (nextValue !== this.#at(key)) this.host.settings.want({ [key]: nextValue });
+  #setValue(key: Key, value: number) {
+    const nextValue = this.#playedSettings[key].whole ? Math.floor(value) : value;
+    if (nextValue !== this.#valueAt(key)) this.host.settings.want({ [key]: nextValue });
   }
 
   #toggle(key: Key) {
     const { host: { gesture, renderer } } = this;
     const willPlay = this.#key !== key;
     if (this.#key) gesture.commit();
-    if (willPlay && this.#at(key) >= this.#played[key].to) this.#put(key, 0);
+    if (willPlay && this.#valueAt(key) >= this.#playedSettings[key].to) this.#setValue(key, 0);
     this.#key = willPlay ? key : undefined;
-    this.#beyond = 0;
+    this.#stepRemainder = 0;
     renderer.requestFrame();
     this.host.requestUpdate();
   }
@@ -61,10 +61,10 @@ export class Player<Key extends string> extends FigureController {
   /** Advances the animation by the milliseconds since the previous frame. Returns true if there is more to play. */
   advance(elapsed: number): boolean {
     if (!this.#key) return false;
-    const { to, duration } = this.#played[this.#key];
-    const next = Math.min(to, this.#at(this.#key) + this.#beyond + (to * elapsed) / duration);
-    this.#put(this.#key, next);
-    this.#beyond = next - this.#at(this.#key);
+    const { to, duration } = this.#playedSettings[this.#key];
+    const next = Math.min(to, this.#valueAt(this.#key) + this.#stepRemainder + (to * elapsed) / duration);
+    this.#setValue(this.#key, next);
+    this.#stepRemainder = next - this.#valueAt(this.#key);
     if (next < to) return true;
     this.stop();
     this.host.gesture.commit();

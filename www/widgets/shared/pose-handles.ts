@@ -23,7 +23,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   #setting;
   #view;
   #bounds;
-  #body;
+  #bodyHandle;
   #turn;
 
   /**
@@ -36,7 +36,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     this.#view = view;
     this.#bounds = bounds;
     const callbacks = { view, commit: () => host.gesture.commit() };
-    this.#body = new Handle(`body ${setting}`, {
+    this.#bodyHandle = new Handle(`body ${setting}`, {
       ...callbacks,
       at: () => [this.#pose.x, this.#pose.y],
       drag: (x, y) => this.#moveTo(x, y),
@@ -63,7 +63,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     const { x, y, theta } = this.#pose;
     const [left, bottom, right, top] = this.#bounds();
     return [
-      this.#body.element({
+      this.#bodyHandle.element({
         name: robot,
         keys: words.pose.keys,
         title: robotTitle,
@@ -89,7 +89,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     const root = this.host.renderRoot;
     const [[x, y], [turnX, turnY]] = view.ray(config[this.#setting], turnDistance(view, radius));
     const clampToPicture = (at: number, size: number) => clamp(at, EDGE_MARGIN, size - EDGE_MARGIN);
-    this.#body.place(root, x, y, Math.max(MIN_BODY_SIZE, 2 * radius * view.scaleX));
+    this.#bodyHandle.place(root, x, y, Math.max(MIN_BODY_SIZE, 2 * radius * view.scaleX));
     this.#turn.place(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
 
@@ -111,16 +111,16 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   /** Moves the robot to a point in metres, within its bounds. */
   #moveTo(x: number, y: number) {
     const [left, bottom, right, top] = this.#bounds();
-    this.#want({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });
+    this.#wantPose({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });
   }
 
   /** Turns the robot to a heading in radians. */
   #turnTo(theta: number) {
     // Wraps to (−π, π] without sines: engines differ in their last digits, and equal keys have to give equal headings.
-    this.#want({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
+    this.#wantPose({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
   }
 
-  #want(pose: Pose) {
+  #wantPose(pose: Pose) {
     this.host.settings.want({ [this.#setting]: pose });
   }
 }

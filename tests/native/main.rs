@@ -15,15 +15,15 @@ mod digest;
 mod documents;
 #[path = "../fuzz.rs"]
 mod fuzz;
-/// Poses, arcs and the arithmetic beneath them.
+/// Poses, arcs, and the arithmetic that they use.
 mod geometry {
     mod arc;
     mod double_double;
     mod group_laws;
     mod lanes;
 }
-/// Property tests of mathematical laws and of the limits of inputs, with arbitrary doubles. Where a law does not hold for all
-/// doubles, its test says for which ones it does, and why.
+/// Property tests of mathematical laws and of the limits of inputs, with arbitrary doubles. If a law does not hold for all
+/// doubles, its test says why, and which doubles it holds for.
 mod laws {
     pub mod doubles;
     mod found;

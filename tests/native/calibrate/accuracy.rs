@@ -17,17 +17,15 @@ struct Scenario {
 
 const EXACT_REFERENCE: Scenario = Scenario { name: "exact reference", change: |_| (), bias: 0.05 };
 const FINE_REFERENCE: Scenario =
-    Scenario { name: "5 mm, 2 mrad", change: |made| made.reference_stds = [0.005, 0.002], bias: 0.05 };
+    Scenario { name: "5 mm, 2 mrad", change: |sim| sim.reference_stds = [0.005, 0.002], bias: 0.05 };
 const COARSE_REFERENCE: Scenario =
-    Scenario { name: "20 mm, 20 mrad", change: |made| made.reference_stds = [0.02, 0.02], bias: 0.05 };
+    Scenario { name: "20 mm, 20 mrad", change: |sim| sim.reference_stds = [0.02, 0.02], bias: 0.05 };
 const SYSTEMATIC_ERRORS: Scenario =
-    Scenario { name: "systematic errors", change: |made| made.errors = ERRORS, bias: 0.05 };
-const JUMPING_REFERENCE: Scenario = Scenario { name: "jumps", change: |made| made.jumps = 0.01, bias: 0.05 };
-const PERSISTENT_ERRORS: Scenario = Scenario {
-    name: "persistent",
-    change: |made| made.violation = Violation::Autoregressive(0.7),
-    bias: 0.1,
-};
+    Scenario { name: "systematic errors", change: |simulation| simulation.errors = ERRORS, bias: 0.05 };
+const JUMPING_REFERENCE: Scenario =
+    Scenario { name: "jumps", change: |simulation| simulation.jumps = 0.01, bias: 0.05 };
+const PERSISTENT_ERRORS: Scenario =
+    Scenario { name: "persistent", change: |sim| sim.violation = Violation::Autoregressive(0.7), bias: 0.1 };
 
 const ERRORS: Systematic = Systematic {
     clock_offset: 0.12,
@@ -39,13 +37,13 @@ const ERRORS: Systematic = Systematic {
 
 /// Length by which intervals of systematic errors (s, m, rad) are extended at both ends. The estimates neglect products of the noises,
 /// and of noise and clock offset within a row of 50 ms.
-const NEGLECTED: f64 = 1e-3;
+const NEGLECTED_TERMS: f64 = 1e-3;
 
 /// Results of calibrations of many logs.
 struct Study {
-    /// Fitted over true values of each α, sorted.
+    /// For each α the ratios of fitted and true value, sorted.
     ratios: Vec<Vec<f64>>,
-    /// Numbers of 95 % intervals that hold the true values, of each α.
+    /// For each α the number of 95 % intervals that hold the true value.
     held: Vec<usize>,
     errors_held: [usize; ERROR_COUNT],
     /// Standard deviations of the reference, sorted.
@@ -70,27 +68,27 @@ fn study(model: Model, scenario: &Scenario, logs: usize) -> Study {
         logs,
     };
     for seed in 0..logs as u64 {
-        let mut made = Simulation::of(model, LEGS, 5000 + seed);
-        (scenario.change)(&mut made);
-        let calibration = calibrated(&made);
+        let mut sim = Simulation::of(model, LEGS, 5000 + seed);
+        (scenario.change)(&mut sim);
+        let calibration = calibrated(&sim);
         for (alpha, truth) in ALPHAS.into_iter().enumerate().take(count) {
             study.ratios[alpha].extend(calibration.alphas[alpha].map(|fitted| fitted / truth));
             study.held[alpha] += count_held(calibration.intervals[alpha], truth);
         }
         for (error, held) in SystematicError::ALL.into_iter().zip(&mut study.errors_held) {
             let interval = calibration.interval_of(error);
-            let wider = interval.map(|[low, high]| [low - NEGLECTED, high + NEGLECTED]);
-            *held += count_held(wider, made.errors.get(error));
+            let extended = interval.map(|[low, high]| [low - NEGLECTED_TERMS, high + NEGLECTED_TERMS]);
+            *held += count_held(extended, sim.errors.get(error));
         }
-        for (which, noise) in calibration.reference_noise.iter().enumerate() {
-            study.stds[which].push(noise.value);
-            study.stds_held[which] += count_held(Some(noise.interval), made.reference_stds[which]);
+        for (index, noise) in calibration.reference_noise.iter().enumerate() {
+            study.stds[index].push(noise.value);
+            study.stds_held[index] += count_held(Some(noise.interval), sim.reference_stds[index]);
         }
     }
     study.ratios.iter_mut().chain(&mut study.stds).for_each(|each| each.sort_unstable_by(f64::total_cmp));
     let medians: Vec<f64> = study.ratios.iter().map(|ratios| median(ratios)).collect();
     let Study { held, errors_held, stds_held, .. } = &study;
-    let stds = [0, 1].map(|which| median(&study.stds[which]));
+    let stds = [0, 1].map(|index| median(&study.stds[index]));
     println!(
         "{}, {model:?}: {medians:.3?}, held {held:?}, σ {stds:.4?} {stds_held:?}, errors {errors_held:?}",
         scenario.name
@@ -114,7 +112,7 @@ fn three_standard_errors(share: f64, logs: usize) -> f64 {
     3.0 * (share * (1.0 - share) / logs as f64).sqrt()
 }
 
-/// Reports a share of intervals that hold the truth, if it is outside of 92 to 98 % by more than three standard errors.
+/// Reports a fraction of intervals that hold the truth, if it is outside of 92 to 98 % by more than three standard errors.
 fn wrong_coverage(what: &str, held: usize, logs: usize) -> Option<String> {
     let share = held as f64 / logs as f64;
     let allowed = 0.92 - three_standard_errors(0.92, logs)..=0.98 + three_standard_errors(0.98, logs);
@@ -123,37 +121,37 @@ fn wrong_coverage(what: &str, held: usize, logs: usize) -> Option<String> {
 
 /// Reports α's whose medians are off by more than the bias and three standard errors, and α's with wrong intervals.
 fn wrong_alphas(model: Model, scenario: &Scenario, study: &Study) -> Vec<String> {
-    let of = |alpha: usize| {
+    let wrong_alpha = |alpha: usize| {
         let (ratios, name) = (&study.ratios[alpha], format!("α{}", alpha + 1));
-        let (middle, std) = (median(ratios), median_std(ratios));
-        let is_off = ratios.len() < study.logs || (middle - 1.0).abs() > scenario.bias + 3.0 * std;
-        let off =
-            is_off.then(|| format!("median of {name} in {} logs: {middle:.3} ± {std:.3}", ratios.len()));
-        [off, wrong_coverage(&name, study.held[alpha], study.logs)]
+        let (median_ratio, std) = (median(ratios), median_std(ratios));
+        let is_off = ratios.len() < study.logs || (median_ratio - 1.0).abs() > scenario.bias + 3.0 * std;
+        let wrong_median = is_off
+            .then(|| format!("median of {name} in {} logs: {median_ratio:.3} ± {std:.3}", ratios.len()));
+        [wrong_median, wrong_coverage(&name, study.held[alpha], study.logs)]
     };
-    let all = (0..study.held.len()).flat_map(of).flatten();
-    all.map(|complaint| format!("{}, {model:?}: {complaint}", scenario.name)).collect()
+    let reports = (0..study.held.len()).flat_map(wrong_alpha).flatten();
+    reports.map(|report| format!("{}, {model:?}: {report}", scenario.name)).collect()
 }
 
 /// Asserts that the α's of every model are right in a hundred logs, and that `more` reports nothing.
-fn assert_right_in_every_model(scenario: &Scenario, more: impl Fn(&Study) -> Vec<String>) {
-    let found: Vec<String> = MODELS
+fn assert_right_in_every_model(scenario: &Scenario, others: impl Fn(&Study) -> Vec<String>) {
+    let reports: Vec<String> = MODELS
         .into_iter()
         .flat_map(|model| {
             let study = study(model, scenario, 100);
-            let more = more(&study).into_iter().map(move |complaint| format!("{model:?}: {complaint}"));
-            wrong_alphas(model, scenario, &study).into_iter().chain(more).collect::<Vec<_>>()
+            let others = others(&study).into_iter().map(move |report| format!("{model:?}: {report}"));
+            wrong_alphas(model, scenario, &study).into_iter().chain(others).collect::<Vec<_>>()
         })
         .collect();
-    assert!(found.is_empty(), "{}", found.join("\n"));
+    assert!(reports.is_empty(), "{}", reports.join("\n"));
 }
 
 /// Reports a standard deviation of the reference that is off by more than 10 % and three standard errors.
-fn wrong_std(study: &Study, which: usize, true_std: f64) -> Vec<String> {
-    let middle = median(&study.stds[which]);
-    let allowed = 0.1 * true_std + 3.0 * median_std(&study.stds[which]);
-    let off = (middle - true_std).abs() > allowed;
-    off.then(|| format!("median of std {which}: {middle}")).into_iter().collect()
+fn wrong_std(study: &Study, component: usize, true_std: f64) -> Vec<String> {
+    let middle = median(&study.stds[component]);
+    let allowed = 0.1 * true_std + 3.0 * median_std(&study.stds[component]);
+    let is_off = (middle - true_std).abs() > allowed;
+    is_off.then(|| format!("median of std {component}: {middle}")).into_iter().collect()
 }
 
 #[test]
@@ -178,7 +176,7 @@ fn alphas_are_right_with_an_exact_reference() {
     assert_right_in_every_model(&EXACT_REFERENCE, |_| Vec::new());
 }
 
-/// Two milliradians are a tenth of the error of the wheels' rotation on a leg: the log gives only an upper bound.
+/// Two milliradians are a tenth of the wheels' rotation error on a leg. The log therefore gives only an upper bound for σ of the yaw.
 #[test]
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_are_right_with_an_unstated_noise_of_5_mm_and_2_mrad() {
@@ -197,10 +195,10 @@ fn alphas_are_right_with_an_unstated_noise_of_20_mm_and_20_mrad() {
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_and_errors_are_right_with_five_systematic_errors() {
     assert_right_in_every_model(&SYSTEMATIC_ERRORS, |study| {
-        let of = |error: SystematicError| {
+        let wrong_error = |error: SystematicError| {
             wrong_coverage(&format!("{error:?}"), study.errors_held[error as usize], study.logs)
         };
-        SystematicError::ALL.into_iter().filter_map(of).collect()
+        SystematicError::ALL.into_iter().filter_map(wrong_error).collect()
     });
 }
 

@@ -22,10 +22,10 @@ fn failed_checks(calibration: &Calibration) -> Vec<CheckName> {
     failed.map(|check| check.name).collect()
 }
 
-/// Asserts that a check fails, with a message, and that the log is questionable for it.
+/// Asserts that a check fails, with a message, and that the log is therefore questionable.
 fn assert_fails(name: CheckName, calibration: &Calibration) {
-    let found = failed_checks(calibration);
-    assert!(found.contains(&name), "{name:?} is not among {found:?}");
+    let failed = failed_checks(calibration);
+    assert!(failed.contains(&name), "{name:?} is not among {failed:?}");
     assert!(calibration.diagnostics.checks.iter().all(|check| check.passed == check.message().is_empty()));
     assert_eq!(calibration.diagnostics.verdict, Verdict::Questionable, "{name:?}");
     let recommended = calibration.recommended.as_ref().expect("it is usable");
@@ -48,9 +48,9 @@ fn with_poses(log: &Trajectory, mut pose: impl FnMut(SE2) -> SE2) -> Trajectory 
 
 #[test]
 fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
-    let made = good_log(600, 1);
-    let [odometry, reference] = made.log();
-    let [_, of_another] = good_log(600, 2).log();
+    let sim = good_log(600, 1);
+    let [odometry, reference] = sim.log();
+    let [_, other_reference] = good_log(600, 2).log();
     type Change = fn(SE2) -> SE2;
     let changes: [(&str, Change); 5] = [
         ("degrees", |pose| SE2::new(pose.x(), pose.y(), pose.theta().to_degrees())),
@@ -60,8 +60,8 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
         ("millimetres", |pose| SE2::new(1e3 * pose.x(), 1e3 * pose.y(), pose.theta())),
     ];
     let changed = changes.map(|(name, change)| (name, with_poses(&reference, change)));
-    for (name, reference) in changed.into_iter().chain([("another drive", of_another)]) {
-        let calibration = calibrated_log(&[odometry.clone(), reference], &made.options());
+    for (name, reference) in changed.into_iter().chain([("another drive", other_reference)]) {
+        let calibration = calibrated_log(&[odometry.clone(), reference], &sim.options());
         assert!(failed_checks(&calibration).contains(&ReferenceMatches), "{name}");
         assert_unusable(&calibration, name);
     }
@@ -69,31 +69,31 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
 
 #[test]
 fn a_copy_of_the_odometry_is_no_reference() {
-    let made = good_log(600, 1);
-    let [odometry, _] = made.log();
-    // The copy is in another frame, with longer lengths, later times, and numbers rounded as in a text file.
-    let rounded = |value: f64| (1e6 * value).round() / 1e6;
+    let sim = good_log(600, 1);
+    let [odometry, _] = sim.log();
+    // A copy in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and numbers rounded to six digits.
+    let round6 = |value: f64| (1e6 * value).round() / 1e6;
     let copy = odometry.samples().map(|(time, pose)| {
-        let moved = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
-        (time + 0.1, SE2::new(rounded(moved.x()), rounded(moved.y()), rounded(moved.theta())))
+        let shifted = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
+        (time + 0.1, SE2::new(round6(shifted.x()), round6(shifted.y()), round6(shifted.theta())))
     });
-    let calibration = calibrated_log(&[odometry.clone(), trajectory(copy)], &made.options());
+    let calibration = calibrated_log(&[odometry.clone(), trajectory(copy)], &sim.options());
     assert!(failed_checks(&calibration).contains(&ReferenceMatches));
     assert_unusable(&calibration, "a copy");
 }
 
-/// Legs of 3 cm and 0.05 rad are too short to tell a difference from the noise of a good reference.
+/// On legs of 3 cm and 0.05 rad, a difference of odometry and reference cannot be told from the noise of a good reference.
 #[test]
 fn legs_that_hardly_move_are_not_compared() {
     let mut rng = seeded(4);
     let mut noise = |std: f64| NoiseKind::Normal.sample(Variance(std * std), &mut rng);
-    let [mut read, mut seen] = [SE2::identity(); 2];
-    let mut poses = vec![[read, seen]];
+    let [mut odometry_pose, mut reference_pose] = [SE2::identity(); 2];
+    let mut poses = vec![[odometry_pose, reference_pose]];
     for leg in 0..200 {
         let turn = if leg % 2 == 0 { 0.05 } else { -0.05 };
-        read = read.boxplus(Vector3::new(0.03, 0.0, turn));
-        seen = seen.boxplus(Vector3::new(0.03 + noise(0.001), 0.0, turn + noise(0.001)));
-        poses.push([read, seen]);
+        odometry_pose = odometry_pose.boxplus(Vector3::new(0.03, 0.0, turn));
+        reference_pose = reference_pose.boxplus(Vector3::new(0.03 + noise(0.001), 0.0, turn + noise(0.001)));
+        poses.push([odometry_pose, reference_pose]);
     }
     let log = |k: usize| trajectory(poses.iter().enumerate().map(|(i, pose)| (i as f64, pose[k])));
     let legs = LegLength::Duration { duration: 1.0 };
@@ -105,27 +105,27 @@ fn legs_that_hardly_move_are_not_compared() {
 #[test]
 fn few_legs_are_questionable_and_fewer_unusable() {
     assert_fails(EnoughLegs, &calibrated(&good_log(80, 3)));
-    let few = calibrated(&good_log(25, 3));
-    assert!(failed_checks(&few).contains(&EnoughLegs));
-    assert_unusable(&few, "25 legs");
+    let few_legs = calibrated(&good_log(25, 3));
+    assert!(failed_checks(&few_legs).contains(&EnoughLegs));
+    assert_unusable(&few_legs, "25 legs");
 }
 
-/// A reference that is missing in every third half minute.
+/// The reference is missing during 30 s of each 90 s.
 #[test]
 fn lost_legs_are_reported() {
-    let made = good_log(600, 4);
-    let [odometry, reference] = made.log();
+    let sim = good_log(600, 4);
+    let [odometry, reference] = sim.log();
     let with_gaps = trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(90.0) > 30.0));
-    assert_fails(LegsLost, &calibrated_log(&[odometry, with_gaps], &made.options()));
+    assert_fails(LegsLost, &calibrated_log(&[odometry, with_gaps], &sim.options()));
 }
 
-/// A log with one row every two seconds.
+/// The reference has a row every two seconds only.
 #[test]
 fn legs_that_are_longer_than_asked_for_are_reported() {
-    let made = good_log(600, 5);
-    let [odometry, reference] = made.log();
+    let sim = good_log(600, 5);
+    let [odometry, reference] = sim.log();
     let sparse = trajectory(reference.samples().step_by(40));
-    assert_fails(SamplingDense, &calibrated_log(&[odometry, sparse], &made.options()));
+    assert_fails(SamplingDense, &calibrated_log(&[odometry, sparse], &sim.options()));
 }
 
 #[test]
@@ -133,61 +133,61 @@ fn many_outliers_are_reported() {
     assert_fails(OutliersFew, &calibrated(&Simulation { jumps: 0.1, ..good_log(600, 6) }));
 }
 
-/// One jump of 10 m that is fitted as noise. The fit of the half without it predicts much less noise.
+/// One jump of 10 m that is fitted as noise. The fit to the half of the log without the jump predicts much less noise.
 #[test]
 fn a_log_that_no_inflation_covers_is_unusable() {
-    let made = good_log(600, 12);
-    let [odometry, reference] = made.log();
-    let late = 0.75 * reference.span().expect("samples")[1];
+    let sim = good_log(600, 12);
+    let [odometry, reference] = sim.log();
+    let jump_time = 0.75 * reference.span().expect("samples")[1];
     let shift = SE2::new(10.0, 0.0, 0.0);
-    let jumped =
-        reference.samples().map(|(time, pose)| (time, if time < late { pose } else { shift * pose }));
-    let options = Options { outliers: Outliers::Keep, ..made.options() };
-    let calibration = calibrated_log(&[odometry, trajectory(jumped)], &options);
+    let jumped_samples =
+        reference.samples().map(|(time, pose)| (time, if time < jump_time { pose } else { shift * pose }));
+    let options = Options { outliers: Outliers::Keep, ..sim.options() };
+    let calibration = calibrated_log(&[odometry, trajectory(jumped_samples)], &options);
     assert_eq!(failed_checks(&calibration)[0], InflationBounded);
     assert_unusable(&calibration, "a jump");
 }
 
-/// Returns the calibration of a log whose odometry is wrong by factors. `scale` returns by how much each distance and each turn is divided, for
-/// the time as a fraction of the log, and the velocity.
-fn calibrated_with_scales(made: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
-    let [odometry, reference] = made.log();
+/// Returns the calibration of a log after its odometry was divided by `scale`: the factors of distance and turn, as a function of the time
+/// (as a fraction of the log) and of the velocity.
+fn calibrated_with_scales(sim: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
+    let [odometry, reference] = sim.log();
     let rows: Vec<(f64, SE2)> = odometry.samples().collect();
-    let span = rows[rows.len() - 1].0;
+    let duration = rows[rows.len() - 1].0;
     let mut pose = SE2::identity();
-    let mut read = vec![(rows[0].0, pose)];
+    let mut scaled_odometry = vec![(rows[0].0, pose)];
     for pair in rows.windows(2) {
         let twist = pair[1].1.boxminus(&pair[0].1);
-        let [along, turn] = scale(pair[1].0 / span, &(twist / (pair[1].0 - pair[0].0)));
+        let [along, turn] = scale(pair[1].0 / duration, &(twist / (pair[1].0 - pair[0].0)));
         pose = pose.boxplus(Vector3::new(twist.x / along, 0.0, twist.z / turn));
-        read.push((pair[1].0, pose));
+        scaled_odometry.push((pair[1].0, pose));
     }
-    calibrated_log(&[trajectory(read), reference], &made.options())
+    calibrated_log(&[trajectory(scaled_odometry), reference], &sim.options())
 }
 
-/// Odometry with noise, or of a point 5 cm ahead of the axle. Both move sideways in turns on the spot. AMCL of Nav2 reads a leg of less than
-/// a centimetre as a turn on the spot. Noise of a millimetre therefore has no effect under that rule, but under the rule of Table 5.6 it has.
+/// Noisy odometry, and that of a point 5 cm ahead of the axle, move sideways in turns on the spot. Nav2's AMCL reads a leg of less
+/// than a centimetre as a turn on the spot. Noise of a millimetre therefore has no effect under its rule, but has under that of Table 5.6.
 #[test]
 fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
-    let made = good_log(600, 12);
-    let [odometry, reference] = made.log();
+    let sim = good_log(600, 12);
+    let [odometry, reference] = sim.log();
     let noisy = |std: f64| {
         let mut rng = seeded(12);
         let mut noise = || NoiseKind::Normal.sample(Variance(std * std), &mut rng);
         with_poses(&odometry, |pose| SE2::new(pose.x() + noise(), pose.y() + noise(), pose.theta()))
     };
     let ahead = with_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));
-    let found = |odometry: &Trajectory, model: Model| {
+    let passes = |odometry: &Trajectory, model: Model| {
         let calibration =
-            calibrated_log(&[odometry.clone(), reference.clone()], &Options { model, ..made.options() });
+            calibrated_log(&[odometry.clone(), reference.clone()], &Options { model, ..sim.options() });
         let mut checks = calibration.diagnostics.checks.into_iter();
         let check = checks.find(|check| check.name == SidewaysRare);
         check.inspect(|check| assert_eq!(check.passed, check.message().is_empty())).map(|check| check.passed)
     };
     let [table, omni] = [OdometryRule::Table, OdometryRule::Omni].map(Model::Odometry);
-    assert_eq!([found(&noisy(0.01), NAV2), found(&ahead, NAV2)], [Some(false); 2]);
-    assert_eq!([found(&noisy(1e-3), table), found(&noisy(1e-3), NAV2)], [Some(false), Some(true)]);
-    assert_eq!([found(&ahead, omni), found(&ahead, Model::Velocity)], [None; 2]);
+    assert_eq!([passes(&noisy(0.01), NAV2), passes(&ahead, NAV2)], [Some(false); 2]);
+    assert_eq!([passes(&noisy(1e-3), table), passes(&noisy(1e-3), NAV2)], [Some(false), Some(true)]);
+    assert_eq!([passes(&ahead, omni), passes(&ahead, Model::Velocity)], [None; 2]);
 }
 
 /// Asserts that a check fails because a systematic error is not constant, and that the error is not corrected.
@@ -196,19 +196,19 @@ fn assert_not_constant(name: CheckName, error: SystematicError, calibration: &Ca
     assert!(!calibration.is_constant[error as usize] && !calibration.is_corrected[error as usize]);
 }
 
-/// Scales of 1 on straight legs and of 0.85 on turning ones. Their standard errors are a hundredth.
+/// The distance scale is 1 on straight legs and 0.85 on turning ones. Both estimates have a standard error of 0.01.
 #[test]
 fn a_distance_scale_that_differs_in_turns_is_no_constant() {
-    let slips = |_, velocity: &Vector3<f64>| [if velocity.z.abs() > 0.05 { 0.85 } else { 1.0 }, 1.0];
-    let calibration = calibrated_with_scales(&good_log(600, 7), slips);
+    let scales = |_, velocity: &Vector3<f64>| [if velocity.z.abs() > 0.05 { 0.85 } else { 1.0 }, 1.0];
+    let calibration = calibrated_with_scales(&good_log(600, 7), scales);
     assert_not_constant(DistanceScaleConstant, SystematicError::DistanceScale, &calibration);
 }
 
-/// The turn scales of both halves of the log differ by a tenth. Their standard errors are a few hundredths.
+/// The turn scales of the halves of the log differ by 0.1. Their estimates have standard errors of a few hundredths.
 #[test]
 fn a_turn_scale_that_changes_is_no_constant() {
-    let later = |course: f64, _: &Vector3<f64>| [1.0, if course < 0.5 { 1.0 } else { 1.1 }];
-    let calibration = calibrated_with_scales(&good_log(600, 8), later);
+    let scales = |fraction: f64, _: &Vector3<f64>| [1.0, if fraction < 0.5 { 1.0 } else { 1.1 }];
+    let calibration = calibrated_with_scales(&good_log(600, 8), scales);
     assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
 }
 
@@ -219,7 +219,7 @@ fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
     for name in [ResidualsUncorrelated, Window1Covered, Window2Covered] {
         assert_fails(name, &calibration);
     }
-    // A correlation of 1,800 residuals has the standard error 0.02.
+    // The estimate of a correlation from 1,800 residuals has a standard error of 0.02.
     let correlation = calibration.persistence.correlation.value;
     assert!((correlation - 0.7).abs() < 0.08, "{correlation}");
     assert!(calibration.recommended.expect("usable").inflation > 1.5);
@@ -229,33 +229,33 @@ fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
 #[test]
 fn heavy_tails_are_reported() {
     for freedom in [4, 5] {
-        let heavy = Simulation { violation: Violation::Tails(freedom), ..good_log(600, 10) };
-        assert_fails(TailsNormal, &calibrated(&heavy));
+        let sim = Simulation { violation: Violation::Tails(freedom), ..good_log(600, 10) };
+        assert_fails(TailsNormal, &calibrated(&sim));
     }
 }
 
-/// Noise that grows in the second half: the fit of one half covers two thirds of the legs of the other half, the opposite fit all.
+/// Noise that grows in the second half. A fit to the first half covers two thirds of the second; a fit to the second covers the first.
 #[test]
 fn noise_that_changes_is_not_covered_by_the_other_half() {
-    let later: fn(f64) -> f64 = |course| if course < 0.5 { 1.0 } else { 1.5 };
-    let changing = Simulation { violation: Violation::Changing(later), ..good_log(600, 11) };
-    assert_fails(HoldoutCovered, &calibrated(&changing));
+    let noise_factor: fn(f64) -> f64 = |fraction| if fraction < 0.5 { 1.0 } else { 1.5 };
+    let sim = Simulation { violation: Violation::Changing(noise_factor), ..good_log(600, 11) };
+    assert_fails(HoldoutCovered, &calibrated(&sim));
 }
 
 /// Returns the number of consistent logs among `logs` simulated ones, and prints the checks that failed.
 fn count_consistent(model: Model, logs: u64) -> usize {
-    let mut found = Vec::new();
-    let of = |seed: u64| calibrated(&Simulation::of(model, 600, 3000 + seed));
+    let mut failed = Vec::new();
+    let calibration_of = |seed: u64| calibrated(&Simulation::of(model, 600, 3000 + seed));
     let is_consistent = |calibration: &Calibration| {
-        found.extend(failed_checks(calibration));
+        failed.extend(failed_checks(calibration));
         calibration.diagnostics.verdict == Verdict::Consistent
     };
-    let count = (0..logs).map(of).filter(is_consistent).count();
-    println!("{model:?}: {count} of {logs} are consistent; failed: {found:?}");
+    let count = (0..logs).map(calibration_of).filter(is_consistent).count();
+    println!("{model:?}: {count} of {logs} are consistent; failed: {failed:?}");
     count
 }
 
-/// Twelve logs that are consistent with a probability of 0.95 each have eight or fewer consistent ones in one of five thousand runs.
+/// If a log is consistent with a probability of 0.95, eight or fewer of twelve logs are consistent in one of five thousand runs.
 #[test]
 fn good_logs_are_consistent() {
     assert!(count_consistent(NAV2, 12) > 8);

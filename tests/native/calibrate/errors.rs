@@ -12,23 +12,23 @@ use nalgebra::Vector3;
 use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-fn with_errors(model: Model, count: usize, errors: Systematic) -> Simulation {
+fn simulation_with_errors(model: Model, count: usize, errors: Systematic) -> Simulation {
     Simulation { errors, ..Simulation::of(model, count, 77) }
 }
 
-/// Asserts that an estimated error is within four standard errors of the truth; by chance one in sixteen thousand is not. The standard
-/// error is taken as 1e-3 at least, because products of noises are not in it.
+/// Asserts that an estimated error is within four standard errors of the truth; by chance one in sixteen thousand is not. A standard error
+/// below 1e-3 is raised to 1e-3, because it neglects products of noises.
 fn assert_recovers(calibration: &Calibration, error: SystematicError, truth: f64) {
     let std = calibration.systematic_stds[error as usize].expect("identifiable");
-    let off = wrap_angle(calibration.systematic.get(error) - truth).abs();
-    assert!(off < 4.0 * std.max(1e-3) && off < 0.05, "{error:?} is off by {off}, {std}");
+    let deviation = wrap_angle(calibration.systematic.get(error) - truth).abs();
+    assert!(deviation < 4.0 * std.max(1e-3) && deviation < 0.05, "{error:?} is off by {deviation}, {std}");
 }
 
 #[test]
 fn a_mount_yaw_of_any_size_and_a_lever_arm_are_found() {
     for (model, yaw) in MODELS.into_iter().zip([0.07, FRAC_PI_2, -2.6, PI, -FRAC_PI_2]) {
         let errors = Systematic { mount_yaw: yaw, lever_arm: [0.3, -0.2], ..Systematic::NONE };
-        let calibration = calibrated(&with_errors(model, 500, errors));
+        let calibration = calibrated(&simulation_with_errors(model, 500, errors));
         assert_recovers(&calibration, SystematicError::MountYaw, yaw);
         assert_recovers(&calibration, SystematicError::LeverArmAhead, 0.3);
         assert_recovers(&calibration, SystematicError::LeverArmLeft, -0.2);
@@ -44,32 +44,32 @@ fn a_mount_yaw_of_any_size_and_a_lever_arm_are_found() {
 fn clocks_with_any_offset_are_aligned() {
     for offset in [-1.7e9, -4000.0, 0.12, 7.25, 15.12, 1.7e9] {
         let errors = Systematic { clock_offset: offset, ..Systematic::NONE };
-        let calibration = calibrated(&with_errors(NAV2, 500, errors));
+        let calibration = calibrated(&simulation_with_errors(NAV2, 500, errors));
         assert_recovers(&calibration, SystematicError::ClockOffset, offset);
         assert!(calibration.legs.len() > 490, "{offset}: {}", calibration.legs.len());
     }
 }
 
-/// References that restart every twenty seconds with another heading, that are visible a third of the time, and that
-/// exist for a fifth of the drive.
+/// Three references: one restarts every twenty seconds in a frame with another heading, one is visible a third of the time, and
+/// one exists for a fifth of the drive.
 #[test]
 fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let errors = Systematic { clock_offset: 3.2, ..Systematic::NONE };
-    let simulation = with_errors(NAV2, 2000, errors);
+    let simulation = simulation_with_errors(NAV2, 2000, errors);
     let [odometry, reference] = simulation.log();
     let rows = reference.samples().len();
     let mut rng = seeded(2);
-    let mut turned = 0.0;
-    let anew = trajectory(reference.samples().enumerate().map(|(row, (time, pose))| {
+    let mut frame_heading = 0.0;
+    let restarting = trajectory(reference.samples().enumerate().map(|(row, (time, pose))| {
         if row % 400 == 0 {
-            turned = rng.random_range(-3.0..3.0);
+            frame_heading = rng.random_range(-3.0..3.0);
         }
-        (time, SE2::new(0.0, 0.0, turned) * pose)
+        (time, SE2::new(0.0, 0.0, frame_heading) * pose)
     }));
-    let seldom = trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(60.0) < 20.0));
-    let shortly = trajectory(reference.samples().skip(rows / 2).take(rows / 5));
-    for broken in [anew.with_breaks_before((0..rows).step_by(400)), seldom, shortly] {
-        let calibration = calibrated_log(&[odometry.clone(), broken], &simulation.options());
+    let visible_at_times = trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(60.0) < 20.0));
+    let short = trajectory(reference.samples().skip(rows / 2).take(rows / 5));
+    for reference in [restarting.with_breaks_before((0..rows).step_by(400)), visible_at_times, short] {
+        let calibration = calibrated_log(&[odometry.clone(), reference], &simulation.options());
         assert_recovers(&calibration, SystematicError::ClockOffset, 3.2);
     }
 }
@@ -80,17 +80,17 @@ fn trajectories_without_a_common_time_are_refused() {
         calibrate(&[Drive { odometry, reference }], &options_of(NAV2))
             .map(|calibration| calibration.systematic)
     };
-    let later = |log: &Trajectory, by: f64| trajectory(log.samples().map(|(time, pose)| (time + by, pose)));
+    let delayed = |log: &Trajectory, by: f64| trajectory(log.samples().map(|(time, pose)| (time + by, pose)));
     let [odometry, _] = Simulation::of(NAV2, 500, 6).log();
-    let [_, of_another] = Simulation::of(NAV2, 500, 7).log();
-    assert_eq!(refused(&odometry, &later(&of_another, 1e6)), Err(CalibrateError::NoCommonTime));
-    // For two straight drives the clocks are taken as they are, if they overlap at all.
-    let straight = |from: f64| {
+    let [_, other_reference] = Simulation::of(NAV2, 500, 7).log();
+    assert_eq!(refused(&odometry, &delayed(&other_reference, 1e6)), Err(CalibrateError::NoCommonTime));
+    // Straight drives have no turns to align by. Their clocks are assumed equal, provided that the times overlap.
+    let straight_drive = |from: f64| {
         let rows = (0..1000).map(f64::from);
         trajectory(rows.map(|row| (from + 0.1 * row, SE2::new(0.05 * row, 0.0, 0.0))))
     };
-    assert_eq!(refused(&straight(0.0), &straight(70.0)).map(|found| found.clock_offset), Ok(0.0));
-    assert_eq!(refused(&straight(0.0), &straight(100.0)), Err(CalibrateError::NoCommonTime));
+    assert_eq!(refused(&straight_drive(0.0), &straight_drive(70.0)).map(|found| found.clock_offset), Ok(0.0));
+    assert_eq!(refused(&straight_drive(0.0), &straight_drive(100.0)), Err(CalibrateError::NoCommonTime));
 }
 
 #[test]
@@ -102,42 +102,44 @@ fn too_few_legs_are_refused() {
 }
 
 /// A mount yaw of 0.07 rad changes each rotation of a leg by 0.07 rad. On legs of a quarter of a metre that looks like an α₂ of 0.08,
-/// and of more on shorter legs with turns. If the noise of the reference is estimated, it absorbs the error, because both headings
-/// of a leg have the same error.
+/// and on shorter legs with turns like a larger one. An estimated noise of the reference absorbs the error, because both headings of a leg
+/// have the same error.
 #[test]
 fn an_error_that_is_not_corrected_is_noise_of_the_wheels_or_of_the_reference() {
-    let simulation = with_errors(NAV2, 600, Systematic { mount_yaw: 0.07, ..Systematic::NONE });
+    let simulation = simulation_with_errors(NAV2, 600, Systematic { mount_yaw: 0.07, ..Systematic::NONE });
     let log = simulation.log();
     let exact = Options { position_std: Some(0.0), yaw_std: Some(0.0), ..simulation.options() };
-    let left = |options: Options| calibrated_log(&log, &Options { correct: [Some(false); 6], ..options });
-    let [corrected, estimated, exact] =
-        [calibrated_log(&log, &exact), left(simulation.options()), left(exact)];
-    let second = |calibration: &Calibration| calibration.alphas[1].expect("identifiable");
-    let added = second(&exact) - second(&corrected);
-    assert!((0.05..0.2).contains(&added), "{added}");
-    let ratio = second(&estimated) / second(&corrected);
+    let fit_as_is =
+        |options: Options| calibrated_log(&log, &Options { correct: [Some(false); 6], ..options });
+    let [corrected, estimated, uncorrected] =
+        [calibrated_log(&log, &exact), fit_as_is(simulation.options()), fit_as_is(exact)];
+    let alpha2 = |calibration: &Calibration| calibration.alphas[1].expect("identifiable");
+    let added_alpha2 = alpha2(&uncorrected) - alpha2(&corrected);
+    assert!((0.05..0.2).contains(&added_alpha2), "{added_alpha2}");
+    let ratio = alpha2(&estimated) / alpha2(&corrected);
     assert!((0.7..1.5).contains(&ratio), "{ratio}");
     let yaw = estimated.reference_noise[1].value;
     assert!((yaw / 0.07 - 1.0).abs() < 0.1, "{yaw}");
-    // The error is reported nevertheless.
-    let [left, right] = [&exact, &corrected].map(|each| each.interval_of(SystematicError::MountYaw));
-    assert_eq!(left, right);
-    assert_eq!((exact.corrected, exact.is_corrected), (Systematic::NONE, [false; 6]));
+    // The mount yaw is reported also if it is not corrected.
+    let [interval, other_interval] =
+        [&uncorrected, &corrected].map(|each| each.interval_of(SystematicError::MountYaw));
+    assert_eq!(interval, other_interval);
+    assert_eq!((uncorrected.corrected, uncorrected.is_corrected), (Systematic::NONE, [false; 6]));
 }
 
 #[test]
 fn an_error_that_the_log_does_not_identify_is_not_corrected() {
-    let straight = Simulation { drive: Some(|_| [0.4, 0.0]), ..Simulation::of(NAV2, 600, 4) };
-    let calibration = calibrated(&straight);
-    let unknown = |error: SystematicError| calibration.systematic_stds[error as usize].is_none();
-    assert!(unknown(SystematicError::TurnScale) && unknown(SystematicError::LeverArmAhead));
-    for error in SystematicError::ALL.into_iter().filter(|error| unknown(*error)) {
+    let simulation = Simulation { drive: Some(|_| [0.4, 0.0]), ..Simulation::of(NAV2, 600, 4) };
+    let calibration = calibrated(&simulation);
+    let is_unknown = |error: SystematicError| calibration.systematic_stds[error as usize].is_none();
+    assert!(is_unknown(SystematicError::TurnScale) && is_unknown(SystematicError::LeverArmAhead));
+    for error in SystematicError::ALL.into_iter().filter(|error| is_unknown(*error)) {
         assert!(!calibration.is_corrected[error as usize], "{error:?}");
         assert_eq!(calibration.corrected.get(error), Systematic::NONE.get(error), "{error:?}");
     }
 }
 
-/// Odometry without noise gives all errors up to rounding, also with fewer rows in the reference, or with rows between
+/// From odometry without noise all errors are estimated up to rounding, also if the reference has fewer rows, or rows at times between
 /// those of the odometry.
 #[test]
 fn errors_of_a_robot_without_noise_are_exact() {
@@ -152,14 +154,14 @@ fn errors_of_a_robot_without_noise_are_exact() {
     }
     let odometry = trajectory(samples.iter().copied().step_by(2));
     for (first, every) in [(0, 2), (0, 10), (7, 50), (7, 100)] {
-        let later = samples.iter().skip(first).step_by(every).map(|(time, pose)| (time + OFFSET, *pose));
-        let log = [odometry.clone(), trajectory(later)];
+        let delayed = samples.iter().skip(first).step_by(every).map(|(time, pose)| (time + OFFSET, *pose));
+        let log = [odometry.clone(), trajectory(delayed)];
         let calibration =
             calibrated_log(&log, &Options { correct: [Some(true); 6], ..options_of(MODELS[0]) });
         let truth = Systematic { clock_offset: OFFSET, ..Systematic::NONE };
         for error in SystematicError::ALL {
-            let off = calibration.systematic.get(error) - truth.get(error);
-            assert!(off.abs() < 1e-6, "{error:?} is off by {off}, every {every}");
+            let deviation = calibration.systematic.get(error) - truth.get(error);
+            assert!(deviation.abs() < 1e-6, "{error:?} is off by {deviation}, every {every}");
         }
         assert!(
             calibration.alphas.iter().all(|alpha| alpha.is_none_or(|alpha| alpha < 1e-7)),
@@ -168,32 +170,32 @@ fn errors_of_a_robot_without_noise_are_exact() {
     }
 }
 
-/// Standard errors fall as the root of the number of legs, whether they are of one drive or of four. Each drive has a clock of its own.
+/// Four drives with a quarter of the legs each, and each with its own clock, give the standard errors of one drive with all legs.
 #[test]
 fn four_drives_tell_as_much_as_one_that_is_as_long() {
-    let clock = |clock_offset: f64, count: usize, seed: u64| {
+    let simulation_with_clock = |clock_offset: f64, count: usize, seed: u64| {
         let errors = Systematic { clock_offset, ..Systematic::NONE };
-        Simulation { errors, seed, ..with_errors(NAV2, count, errors) }
+        Simulation { errors, seed, ..simulation_with_errors(NAV2, count, errors) }
     };
     let logs: Vec<[Trajectory; 2]> = [0.0, 0.4, -3.0, 900.0]
         .into_iter()
         .zip(20..)
-        .map(|(offset, seed)| clock(offset, 300, seed).log())
+        .map(|(offset, seed)| simulation_with_clock(offset, 300, seed).log())
         .collect();
     let drives: Vec<Drive> = logs.iter().map(|[odometry, reference]| Drive { odometry, reference }).collect();
-    let four = calibrate(&drives, &options_of(NAV2)).expect("legs enough");
-    let one = calibrated(&clock(0.0, 1200, 20));
-    assert!(four.legs.len() > 1190, "{}", four.legs.len());
+    let of_four_drives = calibrate(&drives, &options_of(NAV2)).expect("legs enough");
+    let of_one_drive = calibrated(&simulation_with_clock(0.0, 1200, 20));
+    assert!(of_four_drives.legs.len() > 1190, "{}", of_four_drives.legs.len());
     for (alpha, truth) in ALPHAS.into_iter().enumerate().take(4) {
         let width = |calibration: &Calibration| {
             let [low, high] = calibration.intervals[alpha].expect("identifiable");
             (high - low) / calibration.alphas[alpha].expect("identifiable")
         };
-        let ratio = width(&four) / width(&one);
+        let ratio = width(&of_four_drives) / width(&of_one_drive);
         assert!((ratio - 1.0).abs() < 0.3, "α{}: {ratio}", alpha + 1);
         // Standard errors are at most 9 %; four of them are allowed.
-        let fitted = four.alphas[alpha].expect("identifiable") / truth;
-        assert!((fitted - 1.0).abs() < 0.36, "α{}: {fitted}", alpha + 1);
+        let ratio_to_truth = of_four_drives.alphas[alpha].expect("identifiable") / truth;
+        assert!((ratio_to_truth - 1.0).abs() < 0.36, "α{}: {ratio_to_truth}", alpha + 1);
     }
 }
 
@@ -202,8 +204,8 @@ fn four_drives_tell_as_much_as_one_that_is_as_long() {
 #[test]
 fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
     let mut rng = seeded(5);
-    let mut noise = |most: f64| rng.random_range(-most..most);
-    let (mut read, mut truth, mut rows) = (SE2::identity(), SE2::identity(), Vec::new());
+    let mut noise = |limit: f64| rng.random_range(-limit..limit);
+    let (mut odometry_pose, mut true_pose, mut rows) = (SE2::identity(), SE2::identity(), Vec::new());
     for row in 0..16_000_usize {
         let phase = row / 40;
         let twist = match phase % 4 {
@@ -212,14 +214,14 @@ fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
             _ => [0.0, 0.0],
         };
         let twist = Vector3::new(twist[0], 0.0, twist[1]) * 0.05;
-        let shown = SE2::new(noise(0.003), noise(0.003), noise(0.003));
-        rows.push([(0.05 * row as f64, read * shown), (0.05 * row as f64, truth)]);
-        read = read.boxplus(twist);
+        let jitter = SE2::new(noise(0.003), noise(0.003), noise(0.003));
+        rows.push([(0.05 * row as f64, odometry_pose * jitter), (0.05 * row as f64, true_pose)]);
+        odometry_pose = odometry_pose.boxplus(twist);
         let moves = twist.norm() > 0.0;
-        let off = if moves { Vector3::new(noise(0.004), 0.0, noise(0.008)) } else { Vector3::zeros() };
-        truth = truth.boxplus(twist + off);
+        let noise_step = if moves { Vector3::new(noise(0.004), 0.0, noise(0.008)) } else { Vector3::zeros() };
+        true_pose = true_pose.boxplus(twist + noise_step);
     }
-    let log = [0, 1].map(|which| trajectory(rows.iter().map(|row| row[which])));
+    let log = [0, 1].map(|trajectory_index| trajectory(rows.iter().map(|row| row[trajectory_index])));
     let options = Options { legs: LegLength::Duration { duration: 0.5 }, ..options_of(NAV2) };
     let calibration = calibrated_log(&log, &options);
     assert_recovers(&calibration, SystematicError::TurnScale, 1.0);
@@ -235,10 +237,10 @@ fn one_row_a_leg_is_enough_for_the_reference() {
     let simulation = Simulation { legs, ..Simulation::of(NAV2, 800, 3) };
     let [odometry, reference] = simulation.log();
     let sparse = trajectory(reference.samples().step_by(20));
-    let whole = calibrated_log(&[odometry.clone(), reference], &simulation.options());
-    let few = calibrated_log(&[odometry, sparse], &simulation.options());
-    assert!(few.legs.len() > 780, "{}", few.legs.len());
-    for (one, other) in few.alphas.iter().zip(&whole.alphas) {
+    let with_all_rows = calibrated_log(&[odometry.clone(), reference], &simulation.options());
+    let with_one_row_a_leg = calibrated_log(&[odometry, sparse], &simulation.options());
+    assert!(with_one_row_a_leg.legs.len() > 780, "{}", with_one_row_a_leg.legs.len());
+    for (one, other) in with_one_row_a_leg.alphas.iter().zip(&with_all_rows.alphas) {
         let ratio = one.expect("identifiable") / other.expect("identifiable");
         assert!((ratio - 1.0).abs() < 0.08, "{ratio}");
     }

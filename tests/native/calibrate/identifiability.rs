@@ -31,7 +31,7 @@ struct IncompleteDrive {
     drive: Drive,
     odometry: [Option<NotIdentifiable>; 5],
     velocity: [Option<NotIdentifiable>; 6],
-    /// Drives that add fifty legs of the missing motion, for each model. The velocity model gets no turn rate from a turn on the spot.
+    /// Drives with fifty legs of the missing motion, for odometry models and for the velocity model, which does not use turns on the spot.
     complete: [Drive; 2],
 }
 
@@ -56,7 +56,7 @@ const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
             |leg| [SPIN, STRAIGHT, BEND, STRAIGHT, BEND, STRAIGHT, BEND, BEND][leg % 8],
         ],
     },
-    // Radii that differ by a few percent only.
+    // The radii of the bends differ by a few percent only.
     IncompleteDrive {
         name: "one bend",
         drive: |leg| [0.3, if leg.is_multiple_of(2) { 0.29 } else { 0.31 }],
@@ -81,7 +81,7 @@ fn each_drive_has_its_reason_for_every_model() {
 }
 
 fn assert_reasons(models: &[Model]) {
-    let (mut held, mut intervals) = (0, 0);
+    let (mut held_count, mut intervals) = (0, 0);
     for &model in models {
         for IncompleteDrive { name, drive, odometry, velocity, complete } in &INCOMPLETE_DRIVES {
             let by_commands = model == Model::Velocity;
@@ -89,30 +89,30 @@ fn assert_reasons(models: &[Model]) {
             let calibration = calibrated_drive(model, *drive);
             assert_eq!(calibration.not_identifiable, expected[..model.alphas()], "{model:?} {name}");
             for (k, reason) in calibration.not_identifiable.iter().enumerate() {
-                let is_given = [calibration.alphas[k].is_some(), calibration.intervals[k].is_some()];
-                assert_eq!(is_given, [reason.is_none(); 2], "{model:?} {name}: α{}", k + 1);
+                let is_estimated = [calibration.alphas[k].is_some(), calibration.intervals[k].is_some()];
+                assert_eq!(is_estimated, [reason.is_none(); 2], "{model:?} {name}: α{}", k + 1);
             }
-            let whole = calibrated_drive(model, complete[usize::from(by_commands)]);
-            assert!(whole.not_identifiable.iter().all(Option::is_none), "{model:?} {name}");
-            for (interval, truth) in whole.intervals.iter().zip(ALPHAS) {
+            let complete_calibration = calibrated_drive(model, complete[usize::from(by_commands)]);
+            assert!(complete_calibration.not_identifiable.iter().all(Option::is_none), "{model:?} {name}");
+            for (interval, truth) in complete_calibration.intervals.iter().zip(ALPHAS) {
                 let [low, high] = interval.expect("identifiable");
-                held += u32::from((low..=high).contains(&truth));
+                held_count += u32::from((low..=high).contains(&truth));
                 intervals += 1;
             }
         }
     }
     // Three standard errors of a share of 0.95 are allowed.
-    let share = f64::from(held) / f64::from(intervals);
+    let share = f64::from(held_count) / f64::from(intervals);
     let error = (0.95 * 0.05 / f64::from(intervals)).sqrt();
     assert!(share > 0.95 - 3.0 * error, "{share}");
 }
 
-/// Standard deviations of 100 m and 100 rad, as in the options. An α of 1 adds noise of 0.3 m and 0.3 rad to a leg.
+/// The reference noise is set to 100 m and 100 rad. An α of 1 adds only about 0.3 m and 0.3 rad of noise to a leg.
 #[test]
 fn a_reference_that_hides_the_noise_of_the_wheels_is_too_noisy() {
-    let made = Simulation::of(NAV2, 400, 32);
-    let options = Options { position_std: Some(100.0), yaw_std: Some(100.0), ..made.options() };
-    let calibration = calibrated_log(&made.log(), &options);
+    let sim = Simulation::of(NAV2, 400, 32);
+    let options = Options { position_std: Some(100.0), yaw_std: Some(100.0), ..sim.options() };
+    let calibration = calibrated_log(&sim.log(), &options);
     assert_eq!(calibration.not_identifiable, [Some(ReferenceTooNoisy); 4]);
     assert_eq!(calibration.diagnostics.verdict, Verdict::Unusable);
 }

@@ -13,7 +13,7 @@ fn straight(rows: usize, step: f64) -> Trajectory {
 }
 
 /// Returns the trajectory without the rows between two of them.
-fn without(whole: &Trajectory, from: usize, to: usize) -> Trajectory {
+fn without_rows_between(whole: &Trajectory, from: usize, to: usize) -> Trajectory {
     trajectory(whole.samples().enumerate().filter(|(row, _)| !(from < *row && *row < to)).map(|(_, row)| row))
 }
 
@@ -39,55 +39,55 @@ fn legs_end_as_amcl_ends_them() {
     let turning = [(0.0, 3.1), (0.1, -3.1), (0.2, -2.9)].map(|(t, theta)| (t, SE2::new(0.0, 0.0, theta)));
     let turning = trajectory(turning);
     assert_eq!(split_into_legs(&turning, &turning, QUARTER, 0.0).0[0].times, [0.0, 0.2]);
-    let timed = split_into_legs(&odometry, &odometry, LegLength::Duration { duration: 0.5 }, 0.0).0;
-    assert_eq!(timed.len(), 8);
+    let timed_legs = split_into_legs(&odometry, &odometry, LegLength::Duration { duration: 0.5 }, 0.0).0;
+    assert_eq!(timed_legs.len(), 8);
 }
 
 /// Ten steps of 0.02 rad equal the limit of 0.2 rad, except for rounding of sums of doubles, or of text with six decimals.
 #[test]
 fn rounding_does_not_decide_where_a_leg_ends() {
-    let spin = |rounded: fn(f64) -> f64| {
+    let leg_times = |rounded: fn(f64) -> f64| {
         let heading = |row: usize| rounded(wrap_angle(0.123_456_7 + 0.02 * row as f64));
         let turning = trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, heading(row)))));
         split_into_legs(&turning, &turning, QUARTER, 0.0).0.iter().map(|leg| leg.times).collect::<Vec<_>>()
     };
-    let exact = spin(|heading| heading);
-    // At exactly the limit not yet: eleven steps each.
-    assert_eq!(exact.len(), 36);
-    assert_eq!(spin(|heading| (heading * 1e6).round() / 1e6), exact);
+    let exact_times = leg_times(|heading| heading);
+    // A leg does not end at exactly the limit: each has eleven steps.
+    assert_eq!(exact_times.len(), 36);
+    assert_eq!(leg_times(|heading| (heading * 1e6).round() / 1e6), exact_times);
 }
 
-/// A leg normally has five steps. With a pause of six steps after its first step a leg is 0.44 m long. With the pause after the fourth
-/// step it is 0.63 m, more than twice the requested length.
+/// A leg normally has five steps. A leg with a pause of six steps after its first step is 0.44 m long. With the pause after the fourth
+/// step it would be 0.63 m long, more than twice the requested length, and is lost.
 #[test]
 fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
     let whole = straight(101, 0.0625);
     for (after, ends, across_pauses) in [(1, 37, 0), (4, 40, 1)] {
-        let paused = without(&whole, 30 + after, 30 + after + 6);
+        let paused = without_rows_between(&whole, 30 + after, 30 + after + 6);
         assert_eq!(paused.gaps(), 1);
         let (legs, lost) = split_into_legs(&paused, &whole, QUARTER, 0.0);
         assert_eq!(lost, LostLegs { across_pauses, ..LostLegs::default() });
         let across = legs.iter().find(|leg| leg.times[0] == times(&whole)[30]);
         assert_eq!(across.map(|leg| leg.times[1]), (across_pauses == 0).then_some(times(&whole)[ends]));
         // The leg after one that was lost does not share an end with the leg before it in the list.
-        let after = legs.iter().find(|leg| leg.times[0] == times(&whole)[ends]).expect("it goes on");
-        assert_eq!(after.follows, across_pauses == 0);
+        let next_leg = legs.iter().find(|leg| leg.times[0] == times(&whole)[ends]).expect("it goes on");
+        assert_eq!(next_leg.follows, across_pauses == 0);
     }
-    // Both ends have a reference, although there is none in between.
-    let (legs, lost) = split_into_legs(&whole, &without(&whole, 30, 35), QUARTER, 0.0);
+    // Both ends of the leg have a reference pose, although the reference has none in between.
+    let (legs, lost) = split_into_legs(&whole, &without_rows_between(&whole, 30, 35), QUARTER, 0.0);
     assert_eq!((legs, lost), split_into_legs(&whole, &whole, QUARTER, 0.0));
 }
 
 #[test]
 fn lost_legs_are_counted_by_cause() {
     let whole = straight(101, 0.05);
-    let all = split_into_legs(&whole, &whole, QUARTER, 0.0).0;
+    let all_legs = split_into_legs(&whole, &whole, QUARTER, 0.0).0;
     // A reference with the rows from 12 to 66: it begins after two of sixteen legs and ends before the last five.
     let shorter = trajectory(whole.samples().skip(12).take(55));
     let (legs, lost) = split_into_legs(&whole, &shorter, QUARTER, 0.0);
     assert_eq!(
         legs.iter().map(|leg| leg.times).collect::<Vec<_>>(),
-        all[2..11].iter().map(|leg| leg.times).collect::<Vec<_>>()
+        all_legs[2..11].iter().map(|leg| leg.times).collect::<Vec<_>>()
     );
     assert!(lost.without_reference >= 4 && lost.total() == lost.without_reference, "{lost:?}");
     // The robot stands still for 4 s, in four legs of a second.
@@ -101,22 +101,22 @@ fn lost_legs_are_counted_by_cause() {
 #[test]
 fn no_leg_leads_across_a_break() {
     let whole = straight(101, 0.1);
-    let all = split_into_legs(&whole, &whole, QUARTER, 0.0).0;
+    let all_legs = split_into_legs(&whole, &whole, QUARTER, 0.0).0;
     let breaks = [17, 33, 34, 70];
     let broken = whole.clone().with_breaks_before(breaks);
     assert_eq!([whole.gaps(), broken.gaps()], [0, 4]);
-    let spans = |leg: &Leg| {
-        let across = |row: usize| leg.times[0] < times(&whole)[row] && times(&whole)[row] <= leg.times[1];
-        breaks.into_iter().any(across)
+    let has_break = |leg: &Leg| {
+        let contains = |row: usize| leg.times[0] < times(&whole)[row] && times(&whole)[row] <= leg.times[1];
+        breaks.into_iter().any(contains)
     };
-    let kept: Vec<[f64; 2]> = all.iter().filter(|leg| !spans(leg)).map(|leg| leg.times).collect();
+    let kept: Vec<[f64; 2]> = all_legs.iter().filter(|leg| !has_break(leg)).map(|leg| leg.times).collect();
     // A break of the reference removes the legs across it, and no others.
     let (legs, lost) = split_into_legs(&whole, &broken, QUARTER, 0.0);
     assert_eq!(legs.iter().map(|leg| leg.times).collect::<Vec<_>>(), kept);
-    assert_eq!(lost, LostLegs { across_breaks: all.len() - kept.len(), ..LostLegs::default() });
+    assert_eq!(lost, LostLegs { across_breaks: all_legs.len() - kept.len(), ..LostLegs::default() });
     // After a break of the odometry a leg begins at the break.
     let (legs, lost) = split_into_legs(&broken, &whole, QUARTER, 0.0);
-    assert!(legs.len() > 25 && !legs.iter().any(spans));
+    assert!(legs.len() > 25 && !legs.iter().any(has_break));
     assert_eq!(lost, LostLegs { across_breaks: 4, ..LostLegs::default() });
     assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == times(&whole)[*row])));
     // There is no pose between the rows, and no break before the first row or after the last.
@@ -127,14 +127,14 @@ fn no_leg_leads_across_a_break() {
 
 #[test]
 fn a_declared_jump_is_in_no_velocity() {
-    let jumps = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
+    let jump = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
     let rows = straight(101, 0.1);
     let rows =
-        rows.samples().enumerate().map(|(row, (time, pose))| (time, SE2::new(pose.x(), jumps(row), 0.0)));
-    let jumping = trajectory(rows).with_breaks_before([40, 43]);
+        rows.samples().enumerate().map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump(row), 0.0)));
+    let with_jumps = trajectory(rows).with_breaks_before([40, 43]);
     // Some legs consist of the three rows between the jumps.
     let length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
-    let legs = split_into_legs(&jumping, &jumping, length, 0.0).0;
+    let legs = split_into_legs(&with_jumps, &with_jumps, length, 0.0).0;
     assert!(legs.len() > 45 && legs.iter().any(|leg| leg.odometry[0].y() == 5.0));
     for leg in legs {
         assert!(leg.velocities.iter().all(|velocity| (velocity - Vector3::x()).norm() < 1e-9));
@@ -144,12 +144,12 @@ fn a_declared_jump_is_in_no_velocity() {
 #[test]
 fn both_ends_of_a_leg_are_at_one_moment_of_both_clocks() {
     let odometry = straight(101, 0.1);
-    let ahead = trajectory(odometry.samples().map(|(time, pose)| (time + 3.0, pose)));
-    let legs = split_into_legs(&odometry, &ahead, LegLength::AMCL, 3.0).0;
+    let delayed = trajectory(odometry.samples().map(|(time, pose)| (time + 3.0, pose)));
+    let legs = split_into_legs(&odometry, &delayed, LegLength::AMCL, 3.0).0;
     assert!(legs.len() > 25);
     for leg in legs {
-        for (read, seen) in leg.odometry.iter().zip(leg.reference) {
-            assert!(read.boxminus(&seen).norm() < 1e-9);
+        for (odometry_pose, reference_pose) in leg.odometry.iter().zip(leg.reference) {
+            assert!(odometry_pose.boxminus(&reference_pose).norm() < 1e-9);
         }
     }
 }
@@ -157,11 +157,11 @@ fn both_ends_of_a_leg_are_at_one_moment_of_both_clocks() {
 #[test]
 fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
     let whole = straight(1001, 0.05);
-    let every = |first: usize, step: usize| trajectory(whole.samples().skip(first).step_by(step));
+    let every_nth_row = |first: usize, step: usize| trajectory(whole.samples().skip(first).step_by(step));
     let has = |samples: &Trajectory, time: f64| times(samples).contains(&time);
     // With a sample each 0.4 s or each 0.8 s, a leg of half a second ends at the nearest.
     for (step, duration) in [(4, 0.5), (8, 0.8)] {
-        let sparse = every(3, step);
+        let sparse = every_nth_row(3, step);
         let length = LegLength::Duration { duration: 0.5 };
         let legs = split_into_legs(&whole, &sparse, length, 0.0).0;
         assert!(legs.len() > 100);
@@ -171,7 +171,7 @@ fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
             assert_eq!(leg.odometry, leg.reference);
         }
         assert!(legs.windows(2).all(|pair| pair[0].times[1] == pair[1].times[0]));
-        // If the odometry has fewer samples, legs end at these.
+        // If the odometry is the sparser trajectory, legs end at its samples.
         let legs = split_into_legs(&sparse, &whole, length, 0.01).0;
         assert!(legs.len() > 100 && legs.iter().all(|leg| leg.times.iter().all(|time| has(&sparse, *time))));
     }
@@ -182,23 +182,23 @@ fn poses_between_samples_lie_on_an_arc() {
     let twist = Vector3::new(0.5, 0.1, 0.8);
     let start = SE2::new(2.0, 1.0, 3.0);
     let arc = trajectory([(1.0, start), (2.0, start.boxplus(twist))]);
-    let there = arc.pose_at(1.25).expect("inside");
-    assert!(there.boxminus(&start.boxplus(twist * 0.25)).norm() < 1e-12);
+    let pose = arc.pose_at(1.25).expect("inside");
+    assert!(pose.boxminus(&start.boxplus(twist * 0.25)).norm() < 1e-12);
     assert_eq!([0.99, 2.01].map(|time| arc.pose_at(time)), [None; 2]);
 }
 
 #[test]
 fn times_must_rise_and_numbers_must_be_finite() {
-    let refused = |samples: &[(f64, f64)]| {
+    let error_of = |samples: &[(f64, f64)]| {
         let poses = samples.iter().map(|(time, x)| (*time, SE2::new(*x, 0.0, 0.0)));
         Trajectory::new(poses).err().map(|error| error.to_string())
     };
-    assert_eq!([refused(&[]), refused(&[(1.0, 2.0)])], [None, None]);
-    let later = "sample 2 is not later than the one before, at 1 s; allowed are times that rise";
-    assert_eq!(refused(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(later));
-    let finite = "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
-    assert_eq!(refused(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(finite));
-    assert_eq!(refused(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(finite));
+    assert_eq!([error_of(&[]), error_of(&[(1.0, 2.0)])], [None, None]);
+    let not_later = "sample 2 is not later than the one before, at 1 s; allowed are times that rise";
+    assert_eq!(error_of(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(not_later));
+    let not_finite = "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
+    assert_eq!(error_of(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(not_finite));
+    assert_eq!(error_of(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(not_finite));
     assert!(Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, f64::NAN, 0.0)]).is_err());
 }
 
@@ -217,17 +217,17 @@ fn commands_are_integrated_along_arcs() {
     }
 }
 
-/// A command that is held for 20 s has no rows during 40 legs. The trajectory gets steps of a tenth of a second, 5 cm
+/// A command that is held for 20 s has no rows during 40 legs. The trajectory is cut into steps of a tenth of a second, 5 cm
 /// each, and at most 7.5 cm.
 #[test]
 fn a_held_command_is_cut_between_its_rows() {
-    let held =
+    let trajectory =
         Trajectory::from_commands([(0.0, 0.5, 0.0), (20.0, 0.5, 0.0), (40.0, 0.0, 0.0)]).expect("times rise");
-    let (legs, lost) = split_into_legs(&held, &straight(401, 0.05), QUARTER, 0.0);
+    let (legs, lost) = split_into_legs(&trajectory, &straight(401, 0.05), QUARTER, 0.0);
     assert_eq!(lost, LostLegs::default());
     assert!(legs.len() > 60, "{}", legs.len());
     for leg in legs {
-        let driven = leg.odometry[1].x() - leg.odometry[0].x();
-        assert!(0.25 < driven && driven <= 0.325, "{driven}");
+        let distance = leg.odometry[1].x() - leg.odometry[0].x();
+        assert!(0.25 < distance && distance <= 0.325, "{distance}");
     }
 }

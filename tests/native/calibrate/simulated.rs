@@ -23,7 +23,7 @@ pub const MODELS: [Model; 5] = [
     Model::Velocity,
 ];
 
-/// Violation of the model's assumption that the noises of all legs are independent and normal, with variance 1.
+/// Violation of the model's assumption that the unit noises of all legs are independent and normal, with variance 1.
 #[derive(Clone, Copy, Debug)]
 pub enum Violation {
     /// Noise as the model assumes it.
@@ -48,7 +48,7 @@ pub struct Simulation {
     pub errors: Systematic,
     /// Fraction of legs in which the reference jumps by half a metre and stays there.
     pub jumps: f64,
-    /// v and ω of a leg by its number; random by default.
+    /// Function from the number of a leg to its v and ω; `None` draws random ones.
     pub drive: Option<fn(usize) -> [f64; 2]>,
     pub violation: Violation,
     pub seed: u64,
@@ -92,51 +92,51 @@ impl Simulation {
             [Error::DistanceScale, Error::TurnScale].map(|e| self.errors.get(e));
         let mut odometry = vec![(0.0, SE2::identity())];
         let mut base = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
-        let (mut speeds, mut left, mut began) = ([0.3, 0.0], 40, 0);
-        // Motion since the start of the leg, as the odometry reads it without its systematic errors.
-        let (mut driven, mut inside) = (SE2::identity(), Vec::new());
+        let (mut speeds, mut rows_left, mut start_row) = ([0.3, 0.0], 40, 0);
+        // Motion since the start of the leg as the odometry would read it without systematic errors.
+        let (mut motion, mut leg_rows) = (SE2::identity(), Vec::new());
         let (mut legs, mut unit_noise) = (0, [0.0; 3]);
         while legs < self.count {
-            if left == 0 {
+            if rows_left == 0 {
                 speeds = self.speeds(&mut rng);
-                left = rng.random_range(15..60);
+                rows_left = rng.random_range(15..60);
             }
-            left -= 1;
+            rows_left -= 1;
             let speeds = self.drive.map_or(speeds, |drive| drive(legs));
             let time = odometry.len() as f64 * STEP;
             let twist = Vector3::new(speeds[0], 0.0, speeds[1]) * STEP;
-            driven = driven.boxplus(twist);
-            let read = Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale);
-            odometry.push((time, odometry.last().expect("some").1.boxplus(read)));
-            inside.push((time, driven));
-            let [(start_time, start), (_, reading)] = [odometry[began], odometry[odometry.len() - 1]];
+            motion = motion.boxplus(twist);
+            let reading_step = Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale);
+            odometry.push((time, odometry.last().expect("some").1.boxplus(reading_step)));
+            leg_rows.push((time, motion));
+            let [(start_time, start), (_, reading)] = [odometry[start_row], odometry[odometry.len() - 1]];
             if !leg_ends(self.legs, time - start_time, &start, &reading) {
                 continue;
             }
             let from = base.last().expect("some").1;
             unit_noise = self.unit_noise(legs as f64 / self.count as f64, unit_noise, &mut rng);
-            let to = from * executed(self.model, &ALPHAS, &driven, time - start_time, unit_noise);
+            let to = from * executed(self.model, &ALPHAS, &motion, time - start_time, unit_noise);
             // The noise of a leg is distributed evenly over its rows.
-            let off = (driven.inverse() * from.inverse() * to).log();
-            let ahead = |time: f64| (time - start_time) / (inside.len() as f64 * STEP);
-            base.extend(inside.iter().map(|(t, pose)| (*t, from * pose.boxplus(off * ahead(*t)))));
+            let noise = (motion.inverse() * from.inverse() * to).log();
+            let progress = |time: f64| (time - start_time) / (leg_rows.len() as f64 * STEP);
+            base.extend(leg_rows.iter().map(|(t, pose)| (*t, from * pose.boxplus(noise * progress(*t)))));
             if rng.random_bool(self.jumps) {
-                let toward = rng.random_range(-3.0..3.0);
-                let jump = SE2::new(0.5 * libm::cos(toward), 0.5 * libm::sin(toward), 0.0);
+                let direction = rng.random_range(-3.0..3.0);
+                let jump = SE2::new(0.5 * libm::cos(direction), 0.5 * libm::sin(direction), 0.0);
                 let (_, last) = base.last_mut().expect("some");
                 *last = jump * *last;
             }
-            (driven, began, legs) = (SE2::identity(), odometry.len() - 1, legs + 1);
-            inside.clear();
+            (motion, start_row, legs) = (SE2::identity(), odometry.len() - 1, legs + 1);
+            leg_rows.clear();
         }
-        let [ahead, to_left] = self.errors.lever_arm;
-        let mount = SE2::new(ahead, to_left, self.errors.mount_yaw);
-        let [place, yaw] = self.reference_stds.map(|std| Variance(std * std));
+        let [lever_ahead, lever_left] = self.errors.lever_arm;
+        let mount = SE2::new(lever_ahead, lever_left, self.errors.mount_yaw);
+        let [position_variance, yaw_variance] = self.reference_stds.map(|std| Variance(std * std));
         let mut error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
         let reference = base.iter().map(|(t, pose)| {
-            let seen = *pose * mount;
-            let [x, y, theta] = [error(place), error(place), error(yaw)];
-            (t + self.errors.clock_offset, SE2::new(seen.x() + x, seen.y() + y, seen.theta() + theta))
+            let sensor = *pose * mount;
+            let [x, y, theta] = [error(position_variance), error(position_variance), error(yaw_variance)];
+            (t + self.errors.clock_offset, SE2::new(sensor.x() + x, sensor.y() + y, sensor.theta() + theta))
         });
         [trajectory(odometry), trajectory(reference)]
     }
@@ -153,26 +153,26 @@ impl Simulation {
         }
     }
 
-    /// Returns three noises of a leg, at this fraction of the log. Those of the leg before it are given.
-    fn unit_noise(&self, course: f64, before: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
+    /// Returns the three unit noises of a leg, from those of the leg before it and the position in the log, from 0 to 1.
+    fn unit_noise(&self, fraction: f64, before: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
         before.map(|before| {
-            let own = NoiseKind::Normal.sample(Variance(1.0), rng);
+            let fresh = NoiseKind::Normal.sample(Variance(1.0), rng);
             match self.violation {
-                Violation::None => own,
+                Violation::None => fresh,
                 Violation::Tails(freedom) => {
                     let normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
                     let square: f64 = (0..freedom).map(normal).map(|z| z * z).sum();
-                    own * f64::sqrt((freedom as f64 - 2.0) / square)
+                    fresh * f64::sqrt((freedom as f64 - 2.0) / square)
                 }
-                Violation::Autoregressive(share) => share * before + (1.0 - share * share).sqrt() * own,
-                Violation::Times(times) => times * own,
-                Violation::Changing(deviation) => deviation(course) * own,
+                Violation::Autoregressive(share) => share * before + (1.0 - share * share).sqrt() * fresh,
+                Violation::Times(times) => times * fresh,
+                Violation::Changing(deviation) => deviation(fraction) * fresh,
             }
         })
     }
 }
 
-/// Returns the motion that a robot executes if it reads the motion `read` within `dt`, by noises with variance 1.
+/// Returns the motion that a robot executed if its odometry read the motion `read` within `dt`, from noises with variance 1.
 pub fn executed(model: Model, alphas: &[f64; 6], read: &SE2, dt: f64, unit_noise: [f64; 3]) -> SE2 {
     let start = SE2::identity();
     match model {
@@ -194,14 +194,14 @@ pub fn executed(model: Model, alphas: &[f64; 6], read: &SE2, dt: f64, unit_noise
 const ROUNDING: f64 = 1e-6;
 
 /// Returns true if a leg ends at a reading, as `LegLength` documents it, by independent code.
-fn leg_ends(legs: LegLength, lasted: f64, start: &SE2, reading: &SE2) -> bool {
+fn leg_ends(legs: LegLength, duration_so_far: f64, start: &SE2, reading: &SE2) -> bool {
     match legs {
         LegLength::Displacement { distance, angle } => {
-            let turned = motion::geom::se2::wrap_angle(reading.theta() - start.theta());
-            let moved = [reading.x() - start.x(), reading.y() - start.y()];
-            let longest = moved.iter().fold(0.0, |longest, along| f64::max(longest, along.abs()));
-            longest > distance * (1.0 + ROUNDING) || turned.abs() > angle * (1.0 + ROUNDING)
+            let turn = motion::geom::se2::wrap_angle(reading.theta() - start.theta());
+            let displacement = [reading.x() - start.x(), reading.y() - start.y()];
+            let longest = displacement.iter().fold(0.0, |longest, along| f64::max(longest, along.abs()));
+            longest > distance * (1.0 + ROUNDING) || turn.abs() > angle * (1.0 + ROUNDING)
         }
-        LegLength::Duration { duration } => lasted > duration - 1e-6,
+        LegLength::Duration { duration } => duration_so_far > duration - 1e-6,
     }
 }

@@ -9,7 +9,7 @@ use motion::{NoiseKind, Variance};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 
-/// Number of samples of each window. Its covariance then has relative standard errors of 7 %, which move the coverage by less than a
+/// Number of samples of a window. Their covariance then has relative standard errors of 7 %, which change the coverage by less than a
 /// hundredth.
 const SAMPLES: usize = 400;
 
@@ -23,22 +23,22 @@ fn motion_of(leg: &Leg) -> SE2 {
 
 /// Returns true if the motion over some legs is inside of the 95 % ellipsoid of its samples, in exponential coordinates.
 fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng) -> bool {
-    let product =
+    let composed =
         |motions: &mut dyn Iterator<Item = SE2>| motions.fold(SE2::identity(), |pose, motion| pose * motion);
-    let read = product(&mut legs.iter().map(motion_of));
+    let odom_motion = composed(&mut legs.iter().map(motion_of));
     let mut sample = |leg| {
         let noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
         executed(model, alphas, &motion_of(leg), leg.duration(), noise)
     };
     let samples: Vec<Vector3<f64>> =
-        (0..SAMPLES).map(|_| product(&mut legs.iter().map(&mut sample)).boxminus(&read)).collect();
+        (0..SAMPLES).map(|_| composed(&mut legs.iter().map(&mut sample)).boxminus(&odom_motion)).collect();
     let mean = samples.iter().sum::<Vector3<f64>>() / SAMPLES as f64;
     let covariance =
         samples.iter().map(|each| (each - mean) * (each - mean).transpose()).sum::<Matrix3<f64>>();
-    let seen = legs[0].reference[0].inverse() * legs[legs.len() - 1].reference[1];
-    let off = seen.boxminus(&read) - mean;
+    let reference_motion = legs[0].reference[0].inverse() * legs[legs.len() - 1].reference[1];
+    let deviation = reference_motion.boxminus(&odom_motion) - mean;
     let inverse = (covariance / SAMPLES as f64).try_inverse().expect("noise in all directions");
-    off.dot(&(inverse * off)) < CHI2_95
+    deviation.dot(&(inverse * deviation)) < CHI2_95
 }
 
 /// Returns the numbers of windows of a metre that are covered, and of all windows, in logs that were not used for the
@@ -47,19 +47,19 @@ fn coverage(model: Model, violation: Violation, logs: u64) -> [usize; 2] {
     let mut rng = seeded(logs);
     let mut counts = [0; 2];
     for seed in 0..logs {
-        let made = Simulation { violation, ..Simulation::of(model, 600, 900 + seed) };
-        let recommended = calibrated(&made).recommended.expect("a usable log").alphas;
+        let sim = Simulation { violation, ..Simulation::of(model, 600, 900 + seed) };
+        let recommended = calibrated(&sim).recommended.expect("a usable log").alphas;
         let alphas =
             std::array::from_fn(|k| recommended.get(k).map_or(0.0, |alpha| alpha.expect("identifiable")));
-        let [odometry, reference] = Simulation { seed: 9000 + seed, ..made }.log();
-        let (legs, _) = split_into_legs(&odometry, &reference, made.legs, 0.0);
-        let (mut first, mut driven) = (0, 0.0);
-        for (last, leg) in legs.iter().enumerate() {
-            driven += motion_of(leg).x().hypot(motion_of(leg).y());
-            if driven >= 1.0 {
-                counts[0] += usize::from(is_covered(model, &alphas, &legs[first..=last], &mut rng));
+        let [odometry, reference] = Simulation { seed: 9000 + seed, ..sim }.log();
+        let (legs, _) = split_into_legs(&odometry, &reference, sim.legs, 0.0);
+        let (mut first_leg, mut distance) = (0, 0.0);
+        for (leg_index, leg) in legs.iter().enumerate() {
+            distance += motion_of(leg).x().hypot(motion_of(leg).y());
+            if distance >= 1.0 {
+                counts[0] += usize::from(is_covered(model, &alphas, &legs[first_leg..=leg_index], &mut rng));
                 counts[1] += 1;
-                (first, driven) = (last + 1, 0.0);
+                (first_leg, distance) = (leg_index + 1, 0.0);
             }
         }
     }
@@ -71,11 +71,11 @@ fn coverage(model: Model, violation: Violation, logs: u64) -> [usize; 2] {
 fn wrong_coverage(model: Model, violation: Violation, logs: u64) -> Option<String> {
     let [covered, count] = coverage(model, violation, logs);
     let share = covered as f64 / count as f64;
-    // The standard errors of a log's α's and of its inflation are 5 % each. Together they change the coverage by 0.14
+    // The standard errors of a log's α's and of its inflation are 5 % each, together 7 %. They change the coverage by 0.14
     // times 7 %.
     let std = (0.93 * 0.07 / count as f64 + 0.01_f64.powi(2) / logs as f64).sqrt();
-    let holds = (0.93 - 3.0 * std..=0.97 + 3.0 * std).contains(&share);
-    (!holds).then(|| format!("{model:?}, {violation:?}: {covered} of {count} windows are covered"))
+    let is_right = (0.93 - 3.0 * std..=0.97 + 3.0 * std).contains(&share);
+    (!is_right).then(|| format!("{model:?}, {violation:?}: {covered} of {count} windows are covered"))
 }
 
 const INDEPENDENT_AND_PERSISTENT: [Violation; 2] = [Violation::None, Violation::Autoregressive(0.7)];
@@ -90,7 +90,7 @@ fn recommended_alphas_cover_a_metre_of_a_new_log() {
 #[test]
 #[ignore = "nightly: 400 calibrations"]
 fn recommended_alphas_of_every_model_cover_a_metre_of_new_logs() {
-    let wrong = |model| INDEPENDENT_AND_PERSISTENT.map(|violation| wrong_coverage(model, violation, 40));
-    let found: Vec<String> = MODELS.into_iter().flat_map(wrong).flatten().collect();
-    assert!(found.is_empty(), "{}", found.join("\n"));
+    let reports_of = |model| INDEPENDENT_AND_PERSISTENT.map(|violation| wrong_coverage(model, violation, 40));
+    let reports: Vec<String> = MODELS.into_iter().flat_map(reports_of).flatten().collect();
+    assert!(reports.is_empty(), "{}", reports.join("\n"));
 }

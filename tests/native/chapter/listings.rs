@@ -1,4 +1,4 @@
-//! A reader's own models, which implement the trait as the chapter prints it: two methods and a type, with the
+//! Models as a reader writes them, which implement the trait as the chapter prints it: two methods and a type, with the
 //! chapter's names.
 
 use motion::geom::se2::{SE2, wrap_angle};
@@ -9,7 +9,7 @@ use motion::{
 use nalgebra::{Matrix3, Vector3};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
-/// Velocity model by centre and radius, as in a first solution of exercise 1.
+/// Velocity model with centre and radius of the arc, as in a first solution of exercise 1.
 struct ByRadius {
     alphas: VelocityAlphas,
     noise: NoiseKind,
@@ -37,8 +37,8 @@ impl MotionModel for ByRadius {
     }
 
     fn prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
-        let hat = invert_arc(x, x_next, u.dt);
-        let residuals = [u.v - hat.v_hat, u.omega - hat.omega_hat, hat.gamma_hat];
+        let inverted = invert_arc(x, x_next, u.dt);
+        let residuals = [u.v - inverted.v_hat, u.omega - inverted.omega_hat, inverted.gamma_hat];
         self.variances(u)
             .iter()
             .zip(residuals)
@@ -77,13 +77,13 @@ fn a_readers_velocity_model_is_the_crates() {
     let reader = ByRadius { alphas: ALPHAS, noise: NoiseKind::Normal };
     let ours = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
     let x = SE2::new(2.0, -1.0, 0.4);
-    let (mut theirs, mut rng) = (SmallRng::seed_from_u64(7), SmallRng::seed_from_u64(7));
+    let (mut rng1, mut rng2) = (SmallRng::seed_from_u64(7), SmallRng::seed_from_u64(7));
     for _ in 0..1000 {
         let (by_radius, by_chord) =
-            (reader.sample(&COMMAND, &x, &mut theirs), ours.sample(&COMMAND, &x, &mut rng));
-        // The radius loses digits where ω̂ is small: it multiplies the rounding of two sines, 2e-16 each, by v̂/ω̂.
-        let lost = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &by_chord, 1.0).omega_hat.abs());
-        assert!((by_radius.x() - by_chord.x()).abs() < lost && (by_radius.y() - by_chord.y()).abs() < lost);
+            (reader.sample(&COMMAND, &x, &mut rng1), ours.sample(&COMMAND, &x, &mut rng2));
+        // A small ω̂ loses digits: the radius v̂/ω̂ multiplies the rounding of two sines, 2e-16 each.
+        let bound = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &by_chord, 1.0).omega_hat.abs());
+        assert!((by_radius.x() - by_chord.x()).abs() < bound && (by_radius.y() - by_chord.y()).abs() < bound);
         assert!((by_radius.theta() - by_chord.theta()).abs() < 1e-15 * 4.0);
         let [prob, expected] = [reader.prob(&by_chord, &COMMAND, &x), ours.prob(&by_chord, &COMMAND, &x)];
         assert!((prob - expected).abs() <= 1e-14 * expected);

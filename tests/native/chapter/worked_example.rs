@@ -1,7 +1,7 @@
-//! The chapter's worked example, figure by figure: v = 1, ω = 0.5, Δt = 1, α₁₋₄ = 0.02, α₅,₆ = 0, from the origin.
+//! All numbers of the chapter's worked example: v = 1, ω = 0.5, Δt = 1, α₁₋₄ = 0.02, α₅,₆ = 0, from the origin.
 //!
-//! The first half uses the crate as the chapter's own listing does, `SmallRng` and all. Printed figures are checked to
-//! half a unit of their last digit; measured ones to 4.5 standard errors, taken from the spread over 100 batches of
+//! The tests use `SmallRng`, as the chapter's listing does. Printed figures are checked to half a unit of their last
+//! digit, and measured ones to 4.5 standard errors, which are estimated from 100 batches of
 //! the sample. The chapter's measurements come from another sample of the same size, which makes that √2 times as much.
 
 use crate::common::{MAX_STANDARD_ERRORS, with_standard_error};
@@ -33,8 +33,8 @@ fn assert_printed(value: f64, printed: f64, decimals: i32, what: &str) {
 
 #[test]
 fn the_arc_and_the_exponential_map_end_at_the_printed_pose() {
-    let noiseless = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
-    let by_arc = noiseless.sample(&U, &SE2::identity(), &mut SmallRng::seed_from_u64(0));
+    let noise_free = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
+    let by_arc = noise_free.sample(&U, &SE2::identity(), &mut SmallRng::seed_from_u64(0));
     let by_exp = SE2::exp(&Vector3::new(U.v * U.dt, 0.0, U.omega * U.dt));
     for end in [by_arc, by_exp] {
         assert_relative_eq!(end.x(), 0.958_851_077_208, epsilon = 1e-12);
@@ -60,20 +60,20 @@ fn the_linearized_table() {
         assert_relative_eq!(cov[entry], cov[(entry.1, entry.0)], epsilon = 1e-17);
     }
     assert_printed(cov[(1, 2)] / (cov[(1, 1)] * cov[(2, 2)]).sqrt(), 0.887, 3, "ρyθ");
-    // Columns of the Jacobian: the arc differentiated by v and by ω. With a single α the covariance has √α times one of
-    // them as its root.
-    let column = |alphas: [f64; 6]| {
+    // Columns of the Jacobian: derivatives of the arc with respect to v and ω. With a single α the root of the covariance is √α
+    // times one of them.
+    let covariance_of = |alphas: [f64; 6]| {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         model.cartesian_cov(&U, &SE2::identity())
     };
-    let by_v = column([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    let by_omega = column([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
-    assert_printed(by_v[(0, 0)].sqrt(), 0.958851, 6, "∂x/∂v");
-    assert_printed(by_v[(1, 0)] / by_v[(0, 0)].sqrt(), 0.244835, 6, "∂y/∂v");
-    assert_eq!(by_v[(2, 2)], 0.0);
-    assert_printed(by_omega[(0, 2)], -0.162537, 6, "∂x/∂ω");
-    assert_printed(by_omega[(1, 2)], 0.469181, 6, "∂y/∂ω");
-    assert_relative_eq!(by_omega[(2, 2)], 1.0, epsilon = 1e-15);
+    let for_v = covariance_of([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let for_omega = covariance_of([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    assert_printed(for_v[(0, 0)].sqrt(), 0.958851, 6, "∂x/∂v");
+    assert_printed(for_v[(1, 0)] / for_v[(0, 0)].sqrt(), 0.244835, 6, "∂y/∂v");
+    assert_eq!(for_v[(2, 2)], 0.0);
+    assert_printed(for_omega[(0, 2)], -0.162537, 6, "∂x/∂ω");
+    assert_printed(for_omega[(1, 2)], 0.469181, 6, "∂y/∂ω");
+    assert_relative_eq!(for_omega[(2, 2)], 1.0, epsilon = 1e-15);
 }
 
 #[test]
@@ -85,12 +85,12 @@ fn the_exact_table() {
     assert_printed(exact.cov[(0, 0)], 0.023497983, 9, "Σxx");
     assert_printed(exact.cov[(1, 1)], 0.007057304, 9, "Σyy");
     assert_printed(exact.cross_track_skew, -0.30056, 5, "skew");
-    let opening = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
-    let opening = ExactMoments::of_velocity(&VelocityModel { alphas: opening, ..MODEL }, &U);
+    let gentle_alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
+    let opening = ExactMoments::of_velocity(&VelocityModel { alphas: gentle_alphas, ..MODEL }, &U);
     assert_printed(opening.cross_track_skew, -0.43093, 5, "skew of the opening command");
 }
 
-/// The chapter's column of 200 000 samples, and the exact value if there is one.
+/// Compares estimates from 200 000 samples with the numbers that the chapter prints for its samples, and with exact values.
 #[test]
 fn the_measured_table() {
     let cloud = cloud_of(&MODEL);
@@ -125,11 +125,11 @@ fn the_measured_table() {
         let allowed = MAX_STANDARD_ERRORS * 2f64.sqrt() * error + 0.5 * 10f64.powi(-decimals);
         assert!((measured - printed).abs() < allowed, "{what}: {measured} ± {error}, printed {printed}");
     }
-    let lateral = ExponentialMoments::from_poses(&cloud, &SE2::identity());
-    assert!(lateral.mean.y.abs() < 1e-15 && lateral.cov[(1, 1)] < 1e-30, "printed 0.0000 and 0.00000");
+    let moments = ExponentialMoments::from_poses(&cloud, &SE2::identity());
+    assert!(moments.mean.y.abs() < 1e-15 && moments.cov[(1, 1)] < 1e-30, "printed 0.0000 and 0.00000");
 }
 
-/// With γ̂ included in R_u the heading variance is correct, and the lateral coordinate gets a small additional
+/// With the last turn γ̂ included in R_u the heading variance is correct, and the lateral coordinate gets a small additional
 /// variance.
 #[test]
 fn a_last_turn_leaks_into_the_lateral_coordinate() {

@@ -1,8 +1,8 @@
-//! Integrals of pose densities, and their agreement with samples.
+//! Integrals of pose densities, and their comparison with samples.
 //!
-//! Both work in polar coordinates around the start of the motion: signed distance c, bearing β in a half circle, and
-//! the heading θ counted from `slope` · β, with dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start is smooth in
-//! them. The slope is 2 for arcs, which turn by twice their bearing, and 1 for odometry legs; then the cells lie along the cloud.
+//! The coordinates are polar, around the start of the motion: signed distance c, bearing β in a half circle, and
+//! the heading θ relative to `slope` · β, with dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start is smooth in
+//! them. The slope is 2 for arcs, which turn by twice their bearing, and 1 for odometry legs, so that cells lie along the cloud.
 
 use super::chi_square_limit;
 use motion::geom::se2::{SE2, wrap_angle};
@@ -52,8 +52,8 @@ impl Grid {
         let (distance, off) =
             if off.abs() <= PI / 2.0 { (dx.hypot(dy), off) } else { (-dx.hypot(dy), off - PI.copysign(off)) };
         let bearing = self.centre[1] + off;
-        let turned = wrap_angle(pose.theta() - self.slope * bearing - self.centre[2]);
-        [distance, bearing, self.centre[2] + turned]
+        let heading = wrap_angle(pose.theta() - self.slope * bearing - self.centre[2]);
+        [distance, bearing, self.centre[2] + heading]
     }
 
     /// Returns the lower bound of a cell along an axis.
@@ -64,8 +64,8 @@ impl Grid {
     /// Returns the probability mass of each cell, by an 8 × 8 × 8 Gauss rule in each.
     pub fn masses(&self, density: impl Fn(&SE2) -> f64) -> Vec<f64> {
         let nodes = |axis: usize, index: usize| {
-            let (edge, step) = (self.lower_bound(axis, index), self.step[axis]);
-            GAUSS.map(|(node, weight)| (edge + 0.5 * (1.0 + node) * step, 0.5 * weight * step))
+            let (low, step) = (self.lower_bound(axis, index), self.step[axis]);
+            GAUSS.map(|(node, weight)| (low + 0.5 * (1.0 + node) * step, 0.5 * weight * step))
         };
         let mut masses = Vec::with_capacity(self.cells.iter().product());
         for i in 0..self.cells[0] {
@@ -123,12 +123,12 @@ impl Grid {
         expected.push(n - expected.iter().sum::<f64>());
         let (small, large): (Vec<_>, Vec<_>) =
             observed.into_iter().zip(expected).partition(|(_, expected)| *expected < 20.0);
-        let rest = small.iter().fold((0.0, 0.0), |(o, e), cell| (o + cell.0, e + cell.1));
+        let small = small.iter().fold((0.0, 0.0), |(o, e), cell| (o + cell.0, e + cell.1));
         assert!(large.len() > 40, "{} cells test little", large.len());
-        assert!(rest.1 > -1e-4 * n, "the density has more mass than 1: {} poses remain", rest.1);
+        assert!(small.1 > -1e-4 * n, "the density has more mass than 1: {} poses remain", small.1);
         let term = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
-        // A remainder of a few poses is within the error of the quadrature and is left out.
-        let remainder = if rest.1 >= 20.0 { term(&rest) } else { 0.0 };
+        // If only a few poses remain, the error of the quadrature may exceed their number. They are left out.
+        let remainder = if small.1 >= 20.0 { term(&small) } else { 0.0 };
         (large.iter().map(term).sum::<f64>() + remainder, chi_square_limit(large.len() + 1))
     }
 }

@@ -17,7 +17,7 @@ pub fn position_along(arc: &Arc, f: f64) -> Point {
     [cos * forward - sin * left, sin * forward + cos * left]
 }
 
-pub fn minus(a: Point, b: Point) -> Point {
+pub fn difference(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
 }
 
@@ -30,27 +30,27 @@ pub fn norm(a: Point) -> f64 {
 }
 
 pub fn point_to_line(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let (d, r) = (minus(b, a), minus(p, a));
+    let (d, r) = (difference(b, a), difference(p, a));
     let length = norm(d);
     if length == 0.0 {
         return norm(r);
     }
     let unit = [d[0] / length, d[1] / length];
-    let reach = unit[0] * r[0] + unit[1] * r[1];
-    if reach <= 0.0 {
+    let along = unit[0] * r[0] + unit[1] * r[1];
+    if along <= 0.0 {
         norm(r)
-    } else if reach >= length {
-        norm(minus(p, b))
+    } else if along >= length {
+        norm(difference(p, b))
     } else {
         cross(unit, r).abs()
     }
 }
 
 pub fn line_to_line(p: [Point; 2], q: [Point; 2]) -> f64 {
-    let sides = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {
-        cross(minus(b, a), minus(c, a)) * cross(minus(b, a), minus(d, a)) < 0.0
+    let are_on_both_sides = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {
+        cross(difference(b, a), difference(c, a)) * cross(difference(b, a), difference(d, a)) < 0.0
     };
-    if sides(p, q) && sides(q, p) {
+    if are_on_both_sides(p, q) && are_on_both_sides(q, p) {
         return 0.0;
     }
     [point_to_line(p[0], q), point_to_line(p[1], q), point_to_line(q[0], p), point_to_line(q[1], p)]
@@ -58,29 +58,29 @@ pub fn line_to_line(p: [Point; 2], q: [Point; 2]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Returns bounds of the distance. A piece of arc of length l that turns by t strays from its chord by at most l·t/8, so that the
-/// distance to the chord brackets the distance to the piece. Pieces that cannot contain the nearest point are dropped, and the others
-/// are halved until only rounding is left. About the centre of the circle all pieces are equally near: halving ends at 1000 pieces.
+/// Returns a lower and an upper bound of the distance. A piece of the arc with length l and turn t deviates from its chord by at most l·t/8.
+/// The distance to the chord is therefore that to the piece ± l·t/8. Pieces without the nearest point are dropped, and the others halved
+/// until only rounding is left. If the wall is at the centre of the circle, all pieces are equally near. Halving ends at 1000 pieces.
 pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
     let start = [arc.start.x(), arc.start.y()];
-    let ends = [minus(wall.from, start), minus(wall.to, start)];
+    let ends = [difference(wall.from, start), difference(wall.to, start)];
     let pieces = (arc.turn.abs() / 0.5).ceil().max(1.0) as u32;
     let mut size = 1.0 / f64::from(pieces);
     let mut candidates: Vec<f64> = (0..pieces).map(|i| f64::from(i) * size).collect();
     loop {
-        let stray = (arc.length * size).abs() * (arc.turn * size).abs() / 8.0;
-        let measured: Vec<(f64, f64)> = candidates
+        let max_deviation = (arc.length * size).abs() * (arc.turn * size).abs() / 8.0;
+        let distances: Vec<(f64, f64)> = candidates
             .iter()
             .map(|&f| (f, line_to_line([f, (f + size).min(1.0)].map(|f| position_along(arc, f)), ends)))
             .collect();
-        let least = measured.iter().fold(f64::INFINITY, |least, (_, distance)| least.min(*distance));
-        if stray <= 0.1 * f64::EPSILON * extent(arc, wall) || measured.len() > 1000 {
-            return [least - stray, least + stray];
+        let least = distances.iter().fold(f64::INFINITY, |least, (_, distance)| least.min(*distance));
+        if max_deviation <= 0.1 * f64::EPSILON * extent(arc, wall) || distances.len() > 1000 {
+            return [least - max_deviation, least + max_deviation];
         }
         size *= 0.5;
-        candidates = measured
+        candidates = distances
             .into_iter()
-            .filter(|(_, distance)| *distance <= least + 2.0 * stray)
+            .filter(|(_, distance)| *distance <= least + 2.0 * max_deviation)
             .flat_map(|(f, _)| [f, f + size])
             .collect();
     }
@@ -90,5 +90,5 @@ pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
 /// walls are made from coordinates of that size.
 pub fn extent(arc: &Arc, wall: &Segment) -> f64 {
     let start = [arc.start.x(), arc.start.y()];
-    norm(minus(wall.from, start)).max(norm(minus(wall.to, start))).max(arc.length.abs()).max(15.0)
+    norm(difference(wall.from, start)).max(norm(difference(wall.to, start))).max(arc.length.abs()).max(15.0)
 }

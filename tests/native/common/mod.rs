@@ -41,17 +41,17 @@ pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
     (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(turn.abs())
 }
 
-/// Returns the derivative of a pose by three unit noises, by central differences.
+/// Returns the derivative of a pose with respect to three unit noises, by central differences.
 pub fn derivative(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> Matrix3<f64> {
     const H: f64 = 1e-5;
     Matrix3::from_columns(&[0, 1, 2].map(|axis| {
-        let [ahead, behind] = [H, -H].map(|step| {
+        let [after, before] = [H, -H].map(|step| {
             let mut noise = noise;
             noise[axis] += step;
             apply(noise)
         });
-        let turn = wrap_angle(ahead.theta() - behind.theta());
-        Vector3::new(ahead.x() - behind.x(), ahead.y() - behind.y(), turn) / (2.0 * H)
+        let turn = wrap_angle(after.theta() - before.theta());
+        Vector3::new(after.x() - before.x(), after.y() - before.y(), turn) / (2.0 * H)
     }))
 }
 
@@ -123,7 +123,7 @@ impl Row<'_> {
         }
     }
 
-    /// Returns the distance of `computed` from a reference that consists of its nearest double and the rest.
+    /// Returns the absolute error of `computed`. The reference is the sum of two columns: its nearest double, and the remainder (`_lo`).
     pub fn error(&self, column: &str, computed: f64) -> f64 {
         ((computed - self.get(column)) - self.get(&format!("{column}_lo"))).abs()
     }
@@ -150,8 +150,8 @@ pub fn unit_cdf(kind: NoiseKind, z: f64) -> f64 {
     match kind {
         NoiseKind::Normal => 0.5 * libm::erfc(-z / 2f64.sqrt()),
         NoiseKind::Triangular => {
-            let edge = 6f64.sqrt();
-            let tail = (edge - z.abs()).max(0.0).powi(2) / 12.0;
+            let limit = 6f64.sqrt();
+            let tail = (limit - z.abs()).max(0.0).powi(2) / 12.0;
             if z < 0.0 { tail } else { 1.0 - tail }
         }
     }
@@ -169,13 +169,13 @@ pub fn mean(values: &[f64]) -> f64 {
 }
 
 pub fn variance(values: &[f64]) -> f64 {
-    let centre = mean(values);
-    values.iter().map(|value| (value - centre).powi(2)).sum::<f64>() / (values.len() - 1) as f64
+    let mean_value = mean(values);
+    values.iter().map(|value| (value - mean_value).powi(2)).sum::<f64>() / (values.len() - 1) as f64
 }
 
 /// Returns a statistic of a sample and its standard error, from the spread of the statistic over 100 equal batches.
 pub fn with_standard_error<T>(sample: &[T], statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
     let batch = sample.len() / 100;
-    let parts: Vec<f64> = sample.chunks_exact(batch).map(&statistic).collect();
-    (statistic(sample), (variance(&parts) / parts.len() as f64).sqrt())
+    let batch_statistics: Vec<f64> = sample.chunks_exact(batch).map(&statistic).collect();
+    (statistic(sample), (variance(&batch_statistics) / batch_statistics.len() as f64).sqrt())
 }

@@ -1,4 +1,4 @@
-//! Numbers in the text of a page or a document, which tests compare with computed ones.
+//! Printed numbers in the text of a page or a document, which tests compare with computed numbers.
 
 /// Text of a page or a document in one line.
 pub struct Text(String);
@@ -14,9 +14,9 @@ pub struct Number {
 impl Number {
     /// Asserts that the printed number equals a computed one, to within `error`.
     pub fn assert(&self, computed: f64, error: f64) {
-        let off = (computed - self.value).abs();
+        let error_found = (computed - self.value).abs();
         assert!(
-            off <= self.rounding * (1.0 + 1e-9) + error,
+            error_found <= self.rounding * (1.0 + 1e-9) + error,
             "{computed} ± {error} is printed as {}",
             self.value
         );
@@ -49,14 +49,14 @@ impl Text {
         Self(text.split([' ', '\n', '\t']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" "))
     }
 
-    /// Returns the numbers of a sentence that has `#` in their places here. The sentence has to occur exactly once.
+    /// Returns the numbers that the text has at each `#` of a sentence. The sentence must occur exactly once.
     pub fn numbers<const N: usize>(&self, sentence: &str) -> [Number; N] {
         let parts: Vec<&str> = sentence.split('#').collect();
         assert_eq!(parts.len(), N + 1, "numbers in: {sentence}");
-        let found: Vec<Vec<Number>> =
+        let occurrences: Vec<Vec<Number>> =
             self.0.match_indices(parts[0]).filter_map(|(at, _)| numbers_in(&self.0[at..], &parts)).collect();
-        assert_eq!(found.len(), 1, "times that the text says: {sentence}");
-        std::array::from_fn(|i| found[0][i])
+        assert_eq!(occurrences.len(), 1, "times that the text says: {sentence}");
+        std::array::from_fn(|i| occurrences[0][i])
     }
 
     /// Asserts that the printed numbers equal computed ones.
@@ -67,7 +67,7 @@ impl Text {
             .for_each(|(printed, computed)| printed.assert(computed, 0.0));
     }
 
-    /// Asserts that the text contains this exactly once.
+    /// Asserts that the text contains a sentence exactly once.
     pub fn assert_says(&self, sentence: &str) {
         let [] = self.numbers(sentence);
     }
@@ -78,7 +78,7 @@ fn is_thousands(word: &str) -> bool {
     digits.len() == 3 && digits.chars().all(|c| c.is_ascii_digit())
 }
 
-/// Returns the numbers between the parts, if the text begins with these.
+/// Returns the numbers between the parts of a sentence, if the text begins with that sentence.
 fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<Number>> {
     let mut rest = text.strip_prefix(parts[0])?;
     parts[1..]

@@ -1,4 +1,4 @@
-//! configurations.json: settings of machines, and the arguments of the methods that are digested.
+//! Reads configurations.json: settings of machines, and arguments of the methods whose results are digested.
 
 use motion::sim::picture::{RAMP_STEPS, Ramp};
 use motion::sim::settings::{Rules, Setting};
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 const CONFIGURATIONS: &str = include_str!("../../digest/configurations.json");
 
-/// One line of the list.
+/// Configuration of a widget.
 pub struct Configuration<'a> {
     pub all: &'a Value,
     pub widget: &'a str,
@@ -15,81 +15,81 @@ pub struct Configuration<'a> {
     pub value: &'a Value,
 }
 
-pub fn list() -> Value {
+pub fn parsed_configurations() -> Value {
     serde_json::from_str(CONFIGURATIONS).expect("configurations.json is JSON")
 }
 
-/// Arguments for each widget.
-pub fn each(all: &Value) -> impl Iterator<Item = Configuration<'_>> {
+/// Returns every configuration of every widget.
+pub fn configurations_of(all: &Value) -> impl Iterator<Item = Configuration<'_>> {
     let widgets = all["widgets"].as_object().expect("widgets");
-    widgets.iter().flat_map(move |(widget, said)| {
-        let configurations = said["configurations"].as_object().expect("configurations");
+    widgets.iter().flat_map(move |(widget, entry)| {
+        let configurations = entry["configurations"].as_object().expect("configurations");
         configurations.iter().map(move |(name, value)| Configuration { all, widget, name, value })
     })
 }
 
 impl Configuration<'_> {
     /// Returns the settings with the values of the configuration.
-    pub fn settings<S: Rules>(&self, opening: S) -> S {
-        let given = self.value["settings"].as_object().expect("settings");
-        let unknown = given.keys().find(|key| !S::KEYS.contains(&key.as_str()));
-        assert!(unknown.is_none(), "{}/{} has {unknown:?}", self.widget, self.name);
-        let (mut settings, mut named) = (opening, Vec::new());
+    pub fn settings<S: Rules>(&self, defaults: S) -> S {
+        let given_settings = self.value["settings"].as_object().expect("settings");
+        let unknown_key = given_settings.keys().find(|key| !S::KEYS.contains(&key.as_str()));
+        assert!(unknown_key.is_none(), "{}/{} has {unknown_key:?}", self.widget, self.name);
+        let (mut settings, mut given_keys) = (defaults, Vec::new());
         let _ = settings.try_each(|declaration, setting| {
-            if let Some(value) = given.get(declaration.key) {
-                named.push(declaration.key);
-                set(setting, value);
+            if let Some(value) = given_settings.get(declaration.key) {
+                given_keys.push(declaration.key);
+                set_from_json(setting, value);
             }
             Ok::<_, ()>(())
         });
-        settings.settle(&opening, &named);
+        settings.settle(&defaults, &given_keys);
         settings
     }
 
     /// Returns the preset that the configuration begins with.
     pub fn preset<'a, P>(&self, presets: &'a [P], name: impl Fn(&'a P) -> &'a str) -> Option<&'a P> {
-        let wanted = self.value.get("preset")?;
-        Some(presets.iter().find(|preset| wanted == name(preset)).expect("a preset of that name"))
+        let preset_name = self.value.get("preset")?;
+        Some(presets.iter().find(|preset| preset_name == name(preset)).expect("a preset of that name"))
     }
 
     pub fn grid(&self) -> Grid {
         let bounds = self.value.get("bounds").unwrap_or(&self.all["widgets"][self.widget]["bounds"]);
-        let [x_min, y_min, x_max, y_max] = numbers(bounds);
+        let [x_min, y_min, x_max, y_max] = numbers_of(bounds);
         let size = |key| self.all["picture"][key].as_u64().expect("a size") as usize;
         Grid { min: [x_min, y_min], max: [x_max, y_max], columns: size("columns"), rows: size("rows") }
     }
 }
 
-fn set(setting: Setting, value: &Value) {
+fn set_from_json(setting: Setting, value: &Value) {
     match setting {
-        Setting::Number(slot, _) => *slot = number(value),
+        Setting::Number(slot, _) => *slot = number_of(value),
         Setting::Whole(slot, _) => slot.set(value.as_u64().expect("a whole number")),
         Setting::WholeOrNone(slot, _) => *slot = value.as_u64().map(|whole| whole as usize),
         Setting::Truth(slot) => *slot = value.as_bool().expect("true or false"),
         Setting::Word(slot) => assert!(slot.set(value.as_str().expect("a word")), "{value}"),
         Setting::Numbers(slots, _) => {
-            let given = value.as_array().expect("a list");
-            assert_eq!(given.len(), slots.len(), "{value}");
-            slots.iter_mut().zip(given).for_each(|(slot, value)| *slot = number(value));
+            let given_numbers = value.as_array().expect("a list");
+            assert_eq!(given_numbers.len(), slots.len(), "{value}");
+            slots.iter_mut().zip(given_numbers).for_each(|(slot, value)| *slot = number_of(value));
         }
-        Setting::Level(slot, _) => slot.set(number(value)),
+        Setting::Level(slot, _) => slot.set(number_of(value)),
         Setting::Group(group) => {
             for (i, field) in group.fields().iter().enumerate() {
-                *group.number(i) = number(&value[field.declaration.key]);
+                *group.number(i) = number_of(&value[field.declaration.key]);
             }
         }
     }
 }
 
-pub fn number(value: &Value) -> f64 {
+pub fn number_of(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
-pub fn numbers<const N: usize>(value: &Value) -> [f64; N] {
-    std::array::from_fn(|i| number(&value[i]))
+pub fn numbers_of<const N: usize>(value: &Value) -> [f64; N] {
+    std::array::from_fn(|i| number_of(&value[i]))
 }
 
 /// Returns distinct colours, as digest.js does.
-pub fn ramp(which: usize) -> Ramp {
-    std::array::from_fn(|i| [i as u8, (RAMP_STEPS - 1 - i) as u8, 85 * which as u8, 255])
+pub fn ramp(number_of_ramp: usize) -> Ramp {
+    std::array::from_fn(|i| [i as u8, (RAMP_STEPS - 1 - i) as u8, 85 * number_of_ramp as u8, 255])
 }

@@ -1,4 +1,4 @@
-//! Digest of a machine's results: the same bytes as digest.js makes of the JavaScript results.
+//! Digest of a machine's results, from the same bytes as digest.js makes from the JavaScript results.
 
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
@@ -6,17 +6,17 @@ use sha2::{Digest, Sha256};
 
 /// Bits that are written for every NaN. IEEE 754 and WebAssembly leave sign and payload of a computed NaN open, and processors and
 /// engines differ in them.
-const NAN: u64 = 0x7ff8_0000_0000_0000;
+const NAN_BITS: u64 = 0x7ff8_0000_0000_0000;
 
-/// Encoding of values as doubles, in eight bytes each, the lowest byte first. A list is preceded by its length;
-/// a tuple has the fields of an object; a missing value is NaN.
+/// Encoding of values as doubles, in eight bytes each, the lowest byte first. A list begins with its length,
+/// a tuple has the fields of an object, and a missing value is NaN.
 pub trait Encode {
     fn encode(&self, bytes: &mut Vec<u8>);
 }
 
 impl Encode for f64 {
     fn encode(&self, bytes: &mut Vec<u8>) {
-        let bits = if self.is_nan() { NAN } else { self.to_bits() };
+        let bits = if self.is_nan() { NAN_BITS } else { self.to_bits() };
         bytes.extend(bits.to_le_bytes());
     }
 }

@@ -1,6 +1,6 @@
 //! Digested values of each machine, in the order of digest.js.
 
-use super::configuration::{Configuration, number, numbers, ramp};
+use super::configuration::{Configuration, number_of, numbers_of, ramp};
 use super::encoding::Part;
 use motion::calibrate::{Estimate, Recommended, SystematicError};
 use motion::geom::se2::SE2;
@@ -16,16 +16,16 @@ use nalgebra::Vector3;
 use serde_json::Value;
 
 pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
-    let mut opening = banana::Settings::default();
+    let mut defaults = banana::Settings::default();
     if let Some(preset) = configuration.preset(&banana::PRESETS, |preset| preset.name) {
-        opening.command = preset.command;
+        defaults.command = preset.command;
     }
-    let mut machine = BananaMachine::new(configuration.settings(opening)).expect("a valid setting");
+    let mut machine = BananaMachine::new(configuration.settings(defaults)).expect("a valid setting");
     let (reading, contours, table) = (machine.reading(), machine.contours(), machine.table());
     let figures = *machine.figures();
-    let fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
-    let column = |each: TableColumn| {
-        (each.mean, each.cov, each.cross_track_skew, fields(each.likelihood_gain), each.area_ratio)
+    let gain_fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
+    let values = |each: TableColumn| {
+        (each.mean, each.cov, each.cross_track_skew, gain_fields(each.likelihood_gain), each.area_ratio)
     };
     let stats = (
         figures.n,
@@ -38,19 +38,19 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
             figures.rho_cross_heading,
         ),
         (figures.coverage.ellipse, figures.coverage.exponential),
-        (fields(figures.likelihood_gain), fields(figures.likelihood_gain_error)),
+        (gain_fields(figures.likelihood_gain), gain_fields(figures.likelihood_gain_error)),
         figures.area_ratio,
     );
-    let columns = (column(table.linearized), column(table.exact), column(table.measured));
+    let columns = (values(table.linearized), values(table.exact), values(table.measured));
     let outlines = (
-        flat(&contours.command),
-        flat(&contours.ellipse),
-        flat(&contours.linearized),
-        flat(&contours.exponential),
-        flat(&contours.twist_ellipse),
-        flat(&contours.additive),
+        flattened(&contours.command),
+        flattened(&contours.ellipse),
+        flattened(&contours.linearized),
+        flattened(&contours.exponential),
+        flattened(&contours.twist_ellipse),
+        flattened(&contours.additive),
     );
-    let mut picture = |view| flat(machine.paint(view, &configuration.grid(), &ramp(0)));
+    let mut picture = |view| flattened(machine.paint(view, &configuration.grid(), &ramp(0)));
     let [plane, twist] = [View::Plane, View::Twist].map(&mut picture);
     vec![
         Part::new("poses", machine.poses().flat_map(coordinates).collect::<Vec<_>>()),
@@ -68,11 +68,11 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
 }
 
 pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
-    let mut opening = squeeze::Settings::default();
+    let mut defaults = squeeze::Settings::default();
     if let Some((_, start)) = configuration.preset(&squeeze::PRESETS, |(name, _)| name) {
-        opening.start = *start;
+        defaults.start = *start;
     }
-    let mut machine = MapSqueeze::new(configuration.settings(opening)).expect("a valid setting");
+    let mut machine = MapSqueeze::new(configuration.settings(defaults)).expect("a valid setting");
     if let Some(name) = configuration.value.get("map") {
         let map = &configuration.all["maps"][name.as_str().expect("a name")];
         match map.get("plan") {
@@ -97,23 +97,23 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
         (stats.draws_per_accepted, stats.wall_tests_per_accepted, stats.gave_up),
     );
     vec![
-        Part::new("map", (plan.bounds(), flat(walls.as_flattened()), grid)),
+        Part::new("map", (plan.bounds(), flattened(walls.as_flattened()), grid)),
         Part::new("poses", attempts.iter().flat_map(|each| coordinates(each.pose)).collect::<Vec<_>>()),
         Part::new("verdicts", attempts.iter().map(Attempt::verdict).collect::<Vec<_>>()),
         Part::new(
             "statistics",
             (attempts.len(), machine.start_free(), machine.open_place(), noise, statistics),
         ),
-        Part::new("picture", flat(machine.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
+        Part::new("picture", flattened(machine.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
     ]
 }
 
 pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
-    let mut opening = dead_reckoning::Settings::default();
+    let mut defaults = dead_reckoning::Settings::default();
     if let Some(preset) = configuration.preset(&dead_reckoning::PRESETS, |preset| preset.name) {
-        (opening.command, opening.steps, opening.alphas) = (preset.command, preset.steps, preset.alphas);
+        (defaults.command, defaults.steps, defaults.alphas) = (preset.command, preset.steps, preset.alphas);
     }
-    let machine = DeadReckoning::new(configuration.settings(opening)).expect("a valid setting");
+    let machine = DeadReckoning::new(configuration.settings(defaults)).expect("a valid setting");
     let (settings, stats) = (machine.settings(), machine.stats());
     let each_step = |value: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
         (0..machine.measured().len()).flat_map(|k| <[f64; 3]>::from(value(k))).collect()
@@ -126,31 +126,31 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
     ]
     .map(<(_, _, _)>::from);
     let measured = each_step(&|k| machine.measured()[k].cov.diagonal());
-    let errors = each_step(&|k| machine.measured()[k].relative_error);
+    let relative_errors = each_step(&|k| machine.measured()[k].relative_error);
     let misses = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order]
-        .map(|along| along.map(|Misses { told, first, last, end, error }| (told, first, last, end, error)));
+        .map(|axes| axes.map(|Misses { told, first, last, end, error }| (told, first, last, end, error)));
     let predictions = (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
     let statistics =
         (stats.n, (stats.measured.mean, stats.measured.cov), predictions, <(_, _, _)>::from(misses));
     let outlines = machine.outlines(settings.step).expect("a step");
     vec![
         Part::new("statistics", (machine.shown(), settings.heading_noise(), statistics)),
-        Part::new("steps", (ratios, predicted, measured, errors)),
+        Part::new("steps", (ratios, predicted, measured, relative_errors)),
         Part::new(
             "poses",
             (
-                flat(machine.poses(settings.step)),
+                flattened(machine.poses(settings.step)),
                 machine.twists().flatten().collect::<Vec<_>>(),
-                flat(machine.poses(1)),
+                flattened(machine.poses(1)),
             ),
         ),
         Part::new(
             "outlines",
             (
-                flat(&outlines.ellipse),
-                flat(&outlines.exponential),
-                flat(&outlines.predicted),
-                flat(&outlines.measured),
+                flattened(&outlines.ellipse),
+                flattened(&outlines.exponential),
+                flattened(&outlines.predicted),
+                flattened(&outlines.measured),
             ),
         ),
     ]
@@ -170,16 +170,16 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<Part> {
             .map(|mask| errors.iter().any(|error| mask[*error as usize]));
         (constant, corrected)
     };
-    let one = |error| (value(error), interval(error), masks(&[error]));
-    let arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
+    let with_masks = |error| (value(error), interval(error), masks(&[error]));
+    let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
     let systematic = (
-        // Number of the errors, as of a list. The lever arm has two coordinates.
+        // Number of the errors, because JavaScript has them as a list. The lever arm is one error with two coordinates.
         5usize,
-        one(SystematicError::ClockOffset),
-        one(SystematicError::MountYaw),
-        (arm.map(value), arm.map(interval), masks(&arm)),
-        one(SystematicError::DistanceScale),
-        one(SystematicError::TurnScale),
+        with_masks(SystematicError::ClockOffset),
+        with_masks(SystematicError::MountYaw),
+        (lever_arm.map(value), lever_arm.map(interval), masks(&lever_arm)),
+        with_masks(SystematicError::DistanceScale),
+        with_masks(SystematicError::TurnScale),
     );
     let noise = calibration.reference_noise.each_ref().map(estimate);
     let checks: Vec<_> = calibration
@@ -219,23 +219,23 @@ fn coordinates(pose: SE2) -> [f64; 3] {
     [pose.x(), pose.y(), pose.theta()]
 }
 
-fn flat<T: Copy, const N: usize>(rows: &[[T; N]]) -> Vec<T> {
+fn flattened<T: Copy, const N: usize>(rows: &[[T; N]]) -> Vec<T> {
     rows.as_flattened().to_vec()
 }
 
 fn read_plan(plan: &Value) -> FloorPlan {
     let walls = plan["walls"].as_array().expect("walls").iter().map(|wall| {
-        let [x0, y0, x1, y1] = numbers(wall);
+        let [x0, y0, x1, y1] = numbers_of(wall);
         Segment { from: [x0, y0], to: [x1, y1] }
     });
-    FloorPlan::new(walls.collect(), numbers(&plan["bounds"])).expect("a valid plan")
+    FloorPlan::new(walls.collect(), numbers_of(&plan["bounds"])).expect("a valid plan")
 }
 
 fn read_map(map: &Value, images: &Value) -> OccupancyGrid {
     let lines = images[map["image"].as_str().expect("a name")].as_array().expect("lines");
     let text: String = lines.iter().map(|line| format!("{}\n", line.as_str().expect("a line"))).collect();
     let description = &map["description"];
-    let [x, y, yaw] = numbers(&description["origin"]);
+    let [x, y, yaw] = numbers_of(&description["origin"]);
     let interpretation = Interpretation {
         mode: match description["mode"].as_str() {
             None | Some("trinary") => Mode::Trinary,
@@ -243,10 +243,10 @@ fn read_map(map: &Value, images: &Value) -> OccupancyGrid {
             Some("raw") => Mode::Raw,
             Some(other) => panic!("{other} is no mode"),
         },
-        negate: number(&description["negate"]) == 1.0,
-        occupied_thresh: number(&description["occupied_thresh"]),
-        free_thresh: number(&description["free_thresh"]),
+        negate: number_of(&description["negate"]) == 1.0,
+        occupied_thresh: number_of(&description["occupied_thresh"]),
+        free_thresh: number_of(&description["free_thresh"]),
     };
     let image = read_pgm(text.as_bytes()).expect("a PGM file");
-    OccupancyGrid::new(&image, &interpretation, number(&description["resolution"]), SE2::new(x, y, yaw))
+    OccupancyGrid::new(&image, &interpretation, number_of(&description["resolution"]), SE2::new(x, y, yaw))
 }

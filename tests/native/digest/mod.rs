@@ -1,4 +1,4 @@
-//! Same seed, same bits: poses, statistics, outlines, pixels and fits of many configurations, to the last bit, against golden.txt.
+//! Equal seeds give equal bits: poses, statistics, outlines, pixels and fits of many configurations are compared with golden.txt.
 //! digest.js compares all results of all machines of the JavaScript interface, in Node and in browsers.
 
 mod configuration;
@@ -12,10 +12,10 @@ const DIRECTORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/digest");
 
 #[test]
 fn the_same_seed_gives_the_same_bits() {
-    let all = configuration::list();
+    let configurations = configuration::parsed_configurations();
     let golden = std::fs::read_to_string(format!("{DIRECTORY}/golden.txt")).expect("golden.txt");
     let mut differences = Vec::new();
-    for configuration in configuration::each(&all) {
+    for configuration in configuration::configurations_of(&configurations) {
         let parts = match configuration.widget {
             "banana-machine" => machines::banana_machine(&configuration),
             "map-squeeze" => machines::map_squeeze(&configuration),
@@ -38,7 +38,7 @@ fn the_same_seed_gives_the_same_bits() {
     );
 }
 
-/// A change of the digest affects readers: their seeds give other clouds.
+/// A change of the digest affects readers, because their seeds give other clouds. The changelog must therefore contain it.
 #[test]
 fn the_changelog_names_the_digest() {
     let golden = std::fs::read(format!("{DIRECTORY}/golden.txt")).expect("golden.txt");

@@ -7,46 +7,46 @@ use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Settings, Stats, SurfaceKi
 
 /// Returns settings with the final pose turned until the wedge disappears.
 fn without_wedge(settings: Settings) -> Settings {
-    let theta = stats(settings).driven.end[2];
-    Settings { next: FinalPose { theta, ..settings.next }, ..settings }
+    let arc_heading = stats(settings).driven.end[2];
+    Settings { next: FinalPose { theta: arc_heading, ..settings.next }, ..settings }
 }
 
 #[test]
 fn the_last_turn_explains_the_low_probability() {
-    let [off, alone, all] = page().numbers(
+    let [deviations, share_of_factor, share_of_product] = page().numbers(
         "The last turn is off by # standard deviations: that factor alone leaves # % of its peak, all three leave # %.",
     );
     let Stats { factors, weakest, share, .. } = stats(Settings::default());
     assert_eq!(weakest, 2);
-    off.assert(factors[2].deviations, 0.0);
-    alone.assert_percent(factors[2].share, 0.0);
-    all.assert_percent(share, 0.0);
-    let [left] =
+    deviations.assert(factors[2].deviations, 0.0);
+    share_of_factor.assert_percent(factors[2].share, 0.0);
+    share_of_product.assert_percent(share, 0.0);
+    let [share_left] =
         page().numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
     let Stats { factors, share, .. } = stats(without_wedge(Settings::default()));
-    left.assert_percent(share, 0.0);
+    share_left.assert_percent(share, 0.0);
     assert!((factors[2].share - 1.0).abs() < 1e-12);
 }
 
 #[test]
 fn the_printed_table_loses_p_for_centres_to_the_right() {
-    let [v]: [Number; 1] =
+    let [speed]: [Number; 1] =
         page().numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
     for name in ["right", "reverse"] {
         let printed = Settings { printed: true, ..preset(name) };
         let Stats { factors, share, inverted, .. } = stats(printed);
         assert!(inverted.radius < 0.0 && share < 1e-15);
-        // In reverse it is the command that goes the other way.
-        v.assert(-factors[0].estimate.abs(), 0.0);
+        // The estimated speed has the opposite sign of the command.
+        speed.assert(-factors[0].estimate.abs(), 0.0);
         assert!(factors[0].estimate * printed.command.v < 0.0);
-        // With the unsigned radius the contours are near the start only; with a sign they reach further.
-        let furthest = |settings: Settings| {
+        // With the unsigned radius the contours stay near the start. With a signed radius they reach further.
+        let reach = |settings: Settings| {
             let surface = ArcAnatomy::new(Settings { map: SurfaceKind::Prob, ..settings })
                 .expect("valid settings")
                 .surface([-2.0, -2.0], [2.0, 2.0])
                 .expect("a map");
             surface.prob.iter().flatten().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
         };
-        assert!(furthest(printed) < 0.5 && furthest(preset(name)) > 1.0, "{}", furthest(printed));
+        assert!(reach(printed) < 0.5 && reach(preset(name)) > 1.0, "{}", reach(printed));
     }
 }

@@ -31,12 +31,12 @@ fn the_presets_are_those_in_the_document() {
     }
 }
 
-/// Checks the rows of the table, and the sentences of the page on the same presets. Fractions are compared to 4.5 standard errors.
+/// Checks the rows of the table, and sentences of the page about their presets. Fractions may differ by 4.5 standard errors.
 #[test]
 fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
     const ROBOTS: usize = 300_000;
     let error = MAX_STANDARD_ERRORS * (0.117 / ROBOTS as f64).sqrt();
-    let of = |name| machine(Settings { samples: ROBOTS, ..preset(name) });
+    let machine_of = |name| machine(Settings { samples: ROBOTS, ..preset(name) });
     let assert_row = |machine: &BananaMachine, [floor, area, ellipse, skew]: [Number; 4]| {
         let exact = machine.table().exact;
         floor.assert(exact.likelihood_gain.floor, 0.0);
@@ -46,28 +46,28 @@ fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
         exact
     };
     let worked = document().numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
-    assert_row(&of("worked"), worked);
-    let [(gentle, _), (hard, many), (banana, _)] = [
+    assert_row(&machine_of("worked"), worked);
+    let [(gentle, _), (hard, hard_machine), (banana, _)] = [
         ("gentle", "| 1, 0.5, 1; (0.05, 0.05, 0.05, 0.09, 0.01, 0.01)"),
         ("hard", "| 1, 1.2, 1.4; the same"),
         ("banana", "| 1, 0, 2; (0.002, 0.002, 0.1, 0.1, 0.002, 0.002)"),
     ]
-    .map(|(name, what)| {
+    .map(|(name, row_start)| {
         let [pose, floor, area, ellipse, skew] =
-            document().numbers(&format!("{what} | # | # | # | # % | # |"));
-        let machine = of(name);
+            document().numbers(&format!("{row_start} | # | # | # | # % | # |"));
+        let machine = machine_of(name);
         let exact = assert_row(&machine, [floor, area, ellipse, skew]);
         pose.assert(exact.likelihood_gain.pose, 0.0);
         (exact, machine)
     });
-    let [ellipse, outline, skew, any] = page().numbers(
+    let [ellipse, outline_share, skew, gaussian_skew] = page().numbers(
         "do not give the ellipse away, # % and # %. The cross-track skew, the lopsidedness across the path, does: #, \
          where any Gaussian in (x, y) has #, and so has the banana.",
     );
-    ellipse.assert_percent(many.figures().coverage.ellipse, error);
-    outline.assert_percent(many.figures().coverage.exponential, error);
+    ellipse.assert_percent(hard_machine.figures().coverage.ellipse, error);
+    outline_share.assert_percent(hard_machine.figures().coverage.exponential, error);
     skew.assert(hard.cross_track_skew, 0.0);
-    any.assert(many.table().linearized.cross_track_skew, 0.0);
+    gaussian_skew.assert(hard_machine.table().linearized.cross_track_skew, 0.0);
     assert!(banana.cross_track_skew.abs() < 1e-9);
     let [banana_gain, gentle_gain, hard_gain] =
         [&banana, &gentle, &hard].map(|exact| exact.likelihood_gain.pose);
@@ -78,7 +78,7 @@ fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
         [banana.area_ratio, banana_gain, 1.0, gentle_gain, hard_gain],
     );
     assert_eq!(Settings::default(), preset("banana"));
-    let opened = machine(Settings::default());
+    let opening_machine = machine(Settings::default());
     document().assert(
         "α₁₋₄ = 0.02, α₅,₆ = 0: skew #; the Gentle arc's α = (0.05, 0.05, 0.05, 0.09, 0.01, 0.01): #.",
         [machine(preset("worked")), machine(preset("gentle"))]
@@ -86,7 +86,7 @@ fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
     );
     document().assert(
         "The widget opens with # robots. They give the skew of the Banana to ±#.",
-        [opened.settings().samples as f64, opened.figures().cross_track_skew_error],
+        [opening_machine.settings().samples as f64, opening_machine.figures().cross_track_skew_error],
     );
 }
 
@@ -98,15 +98,15 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
     );
     let machine = machine(Settings { samples: 300_000, ..preset("banana") });
     let contours = machine.contours();
-    let enclosing = |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
+    let is_inside = |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
     const STEP: f64 = 0.02;
-    let floor = (0..250).flat_map(|column| (0..250).map(move |row| (column, row)));
-    let cells: Vec<[bool; 2]> = floor
-        .map(|(column, row)| enclosing([f64::from(column) * STEP, f64::from(row) * STEP - 2.5]))
+    let grid = (0..250).flat_map(|column| (0..250).map(move |row| (column, row)));
+    let cells: Vec<[bool; 2]> = grid
+        .map(|(column, row)| is_inside([f64::from(column) * STEP, f64::from(row) * STEP - 2.5]))
         .collect();
-    let robots: Vec<[bool; 2]> = machine.poses().map(|pose| enclosing([pose.x(), pose.y()])).collect();
-    let density = |which: [bool; 2]| {
-        let count = |all: &[[bool; 2]]| all.iter().filter(|each| **each == which).count() as f64;
+    let robots: Vec<[bool; 2]> = machine.poses().map(|pose| is_inside([pose.x(), pose.y()])).collect();
+    let density = |inside: [bool; 2]| {
+        let count = |all: &[[bool; 2]]| all.iter().filter(|each| **each == inside).count() as f64;
         count(&robots) / (count(&cells) * STEP * STEP)
     };
     let ratio = density([false, true]) / density([true, false]);
@@ -130,18 +130,18 @@ fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
 
 #[test]
 fn the_predicted_skew_misses_under_the_odometry_model() {
-    let [robots, errors] =
+    let [robots, standard_errors] =
         page().numbers("and the prediction misses: with # robots by more than # standard errors.");
     let gentle = Settings { samples: robots.value as usize, ..preset("gentle") };
     let mut velocity_alphas = gentle.velocity_alphas;
     velocity_alphas[4..].fill(0.0);
-    let miss = |settings| {
+    let relative_miss = |settings| {
         let machine = machine(settings);
         let figures = machine.figures();
         (figures.cross_track_skew - figures.gaussian_skew).abs() / figures.cross_track_skew_error
     };
-    assert!(miss(Settings { velocity_alphas, ..gentle }) < MAX_STANDARD_ERRORS);
-    assert!(miss(Settings { model: ModelKind::Odometry, ..gentle }) > errors.value);
+    assert!(relative_miss(Settings { velocity_alphas, ..gentle }) < MAX_STANDARD_ERRORS);
+    assert!(relative_miss(Settings { model: ModelKind::Odometry, ..gentle }) > standard_errors.value);
 }
 
 #[test]

@@ -13,11 +13,11 @@ fn preset(name: &str) -> DeadReckoning {
     machine(Settings { command, steps, alphas, samples: 50_000, ..Settings::default() })
 }
 
-/// Returns the predicted variances of an axis after each step, relative to the fourth order, which is accurate to a few thousandths.
+/// Returns ratios of predicted variances of an axis after each step: to those of the fourth order, which is accurate to a few thousandths.
 fn exact_ratios(machine: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
     let covs =
         |order| machine.predicted(order).iter().map(move |cov| cov.expect("a covariance")[(axis, axis)]);
-    covs(order).zip(covs(Compounding::FourthOrder)).map(|(one, other)| one / other).collect()
+    covs(order).zip(covs(Compounding::FourthOrder)).map(|(cov, exact)| cov / exact).collect()
 }
 
 /// Returns the steps at which a ratio differs from 1 by more than the tolerance.
@@ -28,30 +28,30 @@ fn steps_off(ratios: &[f64]) -> Vec<usize> {
 #[test]
 fn the_six_per_cent_and_the_lateral_miss_are_those_of_the_machine() {
     let opening = machine(Settings::default());
-    let [printed]: [Number; 1] =
+    let [printed_loss]: [Number; 1] =
         page().numbers("what its own loses by the end: # % of the variance along the track");
-    let compared = opening.comparison(Compounding::Chapter);
-    printed.assert_percent(-compared.misses[0].end, 0.0);
-    printed.assert_percent(1.0 - exact_ratios(&opening, Compounding::Chapter, 0)[19], 0.0);
-    let [along, lateral]: [Number; 2] = page().numbers(
+    let comparison = opening.comparison(Compounding::Chapter);
+    printed_loss.assert_percent(-comparison.misses[0].end, 0.0);
+    printed_loss.assert_percent(1.0 - exact_ratios(&opening, Compounding::Chapter, 0)[19], 0.0);
+    let [along_loss, lateral_loss]: [Number; 2] = page().numbers(
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
     );
-    for (lost, axis) in [(along, 0), (lateral, 1)] {
-        lost.assert_percent(-compared.misses[axis].end, 0.0);
-        lost.assert_percent(1.0 - exact_ratios(&opening, Compounding::Chapter, axis)[19], 0.0);
+    for (loss, axis) in [(along_loss, 0), (lateral_loss, 1)] {
+        loss.assert_percent(-comparison.misses[axis].end, 0.0);
+        loss.assert_percent(1.0 - exact_ratios(&opening, Compounding::Chapter, axis)[19], 0.0);
     }
     page().assert_says("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
-    assert_eq!(compared.ratios[0].y, 0.0);
+    assert_eq!(comparison.ratios[0].y, 0.0);
     assert!(opening.measured()[0].cov[(1, 1)] > 0.0);
-    let [second, fifth]: [Number; 2] =
+    let [ratio_at_2, ratio_at_5]: [Number; 2] =
         page().numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
     for ratios in [
         exact_ratios(&opening, Compounding::Chapter, 1),
-        compared.ratios.iter().map(|ratio| ratio.y).collect(),
+        comparison.ratios.iter().map(|ratio| ratio.y).collect(),
     ] {
-        second.assert(ratios[1], 0.0);
-        fifth.assert(ratios[4], 0.0);
+        ratio_at_2.assert(ratios[1], 0.0);
+        ratio_at_5.assert(ratios[4], 0.0);
     }
     page().assert_says(
         "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
@@ -70,14 +70,14 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
     let document = exercises_document();
     let machines = ["chapter", "doubled"].map(preset);
     for k in [1, 2, 5, 10, 20] {
-        let of = |order| [0, 1, 2].map(|axis| exact_ratios(&machines[0], order, axis)[k - 1]);
-        let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(of);
+        let ratios_of = |order| [0, 1, 2].map(|axis| exact_ratios(&machines[0], order, axis)[k - 1]);
+        let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(ratios_of);
         document.assert(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
     }
     let crossings = machines.map(|machine| {
         let error = MAX_STANDARD_ERRORS * (2.3 / machine.settings().samples as f64).sqrt();
-        let fourth = &machine.comparison(Compounding::FourthOrder).ratios;
-        assert!(fourth.iter().all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < error)));
+        let fourth_order = &machine.comparison(Compounding::FourthOrder).ratios;
+        assert!(fourth_order.iter().all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < error)));
         let first = machine.comparison(Compounding::Chapter).misses[0].first.expect("a miss");
         assert_eq!(first as usize, steps_off(&exact_ratios(&machine, Compounding::Chapter, 0))[0]);
         f64::from(first)
@@ -125,10 +125,10 @@ fn two_hundred_steps_miss_for_half_a_second() {
     let [chapter, fine] = ["chapter", "fine"].map(preset);
     assert_eq!(fine.settings().steps, 200);
     assert!(steps_off(&exact_ratios(&fine, Compounding::Chapter, 0)).is_empty());
-    let seconds = |machine: &DeadReckoning| {
+    let missed = |machine: &DeadReckoning| {
         let last = steps_off(&exact_ratios(machine, Compounding::Chapter, 1)).last().copied().unwrap_or(0);
         last as f64 * machine.settings().command.dt
     };
-    assert_eq!((2.0 * seconds(&fine)).round() / 2.0, 0.5, "{}", seconds(&fine));
-    assert_eq!(seconds(&chapter).round(), 3.0, "{}", seconds(&chapter));
+    assert_eq!((2.0 * missed(&fine)).round() / 2.0, 0.5, "{}", missed(&fine));
+    assert_eq!(missed(&chapter).round(), 3.0, "{}", missed(&chapter));
 }

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 
 const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
-fn velocity(alphas: [f64; 6]) -> VelocityModel {
+fn velocity_model(alphas: [f64; 6]) -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
 }
 
@@ -24,12 +24,12 @@ fn velocity(alphas: [f64; 6]) -> VelocityModel {
 /// end is computed by its series.
 fn error_of_arc_form(omega: f64, dt: f64) -> f64 {
     let (radius, phi) = (1.0 / omega, omega * dt);
-    let (ahead, aside) = (dt * (1.0 - phi * phi / 6.0), dt * phi * (0.5 - phi * phi / 24.0));
+    let (forward, left) = (dt * (1.0 - phi * phi / 6.0), dt * phi * (0.5 - phi * phi / 24.0));
     let headings = 1001;
     let squares = (0..headings).map(|i| {
         let theta = 2.0 * PI * f64::from(i) / f64::from(headings) - PI;
         let (sin, cos) = theta.sin_cos();
-        let (x, y) = (ahead * cos - aside * sin, ahead * sin + aside * cos);
+        let (x, y) = (forward * cos - left * sin, forward * sin + left * cos);
         let next = theta + phi;
         (radius * next.sin() - radius * sin - x).powi(2) + (radius * cos - radius * next.cos() - y).powi(2)
     });
@@ -47,33 +47,33 @@ fn exercise_1_the_straight_line_branch() {
     };
     let crossover =
         (0..400).map(|i| 1e-9 * 10f64.powf(f64::from(i) / 100.0)).find(|omega| ratio(*omega) < 1.0);
-    let [found, estimated]: [Number; 2] =
+    let [crossover_printed, estimate_printed]: [Number; 2] =
         exercises_document().numbers("below |ω̂| = # × 10⁻⁷ rad/s, where the estimate √(2ε)/Δt says # × 10⁻⁷");
-    found.assert(crossover.expect("a crossover") / 1e-7, 0.0);
-    estimated.assert((2.0 * f64::EPSILON).sqrt() / dt / 1e-7, 0.0);
-    let [line, arc, times]: [Number; 3] = exercises_document().numbers(
+    crossover_printed.assert(crossover.expect("a crossover") / 1e-7, 0.0);
+    estimate_printed.assert((2.0 * f64::EPSILON).sqrt() / dt / 1e-7, 0.0);
+    let [line_printed, arc_printed, ratio_printed]: [Number; 3] = exercises_document().numbers(
         "the straight line is off by # nm, and the arc form by # nm. Switching so early costs # times",
     );
     let (line_error, arc_error) = (straight(1e-6), error_of_arc_form(1e-6, dt));
-    line.assert(line_error / 1e-9, 0.0);
-    arc.assert(arc_error / 1e-9, 0.0);
-    times.assert(line_error / arc_error, 0.0);
+    line_printed.assert(line_error / 1e-9, 0.0);
+    arc_printed.assert(arc_error / 1e-9, 0.0);
+    ratio_printed.assert(line_error / arc_error, 0.0);
     exercises_document().assert_says("up to half a micrometre where Δt is a second");
     let end = Arc { start: SE2::identity(), length: 1.0, turn: 1e-6 }.end();
     assert!(((end.x() - 1.0).hypot(end.y()) - 0.5e-6).abs() < 1e-12, "{end:?}");
 }
 
-/// The determinant is computed by differences, whose error is the square of the step.
+/// The determinant is computed by central differences, with an error of the square of the step.
 #[test]
 fn exercise_3_the_unpaid_jacobian() {
-    let model = velocity([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
+    let model = velocity_model([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
     let x = SE2::identity();
     let end = x.boxplus(TangentNoiseModel::twist(&U));
     let [printed]: [Number; 1] =
         exercises_document().numbers("At the noise-free end of the worked example's command it is #, and");
     let deviations = model.variances(&U).map(|variance| variance.0.sqrt());
-    let by_noises = derivative([0.0; 3], |unit| model.apply_noise(&U, &x, unit));
-    let determinant = by_noises.determinant() / deviations.iter().product::<f64>();
+    let noise_jacobian = derivative([0.0; 3], |unit| model.apply_noise(&U, &x, unit));
+    let determinant = noise_jacobian.determinant() / deviations.iter().product::<f64>();
     printed.assert(determinant, 0.0);
     let ratio = model.prob(&end, &U, &x) / model.pose_density(&end, &U, &x).expect("noise of full rank");
     assert!((ratio / determinant - 1.0).abs() < 1e-8, "{ratio} {determinant}");
@@ -88,7 +88,7 @@ fn exercise_3_the_unpaid_jacobian() {
 
 #[test]
 fn exercise_4_each_alpha() {
-    let exact = |index: usize, command: VelocityCmd| {
+    let exact_and_is_point = |index: usize, command: VelocityCmd| {
         let mut alphas = [0.0; 6];
         alphas[index] = 0.09;
         let settings = Settings { command, velocity_alphas: alphas, samples: 1000, ..preset("straight") };
@@ -98,7 +98,7 @@ fn exercise_4_each_alpha() {
     };
     let straight = preset("straight").command;
     assert_eq!(straight.omega, 0.0);
-    assert!([3, 5].iter().all(|i| exact(*i, straight).1));
+    assert!([3, 5].iter().all(|i| exact_and_is_point(*i, straight).1));
     let turning = VelocityCmd { omega: 0.5, ..straight };
     let [alpha, variance, skew]: [Number; 3] = [
         "Δt = 2 s as they are, with # for the one and 0",
@@ -107,11 +107,11 @@ fn exercise_4_each_alpha() {
     ]
     .map(|sentence| exercises_document().numbers::<1>(sentence)[0]);
     assert_eq!(alpha.value, 0.09);
-    let [fan, blur] = [3, 5].map(|index| exact(index, turning).0);
-    variance.assert(fan.cov[(2, 2)], 0.0);
-    variance.assert(blur.cov[(2, 2)], 0.0);
-    skew.assert(fan.cross_track_skew, 0.0);
-    assert_eq!(blur.cov.fixed_rows::<2>(0).amax(), 0.0);
+    let [with_alpha4, with_alpha6] = [3, 5].map(|index| exact_and_is_point(index, turning).0);
+    variance.assert(with_alpha4.cov[(2, 2)], 0.0);
+    variance.assert(with_alpha6.cov[(2, 2)], 0.0);
+    skew.assert(with_alpha4.cross_track_skew, 0.0);
+    assert_eq!(with_alpha6.cov.fixed_rows::<2>(0).amax(), 0.0);
 }
 
 /// Equal seeds give equal motions, so that the fractions equal those of the table to a digit.
@@ -142,40 +142,40 @@ fn exercise_5_poses_through_walls() {
         let stats = stats(settings(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
         assert!(stats.through_wall_rate < 0.4, "{i}: {}", stats.through_wall_rate);
     }
-    let [arc, four, left, eight]: [Number; 4] = [
+    let [arc_cost_printed, four_printed, share_printed, eight_printed]: [Number; 4] = [
         "Judging the whole arc costs # draws",
         "a quarter of the time cost # draws",
         "draws, and # % still go through one",
         "eight cost # draws",
     ]
     .map(|sentence| exercises_document().numbers::<1>(sentence)[0]);
-    let at = |sampler| stats(settings(0.12, 0.6, sampler));
-    let whole = at(Sampler::WholeArc);
-    arc.assert(whole.draws_per_accepted, 0.0);
-    assert_eq!(whole.through_wall, 0);
-    let [quarters, eighths] = [4, 8].map(|parts| at(Sampler::SubStepped(parts)));
-    four.assert(quarters.draws_per_accepted, 0.0);
-    left.assert_percent(quarters.through_wall_rate, 0.0);
-    eight.assert(eighths.draws_per_accepted, 0.0);
-    let [a_second]: [Number; 1] = exercises_document().numbers("at 20 Hz that is # draws a second");
+    let stats_of = |sampler| stats(settings(0.12, 0.6, sampler));
+    let whole_arc = stats_of(Sampler::WholeArc);
+    arc_cost_printed.assert(whole_arc.draws_per_accepted, 0.0);
+    assert_eq!(whole_arc.through_wall, 0);
+    let [quarters, eighths] = [4, 8].map(|parts| stats_of(Sampler::SubStepped(parts)));
+    four_printed.assert(quarters.draws_per_accepted, 0.0);
+    share_printed.assert_percent(quarters.through_wall_rate, 0.0);
+    eight_printed.assert(eighths.draws_per_accepted, 0.0);
+    let [draws_per_second]: [Number; 1] = exercises_document().numbers("at 20 Hz that is # draws a second");
     // Printed in thousands.
-    assert!((a_second.value - 2000.0 * 20.0 * whole.draws_per_accepted).abs() <= 500.0);
+    assert!((draws_per_second.value - 2000.0 * 20.0 * whole_arc.draws_per_accepted).abs() <= 500.0);
 }
 
 #[test]
 fn exercise_6_the_triangular_sampler() {
     let b2 = Variance(0.025);
-    let [bound, beyond]: [Number; 2] =
+    let [limit, tail_printed]: [Number; 2] =
         exercises_document().numbers("√6·b is # rad for the heading, beyond which # % of normal draws are");
-    bound.assert((6.0 * b2.0).sqrt(), 0.0);
+    limit.assert((6.0 * b2.0).sqrt(), 0.0);
     let poses = |noise| {
         let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]), noise };
         let mut rng = seeded(7);
         (0..200_000).map(move |_| model.sample(&U, &SE2::identity(), &mut rng))
     };
-    beyond.assert_percent(2.0 * unit_cdf(NoiseKind::Normal, -6f64.sqrt()), 0.0);
+    tail_printed.assert_percent(2.0 * unit_cdf(NoiseKind::Normal, -6f64.sqrt()), 0.0);
     assert!(
-        poses(NoiseKind::Triangular).all(|pose| (pose.theta() - 0.5).abs() <= bound.value + bound.rounding)
+        poses(NoiseKind::Triangular).all(|pose| (pose.theta() - 0.5).abs() <= limit.value + limit.rounding)
     );
     let printed: [Number; 2] =
         exercises_document().numbers("the skew is # with normal noise and # with triangular noise");

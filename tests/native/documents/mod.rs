@@ -1,4 +1,4 @@
-//! Numbers and statements in the page and in doc/, computed.
+//! Numbers and statements in the page and in doc/, compared with computed ones.
 
 mod arc_anatomy;
 mod banana;
@@ -9,7 +9,7 @@ mod squeeze;
 
 use crate::common::text::Text;
 
-/// Returns the words of the page.
+/// Returns the text of the page without markup.
 fn page() -> Text {
     Text::on_page(include_str!("../../../www/index.html"))
 }

@@ -11,42 +11,42 @@ fn figures(settings: Settings, rule: OdometryRule) -> RuleFigures {
 
 #[test]
 fn the_lever_grows_faster_than_the_drive() {
-    // Numbers that the figure shows: from the exact curve, whose tangent is the contribution of the first rotation.
-    let [deviation, across, times] = page().numbers(
+    // The printed numbers are of the exact curve. Its tangent at the start is the contribution of the first rotation.
+    let [deviation, lateral, growth] = page().numbers(
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
     let settings = of_preset("all");
     let stats = machine(settings).stats();
     deviation.assert(figures(settings, Table).deviations[0], 0.0);
-    across.assert(stats.exact_cross_track, 0.0);
+    lateral.assert(stats.exact_cross_track, 0.0);
     let OdometryPose([x, y, theta]) = settings.to;
-    let far = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
-    times.assert(machine(far).stats().exact_cross_track / stats.exact_cross_track, 0.0);
+    let twice_as_far = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
+    growth.assert(machine(twice_as_far).stats().exact_cross_track / stats.exact_cross_track, 0.0);
 }
 
 #[test]
 fn only_the_table_charges_two_half_turns_for_backing_up() {
-    let [table, deployed] =
+    let [of_table, of_localizers] =
         page().numbers("adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.");
-    let of = |rule| figures(of_preset("reverse"), rule).deviations;
-    let [first, _, second, _] = of(Table);
-    table.assert(first, 0.0);
+    let deviations_of = |rule| figures(of_preset("reverse"), rule).deviations;
+    let [first, _, second, _] = deviations_of(Table);
+    of_table.assert(first, 0.0);
     assert!(second > first);
     for rule in [Nav2, Beluga] {
-        let [first, _, second, _] = of(rule);
-        deployed.assert(first, 0.0);
-        deployed.assert(second, 0.0);
+        let [first, _, second, _] = deviations_of(rule);
+        of_localizers.assert(first, 0.0);
+        of_localizers.assert(second, 0.0);
     }
 }
 
 #[test]
 fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
-    let [least, most] =
+    let [min_deviation, max_deviation] =
         page().numbers("No outcome moves, and the standard deviation of the heading goes from # to # rad.");
-    let of = |correlation| machine(Settings { correlation, ..of_preset("all") });
-    least.assert(of(-1.0).stats().exact_heading, 0.0);
-    most.assert(of(1.0).stats().exact_heading, 0.0);
-    for (a, b) in of(-1.0).poses().iter().zip(of(1.0).poses()) {
+    let machine_with = |correlation| machine(Settings { correlation, ..of_preset("all") });
+    min_deviation.assert(machine_with(-1.0).stats().exact_heading, 0.0);
+    max_deviation.assert(machine_with(1.0).stats().exact_heading, 0.0);
+    for (a, b) in machine_with(-1.0).poses().iter().zip(machine_with(1.0).poses()) {
         assert_eq!((a.x(), a.y()), (b.x(), b.y()));
     }
 }
@@ -57,11 +57,11 @@ fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
 fn the_variances_of_the_rules_are_those_in_the_document() {
     let presets = [("reverse", "reverse"), ("spin", "spin"), ("rest", "at rest")];
     let rules = [(Table, "Table 5.6"), (Nav2, "Nav2, Beluga"), (Omni, "omnidirectional")];
-    for ((preset, place), (rule, name)) in
+    for ((preset, row_name), (rule, name)) in
         presets.into_iter().flat_map(|preset| rules.map(|rule| (preset, rule)))
     {
         let deviations = figures(of_preset(preset), rule).deviations;
-        model_document().assert(&format!("| {place} | {name} | # | # | # | # |"), deviations);
+        model_document().assert(&format!("| {row_name} | {name} | # | # | # | # |"), deviations);
         if rule == Nav2 {
             assert_eq!(figures(of_preset(preset), Beluga).deviations, deviations);
         }
@@ -72,8 +72,8 @@ fn the_variances_of_the_rules_are_those_in_the_document() {
 fn encoders_at_rest_are_noisy_by_the_table_alone() {
     let [heading] = page().numbers("the heading of a robot that has not moved is uncertain by ± # rad,");
     page().assert_says("The encoders have jittered by half a centimetre.");
-    let rest = of_preset("rest");
-    assert_eq!((1000.0 * rest.to.0[0].hypot(rest.to.0[1])).round(), 5.0);
-    let stats = machine(rest).stats();
+    let at_rest = of_preset("rest");
+    assert_eq!((1000.0 * at_rest.to.0[0].hypot(at_rest.to.0[1])).round(), 5.0);
+    let stats = machine(at_rest).stats();
     heading.assert(stats.exact_heading, 0.0);
 }

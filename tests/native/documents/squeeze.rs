@@ -10,17 +10,17 @@ use motion::noise::centred_uniform;
 use motion::sim::squeeze::{MapSqueeze, PRESETS, Settings, alphas_of_noise};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
-/// Indices of the places in the presets.
+/// Index of the preset with this start, as the next two.
 const DOORWAY: usize = 0;
 const WALL: usize = 1;
 const CORRIDOR: usize = 2;
 
 /// Returns the initial settings with another start, sampler and turn rate.
-fn settings(place: usize, sampler: Sampler, omega: f64) -> Settings {
+fn settings(preset: usize, sampler: Sampler, omega: f64) -> Settings {
     let command = VelocityCmd { omega, ..Settings::default().command };
     let steps = sampler.parts();
     let samples = 100_000.min(800_000 / steps as usize);
-    Settings { start: PRESETS[place].1, sampler, steps, command, samples, seed: 3, ..Settings::default() }
+    Settings { start: PRESETS[preset].1, sampler, steps, command, samples, seed: 3, ..Settings::default() }
 }
 
 fn machine(settings: Settings) -> MapSqueeze {
@@ -28,16 +28,16 @@ fn machine(settings: Settings) -> MapSqueeze {
 }
 
 /// Returns the fraction through a wall, and its standard error.
-fn through(settings: Settings) -> (f64, f64) {
+fn share_through_wall(settings: Settings) -> (f64, f64) {
     let machine = machine(settings);
     assert!(!machine.gave_up(), "{settings:?}");
     let (share, count) = (machine.tally().through_wall_rate(), machine.tally().accepted as f64);
-    // For a fraction of 0 the standard error is that of one sample.
+    // The standard error of a fraction of 0 would be 0. It is taken from one sample through the wall instead.
     (share, ((share * (1.0 - share)).max(1.0 / count) / count).sqrt())
 }
 
-fn in_parts(place: usize, parts: u32, omega: f64) -> (f64, f64) {
-    through(settings(place, Sampler::SubStepped(parts), omega))
+fn share_in_parts(preset: usize, parts: u32, omega: f64) -> (f64, f64) {
+    share_through_wall(settings(preset, Sampler::SubStepped(parts), omega))
 }
 
 /// Asserts that a printed percentage equals a computed fraction.
@@ -46,10 +46,10 @@ fn assert_printed((share, error): (f64, f64), printed: Number) {
 }
 
 /// Asserts that one fraction is less than the other, beyond the standard errors of both.
-fn assert_less(one: (f64, f64), other: (f64, f64), what: &str) {
+fn assert_less(smaller: (f64, f64), larger: (f64, f64), what: &str) {
     assert!(
-        other.0 - one.0 > MAX_STANDARD_ERRORS * one.1.hypot(other.1),
-        "{what}: {one:?} is not less than {other:?}"
+        larger.0 - smaller.0 > MAX_STANDARD_ERRORS * smaller.1.hypot(larger.1),
+        "{what}: {smaller:?} is not less than {larger:?}"
     );
 }
 
@@ -59,16 +59,16 @@ fn most_accepted_samples_lie_behind_the_wall() {
         "Drive at a wall # % of what is accepted went through a wall, where the robot could never have gone. Test the \
          whole arc, and only what stopped short of the wall is left.",
     );
-    assert_printed(through(settings(WALL, Sampler::Endpoint, 0.0)), share);
-    let behind = |sampler| {
+    assert_printed(share_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), share);
+    let share_behind_wall = |sampler| {
         let machine = machine(settings(WALL, sampler, 0.0));
         let accepted: Vec<f64> =
             machine.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
         // The wall ahead is at y = 3.8; robots that turn aside end before it too.
         accepted.iter().filter(|y| **y > 3.8).count() as f64 / accepted.len() as f64
     };
-    assert!(behind(Sampler::Endpoint) > 0.8);
-    assert_eq!(behind(Sampler::WholeArc), 0.0);
+    assert!(share_behind_wall(Sampler::Endpoint) > 0.8);
+    assert_eq!(share_behind_wall(Sampler::WholeArc), 0.0);
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
     let [noise, share] =
         page().numbers("straight ahead at noise level #, # % of the accepted motions went through a wall.");
     assert_eq!(Settings::default().alphas, alphas_of_noise(noise.value));
-    assert_printed(through(settings(DOORWAY, Sampler::Endpoint, 0.0)), share);
+    assert_printed(share_through_wall(settings(DOORWAY, Sampler::Endpoint, 0.0)), share);
 }
 
 #[test]
@@ -86,14 +86,14 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
     for (place, printed) in [DOORWAY, CORRIDOR].into_iter().zip::<[Number; 2]>(printed) {
-        assert_printed(in_parts(place, 16, 0.0), printed);
-        assert!(in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
+        assert_printed(share_in_parts(place, 16, 0.0), printed);
+        assert!(share_in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
-    let [omega, on_page, at_worst, worst] = page().numbers(
+    let [omega, endpoint_printed, parts_printed, worst_parts] = page().numbers(
         "With ω = # more pass at first, from # % by the endpoint test to # % in # parts, and only then fewer.",
     );
-    assert_printed(through(settings(DOORWAY, Sampler::Endpoint, omega.value)), on_page);
-    assert_printed(in_parts(DOORWAY, worst.value as u32, omega.value), at_worst);
+    assert_printed(share_through_wall(settings(DOORWAY, Sampler::Endpoint, omega.value)), endpoint_printed);
+    assert_printed(share_in_parts(DOORWAY, worst_parts.value as u32, omega.value), parts_printed);
     let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = model_document().numbers(
         "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
          over # and # % to # % at k = 8, and falls to # % at 12.",
@@ -102,9 +102,9 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
         (DOORWAY, d1, [(4, d4), (6, d6), (8, d8), (16, d16)]),
         (CORRIDOR, c1, [(4, c4), (6, c6), (8, c8), (12, c12)]),
     ] {
-        assert_printed(through(settings(place, Sampler::Endpoint, omega.value)), endpoint);
+        assert_printed(share_through_wall(settings(place, Sampler::Endpoint, omega.value)), endpoint);
         for (parts, share) in printed {
-            assert_printed(in_parts(place, parts, omega.value), share);
+            assert_printed(share_in_parts(place, parts, omega.value), share);
         }
     }
 }
@@ -112,41 +112,41 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn more_substeps_facing_the_wall_send_more_samples_through_it() {
-    let shares = [2, 4, 8].map(|parts| in_parts(WALL, parts, 0.0));
+    let shares = [2, 4, 8].map(|parts| share_in_parts(WALL, parts, 0.0));
     shares.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
-    let [one, two, four, eight, wedged] = model_document().numbers(
+    let [one, two, four, eight, wedged_parts] = model_document().numbers(
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
-    assert_printed(through(settings(WALL, Sampler::Endpoint, 0.0)), one);
+    assert_printed(share_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), one);
     shares.into_iter().zip([two, four, eight]).for_each(|(share, printed)| assert_printed(share, printed));
-    let [from, to, at_two, at_eight] =
+    let [from_parts, to_parts, at_two, at_eight] =
         page().numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
-    assert_eq!((from.value, to.value), (2.0, 8.0));
+    assert_eq!((from_parts.value, to_parts.value), (2.0, 8.0));
     assert_printed(shares[0], at_two);
     assert_printed(shares[2], at_eight);
     page().assert_says(
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
-    assert_eq!(wedged.value, 16.0);
+    assert_eq!(wedged_parts.value, 16.0);
     assert!(!machine(settings(WALL, Sampler::SubStepped(12), 0.0)).gave_up());
     for parts in [16, 24, 32, 64] {
         for samples in [600, 10_000] {
-            let many = Settings { samples, ..settings(WALL, Sampler::SubStepped(parts), 0.0) };
-            assert!(machine(many).gave_up(), "{parts} parts");
+            let with_samples = Settings { samples, ..settings(WALL, Sampler::SubStepped(parts), 0.0) };
+            assert!(machine(with_samples).gave_up(), "{parts} parts");
         }
     }
 }
 
-/// Compares the fraction of motions that are judged otherwise along the geodesic than along the arc.
+/// Compares the fraction of motions whose collision result along the geodesic differs from the one along the arc.
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
-    let [least, most, doorway_least, doorway_most] = model_document().numbers(
+    let [low, high, doorway_min, doorway_max] = model_document().numbers(
         "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \
          # to # %)",
     );
-    assert_eq!(most.value, doorway_most.value);
+    assert_eq!(high.value, doorway_max.value);
     let plan = FloorPlan::apartment();
     for (place, [x, y, theta]) in PRESETS {
         let start = SE2::new(x, y, theta);
@@ -158,25 +158,25 @@ fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
             let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
             let draw_tester = conditioned.draw_tester(&command, &start);
             let mut rng = seeded(93);
-            let (mut accepted, mut differ) = (0u32, 0u32);
+            let (mut accepted, mut differing) = (0u32, 0u32);
             for _ in 0..40_000 {
                 let noise = std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(&mut rng)));
                 let draw = draw_tester.judge(noise);
                 if !draw.end.free {
                     continue;
                 }
-                // exp(s·ξ), 0 ≤ s ≤ 1, is an arc too: it leaves in the direction of (ξ along, ξ lateral).
+                // The geodesic exp(s·ξ), 0 ≤ s ≤ 1, is also an arc. It starts in the direction of (ξ along, ξ lateral).
                 let xi = draw.pose.boxminus(&start);
-                let leaving = SE2::new(x, y, theta + xi.y.atan2(xi.x));
-                let geodesic = Arc { start: leaving, length: xi.xy().norm(), turn: xi.z };
+                let geodesic_start = SE2::new(x, y, theta + xi.y.atan2(xi.x));
+                let geodesic = Arc { start: geodesic_start, length: xi.xy().norm(), turn: xi.z };
                 accepted += 1;
-                differ += u32::from(plan.arc_free(&geodesic, 0.13).free != draw.path.free);
+                differing += u32::from(plan.arc_free(&geodesic, 0.13).free != draw.path.free);
             }
-            let share = f64::from(differ) / f64::from(accepted);
+            let share = f64::from(differing) / f64::from(accepted);
             let error = MAX_STANDARD_ERRORS * (share * (1.0 - share) / f64::from(accepted)).sqrt();
-            let least = if place == "doorway" { doorway_least } else { least };
-            let (least, most) = (least.value / 100.0, most.value / 100.0);
-            assert!(share + error > least && share - error < most, "{place}, n = {n}, ω = {omega}: {share}");
+            let low = if place == "doorway" { doorway_min } else { low };
+            let (low, high) = (low.value / 100.0, high.value / 100.0);
+            assert!(share + error > low && share - error < high, "{place}, n = {n}, ω = {omega}: {share}");
         }
     }
 }

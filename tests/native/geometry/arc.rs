@@ -1,6 +1,6 @@
 //! Distance between a driven arc and a wall, compared with an independent reference without the equation of a circle.
 
-use crate::common::distance::{Point, distance_by_halving, extent, minus, norm, position_along};
+use crate::common::distance::{Point, difference, distance_by_halving, extent, norm, position_along};
 use crate::common::{seeded, signed_log_uniform, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
@@ -10,34 +10,34 @@ use std::f64::consts::{PI, TAU};
 
 // ------------------------------------------------------------------------------------------------- random pairs
 
-fn point(rng: &mut impl Rng, reach: f64) -> Point {
+fn random_point(rng: &mut impl Rng, reach: f64) -> Point {
     [uniform(rng, -reach, reach), uniform(rng, -reach, reach)]
 }
 
-fn arc(rng: &mut impl Rng, length: f64, turn: f64) -> Arc {
-    let [x, y] = point(rng, 5.0);
+fn random_arc(rng: &mut impl Rng, length: f64, turn: f64) -> Arc {
+    let [x, y] = random_point(rng, 5.0);
     Arc { start: SE2::new(x, y, uniform(rng, -PI, PI)), length, turn }
 }
 
 /// Returns an arc of up to 8 m in either direction, which turns by up to two circles to either side.
 fn any_arc(rng: &mut impl Rng) -> Arc {
     let (length, turn) = (uniform(rng, -8.0, 8.0), uniform(rng, -2.0 * TAU, 2.0 * TAU));
-    arc(rng, length, turn)
+    random_arc(rng, length, turn)
 }
 
-fn nearly_straight(rng: &mut impl Rng) -> Arc {
+fn nearly_straight_arc(rng: &mut impl Rng) -> Arc {
     let (length, turn) = (uniform(rng, -8.0, 8.0), signed_log_uniform(rng, 1e-18, 1e-3));
-    arc(rng, length, turn)
+    random_arc(rng, length, turn)
 }
 
 /// Returns a turn almost on the spot.
-fn pirouette(rng: &mut impl Rng) -> Arc {
+fn nearly_on_the_spot(rng: &mut impl Rng) -> Arc {
     let (length, turn) = (signed_log_uniform(rng, 1e-15, 1e-1), uniform(rng, -2.0 * TAU, 2.0 * TAU));
-    arc(rng, length, turn)
+    random_arc(rng, length, turn)
 }
 
 fn any_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
-    Segment { from: point(rng, 8.0), to: point(rng, 8.0) }
+    Segment { from: random_point(rng, 8.0), to: random_point(rng, 8.0) }
 }
 
 /// Returns the position in the world of a point that is relative to the start of the arc.
@@ -50,8 +50,8 @@ fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let f = uniform(rng, 0.0, 1.0);
     let heading = arc.start.theta() + f * arc.turn;
     let [x, y] = position_along(arc, f);
-    let off = signed_log_uniform(rng, 1e-15, 1e-1);
-    let foot = [x - off * heading.sin(), y + off * heading.cos()];
+    let offset = signed_log_uniform(rng, 1e-15, 1e-1);
+    let foot = [x - offset * heading.sin(), y + offset * heading.cos()];
     let mut end = || {
         let reach = uniform(rng, -5.0, 5.0);
         in_world(arc, [foot[0] + reach * heading.cos(), foot[1] + reach * heading.sin()])
@@ -62,10 +62,10 @@ fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
 /// Returns a wall that ends near the end of the arc, or extends beyond it.
 fn wall_by_the_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let [x, y] = position_along(arc, f64::from(rng.next_u32() % 2));
-    let mut off = || signed_log_uniform(rng, 1e-15, 1e-1);
-    let from = in_world(arc, [x + off(), y + off()]);
+    let mut offset = || signed_log_uniform(rng, 1e-15, 1e-1);
+    let from = in_world(arc, [x + offset(), y + offset()]);
     let to = if rng.next_u32().is_multiple_of(2) {
-        point(rng, 8.0)
+        random_point(rng, 8.0)
     } else {
         let (heading, reach) = (uniform(rng, -PI, PI), uniform(rng, -3.0, 3.0));
         [from[0] + reach * heading.cos(), from[1] + reach * heading.sin()]
@@ -76,8 +76,8 @@ fn wall_by_the_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
 /// Returns a wall with an end near the centre of the arc's circle, where all points of the circle are equally near.
 fn wall_from_the_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let (radius, theta) = (arc.length / arc.turn, arc.start.theta());
-    let mut off = || signed_log_uniform(rng, 1e-16, 1e-1);
-    let from = in_world(arc, [off() - radius * theta.sin(), off() + radius * theta.cos()]);
+    let mut offset = || signed_log_uniform(rng, 1e-16, 1e-1);
+    let from = in_world(arc, [offset() - radius * theta.sin(), offset() + radius * theta.cos()]);
     let reach = uniform(rng, 0.0, 1.2) * radius;
     let heading = uniform(rng, -PI, PI);
     Segment { from, to: [from[0] + reach * heading.cos(), from[1] + reach * heading.sin()] }
@@ -85,53 +85,53 @@ fn wall_from_the_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
 
 /// Returns a wall of length 0.
 fn point_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
-    let from = point(rng, 8.0);
+    let from = random_point(rng, 8.0);
     Segment { from, to: from }
 }
 
 type MakeArc = fn(&mut rand_xoshiro::Xoshiro256PlusPlus) -> Arc;
 type MakeWall = fn(&mut rand_xoshiro::Xoshiro256PlusPlus, &Arc) -> Segment;
 
-const STRAIGHT: MakeArc = |rng| {
+const STRAIGHT_ARC: MakeArc = |rng| {
     let length = uniform(rng, -8.0, 8.0);
-    arc(rng, length, 0.0)
+    random_arc(rng, length, 0.0)
 };
-const ON_THE_SPOT: MakeArc = |rng| {
+const TURN_ON_THE_SPOT: MakeArc = |rng| {
     let turn = uniform(rng, -TAU, TAU);
-    arc(rng, 0.0, turn)
+    random_arc(rng, 0.0, turn)
 };
 /// Function that returns an arc of up to a kilometre around a circle of any radius.
-const FAR: MakeArc = |rng| {
+const LONG_ARC: MakeArc = |rng| {
     let (length, turn) = (signed_log_uniform(rng, 1.0, 1e3), signed_log_uniform(rng, 1e-6, 30.0));
-    arc(rng, length, turn)
+    random_arc(rng, length, turn)
 };
 
 /// Kinds of arcs and walls, and the number of pairs of each.
-const FAMILIES: [(&str, MakeArc, MakeWall, u32); 14] = [
+const ARC_AND_WALL_KINDS: [(&str, MakeArc, MakeWall, u32); 14] = [
     ("any arc, any wall", any_arc, any_wall, 4000),
     ("any arc, tangent", any_arc, tangent_wall, 3000),
     ("any arc, by its end", any_arc, wall_by_the_end, 1500),
     ("any arc, from its centre", any_arc, wall_from_the_centre, 1500),
     ("any arc, point", any_arc, point_wall, 1000),
-    ("nearly straight, any wall", nearly_straight, any_wall, 1500),
-    ("nearly straight, tangent", nearly_straight, tangent_wall, 2000),
-    ("nearly straight, by its end", nearly_straight, wall_by_the_end, 1000),
-    ("straight, any wall", STRAIGHT, any_wall, 1000),
-    ("straight, parallel", STRAIGHT, tangent_wall, 1000),
-    ("on the spot", ON_THE_SPOT, any_wall, 500),
-    ("pirouette, any wall", pirouette, any_wall, 1000),
-    ("pirouette, tangent", pirouette, tangent_wall, 1500),
-    ("far", FAR, tangent_wall, 1500),
+    ("nearly straight, any wall", nearly_straight_arc, any_wall, 1500),
+    ("nearly straight, tangent", nearly_straight_arc, tangent_wall, 2000),
+    ("nearly straight, by its end", nearly_straight_arc, wall_by_the_end, 1000),
+    ("straight, any wall", STRAIGHT_ARC, any_wall, 1000),
+    ("straight, parallel", STRAIGHT_ARC, tangent_wall, 1000),
+    ("on the spot", TURN_ON_THE_SPOT, any_wall, 500),
+    ("nearly on the spot, any wall", nearly_on_the_spot, any_wall, 1000),
+    ("nearly on the spot, tangent", nearly_on_the_spot, tangent_wall, 1500),
+    ("far", LONG_ARC, tangent_wall, 1500),
 ];
 
 // --------------------------------------------------------------------------------------------------------- tests
 
-/// The analytic distance and the reference each round coordinates a few times. The tolerance for both is eight units in the last place of
+/// Both the analytic distance and the reference round coordinates a few times. Their tolerance is eight units in the last place of
 /// the extent, which are 0.01 pm in the apartment.
 #[test]
 fn the_distance_to_an_arc_matches_bisection() {
-    let (mut pairs, mut touching, mut closed) = (0, 0, 0);
-    for (seed, (name, make_arc, make_wall, count)) in (0..).zip(FAMILIES) {
+    let (mut pairs, mut touching, mut sharp) = (0, 0, 0);
+    for (seed, (name, make_arc, make_wall, count)) in (0..).zip(ARC_AND_WALL_KINDS) {
         let mut rng = seeded(9000 + seed);
         for _ in 0..count {
             let arc = make_arc(&mut rng);
@@ -144,44 +144,44 @@ fn the_distance_to_an_arc_matches_bisection() {
                 "{name}: {exact:e} instead of {low:e} to {high:e}: {arc:?} {wall:?}"
             );
             touching += u32::from(exact == 0.0);
-            closed += u32::from(high - low <= tolerance);
+            sharp += u32::from(high - low <= tolerance);
             pairs += 1;
         }
     }
     assert!(pairs >= 20_000 && touching > pairs / 10 && touching < pairs / 2, "{touching} of {pairs}");
-    assert!(closed > pairs * 9 / 10, "the reference was sharp for {closed} of {pairs}");
+    assert!(sharp > pairs * 9 / 10, "the reference was sharp for {sharp} of {pairs}");
 }
 
 #[test]
 fn the_bounding_box_holds_the_arc_and_its_points_lie_on_it() {
-    for (seed, (name, make_arc, _, _)) in (0..).zip(FAMILIES) {
+    for (seed, (name, make_arc, _, _)) in (0..).zip(ARC_AND_WALL_KINDS) {
         let mut rng = seeded(9500 + seed);
         for _ in 0..200 {
             let arc = make_arc(&mut rng);
             let [left, bottom, right, top] = arc.bounding_box();
-            let slack = 8.0 * f64::EPSILON * arc.length.abs().max(5.0);
+            let tolerance = 8.0 * f64::EPSILON * arc.length.abs().max(5.0);
             for i in 0..=100 {
                 let [x, y] = in_world(&arc, position_along(&arc, f64::from(i) / 100.0));
-                let held = (left - slack..=right + slack).contains(&x)
-                    && (bottom - slack..=top + slack).contains(&y);
-                assert!(held, "{name}: ({x}, {y}) of {arc:?}");
+                let is_inside = (left - tolerance..=right + tolerance).contains(&x)
+                    && (bottom - tolerance..=top + tolerance).contains(&y);
+                assert!(is_inside, "{name}: ({x}, {y}) of {arc:?}");
             }
             // The box may not be much larger than needed.
-            let reach = arc.length.abs().min(4.0 * (arc.length / arc.turn).abs());
-            assert!(right - left <= reach + slack && top - bottom <= reach + slack, "{name}: {arc:?}");
+            let size = arc.length.abs().min(4.0 * (arc.length / arc.turn).abs());
+            assert!(right - left <= size + tolerance && top - bottom <= size + tolerance, "{name}: {arc:?}");
             for [x, y] in arc.points().into_iter().step_by(7) {
-                let at = Segment { from: [x, y], to: [x, y] };
-                assert!(at.distance_to_arc(&arc) <= 4.0 * slack, "{name}: ({x}, {y}) of {arc:?}");
+                let point_wall = Segment { from: [x, y], to: [x, y] };
+                assert!(point_wall.distance_to_arc(&arc) <= 4.0 * tolerance, "{name}: ({x}, {y}) of {arc:?}");
             }
             let points = arc.points();
             let (last, end) = (points[points.len() - 1], in_world(&arc, position_along(&arc, 1.0)));
             assert_eq!(points[0], [arc.start.x(), arc.start.y()]);
-            assert!(norm(minus(last, end)) <= slack, "{name}: {arc:?}");
+            assert!(norm(difference(last, end)) <= tolerance, "{name}: {arc:?}");
         }
     }
 }
 
-/// Points that are drawn are a fiftieth of a radian apart. An arc of length s and turn φ rises by s·φ/8 over its chord, which is 0.05 mm
+/// Drawn points of an arc are 1/50 rad apart. A piece of length s and turn φ rises by s·φ/8 over its chord, which is 0.05 mm
 /// for an arc of a metre that turns by a radian. Beyond two turns the circle repeats itself, and its chords may be longer.
 #[test]
 fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
@@ -190,11 +190,11 @@ fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
         let points = arc.points();
         let chords = points.len() - 1;
         for (i, ends) in points.windows(2).enumerate() {
-            let chord = [0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]));
-            let middle = in_world(&arc, position_along(&arc, (i as f64 + 0.5) / chords as f64));
-            let rise = norm(minus(chord, middle));
-            let most = 0.02 * 0.02 / 8.0 * (length / turn.abs().max(0.02)).abs() * 1.001;
-            assert!(rise <= most, "{turn}: {rise}");
+            let chord_middle = [0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]));
+            let arc_middle = in_world(&arc, position_along(&arc, (i as f64 + 0.5) / chords as f64));
+            let rise = norm(difference(chord_middle, arc_middle));
+            let max_rise = 0.02 * 0.02 / 8.0 * (length / turn.abs().max(0.02)).abs() * 1.001;
+            assert!(rise <= max_rise, "{turn}: {rise}");
         }
         assert!(chords <= 640);
     }

@@ -1,4 +1,4 @@
-//! Double-double arithmetic against fifty-digit references and exact integer arithmetic.
+//! Double-double arithmetic, compared with fifty-digit references and exact integer arithmetic.
 
 use crate::common::{seeded, uniform};
 use motion::geom::double_double::DoubleDouble;
@@ -16,7 +16,7 @@ fn reference_rows() -> impl Iterator<Item = [f64; 7]> {
         })
 }
 
-/// Returns the distance of a value from a reference in two parts.
+/// Returns the absolute difference of a value and a reference, which is given as a high and a low part.
 fn error_of(value: DoubleDouble, high: f64, low: f64) -> f64 {
     (value - DoubleDouble { high, low }).to_f64().abs()
 }
@@ -41,12 +41,12 @@ fn sine_cosine_and_sinc_match_fifty_digit_references() {
 fn sums_and_products_lose_nothing() {
     let mut rng = seeded(31);
     for _ in 0..20_000 {
-        let whole = |rng: &mut _| uniform(rng, -9e15, 9e15).trunc();
-        let (a, b) = (whole(&mut rng), whole(&mut rng));
+        let random_integer = |rng: &mut _| uniform(rng, -9e15, 9e15).trunc();
+        let (a, b) = (random_integer(&mut rng), random_integer(&mut rng));
         let product = DoubleDouble::product(a, b);
         assert_eq!(product.high as i128 + product.low as i128, a as i128 * b as i128);
         let sum = DoubleDouble::from(a) + DoubleDouble::from(b / 1024.0);
-        // Multiplied by 1024 both are integers.
+        // Multiplied by 1024, both parts of the sum are integers.
         assert_eq!((sum.high * 1024.0) as i128 + (sum.low * 1024.0) as i128, a as i128 * 1024 + b as i128);
         assert!(sum.low.abs() <= 0.5 * sum.high.abs() * f64::EPSILON);
     }
@@ -58,9 +58,9 @@ fn errors_of_the_three_arc_forms_grow_as_their_formulas_say() {
     // The chord loses no digits: its error is the rounding of a product and two sums.
     assert!(chord.iter().all(|error| *error < 3e-17), "{chord:?}");
     for (i, omega) in omega.iter().enumerate() {
-        let bend = 0.5 * omega * 0.01;
+        let straight_line_error = 0.5 * omega * 0.01;
         if (1e-9..1e-2).contains(omega) {
-            assert!((straight[i] / bend - 1.0).abs() < 1e-3, "{omega} {}", straight[i]);
+            assert!((straight[i] / straight_line_error - 1.0).abs() < 1e-3, "{omega} {}", straight[i]);
         }
         // The error is about ε/ω.
         let ratio = arc[i] / (f64::EPSILON / omega);

@@ -17,19 +17,19 @@ fn assert_same(a: &SE2, b: &SE2, tolerance: f64, law: &str) {
     assert!(pose_distance(a, b) <= tolerance, "{law}: {a:?} and {b:?} differ by more than {tolerance:e}");
 }
 
-/// The textbook formula of composition: the other laws could hold in another group as well.
+/// Composition is compared with its textbook formula, because the other laws hold in any group.
 #[test]
 fn composition_places_the_second_pose_in_the_frame_of_the_first() {
-    let quarter = SE2::new(2.0, 1.0, PI / 2.0);
+    let at_quarter_turn = SE2::new(2.0, 1.0, PI / 2.0);
     assert_same(
-        &(quarter * SE2::new(3.0, 0.5, 0.25)),
+        &(at_quarter_turn * SE2::new(3.0, 0.5, 0.25)),
         &SE2::new(1.5, 4.0, PI / 2.0 + 0.25),
         LAW_TOLERANCE,
-        "by hand",
+        "composition by hand",
     );
-    let north = SE2::new(5.0, 5.0, PI / 2.0);
-    let ahead = north.boxplus(Vector3::x());
-    assert_same(&ahead, &SE2::new(5.0, 6.0, PI / 2.0), 16.0 * LAW_TOLERANCE, "forward is its own");
+    let facing_north = SE2::new(5.0, 5.0, PI / 2.0);
+    let ahead = facing_north.boxplus(Vector3::x());
+    assert_same(&ahead, &SE2::new(5.0, 6.0, PI / 2.0), 16.0 * LAW_TOLERANCE, "in its frame");
 }
 
 /// With a turn given to select the branch, the logarithm inverts exp beyond half a turn. Its coordinates grow towards a full turn.
@@ -41,19 +41,19 @@ fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
         let twist = Vector3::new(draw(3.0), draw(3.0), draw(2.0 * PI - 0.3));
         let pose = SE2::exp(&twist);
         let turn = twist.z + draw(3.0);
-        let back = pose.log_near(turn);
+        let logarithm = pose.log_near(turn);
         // The factor 1/sinc(ω/2) amplifies the rounding of the pose, up to 20 times at 0.3 rad from a full turn.
         assert!(
-            (back - twist).amax() < 20.0 * LAW_TOLERANCE * twist.norm().max(1.0),
-            "log_near({turn}) of exp({twist}) = {back}"
+            (logarithm - twist).amax() < 20.0 * LAW_TOLERANCE * twist.norm().max(1.0),
+            "log_near({turn}) of exp({twist}) = {logarithm}"
         );
         assert_eq!(pose.log_near(pose.theta()), pose.log());
-        let elsewhere = pose.log_near(twist.z + TAU);
-        assert!((elsewhere.z - twist.z - TAU).abs() < LAW_TOLERANCE, "{}", elsewhere.z);
+        let other_logarithm = pose.log_near(twist.z + TAU);
+        assert!((other_logarithm.z - twist.z - TAU).abs() < LAW_TOLERANCE, "{}", other_logarithm.z);
     }
 }
 
-/// The reference sweeps the bands of |ω| in which series and closed forms can lose digits.
+/// The reference covers the ranges of |ω| in which series or closed forms can lose digits.
 #[test]
 fn exp_and_jacobians_match_the_references() {
     let table = Table::parse(include_str!("../../reference/group.csv"));

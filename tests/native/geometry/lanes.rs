@@ -52,20 +52,20 @@ fn half_turns_lie_on_the_requested_branch() {
         for half in angles().into_iter().step_by(7) {
             let turn = trigonometry.any_half_turn(f64x4::splat(half), near);
             let expected = near + 0.5 * wrap_angle(2.0 * (half - near));
-            let found = first_lane(turn.half);
+            let half_turn = first_lane(turn.half);
             // The reduction by half circles rounds in proportion to their number. At the end of the branch either side
             // is correct.
-            let digits = ACCURACY * (1.0 + half.abs());
-            let beside = (found - expected).abs().min(((found - expected).abs() - PI).abs());
-            assert!(beside <= digits, "{half} near {near}: {found} is not {expected}");
-            assert!((found - near).abs() <= FRAC_PI_2 + digits, "{half} near {near}: {found}");
-            let (sin, cos) = libm::sincos(found);
-            assert!((first_lane(turn.sin).abs() - sin.abs()).abs() <= digits);
-            assert!((first_lane(turn.sin) * first_lane(turn.cos) - sin * cos).abs() <= 2.0 * digits);
-            let cotangent = if found == 0.0 { 1.0 } else { found * cos / sin };
-            // The error of the sine, divided by the sine twice.
-            let tolerance =
-                4.0 * digits * (1.0 + found.abs()) / (sin * sin / (found * found).min(1.0)).max(1e-300);
+            let rounding = ACCURACY * (1.0 + half.abs());
+            let error = (half_turn - expected).abs().min(((half_turn - expected).abs() - PI).abs());
+            assert!(error <= rounding, "{half} near {near}: {half_turn} is not {expected}");
+            assert!((half_turn - near).abs() <= FRAC_PI_2 + rounding, "{half} near {near}: {half_turn}");
+            let (sin, cos) = libm::sincos(half_turn);
+            assert!((first_lane(turn.sin).abs() - sin.abs()).abs() <= rounding);
+            assert!((first_lane(turn.sin) * first_lane(turn.cos) - sin * cos).abs() <= 2.0 * rounding);
+            let cotangent = if half_turn == 0.0 { 1.0 } else { half_turn * cos / sin };
+            // The cotangent divides the error of the sine by the square of the sine.
+            let tolerance = 4.0 * rounding * (1.0 + half_turn.abs())
+                / (sin * sin / (half_turn * half_turn).min(1.0)).max(1e-300);
             assert!(
                 (first_lane(turn.cotangent) - cotangent).abs() <= tolerance.max(4.0 * ACCURACY),
                 "{half} {near}"
@@ -79,11 +79,11 @@ fn half_turns_lie_on_the_requested_branch() {
 fn a_lane_does_not_depend_on_its_neighbours() {
     let trigonometry = Trigonometry::default();
     let bits = |lanes: f64x4, lane: usize| lanes.to_array()[lane].to_bits();
-    let near: Vec<f64> = angles().into_iter().filter(|angle| angle.abs() < FRAC_PI_2).collect();
-    let far = [1e15, -7.0, 4e6, FRAC_PI_2 + 1e-9];
-    for (i, angle) in near.iter().enumerate() {
+    let small_angles: Vec<f64> = angles().into_iter().filter(|angle| angle.abs() < FRAC_PI_2).collect();
+    let large_angles = [1e15, -7.0, 4e6, FRAC_PI_2 + 1e-9];
+    for (i, angle) in small_angles.iter().enumerate() {
         let (lane, alone) = (i % 4, f64x4::splat(*angle));
-        let mut mixed = far;
+        let mut mixed = large_angles;
         mixed[lane] = *angle;
         let mixed = f64x4::from(mixed);
         let (short, long) = (trigonometry.circle(alone), trigonometry.any_circle(mixed));

@@ -7,15 +7,15 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Returns the configuration for a number of cases from a fixed seed, so that results are the same on every machine. Failing cases are
+/// Returns the configuration for a number of cases from a fixed seed, so that results are equal on every machine. Failing cases are
 /// not stored: each becomes a test of its own in `found.rs`.
-pub fn cases(cases: u32) -> ProptestConfig {
+pub fn cases(count: u32) -> ProptestConfig {
     ProptestConfig {
-        cases,
+        cases: count,
         rng_seed: RngSeed::Fixed(19),
         failure_persistence: None,
-        max_global_rejects: 10 * cases,
-        max_local_rejects: 100 * cases,
+        max_global_rejects: 10 * count,
+        max_local_rejects: 100 * count,
         ..ProptestConfig::default()
     }
 }
@@ -29,7 +29,7 @@ pub fn any_double() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Returns finite doubles: with any exponent, of common sizes, and limits of ranges.
+/// Returns finite doubles of any exponent, of common sizes, and near limits of ranges.
 pub fn finite() -> impl Strategy<Value = f64> {
     prop_oneof![
         3 => POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO,
@@ -67,12 +67,12 @@ fn range_limits() -> impl Strategy<Value = f64> {
     })
 }
 
-/// Returns finite doubles up to `most` in absolute value.
-pub fn up_to(most: f64) -> impl Strategy<Value = f64> {
+/// Returns finite doubles up to `max_abs` in absolute value.
+pub fn up_to(max_abs: f64) -> impl Strategy<Value = f64> {
     prop_oneof![
-        4 => finite().prop_filter("too large", move |number| number.abs() <= most),
-        1 => -most..=most,
-        1 => prop_oneof![Just(most), Just(-most)],
+        4 => finite().prop_filter("too large", move |number| number.abs() <= max_abs),
+        1 => -max_abs..=max_abs,
+        1 => prop_oneof![Just(max_abs), Just(-max_abs)],
     ]
 }
 
@@ -83,9 +83,9 @@ pub fn poses() -> impl Strategy<Value = SE2> {
     (up_to(LARGE), up_to(LARGE), up_to(PI)).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
-/// Returns twists that turn by up to `most`.
-pub fn twists(most: f64) -> impl Strategy<Value = Vector3<f64>> {
-    (up_to(LARGE), up_to(LARGE), up_to(most)).prop_map(|(x, y, turn)| Vector3::new(x, y, turn))
+/// Returns twists that turn by up to `max`.
+pub fn twists(max: f64) -> impl Strategy<Value = Vector3<f64>> {
+    (up_to(LARGE), up_to(LARGE), up_to(max)).prop_map(|(x, y, turn)| Vector3::new(x, y, turn))
 }
 
 /// Returns the sum of the absolute coordinates of a pose.
@@ -95,9 +95,9 @@ pub fn extent(pose: &SE2) -> f64 {
 
 /// Asserts that positions are equal to `units` units in the last place of `size`, and headings to as many units in that of a circle.
 pub fn assert_same_pose(a: &SE2, b: &SE2, units: f64, size: f64) -> Result<(), TestCaseError> {
-    let room = units * f64::EPSILON * size + f64::MIN_POSITIVE;
+    let tolerance = units * f64::EPSILON * size + f64::MIN_POSITIVE;
     let turn = libm::remainder(a.theta() - b.theta(), TAU).abs();
-    let near = (a.x() - b.x()).abs() <= room && (a.y() - b.y()).abs() <= room;
-    prop_assert!(near && turn <= units * f64::EPSILON * TAU, "{:?} and {:?}, allowed {}", a, b, room);
+    let is_near = (a.x() - b.x()).abs() <= tolerance && (a.y() - b.y()).abs() <= tolerance;
+    prop_assert!(is_near && turn <= units * f64::EPSILON * TAU, "{:?} and {:?}, allowed {}", a, b, tolerance);
     Ok(())
 }

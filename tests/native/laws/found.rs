@@ -8,14 +8,14 @@ use motion::stats::CrossTrack;
 use motion::{MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use std::f64::consts::PI;
 
-/// Sixth powers of small residuals underflow, which must not make the standard error of the skew 0.
+/// Sixth powers of small residuals underflow. The standard error of the skew must not become 0 for that reason.
 #[test]
 fn a_cloud_too_small_for_its_powers_has_no_skew() {
-    for (unit, has_any) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
+    for (unit, is_finite) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
         let cloud = [0.0, 1.0, 3.0, 7.0].map(|y| SE2::new(unit, unit * y, 0.0));
         let track = CrossTrack::from_poses(&cloud);
         let figures = [track.skew, track.skew_error];
-        assert!(figures.iter().all(|figure| figure.is_finite() == has_any), "{unit}: {track:?}");
+        assert!(figures.iter().all(|figure| figure.is_finite() == is_finite), "{unit}: {track:?}");
     }
     let command = VelocityCmd { v: 1e-60, omega: 0.5, dt: 1.0 };
     let alphas = [0.05, 0.0, 0.05, 0.05, 0.0, 0.0];
@@ -41,7 +41,7 @@ fn model(alphas: [f64; 6]) -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
 }
 
-/// The circumference of a circle may overflow at a speed of density 0. The product 0 · ∞ must count as 0.
+/// The circumference of a circle may overflow, while the density of its speed is 0. The product 0 · ∞ must count as 0.
 #[test]
 fn a_circle_too_long_for_a_double_is_not_driven() {
     let model = model([0.0, 0.55, 0.0, 0.29, 0.0, 0.41]);
@@ -59,14 +59,14 @@ fn a_displacement_with_a_subnormal_square_counts_as_none() {
     assert_eq!(model.pose_density(&next, &u, &x), model.pose_density(&x, &u, &x));
 }
 
-/// Two solves with a root of the covariance divide by a subnormal variance. The product 0 · ∞ must not become NaN.
+/// Solving twice with a root of the covariance divides by a subnormal variance. The product 0 · ∞ must not become NaN.
 #[test]
 fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     let u = VelocityCmd { v: 56.0, omega: 0.0, dt: 1e-6 };
     let tangent =
         TangentNoiseModel::from_velocity(&model([0.0, 0.0, 0.0, 0.0, 2.2e-308, 0.0]), &u).expect("variances");
-    let logarithm = tangent.log_prob(&SE2::new(-8.9e17, 0.0, 1e-6), &u, &SE2::identity());
-    assert!(logarithm < 0.0, "{logarithm}");
+    let log_prob = tangent.log_prob(&SE2::new(-8.9e17, 0.0, 1e-6), &u, &SE2::identity());
+    assert!(log_prob < 0.0, "{log_prob}");
 }
 
 /// The search for an open place divides the shorter side of these plans into squares too, although the longer one is over 256 times as
@@ -75,7 +75,7 @@ fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
 fn a_narrow_plan_has_an_open_place() {
     for bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {
         let plan = FloorPlan::new(Vec::new(), bounds).expect("bounds");
-        let place = plan.open_place(0.0).expect("nothing is in the way");
-        assert!(plan.point_free([place.x(), place.y()], 0.0).free, "{place:?}");
+        let open_place = plan.open_place(0.0).expect("nothing is in the way");
+        assert!(plan.point_free([open_place.x(), open_place.y()], 0.0).free, "{open_place:?}");
     }
 }

@@ -15,7 +15,7 @@ const UNITS: f64 = 32.0;
 proptest! {
     #![proptest_config(cases(400))]
 
-    /// The remainder is exact, and so is subtracting a full turn.
+    /// The remainder of a division is exact, and so is the subtraction of a full turn.
     #[test]
     fn wrapped_angles_are_remainders(angle in finite()) {
         let wrapped = wrap_angle(angle);
@@ -25,17 +25,17 @@ proptest! {
         let expected = if turns == 0.0 { remainder } else { remainder + turns * TAU };
         prop_assert_eq!(wrapped.to_bits(), expected.to_bits(), "{} {}", wrapped, expected);
         prop_assert_eq!(wrap_angle(wrapped).to_bits(), wrapped.to_bits());
-        let mirrored = wrap_angle(-angle);
-        prop_assert!(mirrored == -wrapped || (mirrored == PI && wrapped == PI));
+        let wrapped_opposite = wrap_angle(-angle);
+        prop_assert!(wrapped_opposite == -wrapped || (wrapped_opposite == PI && wrapped == PI));
     }
 
     #[test]
     fn sinc_is_even_and_within_its_hull(t in finite()) {
         let value = sinc(t);
         prop_assert_eq!(value.to_bits(), sinc(-t).to_bits());
-        let most = if t == 0.0 { 1.0 } else { (1.0 / t.abs()).min(1.0) };
-        prop_assert!(value.abs() <= most * (1.0 + f64::EPSILON), "{}", value);
-        // Below 10⁻⁸ the next term of the series is below rounding.
+        let bound = if t == 0.0 { 1.0 } else { (1.0 / t.abs()).min(1.0) };
+        prop_assert!(value.abs() <= bound * (1.0 + f64::EPSILON), "{}", value);
+        // Below 10⁻⁸ the second term of the series is smaller than the rounding of the first.
         prop_assert!(t.abs() > 1e-8 || value == 1.0);
     }
 
@@ -53,9 +53,9 @@ proptest! {
     /// The law holds for any turn. Beyond half a turn the heading is rounded by 10⁻¹⁶ of the turn, and the arc changes as much.
     #[test]
     fn a_twist_and_its_reverse_cancel(twist in twists(f64::MAX)) {
-        let there = SE2::exp(&twist);
-        prop_assert!(there.x().is_finite() && there.y().is_finite());
-        assert_same_pose(&SE2::exp(&-twist), &there.inverse(), UNITS, twist.x.abs() + twist.y.abs())?;
+        let pose = SE2::exp(&twist);
+        prop_assert!(pose.x().is_finite() && pose.y().is_finite());
+        assert_same_pose(&SE2::exp(&-twist), &pose.inverse(), UNITS, twist.x.abs() + twist.y.abs())?;
     }
 
     #[test]
@@ -68,10 +68,10 @@ proptest! {
     /// Turns are on the principal branch. The last coordinate is returned exactly, whatever the others are.
     #[test]
     fn exponentials_lead_back(twist in twists(3.1)) {
-        let back = SE2::exp(&twist).log();
-        let room = UNITS * f64::EPSILON * (twist.x.abs() + twist.y.abs()) + f64::MIN_POSITIVE;
-        prop_assert_eq!(back.z, twist.z);
-        prop_assert!((back.x - twist.x).abs() <= room && (back.y - twist.y).abs() <= room, "{:?}", back);
+        let logarithm = SE2::exp(&twist).log();
+        let tolerance = UNITS * f64::EPSILON * (twist.x.abs() + twist.y.abs()) + f64::MIN_POSITIVE;
+        prop_assert_eq!(logarithm.z, twist.z);
+        prop_assert!((logarithm.x - twist.x).abs() <= tolerance && (logarithm.y - twist.y).abs() <= tolerance, "{:?}", logarithm);
     }
 
     #[test]
@@ -92,9 +92,9 @@ proptest! {
     #[test]
     fn the_adjoint_moves_a_twist_from_the_right_to_the_left(pose in poses(), twist in twists(PI)) {
         prop_assume!(extent(&pose) < 1e290);
-        let moved = pose.adjoint() * twist;
-        let sizes = extent(&pose) + twist.x.abs() + twist.y.abs() + moved.x.abs() + moved.y.abs();
-        assert_same_pose(&(pose * SE2::exp(&twist)), &(SE2::exp(&moved) * pose), UNITS, sizes)?;
+        let left_twist = pose.adjoint() * twist;
+        let sizes = extent(&pose) + twist.x.abs() + twist.y.abs() + left_twist.x.abs() + left_twist.y.abs();
+        assert_same_pose(&(pose * SE2::exp(&twist)), &(SE2::exp(&left_twist) * pose), UNITS, sizes)?;
     }
 
     /// The inverse Jacobian diverges at a full turn. This law is tested up to half a turn.
@@ -104,17 +104,17 @@ proptest! {
         let sizes = twist.x.abs() + twist.y.abs();
         assert_close(&(jacobian * inverse), &Matrix3::identity(), sizes)?;
         assert_close(&(inverse * jacobian), &Matrix3::identity(), sizes)?;
-        let half = sinc(0.5 * twist.z);
+        let half_sinc = sinc(0.5 * twist.z);
         let determinant = jacobian[(0, 0)] * jacobian[(1, 1)] - jacobian[(0, 1)] * jacobian[(1, 0)];
-        prop_assert!((determinant - half * half).abs() <= UNITS * f64::EPSILON);
+        prop_assert!((determinant - half_sinc * half_sinc).abs() <= UNITS * f64::EPSILON);
     }
 
     /// J_l = Ad(exp ξ)·J_r, and J_l(ξ) = J_r(−ξ): Solà et al., eq. 75 and 76. The adjoint has the wrapped heading, which is the turn only
     /// up to half a turn.
     #[test]
     fn left_jacobians_are_right_ones_of_the_reverse(twist in twists(PI)) {
-        let left = SE2::exp(&twist).adjoint() * SE2::right_jacobian(&twist);
-        assert_close(&left, &SE2::right_jacobian(&-twist), twist.x.abs() + twist.y.abs())?;
+        let left_jacobian = SE2::exp(&twist).adjoint() * SE2::right_jacobian(&twist);
+        assert_close(&left_jacobian, &SE2::right_jacobian(&-twist), twist.x.abs() + twist.y.abs())?;
     }
 }
 
@@ -123,8 +123,8 @@ fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, size: f64) -> Result<(), Tes
     for i in 0..3 {
         for j in 0..3 {
             let scale = if j == 2 { 1.0 + size } else { 1.0 };
-            let apart = (a[(i, j)] - b[(i, j)]).abs();
-            prop_assert!(apart <= UNITS * f64::EPSILON * scale, "{} {}: off by {:e}", a, b, apart);
+            let difference = (a[(i, j)] - b[(i, j)]).abs();
+            prop_assert!(difference <= UNITS * f64::EPSILON * scale, "{} {}: off by {:e}", a, b, difference);
         }
     }
     Ok(())

@@ -17,32 +17,32 @@ fn gaps() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(cases(250))]
 
-    /// The result does not depend on the layout of the file.
+    /// The image does not depend on white space and comments in the file, nor on its kind (plain or binary).
     #[test]
     fn pgm_headers_may_have_any_white_space_and_comments(
         (width, height) in (1..6usize, 1..6usize), greatest in 1..=65_535u32, seeds in vec(any::<u32>(), 36),
         gaps in vec(gaps(), 40), cut in any::<usize>(),
     ) {
         let values: Vec<u32> = seeds.into_iter().take(width * height).map(|seed| seed % (greatest + 1)).collect();
-        let mut plain = "P2".to_owned();
+        let mut plain_file = "P2".to_owned();
         for (number, gap) in [width as u32, height as u32, greatest].iter().chain(&values).zip(&gaps) {
-            plain.push_str(gap);
-            plain.push_str(&number.to_string());
+            plain_file.push_str(gap);
+            plain_file.push_str(&number.to_string());
         }
-        let mut binary = format!("P5{}{width}{}{height}{}{greatest}\n", gaps[0], gaps[1], gaps[2]).into_bytes();
+        let mut binary_file = format!("P5{}{width}{}{height}{}{greatest}\n", gaps[0], gaps[1], gaps[2]).into_bytes();
         for value in &values {
             let bytes = value.to_be_bytes();
-            binary.extend(if greatest < 256 { &bytes[3..] } else { &bytes[2..] });
+            binary_file.extend(if greatest < 256 { &bytes[3..] } else { &bytes[2..] });
         }
-        let image = read_pgm(plain.as_bytes()).expect("a plain file");
-        prop_assert!(image.pixels.clone().eq(read_pgm(&binary).expect("a binary file").pixels));
+        let image = read_pgm(plain_file.as_bytes()).expect("a plain file");
+        prop_assert!(image.pixels.clone().eq(read_pgm(&binary_file).expect("a binary file").pixels));
         prop_assert_eq!((image.width, image.height), (width, height));
         for (pixel, value) in image.pixels.zip(&values) {
             prop_assert_eq!(Pixel::from(pixel).shade, *value as f32 / greatest as f32);
         }
         // A truncated binary file is refused; a plain one too, unless the cut is in or after its last number.
-        prop_assert!(read_pgm(&binary[..cut % binary.len()]).is_err());
-        let last = plain.trim_end_matches(|c: char| c.is_ascii_digit()).len();
-        prop_assert!(read_pgm(&plain.as_bytes()[..cut % (last + 1)]).is_err());
+        prop_assert!(read_pgm(&binary_file[..cut % binary_file.len()]).is_err());
+        let last_number = plain_file.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+        prop_assert!(read_pgm(&plain_file.as_bytes()[..cut % (last_number + 1)]).is_err());
     }
 }

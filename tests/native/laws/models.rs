@@ -10,31 +10,31 @@ use motion::{
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-fn kinds() -> impl Strategy<Value = NoiseKind> {
+fn noise_kinds() -> impl Strategy<Value = NoiseKind> {
     prop_oneof![Just(NoiseKind::Normal), Just(NoiseKind::Triangular)]
 }
 
 /// Returns numbers in the range of a setting, including its ends.
-fn within(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
+fn in_range(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
     let [low, high] = [*range.start(), *range.end()];
     up_to(high).prop_map(move |number| if low >= 0.0 { number.abs().max(low) } else { number })
 }
 
 fn alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
-    proptest::collection::vec(prop_oneof![3 => 0.0..1.0, 2 => within(ALPHA_RANGE), 1 => Just(0.0)], N)
+    proptest::collection::vec(prop_oneof![3 => 0.0..1.0, 2 => in_range(ALPHA_RANGE), 1 => Just(0.0)], N)
         .prop_map(|alphas| std::array::from_fn(|i| alphas[i]))
 }
 
 /// Returns commands in the range of the settings.
 fn commands() -> impl Strategy<Value = VelocityCmd> {
-    (up_to(1e6), up_to(1e6), within(DURATION_RANGE)).prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
+    (up_to(1e6), up_to(1e6), in_range(DURATION_RANGE)).prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
 }
 
-fn places() -> impl Strategy<Value = SE2> {
+fn start_poses() -> impl Strategy<Value = SE2> {
     (up_to(1e18), up_to(1e18), up_to(PI)).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
-fn deltas() -> impl Strategy<Value = OdomDelta> {
+fn readings() -> impl Strategy<Value = OdomDelta> {
     (up_to(PI), up_to(1e12), up_to(PI)).prop_map(|(rot1, trans, rot2)| OdomDelta {
         rot1,
         trans: trans.abs(),
@@ -42,7 +42,7 @@ fn deltas() -> impl Strategy<Value = OdomDelta> {
     })
 }
 
-/// Returns possible values of a draw, odd multiples of 2⁻⁵⁴, and often the outermost and innermost ones.
+/// Returns possible values of a uniform draw: odd multiples of 2⁻⁵⁴. The smallest and largest absolute values are frequent.
 fn uniforms() -> impl Strategy<Value = f64> {
     let scale = 1.0 / (1u64 << 53) as f64;
     prop_oneof![
@@ -52,26 +52,26 @@ fn uniforms() -> impl Strategy<Value = f64> {
         -64i64..64,
         (0u32..53, any::<i64>()).prop_map(|(shift, bits)| bits >> 11 >> shift),
     ]
-    .prop_map(move |whole| (whole as f64 + 0.5) * scale)
+    .prop_map(move |mantissa| (mantissa as f64 + 0.5) * scale)
 }
 
 proptest! {
     #![proptest_config(cases(400))]
 
     #[test]
-    fn quantiles_are_odd_and_finite_and_rise(kind in kinds(), a in uniforms(), b in uniforms()) {
-        let of = |q: f64| kind.quantile(q);
-        prop_assert_eq!(of(-a).to_bits(), (-of(a)).to_bits());
-        let edge = if kind == NoiseKind::Normal { 8.5 } else { 6f64.sqrt() };
-        prop_assert!(of(a).abs() <= edge && (of(a) > 0.0) == (a > 0.0), "{}", of(a));
-        // Neighbouring quantiles may be in the wrong order by the error of the approximation.
-        let [low, high] = [a.min(b), a.max(b)].map(of);
+    fn quantiles_are_odd_and_finite_and_rise(kind in noise_kinds(), a in uniforms(), b in uniforms()) {
+        let quantile = |q: f64| kind.quantile(q);
+        prop_assert_eq!(quantile(-a).to_bits(), (-quantile(a)).to_bits());
+        let limit = if kind == NoiseKind::Normal { 8.5 } else { 6f64.sqrt() };
+        prop_assert!(quantile(a).abs() <= limit && (quantile(a) > 0.0) == (a > 0.0), "{}", quantile(a));
+        // The quantile function is an approximation. Its error may reverse the order of neighbouring quantiles.
+        let [low, high] = [a.min(b), a.max(b)].map(quantile);
         prop_assert!(low <= high + 2e-15 * high.abs(), "{} {}", low, high);
     }
 
     /// Residuals are arbitrary. Variances do not overflow when multiplied by six.
     #[test]
-    fn densities_are_numbers(kind in kinds(), a in finite(), b2 in up_to(1e307)) {
+    fn densities_are_numbers(kind in noise_kinds(), a in finite(), b2 in up_to(1e307)) {
         let b2 = b2.abs();
         let (density, peak) = (kind.prob(a, Variance(b2)), kind.prob(0.0, Variance(b2)));
         prop_assert!(density >= 0.0 && density <= peak, "{} {}", density, peak);
@@ -86,17 +86,17 @@ proptest! {
 
     #[test]
     fn velocity_likelihoods_are_numbers(
-        kind in kinds(), alphas in alphas(), u in commands(), x in places(), next in places(),
+        kind in noise_kinds(), alphas in alphas(), u in commands(), x in start_poses(), next in start_poses(),
     ) {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
         assert_likelihoods_are_numbers(&model, &u, &x, &next)?;
-        let none = model.variances(&u).iter().any(|variance| variance.0 == 0.0);
-        prop_assert_eq!(model.pose_density(&next, &u, &x).is_none(), none);
+        let has_zero_variance = model.variances(&u).iter().any(|variance| variance.0 == 0.0);
+        prop_assert_eq!(model.pose_density(&next, &u, &x).is_none(), has_zero_variance);
     }
 
     #[test]
     fn odometry_likelihoods_are_numbers(
-        kind in kinds(), alphas in alphas(), u in deltas(), x in places(), next in places(), aware in any::<bool>(),
+        kind in noise_kinds(), alphas in alphas(), u in readings(), x in start_poses(), next in start_poses(), aware in any::<bool>(),
     ) {
         let model = OdometryModel { alphas: OdomAlphas(alphas), noise: kind };
         if aware {
@@ -107,11 +107,11 @@ proptest! {
     }
 
     #[test]
-    fn exponential_likelihoods_are_numbers(alphas in alphas(), u in commands(), x in places(), next in places()) {
+    fn exponential_likelihoods_are_numbers(alphas in alphas(), u in commands(), x in start_poses(), next in start_poses()) {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let tangent = TangentNoiseModel::from_velocity(&model, &u).expect("variances of settings");
-        let logarithm = tangent.log_prob(&next, &u, &x);
-        prop_assert!(!logarithm.is_nan(), "{}", logarithm);
+        let log_prob = tangent.log_prob(&next, &u, &x);
+        prop_assert!(!log_prob.is_nan(), "{}", log_prob);
     }
 }
 

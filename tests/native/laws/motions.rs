@@ -1,4 +1,4 @@
-//! Arcs, and motions of rotation, translation and rotation: computed from two poses, and executed again.
+//! Arcs, and motions of rotation, translation and rotation: computed from two poses, and then executed.
 
 use super::doubles::{assert_same_pose, cases, extent, poses, up_to};
 use motion::geom::arc::{Arc, arc_near, chord, invert_arc};
@@ -7,7 +7,7 @@ use motion::models::OdomDelta;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// Tolerance in units in the last place. Every map here composes up to eight others, each right to a few units.
+/// Tolerance in units in the last place. Each map tested here composes up to eight maps with errors of a few units.
 const UNITS: f64 = 64.0;
 
 fn durations() -> impl Strategy<Value = f64> {
@@ -20,29 +20,29 @@ proptest! {
     /// For any two poses, the inverted controls lead from one to the other.
     #[test]
     fn an_inverted_arc_ends_at_the_given_pose(x in poses(), next in poses(), dt in durations()) {
-        let found = invert_arc(&x, &next, dt);
-        let [length, turn, last] = [found.v_hat, found.omega_hat, found.gamma_hat].map(|rate| rate * dt);
-        let half = PI * (1.0 + 2.0 * f64::EPSILON);
-        prop_assert!(turn.abs() <= half && last.abs() <= half, "{:?}", found);
+        let inverted = invert_arc(&x, &next, dt);
+        let [length, turn, last_turn] = [inverted.v_hat, inverted.omega_hat, inverted.gamma_hat].map(|rate| rate * dt);
+        let half_turn = PI * (1.0 + 2.0 * f64::EPSILON);
+        prop_assert!(turn.abs() <= half_turn && last_turn.abs() <= half_turn, "{:?}", inverted);
         let (forward, left) = chord(length, turn);
-        let reached = x * SE2::new(forward, left, turn + last);
-        assert_same_pose(&reached, &next, UNITS, extent(&x) + extent(&next))?;
+        let end = x * SE2::new(forward, left, turn + last_turn);
+        assert_same_pose(&end, &next, UNITS, extent(&x) + extent(&next))?;
     }
 
     /// The start is the origin, whose coordinates add no rounding. Half a turn is driven forward or in reverse,
     /// depending on rounding.
     #[test]
-    fn inverting_a_driven_arc_returns_its_controls(length in up_to(1e300), turn in up_to(3.1), last in up_to(3.1), dt in durations()) {
+    fn inverting_a_driven_arc_returns_its_controls(length in up_to(1e300), turn in up_to(3.1), last_turn in up_to(3.1), dt in durations()) {
         let (forward, left) = chord(length, turn);
         // The bearing of a shorter chord is inaccurate.
         prop_assume!(forward.hypot(left) > 1e-290 && forward.hypot(left) < 1e290);
-        let found = invert_arc(&SE2::identity(), &SE2::new(forward, left, turn + last), dt);
+        let inverted = invert_arc(&SE2::identity(), &SE2::new(forward, left, turn + last_turn), dt);
         let rounding = UNITS * f64::EPSILON;
-        prop_assert!((found.v_hat * dt - length).abs() <= rounding * length.abs(), "{:?}", found);
-        // A smaller turn is lost in the rounding of the chord.
-        let sideways = f64::MIN_POSITIVE * (1.0 + 1.0 / forward.hypot(left));
-        prop_assert!((found.omega_hat * dt - turn).abs() <= rounding * turn.abs() + sideways, "{:?}", found);
-        prop_assert!((found.gamma_hat * dt - last).abs() <= rounding * PI, "{:?}", found);
+        prop_assert!((inverted.v_hat * dt - length).abs() <= rounding * length.abs(), "{:?}", inverted);
+        // Turns below this tolerance are lost in the rounding of the chord.
+        let chord_rounding = f64::MIN_POSITIVE * (1.0 + 1.0 / forward.hypot(left));
+        prop_assert!((inverted.omega_hat * dt - turn).abs() <= rounding * turn.abs() + chord_rounding, "{:?}", inverted);
+        prop_assert!((inverted.gamma_hat * dt - last_turn).abs() <= rounding * PI, "{:?}", inverted);
     }
 
     /// With any number of additional full turns the arc ends at the same place.
@@ -55,8 +55,8 @@ proptest! {
         prop_assume!(length.abs() < 1e6);
         prop_assert!(turn == 0.0 || (turn - near).abs() <= PI * (1.0 + 1e-12), "{}", turn);
         let end = Arc { start: SE2::identity(), length, turn }.end();
-        let apart = (end.x() - x).hypot(end.y() - y);
-        prop_assert!(apart <= UNITS * f64::EPSILON * (length.abs() + extent(&next)), "{:e}", apart);
+        let distance = (end.x() - x).hypot(end.y() - y);
+        prop_assert!(distance <= UNITS * f64::EPSILON * (length.abs() + extent(&next)), "{:e}", distance);
     }
 
     /// A displacement below a nanometre counts as 0 in an odometry reading.
@@ -64,9 +64,9 @@ proptest! {
     fn an_odometry_reading_leads_to_the_second_pose(prev in poses(), curr in poses()) {
         let reading = OdomDelta::from_poses(&prev, &curr);
         prop_assert!(reading.trans >= 0.0 && [reading.rot1, reading.rot2].iter().all(|turn| -PI < *turn && *turn <= PI));
-        let sizes = extent(&prev) + extent(&curr);
-        let spin = 1e-9 / (UNITS * f64::EPSILON);
-        assert_same_pose(&reading.apply(&prev), &curr, UNITS, sizes + if reading.trans == 0.0 { spin } else { 0.0 })?;
+        let size = extent(&prev) + extent(&curr);
+        let displacement_tolerance = 1e-9 / (UNITS * f64::EPSILON);
+        assert_same_pose(&reading.apply(&prev), &curr, UNITS, size + if reading.trans == 0.0 { displacement_tolerance } else { 0.0 })?;
     }
 
     /// The reading depends on the relative pose only: it is the same if both poses are moved and turned with their
@@ -75,12 +75,12 @@ proptest! {
     fn an_odometry_reading_does_not_depend_on_the_frame(x in -1e3..1e3, y in -1e3..1e3, theta in -3.0..3.0, frame in (-1e3..1e3, -1e3..1e3, -3.0..3.0)) {
         let (prev, curr) = (SE2::new(1.0, 2.0, 0.5), SE2::new(x, y, theta));
         let frame = SE2::new(frame.0, frame.1, frame.2);
-        let (here, there) = (OdomDelta::from_poses(&prev, &curr), OdomDelta::from_poses(&(frame * prev), &(frame * curr)));
+        let (reading, moved_reading) = (OdomDelta::from_poses(&prev, &curr), OdomDelta::from_poses(&(frame * prev), &(frame * curr)));
         // The bearing of a displacement that is small relative to the coordinates loses digits.
-        prop_assume!(here.trans > 1.0);
+        prop_assume!(reading.trans > 1.0);
         let rounding = UNITS * f64::EPSILON * 1e4;
-        prop_assert!((here.trans - there.trans).abs() <= rounding);
-        for (a, b) in [(here.rot1, there.rot1), (here.rot2, there.rot2)] {
+        prop_assert!((reading.trans - moved_reading.trans).abs() <= rounding);
+        for (a, b) in [(reading.rot1, moved_reading.rot1), (reading.rot2, moved_reading.rot2)] {
             prop_assert!(libm::remainder(a - b, 2.0 * PI).abs() <= rounding, "{} {}", a, b);
         }
     }

@@ -13,12 +13,12 @@ use std::f64::consts::PI;
 /// Relative error of sums of fifty terms, each exact to a few units in the last place.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
-/// Returns robots around a place with headings within a quarter turn, so that the mean heading is well defined.
+/// Returns robots around a pose, with headings that differ by less than a quarter turn. Their mean heading is therefore well defined.
 fn clouds() -> impl Strategy<Value = Vec<SE2>> {
     let robot = (-1.0..1.0, -1.0..1.0, -1.5..1.5);
     (vec(robot, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(|(robots, (x, y, theta))| {
-        let place = SE2::new(x, y, theta);
-        robots.into_iter().map(|(x, y, theta)| place * SE2::new(x, y, theta)).collect()
+        let centre = SE2::new(x, y, theta);
+        robots.into_iter().map(|(x, y, theta)| centre * SE2::new(x, y, theta)).collect()
     })
 }
 
@@ -47,13 +47,13 @@ proptest! {
     /// In another frame the cloud has the transformed mean and the same covariance, rotated.
     #[test]
     fn moments_transform_with_the_frame(cloud in clouds(), frame in frames()) {
-        let moved: Vec<SE2> = cloud.iter().map(|pose| frame * *pose).collect();
-        let [here, there] = [&cloud, &moved].map(|cloud| CartesianMoments::from_poses(cloud));
-        let mean = frame * SE2::new(here.mean.x, here.mean.y, here.mean.z);
-        let turned = SE2::new(0.0, 0.0, frame.theta()).adjoint();
-        let cov = turned * here.cov * turned.transpose();
-        assert_same_moments((&Vector3::new(mean.x(), mean.y(), mean.theta()), &cov), (&there.mean, &there.cov))?;
-        let [a, b] = [(&cloud, SE2::identity()), (&moved, frame)].map(|(cloud, start)| ExponentialMoments::from_poses(cloud, &start));
+        let moved_cloud: Vec<SE2> = cloud.iter().map(|pose| frame * *pose).collect();
+        let [moments, moved_moments] = [&cloud, &moved_cloud].map(|cloud| CartesianMoments::from_poses(cloud));
+        let mean = frame * SE2::new(moments.mean.x, moments.mean.y, moments.mean.z);
+        let rotation = SE2::new(0.0, 0.0, frame.theta()).adjoint();
+        let cov = rotation * moments.cov * rotation.transpose();
+        assert_same_moments((&Vector3::new(mean.x(), mean.y(), mean.theta()), &cov), (&moved_moments.mean, &moved_moments.cov))?;
+        let [a, b] = [(&cloud, SE2::identity()), (&moved_cloud, frame)].map(|(cloud, start)| ExponentialMoments::from_poses(cloud, &start));
         // Near a full turn coordinates diverge, and near half a turn the mean heading is ambiguous.
         if cloud.iter().all(|pose| pose.theta().abs() < 2.0) {
             assert_same_moments((&a.mean, &a.cov), (&b.mean, &b.cov))?;
@@ -96,25 +96,25 @@ proptest! {
         let outline = ellipse.boundary(32);
         prop_assert_eq!(outline.first(), outline.last());
         for point in outline {
-            let at = |share: f64| (centre + (Vector2::from(point) - centre) * share).into();
-            prop_assert!(ellipse.contains(at(1.0 - 1e-9)) && !ellipse.contains(at(1.0 + 1e-9)), "{:?}", point);
+            let scaled_point = |share: f64| (centre + (Vector2::from(point) - centre) * share).into();
+            prop_assert!(ellipse.contains(scaled_point(1.0 - 1e-9)) && !ellipse.contains(scaled_point(1.0 + 1e-9)), "{:?}", point);
         }
     }
 
     #[test]
-    fn matrices_that_are_no_covariances_are_refused(cov in covariances(), at in (0..3usize, 0..3usize), number in any_double(), less in 0.01..1.0) {
+    fn matrices_that_are_no_covariances_are_refused(cov in covariances(), scaled_point in (0..3usize, 0..3usize), number in any_double(), less in 0.01..1.0) {
         let mut changed = cov;
-        changed[at] = number;
+        changed[scaled_point] = number;
         match TangentNoiseModel::new(changed) {
             Ok(model) => prop_assert_eq!(model.r, changed),
             Err(error) => prop_assert_eq!(error == TangentNoiseError::NotFinite, !number.is_finite()),
         }
-        let lowered = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + less);
-        prop_assert_eq!(TangentNoiseModel::new(lowered), Err(TangentNoiseError::NotPositiveSemidefinite));
-        if at.0 != at.1 {
-            let mut lopsided = cov;
-            lopsided[at] += less * (1.0 + cov.amax());
-            prop_assert_eq!(TangentNoiseModel::new(lopsided), Err(TangentNoiseError::NotSymmetric));
+        let with_negative_eigenvalue = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + less);
+        prop_assert_eq!(TangentNoiseModel::new(with_negative_eigenvalue), Err(TangentNoiseError::NotPositiveSemidefinite));
+        if scaled_point.0 != scaled_point.1 {
+            let mut asymmetric = cov;
+            asymmetric[scaled_point] += less * (1.0 + cov.amax());
+            prop_assert_eq!(TangentNoiseModel::new(asymmetric), Err(TangentNoiseError::NotSymmetric));
         }
     }
 }
@@ -124,10 +124,10 @@ fn assert_same_moments(
     (mean, cov): (&Vector3<f64>, &Matrix3<f64>),
     (other, other_cov): (&Vector3<f64>, &Matrix3<f64>),
 ) -> Result<(), TestCaseError> {
-    let (reach, turn) = (MAX_DISTANCE, libm::remainder(mean.z - other.z, 2.0 * PI));
-    prop_assert!(is_close(mean.x, other.x, reach) && is_close(mean.y, other.y, reach), "{} {}", mean, other);
-    prop_assert!(is_close(turn, 0.0, reach), "{} {}", mean, other);
-    let all = cov.iter().zip(other_cov.iter()).all(|(a, b)| is_close(*a, *b, reach * reach));
-    prop_assert!(all, "{} {}", cov, other_cov);
+    let (size, turn) = (MAX_DISTANCE, libm::remainder(mean.z - other.z, 2.0 * PI));
+    prop_assert!(is_close(mean.x, other.x, size) && is_close(mean.y, other.y, size), "{} {}", mean, other);
+    prop_assert!(is_close(turn, 0.0, size), "{} {}", mean, other);
+    let are_close = cov.iter().zip(other_cov.iter()).all(|(a, b)| is_close(*a, *b, size * size));
+    prop_assert!(are_close, "{} {}", cov, other_cov);
     Ok(())
 }

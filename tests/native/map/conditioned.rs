@@ -17,7 +17,7 @@ fn model() -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas_of_noise(0.12)), noise: NoiseKind::Normal }
 }
 
-fn conditioned(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
+fn conditioned_model(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
     MapConditioned { model: model(), plan, clearance: 0.13, sampler }
 }
 
@@ -33,9 +33,9 @@ fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
 // -------------------------------------------------------------------------------------- the chapter's figures
 
 /// Asserts that a fraction equals a published one. Both come from 60 000 draws, and the published one is rounded.
-fn assert_share(name: &str, part: usize, whole: usize, published: f64) {
-    let share = part as f64 / whole as f64;
-    let error = (2.0 * published * (1.0 - published) / whole as f64).sqrt();
+fn assert_share(name: &str, accepted: usize, all: usize, published: f64) {
+    let share = accepted as f64 / all as f64;
+    let error = (2.0 * published * (1.0 - published) / all as f64).sqrt();
     assert!(
         (share - published).abs() < MAX_STANDARD_ERRORS * error + 0.0005,
         "{name}: {share} instead of {published}"
@@ -46,7 +46,7 @@ fn assert_share(name: &str, part: usize, whole: usize, published: f64) {
 fn the_published_shares() {
     const DRAWS: usize = 60_000;
     let plan = FloorPlan::apartment();
-    let endpoint = conditioned(&plan, Sampler::Endpoint);
+    let endpoint = conditioned_model(&plan, Sampler::Endpoint);
     for (name, omega, acceptance, through_wall) in [
         ("doorway", 0.0, 0.849, 0.348),
         ("wall", 0.0, 0.832, 0.867),
@@ -65,24 +65,24 @@ fn the_published_shares() {
     }
 }
 
-/// The path tested is the arc of (v̂, ω̂). γ̂ turns the robot afterwards, and does not move it.
+/// The tested path is the arc of (v̂, ω̂). The last turn γ̂ does not change the position.
 #[test]
 fn the_last_turn_is_not_part_of_the_path() {
     let plan = FloorPlan::apartment();
-    let endpoint = conditioned(&plan, Sampler::Endpoint);
+    let endpoint = conditioned_model(&plan, Sampler::Endpoint);
     let (command, start) = (VelocityCmd { omega: 0.4, ..AHEAD }, preset("doorway"));
     let mut rng = seeded(7);
     for _ in 0..1000 {
         let [v, omega, gamma] = unit_noise(&mut rng);
         let draw = endpoint.draw_tester(&command, &start).judge([v, omega, gamma]);
-        let unturned = endpoint.draw_tester(&command, &start).judge([v, omega, 0.0]);
-        assert_eq!((draw.arc, draw.end, draw.path), (unturned.arc, unturned.end, unturned.path));
+        let straight = endpoint.draw_tester(&command, &start).judge([v, omega, 0.0]);
+        assert_eq!((draw.arc, draw.end, draw.path), (straight.arc, straight.end, straight.path));
         let executed = model().executed(&command, [v, omega, gamma]);
         assert!((draw.arc.length - 2.0 * executed.v_hat).abs() < 1e-15);
         assert!((draw.arc.turn - 2.0 * executed.omega_hat).abs() < 1e-15);
         let pose = model().apply_noise(&command, &start, [v, omega, gamma]);
         assert!(crate::common::pose_distance(&draw.pose, &pose) < 1e-14);
-        assert_ne!(draw.pose.theta(), unturned.pose.theta());
+        assert_ne!(draw.pose.theta(), straight.pose.theta());
     }
 }
 
@@ -96,15 +96,15 @@ fn samples_are_those_of_table_5_7() {
     let command = VelocityCmd { omega: 0.2, ..AHEAD };
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         for (name, _) in PRESETS {
-            let (start, sampler) = (preset(name), conditioned(&plan, sampler));
-            let (mut rng, mut by_hand) = (seeded(9), seeded(9));
+            let (start, sampler) = (preset(name), conditioned_model(&plan, sampler));
+            let (mut rng, mut expected_rng) = (seeded(9), seeded(9));
             for _ in 0..1000 {
                 let accepted = sampler.sample(&command, &start, &mut rng).expect("it fits");
                 let mut draws = 0;
                 let pose = loop {
-                    let mut luck = by_hand.clone();
-                    let pose = model().sample(&command, &start, &mut by_hand);
-                    let executed = model().executed(&command, unit_noise(&mut luck));
+                    let mut noise_rng = expected_rng.clone();
+                    let pose = model().sample(&command, &start, &mut expected_rng);
+                    let executed = model().executed(&command, unit_noise(&mut noise_rng));
                     let arc = Arc { start, length: 2.0 * executed.v_hat, turn: 2.0 * executed.omega_hat };
                     draws += 1;
                     let end = plan.point_free([pose.x(), pose.y()], 0.13).free;
@@ -133,18 +133,18 @@ fn a_wedged_robot_is_an_error_that_counts_its_draws() {
     let plan = too_small_room();
     let start = SE2::new(2.1, 2.1, 0.0);
     for sampler in SAMPLERS {
-        let wedged =
-            conditioned(&plan, sampler).sample(&AHEAD, &start, &mut seeded(12)).expect_err("no room");
-        assert_eq!(wedged.0.draws, MAX_DRAWS);
-        assert_eq!(wedged.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
+        let error =
+            conditioned_model(&plan, sampler).sample(&AHEAD, &start, &mut seeded(12)).expect_err("no room");
+        assert_eq!(error.0.draws, MAX_DRAWS);
+        assert_eq!(error.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
     }
-    // The first of two parts leads into a dead end, and all draws count. The drive is 1 m ± 1 mm, between two distant
+    // The first part of the motion, 1 m ± 1 mm, is free and leads to a wall, which blocks the second part. All draws count.
     // walls.
     let dead_end = FloorPlan::new(vec![Segment { from: [1.5, 0.0], to: [1.5, 2.0] }], [0.0, 0.0, 2.0, 2.0])
         .expect("a valid plan");
-    let exact =
+    let precise =
         VelocityModel { alphas: VelocityAlphas([1e-6, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
-    let sampler = MapConditioned { model: exact, ..conditioned(&dead_end, Sampler::SubStepped(2)) };
-    let wedged = sampler.sample(&AHEAD, &SE2::new(0.3, 1.0, 0.0), &mut seeded(13)).expect_err("a dead end");
-    assert_eq!(wedged.0.draws, MAX_DRAWS + 1);
+    let sampler = MapConditioned { model: precise, ..conditioned_model(&dead_end, Sampler::SubStepped(2)) };
+    let error = sampler.sample(&AHEAD, &SE2::new(0.3, 1.0, 0.0), &mut seeded(13)).expect_err("a dead end");
+    assert_eq!(error.0.draws, MAX_DRAWS + 1);
 }

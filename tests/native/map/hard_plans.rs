@@ -15,65 +15,65 @@ fn wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
     Segment { from: [x0, y0], to: [x1, y1] }
 }
 
-/// Returns names and walls of plans with many walls in one place, on one line, through one point, around one, and nearly the same.
+/// Returns names and walls of plans with many walls in one place, on one line, through one point, around one point, or nearly equal.
 fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     let mut rng = seeded(9800);
-    let walls =
+    let make_walls =
         |make: &mut dyn FnMut(f64) -> Segment| (0..count).map(|i| make(i as f64 / count as f64)).collect();
-    let parallel = |width: f64| move |s: f64| wall(width * s, 0.0, 10.0, 10.0 - width * s);
+    let diagonal = |width: f64| move |s: f64| wall(width * s, 0.0, 10.0, 10.0 - width * s);
     let ray = |s: f64, reach: f64| {
         let (sin, cos) = (TAU * s).sin_cos();
         wall(5.0, 5.0, 5.0 + reach * cos, 5.0 + reach * sin)
     };
-    let mut anywhere = move || uniform(&mut rng, 0.0, 10.0);
+    let mut random = move || uniform(&mut rng, 0.0, 10.0);
     vec![
-        ("equal diagonals", walls(&mut parallel(0.0))),
-        ("nearly equal diagonals", walls(&mut parallel(1e-9))),
-        ("diagonals close together", walls(&mut parallel(0.1))),
+        ("equal diagonals", make_walls(&mut diagonal(0.0))),
+        ("nearly equal diagonals", make_walls(&mut diagonal(1e-9))),
+        ("diagonals close together", make_walls(&mut diagonal(0.1))),
         ("equal but for their direction", {
-            let mut forward = false;
-            walls(&mut |_| {
-                forward = !forward;
-                if forward { wall(1.0, 2.0, 9.0, 7.0) } else { wall(9.0, 7.0, 1.0, 2.0) }
+            let mut is_forward = false;
+            make_walls(&mut |_| {
+                is_forward = !is_forward;
+                if is_forward { wall(1.0, 2.0, 9.0, 7.0) } else { wall(9.0, 7.0, 1.0, 2.0) }
             })
         }),
         (
             "covered by a longer one",
-            walls(&mut |s| wall(5.0 - 4.0 * s, 5.0 - 3.0 * s, 5.0 + 4.0 * s, 5.0 + 3.0 * s)),
+            make_walls(&mut |s| wall(5.0 - 4.0 * s, 5.0 - 3.0 * s, 5.0 + 4.0 * s, 5.0 + 3.0 * s)),
         ),
-        ("overlapping", walls(&mut |s| wall(6.0 * s, 3.0, 6.0 * s + 4.0, 3.0))),
-        ("dots on a line", walls(&mut |s| wall(10.0 * s, 5.0, 10.0 * s, 5.0))),
-        ("a star", walls(&mut |s| ray(s, 5.0))),
-        ("all in one cell", walls(&mut |s| ray(s, 1e-3))),
+        ("overlapping", make_walls(&mut |s| wall(6.0 * s, 3.0, 6.0 * s + 4.0, 3.0))),
+        ("dots on a line", make_walls(&mut |s| wall(10.0 * s, 5.0, 10.0 * s, 5.0))),
+        ("a star", make_walls(&mut |s| ray(s, 5.0))),
+        ("all in one cell", make_walls(&mut |s| ray(s, 1e-3))),
         (
             "tangents to a circle",
-            walls(&mut |s| {
+            make_walls(&mut |s| {
                 let (sin, cos) = (TAU * s).sin_cos();
-                let at = |t: f64| [5.0 + 0.5 * cos - t * sin, 5.0 + 0.5 * sin + t * cos];
-                let ([x0, y0], [x1, y1]) = (at(-3.0), at(3.0));
+                let point_at = |t: f64| [5.0 + 0.5 * cos - t * sin, 5.0 + 0.5 * sin + t * cos];
+                let ([x0, y0], [x1, y1]) = (point_at(-3.0), point_at(3.0));
                 wall(x0, y0, x1, y1)
             }),
         ),
-        ("long ones anywhere", walls(&mut |_| wall(anywhere(), anywhere(), anywhere(), anywhere()))),
+        ("long ones anywhere", make_walls(&mut |_| wall(random(), random(), random(), random()))),
         ("a mesh", {
-            let mut level = false;
-            walls(&mut |s| {
-                level = !level;
-                if level { wall(0.0, 10.0 * s, 10.0, 10.0 * s) } else { wall(10.0 * s, 0.0, 10.0 * s, 10.0) }
+            let mut across = false;
+            make_walls(&mut |s| {
+                across = !across;
+                if across { wall(0.0, 10.0 * s, 10.0, 10.0 * s) } else { wall(10.0 * s, 0.0, 10.0 * s, 10.0) }
             })
         }),
     ]
 }
 
 fn some_arc(rng: &mut impl Rng) -> Arc {
-    let middle = rng.next_u32().is_multiple_of(2);
+    let is_central = rng.next_u32().is_multiple_of(2);
     let [x, y] =
-        std::array::from_fn(|_| if middle { uniform(rng, 4.9, 5.1) } else { uniform(rng, 2.0, 8.0) });
+        std::array::from_fn(|_| if is_central { uniform(rng, 4.9, 5.1) } else { uniform(rng, 2.0, 8.0) });
     let length = [0.001, 0.3, 2.0][(rng.next_u32() % 3) as usize];
     Arc { start: SE2::new(x, y, uniform(rng, -PI, PI)), length, turn: uniform(rng, -1.0, 1.0) }
 }
 
-/// Largest mean number of walls whose distance is measured for an arc: one in two hundred of all walls.
+/// Limit of the mean number of walls whose distance is measured for an arc: 1/200 of all walls.
 const MAX_MEAN_WALL_TESTS: usize = FloorPlan::MAX_WALLS / 200;
 
 #[test]

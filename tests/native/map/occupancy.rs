@@ -45,18 +45,18 @@ impl Cells {
         [x + u * yaw.cos() - v * yaw.sin(), y + u * yaw.sin() + v * yaw.cos()]
     }
 
-    /// Returns the distance to the nearest occupied cell, each measured as a square; 0 inside of one.
+    /// Returns the distance to the nearest occupied cell, as a square; 0 inside of a cell.
     fn distance(&self, [x, y]: [f64; 2]) -> f64 {
         let ([x0, y0, yaw], size) = (self.origin, self.resolution);
         let u = (x - x0) * yaw.cos() + (y - y0) * yaw.sin();
         let v = (y - y0) * yaw.cos() - (x - x0) * yaw.sin();
-        let outside = |at: f64, cell: usize| {
+        let beyond = |at: f64, cell: usize| {
             let low = cell as f64 * size;
             (low - at).max(at - low - size).max(0.0)
         };
         let occupied = (0..self.occupied.len()).filter(|i| self.occupied[*i]);
         occupied
-            .map(|i| outside(u, i % self.width).hypot(outside(v, self.height - 1 - i / self.width)))
+            .map(|i| beyond(u, i % self.width).hypot(beyond(v, self.height - 1 - i / self.width)))
             .fold(f64::INFINITY, f64::min)
     }
 }
@@ -67,7 +67,7 @@ impl Cells {
 #[test]
 fn the_walls_are_as_far_as_the_cells() {
     let mut rng = seeded(9900);
-    let (mut inside, mut outside) = (0, 0);
+    let (mut points_inside, mut points_outside) = (0, 0);
     for _ in 0..100 {
         let cells = Cells::random(&mut rng);
         let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
@@ -83,7 +83,7 @@ fn the_walls_are_as_far_as_the_cells() {
                     cells.grid().is_blocked_at(point) && !plan.point_free(point, 0.0).free,
                     "inside a cell"
                 );
-                inside += 1;
+                points_inside += 1;
                 continue;
             }
             let nearest =
@@ -94,17 +94,17 @@ fn the_walls_are_as_far_as_the_cells() {
             if (clearance - distance).abs() > 1e-12 {
                 assert_eq!(plan.point_free(point, clearance).free, distance > clearance);
             }
-            outside += 1;
+            points_outside += 1;
         }
     }
-    assert!(inside > 1000 && outside > 1000, "{inside} {outside}");
+    assert!(points_inside > 1000 && points_outside > 1000, "{points_inside} {points_outside}");
 }
 
 /// Neighbouring sides of cells form one wall. Between two occupied cells there is no wall, and walls meet at corners.
 #[test]
 fn outlines_are_joined() {
-    let picture = ["##.", "#..", "..#"];
-    let occupied = picture.iter().flat_map(|row| row.chars().map(|cell| cell == '#')).collect();
+    let rows = ["##.", "#..", "..#"];
+    let occupied = rows.iter().flat_map(|row| row.chars().map(|cell| cell == '#')).collect();
     let cells = Cells { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
     let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
     let mut walls: Vec<[f64; 4]> =
@@ -124,8 +124,8 @@ fn outlines_are_joined() {
     ];
     assert_eq!(walls, expected);
     assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
-    let turned = Cells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
-    let bounds = FloorPlan::from_grid(turned.grid()).expect("a small grid").bounds();
+    let rotated = Cells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
+    let bounds = FloorPlan::from_grid(rotated.grid()).expect("a small grid").bounds();
     for (bound, expected) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
         assert!((bound - expected).abs() < 1e-15, "{bounds:?}");
     }
@@ -135,9 +135,9 @@ fn outlines_are_joined() {
 fn a_grid_of_too_many_walls_is_refused() {
     let side = 320;
     let occupied = (0..side * side).map(|i| i / side % 2 == 0 && i % side % 2 == 0).collect();
-    let dots = Cells { width: side, height: side, occupied, resolution: 0.05, origin: [0.0; 3] };
+    let single_cells = Cells { width: side, height: side, occupied, resolution: 0.05, origin: [0.0; 3] };
     // 160 · 160 cells that stand alone, with four sides each.
-    let error = FloorPlan::from_grid(dots.grid()).err();
+    let error = FloorPlan::from_grid(single_cells.grid()).err();
     assert_eq!(error, Some(FloorPlanError::TooManySides(20_001)));
     let message = error.map(|error| error.to_string()).unwrap_or_default();
     assert_eq!(message, "image has cells in the way with 20001 sides or more; allowed are at most 20000");
@@ -162,7 +162,7 @@ fn a_grid_that_reaches_too_far_is_refused() {
 
 /// Returns a grid drawn with `#` (occupied), `?` (unknown) and `.` (free), the first row at the top, with cells of 10
 /// cm.
-fn drawn(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
+fn grid_of(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
     let shade = |cell| match cell {
         '#' => 0.0,
         '?' => 0.5,
@@ -174,7 +174,7 @@ fn drawn(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
     OccupancyGrid::new(&image, &Interpretation::default(), 0.1, SE2::identity()).with_unknown(unknown)
 }
 
-/// As "blocked" unknown cells equal occupied ones; as "free" they equal free ones.
+/// Unknown cells act as occupied cells if they are set to "blocked", and as free cells if they are set to "free".
 #[test]
 fn unknown_cells_are_free_or_blocked_as_set() {
     let mut rng = seeded(31_415);
@@ -185,11 +185,11 @@ fn unknown_cells_are_free_or_blocked_as_set() {
         |from: &str, to: &str| -> Vec<String> { random.iter().map(|row| row.replace(from, to)).collect() };
     let plan = |rows: &[String], unknown| {
         let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
-        FloorPlan::from_grid(drawn(&rows, unknown)).expect("a small grid")
+        FloorPlan::from_grid(grid_of(&rows, unknown)).expect("a small grid")
     };
-    for (unknown, alike) in [(Unknown::Blocked, with("?", "#")), (Unknown::Free, with("?", "."))] {
-        let (one, other) = (plan(&random, unknown), plan(&alike, Unknown::Free));
-        assert_eq!(one.walls(), other.walls(), "{unknown:?}");
+    for (unknown, replaced) in [(Unknown::Blocked, with("?", "#")), (Unknown::Free, with("?", "."))] {
+        let (plan1, plan2) = (plan(&random, unknown), plan(&replaced, Unknown::Free));
+        assert_eq!(plan1.walls(), plan2.walls(), "{unknown:?}");
         for _ in 0..2_000 {
             let start = SE2::new(
                 uniform(&mut rng, 0.0, 3.0),
@@ -199,13 +199,13 @@ fn unknown_cells_are_free_or_blocked_as_set() {
             let arc = Arc { start, length: uniform(&mut rng, 0.0, 0.5), turn: uniform(&mut rng, -2.0, 2.0) };
             let clearance = uniform(&mut rng, 0.0, 0.1);
             let point = [start.x(), start.y()];
-            assert_eq!(one.point_free(point, clearance), other.point_free(point, clearance), "{point:?}");
-            assert_eq!(one.arc_free(&arc, clearance), other.arc_free(&arc, clearance), "{arc:?}");
+            assert_eq!(plan1.point_free(point, clearance), plan2.point_free(point, clearance), "{point:?}");
+            assert_eq!(plan1.arc_free(&arc, clearance), plan2.arc_free(&arc, clearance), "{arc:?}");
         }
     }
-    let grid = drawn(&["#?."], Unknown::Blocked);
+    let grid = grid_of(&["#?."], Unknown::Blocked);
     let cells: Vec<_> = grid.cells().collect();
-    assert_eq!(cells, [Cell::Occupied, Cell::Unknown, Cell::Free], "it stays known which is which");
+    assert_eq!(cells, [Cell::Occupied, Cell::Unknown, Cell::Free], "the cells themselves are unchanged");
 }
 
 // ----------------------------------------------------------------------------------------------------- open places
@@ -225,21 +225,21 @@ fn the_open_place_has_the_most_room() {
         "##########??????",
     ];
     for unknown in [Unknown::Free, Unknown::Blocked] {
-        let plan = FloorPlan::from_grid(drawn(&rows, unknown)).expect("a small grid");
+        let plan = FloorPlan::from_grid(grid_of(&rows, unknown)).expect("a small grid");
         let place = plan.open_place(0.1).expect("there is room");
         // The pose is in the middle of the first square of four free cells, and heads through the door.
         assert!((place.x() - 0.3).abs() + (place.y() - 0.3).abs() < 1e-12, "{place:?}");
         assert!(plan.point_free([place.x(), place.y()], 0.1).free);
-        let way = Arc { start: place, length: 0.5, turn: 0.0 };
-        assert!(plan.arc_free(&way, 0.0).free && place.theta().abs() < 0.5, "{place:?}");
+        let drive = Arc { start: place, length: 0.5, turn: 0.0 };
+        assert!(plan.arc_free(&drive, 0.0).free && place.theta().abs() < 0.5, "{place:?}");
     }
     // A robot that just fits cannot move: the heading is then 0.
-    let shut = FloorPlan::from_grid(drawn(&["###", "#.#", "###"], Unknown::Free)).expect("a small grid");
-    assert_eq!(shut.open_place(0.0499).expect("there is room").theta(), 0.0);
+    let tight = FloorPlan::from_grid(grid_of(&["###", "#.#", "###"], Unknown::Free)).expect("a small grid");
+    assert_eq!(tight.open_place(0.0499).expect("there is room").theta(), 0.0);
     // All cells are unknown: free or blocked, as the setting says.
-    let unknown = drawn(&["???", "???", "???"], Unknown::Free);
+    let unknown = grid_of(&["???", "???", "???"], Unknown::Free);
     let place = FloorPlan::from_grid(unknown).expect("no walls").open_place(0.1).expect("there is room");
     assert!((place.x() - 0.05).abs() + (place.y() - 0.05).abs() < 1e-12, "the first: {place:?}");
-    let blocked = drawn(&["???", "???", "???"], Unknown::Blocked);
+    let blocked = grid_of(&["???", "???", "???"], Unknown::Blocked);
     assert_eq!(FloorPlan::from_grid(blocked).expect("four walls").open_place(0.1), None);
 }

@@ -10,11 +10,11 @@ use motion::map::{Cell, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, 
 fn pixels_are_read_as_map_server_reads_them() {
     let trinary = Interpretation::default();
     let pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opacity: 1.0 };
-    let clear = |value: u8| Pixel { opacity: 0.0, ..pixel(value) };
+    let transparent = |value: u8| Pixel { opacity: 0.0, ..pixel(value) };
     let scale = Interpretation { mode: Mode::Scale, ..trinary };
     let raw = Interpretation { mode: Mode::Raw, ..trinary };
-    let at = |occupied_thresh| Interpretation { occupied_thresh, ..trinary };
-    let negated = |occupied_thresh| Interpretation { negate: true, ..at(occupied_thresh) };
+    let occupied_above = |occupied_thresh| Interpretation { occupied_thresh, ..trinary };
+    let negated = |occupied_thresh| Interpretation { negate: true, ..occupied_above(occupied_thresh) };
     let free_below = |free_thresh| Interpretation { free_thresh, ..trinary };
     let cases = [
         ("black", trinary, pixel(0), Cell::Occupied),
@@ -23,17 +23,17 @@ fn pixels_are_read_as_map_server_reads_them() {
         ("occupancy 0.192", trinary, pixel(206), Cell::Free),
         ("occupancy 0.651", trinary, pixel(89), Cell::Occupied),
         ("occupancy 0.647", trinary, pixel(90), Cell::Unknown),
-        ("transparent black", trinary, clear(0), Cell::Occupied),
+        ("transparent black", trinary, transparent(0), Cell::Occupied),
         ("black, negated", negated(0.65), pixel(0), Cell::Free),
         ("white, negated", negated(0.65), pixel(255), Cell::Occupied),
-        ("at the threshold", at(0.6), pixel(102), Cell::Unknown),
-        ("past it", at(0.6), pixel(101), Cell::Occupied),
-        ("nothing is above 1", at(1.0), pixel(0), Cell::Unknown),
+        ("at the threshold", occupied_above(0.6), pixel(102), Cell::Unknown),
+        ("past it", occupied_above(0.6), pixel(101), Cell::Occupied),
+        ("nothing is above 1", occupied_above(1.0), pixel(0), Cell::Unknown),
         ("at the threshold for free", free_below(0.2), pixel(204), Cell::Unknown),
         ("below the threshold for free", free_below(0.2), pixel(205), Cell::Free),
         ("nothing is below 0", free_below(0.0), pixel(255), Cell::Unknown),
         ("scale, black", scale, pixel(0), Cell::Occupied),
-        ("scale, transparent black is unknown", scale, clear(0), Cell::Unknown),
+        ("scale, transparent black is unknown", scale, transparent(0), Cell::Unknown),
         ("scale, what is between the thresholds is known in degrees", scale, pixel(150), Cell::Free),
         ("raw, 100", raw, pixel(100), Cell::Occupied),
         ("raw, 99", raw, pixel(99), Cell::Free),
@@ -59,8 +59,8 @@ fn shades(image: &Image<Shades>) -> Vec<f32> {
 
 #[test]
 fn pgm_rasters_may_hold_any_bytes() {
-    let followed = read_pgm(b"P5 2 1 5\n\x00\x05anything that follows").expect("a valid file");
-    assert_eq!(shades(&followed), [0.0, 1.0]);
+    let with_trailer = read_pgm(b"P5 2 1 5\n\x00\x05anything that follows").expect("a valid file");
+    assert_eq!(shades(&with_trailer), [0.0, 1.0]);
     // The first byte of the raster may look like white space or a comment.
     assert_eq!(shades(&read_pgm(b"P5 2 1 255\n\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
     assert_eq!(shades(&read_pgm(b"P5 1 1 100\n\xff").expect("a pixel too bright")), [1.0]);
@@ -112,11 +112,11 @@ fn malformed_pgm_files_are_explained() {
     for (file, sentence) in cases {
         assert_eq!(read_pgm(file).expect_err("malformed").to_string(), sentence, "{}", file.escape_ascii());
     }
-    let huge = format!("P2\n{MAX_PIXELS} 1\n255\n");
-    assert_eq!(read_pgm(huge.as_bytes()).expect_err("no pixels").field, "a pixel");
+    let header = format!("P2\n{MAX_PIXELS} 1\n255\n");
+    assert_eq!(read_pgm(header.as_bytes()).expect_err("no pixels").field, "a pixel");
 }
 
-/// `map_server` averages opacity in with the colours in mode trinary, if the image has transparency at all.
+/// In mode trinary, `map_server` averages opacity with the colours, if the image has transparency.
 #[test]
 fn transparency_counts_as_a_colour_in_trinary() {
     let occupied = |pixels: &[(f32, f32)]| -> Vec<bool> {
@@ -125,7 +125,7 @@ fn transparency_counts_as_a_colour_in_trinary() {
         let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.05, SE2::identity());
         grid.cells().map(|cell| cell == Cell::Occupied).collect()
     };
-    // Opaque black is (0 + 0 + 0 + 1)/4 = 0.25 of white then, dark grey 60/255 is 0.43 of it, clear white 0.75.
+    // Opaque black then has the shade (0 + 0 + 0 + 1)/4 = 0.25, dark grey of 60/255 has 0.43, and transparent white 0.75.
     assert_eq!(
         occupied(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 0.0), (0.0, 0.0)]),
         [true, false, false, true]

@@ -14,7 +14,7 @@ fn wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
     Segment { from: [x0, y0], to: [x1, y1] }
 }
 
-fn in_box([left, bottom, right, top]: [f64; 4], rng: &mut impl Rng) -> [f64; 2] {
+fn random_point([left, bottom, right, top]: [f64; 4], rng: &mut impl Rng) -> [f64; 2] {
     [uniform(rng, left, right), uniform(rng, bottom, top)]
 }
 
@@ -30,11 +30,11 @@ fn arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
 }
 
 /// Returns walls whose coordinates extend by at most `size` m, a third of them along the axes.
-fn scattered(count: usize, size: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
+fn random_walls(count: usize, size: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
     let [left, bottom, right, top] = bounds;
     (0..count)
         .map(|_| {
-            let from = in_box(bounds, rng);
+            let from = random_point(bounds, rng);
             let mut to = [from[0] + uniform(rng, -size, size), from[1] + uniform(rng, -size, size)];
             if rng.next_u32().is_multiple_of(3) {
                 let axis = (rng.next_u32() % 2) as usize;
@@ -53,12 +53,12 @@ fn a_plan_is_checked() {
     let error = FloorPlan::new(vec![wall(0.0, 0.0, 10.0, 10.0), outside], ROOM).expect_err("a bad wall");
     let message = error.to_string();
     assert!(message.starts_with("walls[1] ends at [") && message.contains("inside the bounds"), "{message}");
-    let line = wall(1.0, 1.0, 9.0, 1.0);
-    let error = FloorPlan::new(vec![line; FloorPlan::MAX_WALLS + 1], ROOM).expect_err("too many");
+    let wall_segment = wall(1.0, 1.0, 9.0, 1.0);
+    let error = FloorPlan::new(vec![wall_segment; FloorPlan::MAX_WALLS + 1], ROOM).expect_err("too many");
     assert_eq!(error, FloorPlanError::TooManyWalls(20_001));
     assert_eq!(error.to_string(), "walls has a length of 20001 or more; allowed is at most 20000");
     for count in [0, 1, 16, 17, FloorPlan::MAX_WALLS] {
-        let plan = FloorPlan::new(vec![line; count], ROOM).expect("allowed");
+        let plan = FloorPlan::new(vec![wall_segment; count], ROOM).expect("allowed");
         assert_eq!(plan.walls().len(), count);
         assert_eq!(plan.point_free([5.0, 1.5], 0.51).free, count == 0);
         assert!(plan.point_free([5.0, 1.5], 0.49).free);
@@ -67,7 +67,7 @@ fn a_plan_is_checked() {
 
 // ------------------------------------------------------------------------------------------------------ verdicts
 
-/// Results equal those of a plain loop over all walls. Maps are the apartment, long slanted walls close together, and a rotated
+/// Collision results equal those of a loop over all walls. Maps are the apartment, long slanted walls close together, and a rotated
 /// grid. Arcs of all sizes turn by up to two circles, and robots have all sizes.
 #[test]
 fn verdicts_are_those_of_a_loop_over_all_walls() {
@@ -75,40 +75,40 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
     let diagonals = |count: u32| -> Vec<Segment> {
         let end = |offset: f64| (offset.min(10.0), (offset - 10.0).max(0.0));
         let offsets = (0..count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(count));
-        offsets.map(end).map(|(far, near)| wall(near, far, far, near)).collect()
+        offsets.map(end).map(|(larger, smaller)| wall(smaller, larger, larger, smaller)).collect()
     };
     let pixel = |dark: bool| Pixel { shade: if dark { 0.0 } else { 1.0 }, opacity: 1.0 };
     let pixels: Vec<_> = (0..1600).map(|_| pixel(rng.next_u32().is_multiple_of(40))).collect();
     let image = Image { width: 40, height: 40, pixels };
     let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
     let room = |walls| FloorPlan::new(walls, ROOM).expect("a valid plan");
-    let long = scattered(12, 10.0, ROOM, &mut rng);
+    let long_walls = random_walls(12, 10.0, ROOM, &mut rng);
     let plans = [
         FloorPlan::apartment(),
         room(diagonals(20)),
         room(diagonals(300)),
-        room(long),
+        room(long_walls),
         room(vec![wall(2.0, 2.0, 9.0, 9.0); 300]),
         FloorPlan::from_grid(grid).expect("a small grid"),
     ];
     for (number, plan) in plans.iter().enumerate() {
         let [left, bottom, right, top] = plan.bounds();
-        let of_bounds = [[left, bottom], [right, bottom], [right, top], [left, top]];
-        let corners = plan.grid().map_or(of_bounds, OccupancyGrid::corners);
+        let box_corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
+        let corners = plan.grid().map_or(box_corners, OccupancyGrid::corners);
         let mut counts = [0; 3];
         for _ in 0..3_000 {
-            let start = in_box(plan.bounds(), &mut rng);
+            let start = random_point(plan.bounds(), &mut rng);
             let size = signed_log_uniform(&mut rng, 1e-3, 1.0);
             let arc = arc_from(start, &mut rng);
             let turn = if rng.next_u32().is_multiple_of(3) { 2.0 * arc.turn } else { arc.turn };
             let arc = Arc { length: size * arc.length, turn, ..arc };
             let clearance = [0.0, 0.01, 0.13, 0.4][(rng.next_u32() % 4) as usize];
             let end = [arc.end().x(), arc.end().y()];
-            let least = |distance: &dyn Fn(&Segment) -> f64| {
+            let min_distance = |distance: &dyn Fn(&Segment) -> f64| {
                 plan.walls().iter().map(distance).fold(f64::INFINITY, f64::min)
             };
-            let to_end = least(&|wall| wall.distance_to_point(end));
-            let to_arc = least(&|wall| wall.distance_to_arc(&arc));
+            let to_end = min_distance(&|wall| wall.distance_to_point(end));
+            let to_arc = min_distance(&|wall| wall.distance_to_arc(&arc));
             if (to_end - clearance).abs() < 1e-12 || (to_arc - clearance).abs() < 1e-12 {
                 continue;
             }
@@ -119,10 +119,10 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
                 })
             };
             let edges = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] });
-            let crosses = edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
+            let leaves = edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
             let in_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
             let end_free = on_map(end) && !in_cell(end) && to_end > clearance;
-            let path_free = on_map(start) && !crosses && !in_cell(start) && end_free && to_arc > clearance;
+            let path_free = on_map(start) && !leaves && !in_cell(start) && end_free && to_arc > clearance;
             assert_eq!(plan.point_free(end, clearance).free, end_free, "{number}: {arc:?} {clearance}");
             assert_eq!(plan.arc_free(&arc, clearance).free, path_free, "{number}: {arc:?} {clearance}");
             counts[usize::from(end_free) + usize::from(path_free)] += 1;
@@ -137,36 +137,36 @@ fn touching_is_not_free() {
     assert!(!plan.point_free([5.0, 2.25], 0.25).free);
     assert!(plan.point_free([5.0, 2.25], 0.2499).free);
     assert!(!plan.point_free([5.0, 2.0], 0.0).free, "a point on the wall");
-    let along = Arc { start: SE2::new(4.0, 2.25, 0.0), length: 2.0, turn: 0.0 };
-    assert!(!plan.arc_free(&along, 0.25).free);
-    assert!(plan.arc_free(&along, 0.2499).free);
-    // A half circle leads around the end of the wall. Its middle is nearest, 0.25 m from that end.
-    let round = Arc { start: SE2::new(9.0, 2.25, 0.0), length: -0.25 * PI, turn: PI };
-    assert!(!plan.arc_free(&round, 0.0).free, "in reverse it goes through the wall");
-    let round = Arc { length: 0.25 * PI, turn: -PI, ..round };
-    assert!(plan.arc_free(&round, 0.2499).free && !plan.arc_free(&round, 0.2501).free);
+    let parallel_arc = Arc { start: SE2::new(4.0, 2.25, 0.0), length: 2.0, turn: 0.0 };
+    assert!(!plan.arc_free(&parallel_arc, 0.25).free);
+    assert!(plan.arc_free(&parallel_arc, 0.2499).free);
+    // A half circle leads around the end of the wall. Its middle is 0.25 m from that end, the rest is farther away.
+    let half_circle = Arc { start: SE2::new(9.0, 2.25, 0.0), length: -0.25 * PI, turn: PI };
+    assert!(!plan.arc_free(&half_circle, 0.0).free, "in reverse it goes through the wall");
+    let half_circle = Arc { length: 0.25 * PI, turn: -PI, ..half_circle };
+    assert!(plan.arc_free(&half_circle, 0.2499).free && !plan.arc_free(&half_circle, 0.2501).free);
 }
 
 #[test]
 fn the_open_place_has_the_most_room() {
     let apartment = FloorPlan::apartment();
     for clearance in [0.0, 0.13, 0.5, 1.0] {
-        let place = apartment.open_place(clearance).expect("there is room");
-        assert!(apartment.point_free([place.x(), place.y()], clearance).free);
+        let pose = apartment.open_place(clearance).expect("there is room");
+        assert!(apartment.point_free([pose.x(), pose.y()], clearance).free);
         // The largest room has a square of 4 m between the closet's side and the wall opposite.
-        assert!((place.x() - 4.0).abs() < 0.1 && (place.y() - 7.0).abs() < 0.1, "{place:?}");
-        let ahead = Arc { start: place, length: 2.0, turn: 0.0 };
-        assert!(apartment.arc_free(&ahead, 0.13).free, "{place:?}");
+        assert!((pose.x() - 4.0).abs() < 0.1 && (pose.y() - 7.0).abs() < 0.1, "{pose:?}");
+        let ahead = Arc { start: pose, length: 2.0, turn: 0.0 };
+        assert!(apartment.arc_free(&ahead, 0.13).free, "{pose:?}");
     }
     assert_eq!(apartment.open_place(2.5), None, "no room is that large");
     for bounds in [[-3.0, -2.0, 7.0, 5.0], [3.0, 2.0, 7.0, 5.0]] {
-        let open = FloorPlan::new(vec![], bounds).expect("a valid plan");
-        let place = open.open_place(0.3).expect("there is room");
+        let empty_plan = FloorPlan::new(vec![], bounds).expect("a valid plan");
+        let pose = empty_plan.open_place(0.3).expect("there is room");
         let [left, bottom, right, top] = bounds;
-        let room = [place.x() - left, right - place.x(), place.y() - bottom, top - place.y()];
-        assert!(room.into_iter().all(|room| room > 1.4), "not at the edge: {place:?}");
+        let room = [pose.x() - left, right - pose.x(), pose.y() - bottom, top - pose.y()];
+        assert!(room.into_iter().all(|room| room > 1.4), "not at the edge: {pose:?}");
     }
     let walls = (0..=20).map(|i| wall(0.0, 0.5 * f64::from(i), 10.0, 0.5 * f64::from(i))).collect();
-    let slits = FloorPlan::new(walls, ROOM).expect("a valid plan");
-    assert!(slits.open_place(0.3).is_none(), "walls are half a metre apart everywhere");
+    let narrow_gaps = FloorPlan::new(walls, ROOM).expect("a valid plan");
+    assert!(narrow_gaps.open_place(0.3).is_none(), "walls are half a metre apart everywhere");
 }

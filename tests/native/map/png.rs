@@ -15,7 +15,7 @@ struct Format {
 }
 
 /// Returns the file of an image. Samples of a pixel follow each other.
-fn encoded(kind: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
+fn encoded_png(kind: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
     let row = width as usize * kind.color.samples();
     let mut data = Vec::new();
     for row in samples.chunks(row) {
@@ -32,7 +32,7 @@ fn encoded(kind: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
     encoder.set_color(kind.color);
     encoder.set_depth(BitDepth::from_u8(kind.bits as u8).expect("a depth"));
     encoder.set_filter(Filter::Adaptive);
-    // With a gamma chunk browsers change shades. The reader must not.
+    // A gamma chunk changes the shades in browsers. It must not affect this reader.
     encoder.set_source_gamma(png::ScaledFloat::new(0.3));
     if let Some(palette) = &kind.palette {
         encoder.set_palette(palette.clone());
@@ -45,9 +45,9 @@ fn encoded(kind: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
 }
 
 /// Returns the file of an opaque grey image of 8 bits.
-fn grey(width: u32, samples: &[u16]) -> Vec<u8> {
+fn grey_png(width: u32, samples: &[u16]) -> Vec<u8> {
     let kind = Format { color: ColorType::Grayscale, bits: 8, palette: None, transparency: None };
-    encoded(&kind, width, samples)
+    encoded_png(&kind, width, samples)
 }
 
 #[test]
@@ -64,33 +64,33 @@ fn every_kind_of_image_is_read_sample_for_sample() {
         for (&bits, (width, height)) in depths.iter().flat_map(|bits| [(bits, (1, 1)), (bits, (33, 17))]) {
             for is_clear in [false, true] {
                 let count = width as usize * height * color.samples();
-                let mut below = |end: u32| (rng.next_u32() % end) as u16;
-                let samples: Vec<u16> = (0..count).map(|_| below(1 << bits)).collect();
-                let palette: Vec<u8> = (0..3 << bits.min(8)).map(|_| below(256) as u8).collect();
-                let opacities: Vec<u8> = (0..1 << (bits.min(8) - 1)).map(|_| below(256) as u8).collect();
-                let first = &samples[..color.samples()];
+                let mut random = |end: u32| (rng.next_u32() % end) as u16;
+                let samples: Vec<u16> = (0..count).map(|_| random(1 << bits)).collect();
+                let palette: Vec<u8> = (0..3 << bits.min(8)).map(|_| random(256) as u8).collect();
+                let opacities: Vec<u8> = (0..1 << (bits.min(8) - 1)).map(|_| random(256) as u8).collect();
+                let first_pixel = &samples[..color.samples()];
                 let transparency = match color {
                     ColorType::Indexed => opacities.clone(),
-                    _ => first.iter().flat_map(|sample| sample.to_be_bytes()).collect(),
+                    _ => first_pixel.iter().flat_map(|sample| sample.to_be_bytes()).collect(),
                 };
-                let has_one = is_clear && !matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
+                let has_key = is_clear && !matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
                 let kind = Format {
                     color,
                     bits,
                     palette: (color == ColorType::Indexed).then(|| palette.clone()),
-                    transparency: has_one.then_some(transparency),
+                    transparency: has_key.then_some(transparency),
                 };
-                let greatest = f64::from((1u32 << bits) - 1);
-                let scaled = |sample: u16| (255.0 * f64::from(sample) / greatest).round() as u8;
+                let max_sample = f64::from((1u32 << bits) - 1);
+                let scaled = |sample: u16| (255.0 * f64::from(sample) / max_sample).round() as u8;
                 let expected: Vec<[u8; 4]> = samples
                     .chunks(color.samples())
                     .map(|pixel| {
-                        let opacity = if has_one && pixel == first { 0 } else { 255 };
+                        let opacity = if has_key && pixel == first_pixel { 0 } else { 255 };
                         match *pixel {
                             [index] if color == ColorType::Indexed => {
                                 let index = usize::from(index);
                                 let opacity =
-                                    opacities.get(index).copied().filter(|_| has_one).unwrap_or(255);
+                                    opacities.get(index).copied().filter(|_| has_key).unwrap_or(255);
                                 [palette[3 * index], palette[3 * index + 1], palette[3 * index + 2], opacity]
                             }
                             [grey] => [scaled(grey), scaled(grey), scaled(grey), opacity],
@@ -101,7 +101,7 @@ fn every_kind_of_image_is_read_sample_for_sample() {
                         }
                     })
                     .collect();
-                let image = read_png(&encoded(&kind, width, &samples)).expect("an image");
+                let image = read_png(&encoded_png(&kind, width, &samples)).expect("an image");
                 assert_eq!((image.width, image.height), (width as usize, height));
                 assert_eq!(image.pixels, expected, "{color:?} {bits} {width} {is_clear}");
             }
@@ -116,17 +116,17 @@ fn a_png_is_the_map_that_a_pgm_is() {
     let samples: Vec<u16> = (0..20 * 30).map(|_| [0, 100, 205, 254][(rng.next_u32() % 4) as usize]).collect();
     let pgm = [b"P5 20 30 255\n".to_vec(), samples.iter().map(|sample| *sample as u8).collect()].concat();
     let grid = |file: &[u8]| read_grid(file, &Interpretation::default(), 0.05, SE2::new(1.0, 2.0, 0.5));
-    assert_eq!(grid(&grey(20, &samples)), grid(&pgm));
+    assert_eq!(grid(&grey_png(20, &samples)), grid(&pgm));
     assert!(grid(&pgm).is_ok());
 }
 
 #[test]
 fn an_image_that_is_cut_short_is_refused() {
-    let file = grey(20, &[7; 400]);
+    let file = grey_png(20, &[7; 400]);
     assert!(read_png(&file).is_ok());
     for length in 0..file.len() {
         match read_png(&file[..length]) {
-            Err(PngError::Damaged { at, length: told }) => assert!(told == length && at <= length as u64),
+            Err(PngError::Damaged { at, length: n }) => assert!(n == length && at <= length as u64),
             other => panic!("{length} bytes: {other:?}"),
         }
     }
@@ -141,7 +141,7 @@ fn an_image_that_is_cut_short_is_refused() {
     );
 }
 
-/// A small file may contain an enormous image. The size is in its header.
+/// A small file may contain an enormous image. It must be refused from the size in its header.
 #[test]
 fn an_image_that_is_too_large_is_refused_unread() {
     let mut file = Vec::new();

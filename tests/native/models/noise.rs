@@ -26,13 +26,13 @@ fn prob_is_a_density_and_that_of_the_samples() {
     for kind in NOISE_KINDS {
         for b2 in [1e-6, 0.025, 1.0, 90.0] {
             let b = f64::sqrt(b2);
-            // Simpson's rule over each of 60 intervals must give the increase of the distribution function, and 1 in all. The kinks of the
+            // Simpson's rule over each of 60 intervals must give the increase of the distribution function, and 1 in total. The kinks of the
             // triangular density lie on ends of intervals.
-            let (edge, panels) = (6f64.sqrt() * 4.0 * b, 60);
-            let width = 2.0 * edge / panels as f64;
-            let mut total = 0.0;
+            let (limit, panels) = (6f64.sqrt() * 4.0 * b, 60);
+            let width = 2.0 * limit / panels as f64;
+            let mut integral = 0.0;
             for panel in 0..panels {
-                let left = -edge + panel as f64 * width;
+                let left = -limit + panel as f64 * width;
                 let h = width / 64.0;
                 let simpson: f64 = (0..=64)
                     .map(|i| {
@@ -47,12 +47,12 @@ fn prob_is_a_density_and_that_of_the_samples() {
                     (simpson - exact).abs() < 3e-10,
                     "{kind:?} b² = {b2} at {left}: {simpson}, not {exact}"
                 );
-                total += simpson;
+                integral += simpson;
             }
-            assert!((total - 1.0).abs() < 1e-9, "{kind:?} b² = {b2}: integral {total}");
+            assert!((integral - 1.0).abs() < 1e-9, "{kind:?} b² = {b2}: integral {integral}");
             assert_eq!(kind.prob(0.3 * b, Variance(b2)), kind.prob(-0.3 * b, Variance(b2)));
         }
-        // By hand: 1/√(2π) and 1/√6 at the middle of unit variance.
+        // With variance 1 the densities at 0 are 1/√(2π) and 1/√6.
         let peak = kind.prob(0.0, Variance(1.0));
         let expected =
             if kind == NoiseKind::Normal { 0.398_942_280_401_432_7 } else { 0.408_248_290_463_863 };
@@ -67,11 +67,11 @@ fn zero_variance_is_certainty() {
         for _ in 0..100 {
             assert_eq!(kind.sample(Variance(0.0), &mut rng), 0.0);
         }
-        for certain in [0.0, -0.0, 1e-16, -1e-16, 1e-12] {
-            assert_eq!(kind.prob(certain, Variance(0.0)), 1.0, "{certain} is 0 to rounding");
+        for residual in [0.0, -0.0, 1e-16, -1e-16, 1e-12] {
+            assert_eq!(kind.prob(residual, Variance(0.0)), 1.0, "{residual} is 0 to rounding");
         }
-        for excluded in [1e-6, -1e-6, 0.1, -3.0, f64::INFINITY] {
-            assert_eq!(kind.prob(excluded, Variance(0.0)), 0.0);
+        for residual in [1e-6, -1e-6, 0.1, -3.0, f64::INFINITY] {
+            assert_eq!(kind.prob(residual, Variance(0.0)), 0.0);
         }
         // With a tiny variance `prob` is a density with a high peak. Only with variance 0 it is 0 or 1.
         assert!(kind.prob(0.0, Variance(1e-20)) > 1e9);
@@ -85,14 +85,14 @@ fn quantiles_match_references_to_1e_15() {
         let q = row.get("q");
         for (kind, column) in [(NoiseKind::Normal, "normal"), (NoiseKind::Triangular, "triangular")] {
             let z = kind.quantile(q);
-            let relative = row.error(column, z) / row.get(column);
-            assert!(relative <= 1e-15, "{kind:?} quantile({q}) = {z}: relative error {relative:e}");
+            let error = row.error(column, z) / row.get(column);
+            assert!(error <= 1e-15, "{kind:?} quantile({q}) = {z}: relative error {error:e}");
             assert_eq!(kind.quantile(-q), -z, "the distribution is symmetric");
         }
     }
 }
 
-/// A seed gives the same draws in every release and on every machine. If the draws changed, so would every picture that a reader has kept. A
+/// A seed gives equal draws in every release and on every machine, so that a shared link keeps showing the same picture. A
 /// computation from the generator's definition and 40-digit quantiles agrees to the last digit or the one before.
 #[test]
 fn seeded_draws_are_golden() {

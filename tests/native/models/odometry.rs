@@ -30,16 +30,16 @@ fn readings() -> [OdomDelta; 6] {
     ]
 }
 
-/// Returns the variances of the table. `charged` returns the angle for which a rotation is charged.
-fn variances(of: &OdomDelta, charged: impl Fn(f64) -> f64) -> [f64; 3] {
+/// Returns the variances of Table 5.6. `angle` is the angle from which the noise of a rotation is computed.
+fn variances(reading: &OdomDelta, angle: impl Fn(f64) -> f64) -> [f64; 3] {
     let [a1, a2, a3, a4] = ALPHAS.0;
-    let [r1, t, r2] = [charged(of.rot1).powi(2), of.trans.powi(2), charged(of.rot2).powi(2)];
+    let [r1, t, r2] = [angle(reading.rot1).powi(2), reading.trans.powi(2), angle(reading.rot2).powi(2)];
     [a1 * r1 + a2 * t, a3 * t + a4 * (r1 + r2), a1 * r2 + a2 * t]
 }
 
-/// For a reading without translation atan2 gives no bearing: the whole turn is the second rotation.
+/// Without translation atan2 gives no bearing. The whole turn then counts as the second rotation.
 #[test]
-fn a_spin_on_the_spot_is_charged_to_the_second_rotation() {
+fn a_spin_on_the_spot_counts_as_the_second_rotation() {
     for turn in [0.0, 0.4, -2.9, PI] {
         for jitter in [0.0, 1e-13, -1e-10] {
             let prev = SE2::new(3.0, -2.0, 1.0);
@@ -51,9 +51,9 @@ fn a_spin_on_the_spot_is_charged_to_the_second_rotation() {
     }
     // A translation of a nanometre or more has a direction.
     let prev = SE2::identity();
-    let at = |distance: f64| OdomDelta::from_poses(&prev, &SE2::new(0.0, distance, 0.5));
-    assert_eq!(at(1e-9f64.next_down()), delta(0.0, 0.0, 0.5));
-    assert_eq!(at(1e-9), delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
+    let reading_at = |distance: f64| OdomDelta::from_poses(&prev, &SE2::new(0.0, distance, 0.5));
+    assert_eq!(reading_at(1e-9f64.next_down()), delta(0.0, 0.0, 0.5));
+    assert_eq!(reading_at(1e-9), delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
     let u = delta(0.0, 0.0, 0.8);
     assert_eq!(model(NoiseKind::Normal).pose_density(&u.apply(&prev), &u, &prev), None);
 }
@@ -67,15 +67,15 @@ fn prob_is_the_tables_score() {
         for u in readings() {
             for _ in 0..200 {
                 let mut near = |value: f64| value + uniform(&mut rng, -0.4, 0.4);
-                let hat = delta(near(u.rot1), near(u.trans), near(u.rot2));
-                let [r1, t, r2] = variances(&hat, f64::abs);
-                let expected = kind.prob(u.rot1 - hat.rot1, Variance(r1))
-                    * kind.prob(u.trans - hat.trans, Variance(t))
-                    * kind.prob(u.rot2 - hat.rot2, Variance(r2));
-                let score = model(kind).prob(&hat.apply(&x), &u, &x);
+                let executed = delta(near(u.rot1), near(u.trans), near(u.rot2));
+                let [r1, t, r2] = variances(&executed, f64::abs);
+                let expected = kind.prob(u.rot1 - executed.rot1, Variance(r1))
+                    * kind.prob(u.trans - executed.trans, Variance(t))
+                    * kind.prob(u.rot2 - executed.rot2, Variance(r2));
+                let score = model(kind).prob(&executed.apply(&x), &u, &x);
                 assert!(
                     (score - expected).abs() <= 1e-9 * (1.0 + expected),
-                    "{hat:?} for {u:?}: {score}, not {expected}"
+                    "{executed:?} for {u:?}: {score}, not {expected}"
                 );
             }
         }
@@ -87,15 +87,15 @@ fn zero_noise_gives_certainty_and_no_density() {
     let mut rng = seeded(93);
     let x = SE2::new(-1.0, 0.5, 2.0);
     for kind in NOISE_KINDS {
-        let still = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: kind };
+        let noise_free = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: kind };
         for u in readings() {
             let end = u.apply(&x);
-            assert_eq!(still.sample(&u, &x, &mut rng), end);
-            assert_eq!(still.prob(&end, &u, &x), 1.0);
-            assert_eq!(still.prob(&end.boxplus(Vector3::new(1e-3, 0.0, 0.0)), &u, &x), 0.0);
-            assert_eq!(still.pose_density(&end, &u, &x), None);
+            assert_eq!(noise_free.sample(&u, &x, &mut rng), end);
+            assert_eq!(noise_free.prob(&end, &u, &x), 1.0);
+            assert_eq!(noise_free.prob(&end.boxplus(Vector3::new(1e-3, 0.0, 0.0)), &u, &x), 0.0);
+            assert_eq!(noise_free.pose_density(&end, &u, &x), None);
             assert!(model(kind).pose_density(&end, &u, &x).is_some());
-            assert_eq!(model(kind).tangent_cov(&u), None, "three noises at three points are none in se(2)");
+            assert_eq!(model(kind).tangent_cov(&u), None, "noise of three legs is not one Gaussian in se(2)");
         }
         let parked = delta(0.0, 0.0, 0.0);
         assert_eq!(model(kind).sample(&parked, &x, &mut rng), x);
@@ -103,7 +103,7 @@ fn zero_noise_gives_certainty_and_no_density() {
     }
 }
 
-/// The density of a pose is that of the noises of its legs, with the variances of the reading. It is divided by the determinant, which is
+/// The density of a pose is the density of the noises of its legs, with the variances of the reading, divided by the determinant, which is
 /// the translation.
 #[test]
 fn the_pose_density_divides_by_the_jacobian() {
@@ -114,14 +114,14 @@ fn the_pose_density_divides_by_the_jacobian() {
             let variances = variances(&u, f64::abs);
             for _ in 0..100 {
                 let noise = variances.map(|b2| uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
-                let hat = delta(u.rot1 - noise[0], u.trans - noise[1], u.rot2 - noise[2]);
+                let executed = delta(u.rot1 - noise[0], u.trans - noise[1], u.rot2 - noise[2]);
                 let [r1, t, r2] = [0, 1, 2].map(|leg| kind.prob(noise[leg], Variance(variances[leg])));
-                let expected = r1 * t * r2 / hat.trans;
-                let density = model(kind).pose_density(&hat.apply(&x), &u, &x).unwrap();
-                // Other legs lead to the same pose: in reverse, or with full turns. With this noise they add less than 1e-6.
+                let expected = r1 * t * r2 / executed.trans;
+                let density = model(kind).pose_density(&executed.apply(&x), &u, &x).unwrap();
+                // Other legs that lead to the same pose, in reverse or with full turns, add less than 1e-6 with this noise.
                 assert!(
                     (density / expected - 1.0).abs() < 1e-6,
-                    "{u:?} at {hat:?}: {density}, not {expected}"
+                    "{u:?} at {executed:?}: {density}, not {expected}"
                 );
             }
         }
@@ -139,14 +139,14 @@ fn box_around(u: &OdomDelta, x: &SE2, variances: [f64; 3]) -> Grid {
 #[test]
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(0.4, 0.4, -2.2);
-    for (kind, allowed, u) in
+    for (kind, tolerance, u) in
         [(NoiseKind::Normal, 1e-6, readings()[5]), (NoiseKind::Triangular, 1e-3, delta(0.7, 0.8, -0.4))]
     {
         let model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise: kind };
         let radius = u.trans + 7.0 * (1.1 * u.trans.powi(2) + 0.4 * (u.rot1.powi(2) + u.rot2.powi(2))).sqrt();
-        let total = Grid::around_start(&x, 1.0, radius, [14, 8, 8])
+        let integral = Grid::around_start(&x, 1.0, radius, [14, 8, 8])
             .integral(|pose| model.pose_density(pose, &u, &x).unwrap());
-        assert!((total - 1.0).abs() < allowed, "{kind:?} {u:?}: {total}");
+        assert!((integral - 1.0).abs() < tolerance, "{kind:?} {u:?}: {integral}");
     }
 }
 
@@ -176,27 +176,27 @@ fn cartesian_cov_is_the_linearized_motion() {
     }
 }
 
-/// Half a metre backwards is rot1 = π, rot2 = −π: the tables charge two half turns, the option none.
+/// Half a metre backwards is rot1 ≈ π, rot2 ≈ −π. Table 5.6 adds the noise of two half turns, and the option adds none.
 #[test]
-fn a_reversing_robot_is_charged_for_what_it_turned() {
+fn a_reversing_robot_has_the_noise_of_its_turn() {
     let x = SE2::new(1.0, 1.0, 0.5);
     let back = OdomDelta::from_poses(&x, &x.boxplus(Vector3::new(-0.5, 0.0, 0.02)));
     assert!(back.rot1.abs() > 3.0 && back.rot2.abs() > 3.0, "{back:?}");
-    let charged = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
+    let angle = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
     for kind in NOISE_KINDS {
-        let (tables, aware) = (model(kind), ReverseAware(model(kind)));
+        let (plain, aware) = (model(kind), ReverseAware(model(kind)));
         let mut rng = seeded(110);
-        let aware_cloud: Vec<SE2> = (0..SAMPLES).map(|_| aware.sample(&back, &x, &mut rng)).collect();
-        let (value, limit) = box_around(&back, &x, variances(&back, charged))
-            .chi_square(&aware_cloud, |pose| aware.pose_density(pose, &back, &x).unwrap());
+        let cloud: Vec<SE2> = (0..SAMPLES).map(|_| aware.sample(&back, &x, &mut rng)).collect();
+        let (value, limit) = box_around(&back, &x, variances(&back, angle))
+            .chi_square(&cloud, |pose| aware.pose_density(pose, &back, &x).unwrap());
         assert!(value < limit, "{kind:?}: χ² = {value}, limit {limit}");
 
-        // prob takes its variances from the hypothesis, charged in the same way.
-        let hat = delta(back.rot1 + 0.02, back.trans - 0.05, back.rot2 - 0.03);
-        let [r1, t, r2] = variances(&OdomDelta::from_poses(&x, &hat.apply(&x)), charged);
+        // `prob` computes variances from the hypothesis, also without half turns.
+        let executed = delta(back.rot1 + 0.02, back.trans - 0.05, back.rot2 - 0.03);
+        let [r1, t, r2] = variances(&OdomDelta::from_poses(&x, &executed.apply(&x)), angle);
         let expected =
             kind.prob(0.02, Variance(r1)) * kind.prob(0.05, Variance(t)) * kind.prob(0.03, Variance(r2));
-        assert!((aware.prob(&hat.apply(&x), &back, &x) / expected - 1.0).abs() < 1e-9);
-        assert!(aware.prob(&back.apply(&x), &back, &x) > 50.0 * tables.prob(&back.apply(&x), &back, &x));
+        assert!((aware.prob(&executed.apply(&x), &back, &x) / expected - 1.0).abs() < 1e-9);
+        assert!(aware.prob(&back.apply(&x), &back, &x) > 50.0 * plain.prob(&back.apply(&x), &back, &x));
     }
 }

@@ -1,5 +1,5 @@
-//! The rules by which localizers charge an odometry reading: against cases computed by hand, and their exact spreads against
-//! quadrature and samples.
+//! The rules by which localizers compute variances from an odometry reading, compared with cases computed by hand. Their exact standard
+//! deviations are compared with quadrature and samples.
 
 use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, SAMPLES, pose_distance, seeded, uniform};
 use motion::geom::se2::SE2;
@@ -28,39 +28,39 @@ fn variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
 /// Expected variances are computed by hand, to eight digits, with (π − 3)² = 0.02004848 and (π − 2.2)² = 0.88659673.
 #[test]
 fn the_variances_of_each_rule_match_its_source() {
-    // Turn by 0.5, drive 2 m, turn back by 1: no angle is nearer to π than to 0, and the whole turn is −0.5.
-    let bend = delta(0.5, 2.0, -1.0);
+    // The robot turns by 0.5, drives 2 m and turns back by 1. No angle is nearer to π than to 0, and the total turn is −0.5.
+    let in_a_bend = delta(0.5, 2.0, -1.0);
     // 0.1·0.25 + 0.2·4, 0.3·4 + 0.4·(0.25 + 1), 0.1·1 + 0.2·4.
     let bend_by_turns = [0.825, 1.7, 0.9, 0.0];
     // 0.3·4 + 0.4·0.25, 0.1·0.25 + 0.2·4, 0.5·4 + 0.4·0.25.
     let bend_by_strafe = [0.0, 1.3, 0.825, 2.1];
-    // Backing up by 1 m: (π − 3) twice, and no turn as a whole.
-    let reverse = delta(3.0, 1.0, -3.0);
+    // The robot backs up by 1 m: both rotations are π − 3 without their half turns, and the total turn is 0.
+    let in_reverse = delta(3.0, 1.0, -3.0);
     let reverse_by_half_turns = [1.1, 7.5, 1.1, 0.0];
     let reverse_without_half_turns = [0.202004848, 0.316038784, 0.202004848, 0.0];
-    // On the spot, by more than a quarter turn.
-    let spin = delta(0.0, 0.0, 2.2);
-    // Half a centimetre of jitter, to the left and backwards, with a turn of a hundredth.
-    let rest = delta(2.0, 0.005, -1.99);
+    // A turn on the spot by more than a quarter turn.
+    let on_the_spot = delta(0.0, 0.0, 2.2);
+    // The encoders jitter by half a centimetre, to the left and backwards, with a turn of 0.01 rad.
+    let at_rest = delta(2.0, 0.005, -1.99);
     let cases = [
-        (Table, bend, bend_by_turns),
-        (Nav2, bend, bend_by_turns),
-        (Beluga, bend, bend_by_turns),
-        (Omni, bend, bend_by_strafe),
-        (Table, reverse, reverse_by_half_turns),
-        (Nav2, reverse, reverse_without_half_turns),
-        (Beluga, reverse, reverse_without_half_turns),
-        (Omni, reverse, [0.0, 0.3, 0.2, 0.5]),
-        (Table, spin, [0.0, 1.936, 0.484, 0.0]),
-        (Nav2, spin, [0.0, 0.35463869, 0.088659673, 0.0]),
-        (Beluga, spin, [0.0, 0.35463869, 0.088659673, 0.0]),
-        (Omni, spin, [0.0, 1.936, 0.484, 1.936]),
+        (Table, in_a_bend, bend_by_turns),
+        (Nav2, in_a_bend, bend_by_turns),
+        (Beluga, in_a_bend, bend_by_turns),
+        (Omni, in_a_bend, bend_by_strafe),
+        (Table, in_reverse, reverse_by_half_turns),
+        (Nav2, in_reverse, reverse_without_half_turns),
+        (Beluga, in_reverse, reverse_without_half_turns),
+        (Omni, in_reverse, [0.0, 0.3, 0.2, 0.5]),
+        (Table, on_the_spot, [0.0, 1.936, 0.484, 0.0]),
+        (Nav2, on_the_spot, [0.0, 0.35463869, 0.088659673, 0.0]),
+        (Beluga, on_the_spot, [0.0, 0.35463869, 0.088659673, 0.0]),
+        (Omni, on_the_spot, [0.0, 1.936, 0.484, 1.936]),
         // 0.1·4 + 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·(4 + 3.9601), 0.1·3.9601 + 0.2·2.5e-5.
-        (Table, rest, [0.400005, 3.1840475, 0.396015, 0.0]),
+        (Table, at_rest, [0.400005, 3.1840475, 0.396015, 0.0]),
         // 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·1e-4, 0.1·1e-4 + 0.2·2.5e-5.
-        (Nav2, rest, [0.000005, 0.0000475, 0.000015, 0.0]),
-        (Beluga, rest, [0.000005, 0.0000475, 0.000015, 0.0]),
-        (Omni, rest, [0.0, 0.0000475, 0.000015, 0.0000525]),
+        (Nav2, at_rest, [0.000005, 0.0000475, 0.000015, 0.0]),
+        (Beluga, at_rest, [0.000005, 0.0000475, 0.000015, 0.0]),
+        (Omni, at_rest, [0.0, 0.0000475, 0.000015, 0.0000525]),
     ];
     for (rule, reading, expected) in cases {
         for (computed, expected) in variances(rule, reading).into_iter().zip(expected) {
@@ -80,8 +80,8 @@ fn nav2_and_beluga_disagree_at_a_centimetre_alone() {
         (MAX_SPIN_DISTANCE, 1.0, 0.0),
         (MAX_SPIN_DISTANCE.next_up(), 1.0, 1.0),
     ] {
-        let first = |rule: OdometryRule| rule.legs(&reading(trans)).rot1;
-        assert_eq!([first(Nav2), first(Beluga)], [of_nav2, of_beluga], "{trans}");
+        let rot1_of = |rule: OdometryRule| rule.legs(&reading(trans)).rot1;
+        assert_eq!([rot1_of(Nav2), rot1_of(Beluga)], [of_nav2, of_beluga], "{trans}");
         for rule in OdometryRule::ALL {
             let OdomDelta { rot1, rot2, .. } = rule.legs(&reading(trans));
             assert!((rot1 + rot2 - 0.6).abs() < 1e-15, "{rule:?} loses a turn");
@@ -110,27 +110,27 @@ fn the_table_and_the_reversing_option_are_the_models_of_the_crate() {
     }
 }
 
-/// Without noise, each rule gives the pose that was read, except for the direction of a tiny translation, which a spin ignores.
+/// Without noise, legs end at the second pose. An exception is a tiny translation whose direction a rule ignores.
 #[test]
 fn legs_of_every_rule_end_where_the_reading_does() {
     let mut rng = seeded(191);
     for _ in 0..10_000 {
         let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
         let (from, to) = (SE2::new(draw(5.0), draw(5.0), draw(PI)), SE2::new(draw(5.0), draw(5.0), draw(PI)));
-        let near = from
+        let nearby = from
             * SE2::new(0.2 * MAX_SPIN_DISTANCE * draw(1.0), 0.2 * MAX_SPIN_DISTANCE * draw(1.0), draw(PI));
         for rule in OdometryRule::ALL {
-            for (to, tolerance) in [(to, 1e-13), (near, MAX_SPIN_DISTANCE)] {
+            for (to, tolerance) in [(to, 1e-13), (nearby, MAX_SPIN_DISTANCE)] {
                 let legs = rule.legs(&OdomDelta::from_poses(&from, &to));
-                let still = rule.variances(&legs, &[0.0; 5]).executed(&legs, [1.0; 3]);
-                assert!(pose_distance(&still.poses(&from)[3], &to) < tolerance, "{rule:?}");
-                assert_eq!(rule.legs(&legs), legs, "a rule has nothing to say to its own legs");
+                let without_noise = rule.variances(&legs, &[0.0; 5]).executed(&legs, [1.0; 3]);
+                assert!(pose_distance(&without_noise.poses(&from)[3], &to) < tolerance, "{rule:?}");
+                assert_eq!(rule.legs(&legs), legs, "a rule does not change its own legs");
             }
         }
     }
 }
 
-/// Compares the closed forms of E[sin² ε] with quadrature, as far as that is accurate, and with their limit beyond.
+/// The closed forms of E[sin² ε] are compared with quadrature where that is accurate, and with their limit for larger noise.
 #[test]
 fn the_mean_squared_sine_is_that_of_the_noise() {
     for kind in NOISE_KINDS {
@@ -146,7 +146,7 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
     }
 }
 
-/// The mean square of n outcomes with kurtosis κ has the relative standard error √((κ − 1)/n). κ is measured too.
+/// The mean square of n outcomes with kurtosis κ has the relative standard error √((κ − 1)/n). κ is estimated from the outcomes.
 #[test]
 fn exact_spreads_match_samples() {
     let readings = [delta(0.7, 1.5, 0.5), delta(3.0, 1.0, -3.0), delta(0.2, 0.3, FRAC_PI_2)];
@@ -164,19 +164,19 @@ fn exact_spreads_match_samples() {
                     let executed = variances.executed(&legs, [a, b, rho * a + (1.0 - rho * rho).sqrt() * c]);
                     let [_, _, driven, _] = executed.poses(&start);
                     let (dx, dy) = (driven.x() - start.x(), driven.y() - start.y());
-                    let turned = executed.legs.rot1 + executed.legs.rot2 - legs.rot1 - legs.rot2;
-                    [dy * bearing.cos() - dx * bearing.sin(), turned]
+                    let turn_error = executed.legs.rot1 + executed.legs.rot2 - legs.rot1 - legs.rot2;
+                    [dy * bearing.cos() - dx * bearing.sin(), turn_error]
                 })
                 .collect();
             let exact = [variances.cross_track(legs.trans, kind), variances.heading(rho)];
-            for (which, exact) in exact.into_iter().enumerate() {
+            for (k, exact) in exact.into_iter().enumerate() {
                 let mean =
-                    |power| outcomes.iter().map(|each| each[which].powi(power)).sum::<f64>() / SAMPLES as f64;
+                    |power| outcomes.iter().map(|each| each[k].powi(power)).sum::<f64>() / SAMPLES as f64;
                 let (m2, m4) = (mean(2), mean(4));
                 let error = ((m4 - m2 * m2) / SAMPLES as f64).sqrt();
                 assert!(
                     (m2 - exact).abs() < MAX_STANDARD_ERRORS * error,
-                    "{kind:?} {rule:?} {reading:?} {which}: {m2} ± {error}, exactly {exact}"
+                    "{kind:?} {rule:?} {reading:?} {k}: {m2} ± {error}, exactly {exact}"
                 );
             }
         }

@@ -1,4 +1,4 @@
-//! Gaussian noise in exponential coordinates: density, sampler, and covariances carried along a path.
+//! Gaussian noise in exponential coordinates: density, sampler, and covariances propagated along a path.
 
 use crate::common::{
     MAX_KOLMOGOROV_SMIRNOV, SAMPLES, Table, chi_square_limit, kolmogorov_smirnov, seeded, uniform, unit_cdf,
@@ -16,7 +16,7 @@ const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 const STEP: VelocityCmd = VelocityCmd { dt: 0.2, ..U };
 const FULL_RANK: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]);
 
-fn velocity(alphas: VelocityAlphas) -> VelocityModel {
+fn model_of(alphas: VelocityAlphas) -> VelocityModel {
     VelocityModel { alphas, noise: NoiseKind::Normal }
 }
 
@@ -25,7 +25,7 @@ fn full_cov() -> Matrix3<f64> {
     Matrix3::new(0.09, 0.02, 0.03, 0.02, 0.05, -0.02, 0.03, -0.02, 0.12)
 }
 
-/// Returns log N(d; 0, cov) by the inverse of the covariance.
+/// Returns log N(d; 0, cov), computed with the inverse of the covariance.
 fn log_normal(d: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let inverse = cov.try_inverse().unwrap();
     -0.5 * (d.dot(&(inverse * d)) + cov.determinant().ln() + 3.0 * (2.0 * PI).ln())
@@ -47,33 +47,33 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
             assert!((value - expected).abs() < 1e-8, "{value}, not {expected}");
         }
     }
-    // A wheelset has no lateral noise: the density is concentrated on a thin sheet.
+    // Wheels have no lateral noise. The density is then concentrated on a thin sheet.
     let model =
-        TangentNoiseModel::from_velocity(&velocity(VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0])), &U);
+        TangentNoiseModel::from_velocity(&model_of(VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0])), &U);
     let model = model.unwrap();
-    let at =
+    let log_prob_at =
         |w: Vector3<f64>| model.log_prob(&SE2::exp(&(Vector3::new(1.0, 0.0, 0.5) + w)), &U, &SE2::identity());
-    let peak = at(Vector3::zeros());
-    assert!((at(Vector3::new(0.1, 0.0, 0.1)) - peak + 0.5 * 2.0 * 0.01 / 0.025).abs() < 1e-6);
-    assert!(at(Vector3::new(0.0, 1e-3, 0.0)) < peak - 1e5);
+    let peak = log_prob_at(Vector3::zeros());
+    assert!((log_prob_at(Vector3::new(0.1, 0.0, 0.1)) - peak + 0.5 * 2.0 * 0.01 / 0.025).abs() < 1e-6);
+    assert!(log_prob_at(Vector3::new(0.0, 1e-3, 0.0)) < peak - 1e5);
 }
 
-/// Without noise of speed or turn, or of both, the density is a sheet of a micrometre or a microradian, and is not undefined.
-/// A residual is rounded to 1e-16, a ten-billionth of that, and any other variance grows by 4e-11 of itself.
+/// Without noise of speed, of turn or of both, the density is a sheet of a micrometre or a microradian instead of undefined. Residuals
+/// are rounded to 1e-16, a ten-billionth of that, and the relative change of the other variances is 4e-11.
 #[test]
 fn no_noise_before_the_last_turn_has_a_thin_density() {
     for [along, turn] in [[0.0, 0.025], [0.025, 0.0], [0.0, 0.0]] {
         let alphas = VelocityAlphas([0.8 * along, 0.8 * along, 0.8 * turn, 0.8 * turn, 0.01, 0.01]);
-        let model = TangentNoiseModel::from_velocity(&velocity(alphas), &U).unwrap();
+        let model = TangentNoiseModel::from_velocity(&model_of(alphas), &U).unwrap();
         let value = model.log_prob(&SE2::exp(&TangentNoiseModel::twist(&U)), &U, &SE2::identity());
         let variances = Vector3::new(along.max(1e-12), turn.max(1e-12), 0.0125);
-        // The chart and the arc turn alike: their factors cancel but for one of the length's two.
+        // The volume factors of chart and arc cancel, except for one factor of 2.
         let expected = log_normal(&Vector3::zeros(), &Matrix3::from_diagonal(&variances)) + 2f64.ln();
         assert!((value - expected).abs() < 1e-9, "{alphas:?}: {value}, not {expected}");
     }
 }
 
-/// A density over ξ is a density over poses times dx dy dθ / dξ = sinc²(ξ_ω/2).
+/// A density over ξ is a density over poses times dx dy dθ / dξ = sinc²(ξ_ω/2), with the turn ξ_ω.
 #[test]
 fn the_velocity_models_tangent_form_has_the_same_density() {
     let mut rng = seeded(121);
@@ -81,13 +81,13 @@ fn the_velocity_models_tangent_form_has_the_same_density() {
     for x in starts() {
         for (v, omega) in [(1.0, 0.5), (1.0, -0.5), (-1.0, 0.5), (-0.8, -1.0)] {
             let u = VelocityCmd { v, omega, dt: 1.2 };
-            let model = TangentNoiseModel::from_velocity(&velocity(alphas), &u).unwrap();
+            let model = TangentNoiseModel::from_velocity(&model_of(alphas), &u).unwrap();
             for _ in 0..200 {
                 let unit = [(); 3].map(|()| uniform(&mut rng, -2.0, 2.0));
-                let next = velocity(alphas).apply_noise(&u, &x, unit);
+                let next = model_of(alphas).apply_noise(&u, &x, unit);
                 let half = 0.5 * next.boxminus(&x).z;
-                let chart = 2.0 * (half.sin() / half).ln();
-                let expected = velocity(alphas).pose_density(&next, &u, &x).unwrap().ln() + chart;
+                let log_volume = 2.0 * (half.sin() / half).ln();
+                let expected = model_of(alphas).pose_density(&next, &u, &x).unwrap().ln() + log_volume;
                 let value = model.log_prob(&next, &u, &x);
                 assert!((value - expected).abs() < 1e-6, "{u:?} at {next:?}: {value}, not {expected}");
             }
@@ -95,17 +95,17 @@ fn the_velocity_models_tangent_form_has_the_same_density() {
     }
 }
 
-/// ξ − τ times the inverse of the covariance's root is standard normal. Each component is tested by Kolmogorov and Smirnov, and the three
-/// together by χ² over octants and shells.
+/// ξ − τ times the inverse of the covariance's root is standard normal. A Kolmogorov–Smirnov test checks each component, and all three
+/// together are checked by χ² over octants and shells.
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(1.0, 2.0, -0.7);
     let model = TangentNoiseModel::new(full_cov()).unwrap();
     let mut rng = seeded(122);
-    let whiten = full_cov().cholesky().unwrap().l().try_inverse().unwrap();
+    let root_inverse = full_cov().cholesky().unwrap().l().try_inverse().unwrap();
     let tau = Vector3::new(1.0, 0.0, 0.5);
     let whitened: Vec<Vector3<f64>> =
-        (0..SAMPLES).map(|_| whiten * (model.sample(&U, &x, &mut rng).boxminus(&x) - tau)).collect();
+        (0..SAMPLES).map(|_| root_inverse * (model.sample(&U, &x, &mut rng).boxminus(&x) - tau)).collect();
     for axis in 0..3 {
         let component = whitened.iter().map(|w| w[axis]).collect();
         let distance = kolmogorov_smirnov(component, |z| unit_cdf(NoiseKind::Normal, z));
@@ -142,7 +142,7 @@ fn compound_is_the_chapters_recursion() {
         }
     }
     // γ̂'s variance is part of the chapter's R.
-    let model = TangentNoiseModel::from_velocity(&velocity(FULL_RANK), &U).unwrap();
+    let model = TangentNoiseModel::from_velocity(&model_of(FULL_RANK), &U).unwrap();
     let expected = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.03125));
     assert!((model.compound(&Matrix3::zeros(), &Vector3::zeros()) - expected).amax() < 1e-16);
 }
@@ -156,11 +156,11 @@ fn first_order_turns_the_noise_inside_the_arc_only() {
     let after = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 0.00625));
     let one_step =
         |model: &TangentNoiseModel| model.propagate(&Matrix3::zeros(), &tau, Compounding::FirstOrder);
-    let apart = TangentNoiseModel::from_velocity(&velocity(FULL_RANK), &U).unwrap();
-    assert!((one_step(&apart) - (jacobian * inside * jacobian.transpose() + after)).amax() < 1e-15);
-    let folded = TangentNoiseModel::new(inside + after).unwrap();
-    assert!((one_step(&folded) - jacobian * (inside + after) * jacobian.transpose()).amax() < 1e-15);
-    assert!((one_step(&apart) - one_step(&folded)).amax() > 1e-4);
+    let separate = TangentNoiseModel::from_velocity(&model_of(FULL_RANK), &U).unwrap();
+    assert!((one_step(&separate) - (jacobian * inside * jacobian.transpose() + after)).amax() < 1e-15);
+    let merged = TangentNoiseModel::new(inside + after).unwrap();
+    assert!((one_step(&merged) - jacobian * (inside + after) * jacobian.transpose()).amax() < 1e-15);
+    assert!((one_step(&separate) - one_step(&merged)).amax() > 1e-4);
 }
 
 fn after_twenty_steps(model: &TangentNoiseModel, order: Compounding) -> Matrix3<f64> {
@@ -170,7 +170,7 @@ fn after_twenty_steps(model: &TangentNoiseModel, order: Compounding) -> Matrix3<
 
 #[test]
 fn twenty_steps_match_the_references() {
-    let model = TangentNoiseModel::from_velocity(&velocity(FULL_RANK), &STEP).unwrap();
+    let model = TangentNoiseModel::from_velocity(&model_of(FULL_RANK), &STEP).unwrap();
     let table = Table::parse(include_str!("../../reference/compounding.csv"));
     for (row, order) in
         table.rows().zip([Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder])

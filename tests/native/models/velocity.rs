@@ -37,7 +37,7 @@ fn starts() -> [SE2; 3] {
 
 #[test]
 fn prob_falls_off_as_the_noise_does() {
-    // One control at a time off by one standard deviation: a Gaussian falls by exp(−1/2), a triangle by 1 − 1/√6.
+    // With an error of one standard deviation in one control, a Gaussian falls to exp(−1/2), a triangular density to 1 − 1/√6.
     for (kind, ratio) in
         [(NoiseKind::Normal, (-0.5f64).exp()), (NoiseKind::Triangular, 1.0 - 1.0 / 6f64.sqrt())]
     {
@@ -45,10 +45,10 @@ fn prob_falls_off_as_the_noise_does() {
         for u in commands().into_iter().filter(|u| u.v != 0.0) {
             for x in starts() {
                 let peak = model.prob(&noise_free(&u, &x), &u, &x);
-                for which in 0..3 {
+                for control in 0..3 {
                     for sign in [1.0, -1.0] {
                         let mut unit = [0.0; 3];
-                        unit[which] = sign;
+                        unit[control] = sign;
                         let score = model.prob(&model.apply_noise(&u, &x, unit), &u, &x);
                         assert!((score / peak - ratio).abs() < 1e-9, "{kind:?} {u:?} noise {unit:?}");
                     }
@@ -62,14 +62,14 @@ fn prob_falls_off_as_the_noise_does() {
 fn zero_noise_gives_certainty_and_no_density() {
     let mut rng = seeded(53);
     for kind in NOISE_KINDS {
-        let still = model(VelocityAlphas([0.0; 6]), kind);
+        let noise_free_model = model(VelocityAlphas([0.0; 6]), kind);
         for u in commands() {
             for x in starts() {
                 let end = noise_free(&u, &x);
-                assert_eq!(still.sample(&u, &x, &mut rng), end);
-                assert_eq!(still.prob(&end, &u, &x), 1.0);
-                assert_eq!(still.prob(&end.boxplus(Vector3::new(0.0, 0.0, 1e-3)), &u, &x), 0.0);
-                assert_eq!(still.pose_density(&end, &u, &x), None);
+                assert_eq!(noise_free_model.sample(&u, &x, &mut rng), end);
+                assert_eq!(noise_free_model.prob(&end, &u, &x), 1.0);
+                assert_eq!(noise_free_model.prob(&end.boxplus(Vector3::new(0.0, 0.0, 1e-3)), &u, &x), 0.0);
+                assert_eq!(noise_free_model.pose_density(&end, &u, &x), None);
                 assert_eq!(
                     model(WITHOUT_LAST_TURN, kind).pose_density(&end, &u, &x),
                     None,
@@ -78,7 +78,7 @@ fn zero_noise_gives_certainty_and_no_density() {
                 assert!(model(WITH_LAST_TURN, kind).pose_density(&end, &u, &x).is_some());
             }
         }
-        // Noise is proportional to motion: a parked robot stays where it is.
+        // Noise is proportional to motion. A parked robot has none.
         let parked = command(0.0, 0.0, 1.0);
         for x in starts() {
             assert_eq!(model(WITH_LAST_TURN, kind).sample(&parked, &x, &mut rng), x);
@@ -88,11 +88,11 @@ fn zero_noise_gives_certainty_and_no_density() {
     }
 }
 
-/// A noise without variance must be 0 up to rounding. Rounding leaves a γ̂ that grows with the distance from the origin over |v|Δt².
+/// If γ̂ has no variance, it must be 0 up to rounding. Its rounding is proportional to the distance from the origin divided by |v|Δt².
 #[test]
 fn samples_far_from_the_origin_have_a_positive_score() {
     let mut rng = seeded(56);
-    for (far, u) in [
+    for (distance, u) in [
         (1000.0, command(1.0, 0.5, 0.01)),
         (100.0, command(-0.05, 0.05, 0.01)),
         (10.0, command(0.01, 0.0, 0.02)),
@@ -100,7 +100,7 @@ fn samples_far_from_the_origin_have_a_positive_score() {
         for alphas in [WITHOUT_LAST_TURN, VelocityAlphas([0.0; 6])] {
             for _ in 0..1000 {
                 let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
-                let x = SE2::new(draw(far), draw(far), draw(PI));
+                let x = SE2::new(draw(distance), draw(distance), draw(PI));
                 let unit = [draw(2.0), draw(2.0), 0.0];
                 let end = model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit);
                 assert!(
@@ -138,17 +138,17 @@ fn box_around(model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> Grid {
     Grid::new(x, &noise_free(u, x), 2.0, [v, 0.5 * omega, gamma], [8; 3])
 }
 
-/// Noise as large as the motion drives the robot backwards and more than once round. The v̂ of a spin on the spot has either sign.
+/// With noise as large as the motion, robots also drive backwards and turn by more than a circle. The v̂ of a spin has either sign.
 #[test]
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(1.0, -1.0, -2.0);
-    let wild = VelocityAlphas([0.5, 0.5, 1.5, 1.5, 0.5, 0.5]);
-    for (kind, allowed, v, omega) in
+    let large_alphas = VelocityAlphas([0.5, 0.5, 1.5, 1.5, 0.5, 0.5]);
+    for (kind, tolerance, v, omega) in
         [(NoiseKind::Normal, 1e-5, 0.6, 0.9), (NoiseKind::Triangular, 2e-3, 0.0, 1.2)]
     {
         let u = command(v, omega, 1.5);
-        let model = model(wild, kind);
-        // No robot gets further than its arc is long, and none drives seven deviations more than commanded.
+        let model = model(large_alphas, kind);
+        // No robot is further away than the length of its arc, and none drives seven standard deviations more than commanded.
         let radius = (v.abs() + 7.0 * model.variances(&u)[0].0.sqrt()) * u.dt;
         let integral = |cells| {
             Grid::around_start(&x, 2.0, radius, [cells; 3])
@@ -156,12 +156,12 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
         };
         // Arcs of a full turn end near the start. The integrand has a corner there, and the error is proportional to the width
         // of a cell. Two numbers of cells give the limit.
-        let total = 2.0 * integral(12) - integral(6);
-        assert!((total - 1.0).abs() < allowed, "{kind:?} {u:?}: {total}");
+        let limit = 2.0 * integral(12) - integral(6);
+        assert!((limit - 1.0).abs() < tolerance, "{kind:?} {u:?}: {limit}");
     }
 }
 
-/// γ̂ turns the robot where it stands. Its noise, also beyond a full turn, does not change the density of positions. The sum over equally
+/// The last turn γ̂ does not move the robot. Its noise, also beyond a full turn, does not change the density of positions. The sum over equally
 /// spaced headings is exact except for harmonics, which are below 1e-12 from a deviation of 0.1 on.
 #[test]
 fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
@@ -169,19 +169,19 @@ fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
     let x = SE2::new(1.0, -1.0, -2.0);
     let u = command(1.0, 0.5, 1.0);
     for (a, b) in [(1.0, 0.2), (0.8, 0.1)] {
-        let place = x * SE2::new(a, b, 0.0);
+        let position = x * SE2::new(a, b, 0.0);
         let density = |deviation: f64| -> f64 {
             let last = deviation * deviation;
             let model = model(VelocityAlphas([0.05, 0.05, 0.05, 0.09, last, 0.0]), NoiseKind::Normal);
             let spacing = TAU / f64::from(HEADINGS);
-            let poses = (0..HEADINGS).map(|i| SE2::new(place.x(), place.y(), spacing * f64::from(i)));
+            let poses = (0..HEADINGS).map(|i| SE2::new(position.x(), position.y(), spacing * f64::from(i)));
             poses.map(|pose| model.pose_density(&pose, &u, &x).unwrap()).sum::<f64>() * spacing
         };
         let expected = density(0.1);
         assert!(expected > 0.01);
         for deviation in [0.5, 3.0, 8.99, 9.01, 30.0, 1000.0] {
-            let found = density(deviation);
-            assert!((found / expected - 1.0).abs() < 1e-11, "{deviation}: {found}, not {expected}");
+            let computed = density(deviation);
+            assert!((computed / expected - 1.0).abs() < 1e-11, "{deviation}: {computed}, not {expected}");
         }
     }
 }
@@ -190,8 +190,8 @@ fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
-    let narrow = VelocityAlphas(WITH_LAST_TURN.0.map(|alpha| 0.1 * alpha));
-    let cases = [(WITH_LAST_TURN, -1.0, 0.5), (narrow, 0.9, 3.6)];
+    let small_alphas = VelocityAlphas(WITH_LAST_TURN.0.map(|alpha| 0.1 * alpha));
+    let cases = [(WITH_LAST_TURN, -1.0, 0.5), (small_alphas, 0.9, 3.6)];
     for (seed, (alphas, v, omega)) in (60..).zip(cases) {
         let u = command(v, omega, 1.0);
         for kind in NOISE_KINDS {
@@ -205,7 +205,7 @@ fn sampler_and_density_agree() {
     }
 }
 
-/// The chapter says that the shape of the table's scoring function is a few percent away from the density.
+/// The chapter says that the normalized scoring function of Table 5.1 differs from the density by a few percent.
 #[test]
 fn the_tables_prob_differs_from_the_density_by_a_few_percent() {
     let (u, x) = (command(1.0, 0.5, 1.0), SE2::identity());

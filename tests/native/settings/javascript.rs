@@ -13,7 +13,7 @@ const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/www/settings.js");
 
 #[test]
 fn numbers_in_messages_are_formatted_as_in_javascript() {
-    for (number, printed) in [
+    for (number, text) in [
         (f64::INFINITY, "Infinity"),
         (f64::NEG_INFINITY, "-Infinity"),
         (f64::NAN, "NaN"),
@@ -24,14 +24,14 @@ fn numbers_in_messages_are_formatted_as_in_javascript() {
     ] {
         let mut settings = banana::Settings::default();
         settings.command.v = number;
-        let error = banana::BananaMachine::new(settings).expect_err(printed);
-        assert!(error.to_string().starts_with(&format!("command.v is {printed}; ")), "{error}");
+        let error = banana::BananaMachine::new(settings).expect_err(text);
+        assert!(error.to_string().starts_with(&format!("command.v is {text}; ")), "{error}");
     }
-    for (seconds, printed) in [(0.0, "0"), (-0.000_001, "-0.000001"), (5e-7, "5e-7"), (-1e-300, "-1e-300")] {
+    for (seconds, text) in [(0.0, "0"), (-0.000_001, "-0.000001"), (5e-7, "5e-7"), (-1e-300, "-1e-300")] {
         let mut settings = banana::Settings::default();
         settings.command.dt = seconds;
-        let error = banana::BananaMachine::new(settings).expect_err(printed);
-        assert!(error.to_string().starts_with(&format!("command.dt is {printed}; ")), "{error}");
+        let error = banana::BananaMachine::new(settings).expect_err(text);
+        assert!(error.to_string().starts_with(&format!("command.dt is {text}; ")), "{error}");
     }
 }
 
@@ -41,12 +41,12 @@ fn settings_js_is_what_the_core_declares() {
     if std::env::var_os("UPDATE_SETTINGS").is_some() {
         std::fs::write(PATH, &expected).expect("www/settings.js can be written");
     }
-    let present = std::fs::read_to_string(PATH).unwrap_or_default();
-    let at = present.lines().zip(expected.lines()).position(|(present, expected)| present != expected);
+    let existing = std::fs::read_to_string(PATH).unwrap_or_default();
+    let line = existing.lines().zip(expected.lines()).position(|(existing, expected)| existing != expected);
     assert!(
-        present == expected,
+        existing == expected,
         "www/settings.js is stale, at line {}: `UPDATE_SETTINGS=1 cargo test --test native settings` writes it anew",
-        at.unwrap_or_else(|| present.lines().count().min(expected.lines().count())) + 1,
+        line.unwrap_or_else(|| existing.lines().count().min(expected.lines().count())) + 1,
     );
 }
 
@@ -97,28 +97,28 @@ export const limits = {{ cells: {MAX_PIXELS}, bytes: {MAX_BYTES}, trial: {MAX_TR
 /** Bits of a verdict of Map Squeeze. */
 export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: {ACCEPTED} }};
 ",
-        declarations(banana::Settings::default(), &banana::ALPHA_SENTENCES),
-        declarations(squeeze::Settings::default(), &[]),
-        declarations(arc_anatomy::Settings::default(), &arc_anatomy::ALPHA_SENTENCES),
-        declarations(
+        declaration_lines(banana::Settings::default(), &banana::ALPHA_SENTENCES),
+        declaration_lines(squeeze::Settings::default(), &[]),
+        declaration_lines(arc_anatomy::Settings::default(), &arc_anatomy::ALPHA_SENTENCES),
+        declaration_lines(
             odometry_decomposer::Settings::default(),
             &odometry_decomposer::ALPHA_SENTENCES
         ),
-        declarations(dead_reckoning::Settings::default(), &dead_reckoning::ALPHA_SENTENCES),
-        declarations(alpha_calibrator::Settings::default(), &[]),
-        lines(banana::PRESETS.map(|banana::Preset { name, command, alphas }| {
-            format!("name: '{name}', {}, alphas: {alphas:?}", group(command))
+        declaration_lines(dead_reckoning::Settings::default(), &dead_reckoning::ALPHA_SENTENCES),
+        declaration_lines(alpha_calibrator::Settings::default(), &[]),
+        object_lines(banana::PRESETS.map(|banana::Preset { name, command, alphas }| {
+            format!("name: '{name}', {}, alphas: {alphas:?}", group_entries(command))
         })),
-        lines(squeeze::PRESETS.map(|(name, start)| format!("name: '{name}', start: {{ {} }}", group(start)))),
-        lines(arc_anatomy::PRESETS.map(|arc_anatomy::Preset { name, command, next }| {
+        object_lines(squeeze::PRESETS.map(|(name, start)| format!("name: '{name}', start: {{ {} }}", group_entries(start)))),
+        object_lines(arc_anatomy::PRESETS.map(|arc_anatomy::Preset { name, command, next }| {
             let arc_anatomy::FinalPose { x, y, theta } = next;
-            format!("name: '{name}', {}, nextX: {x}, nextY: {y}, nextTheta: {theta}", group(command))
+            format!("name: '{name}', {}, nextX: {x}, nextY: {y}, nextTheta: {theta}", group_entries(command))
         })),
-        lines(odometry_decomposer::PRESETS.map(|odometry_decomposer::Preset { name, from, to }| {
-            format!("name: '{name}', from: {{ {} }}, to: {{ {} }}", group(from), group(to))
+        object_lines(odometry_decomposer::PRESETS.map(|odometry_decomposer::Preset { name, from, to }| {
+            format!("name: '{name}', from: {{ {} }}, to: {{ {} }}", group_entries(from), group_entries(to))
         })),
-        lines(dead_reckoning::PRESETS.map(|dead_reckoning::Preset { name, command, steps, step, alphas }| {
-            format!("name: '{name}', command: {{ {} }}, steps: {steps}, step: {step}, alphas: {alphas:?}", group(command))
+        object_lines(dead_reckoning::PRESETS.map(|dead_reckoning::Preset { name, command, steps, step, alphas }| {
+            format!("name: '{name}', command: {{ {} }}, steps: {steps}, step: {step}, alphas: {alphas:?}", group_entries(command))
         })),
     )
 }
@@ -149,28 +149,28 @@ const HEAD: &str = "\
 ";
 
 /// Returns objects of JavaScript, one on each line.
-fn lines(objects: impl IntoIterator<Item = String>) -> String {
-    objects.into_iter().fold(String::new(), |mut lines, object| {
-        writeln!(lines, "    {{ {object} }},").expect("a string takes all");
-        lines
+fn object_lines(objects: impl IntoIterator<Item = String>) -> String {
+    objects.into_iter().fold(String::new(), |mut object_lines, object| {
+        writeln!(object_lines, "    {{ {object} }},").expect("a string takes all");
+        object_lines
     })
 }
 
-/// Returns a line for each setting, and for each number of a group or list. `numbered` are the sentences of numbers that are attributes.
-fn declarations(mut opening: impl Declared, numbered: &[&str]) -> String {
+/// Returns a line for each setting, and for each number of a group or list. `number_sentences` describe the numbers of a list.
+fn declaration_lines(mut defaults: impl Declared, number_sentences: &[&str]) -> String {
     let mut objects = Vec::new();
-    let shared = shared_fields(&mut opening);
-    let _ = opening.each(&mut |declaration, setting| {
-        describe(declaration, setting, numbered, &shared, &mut objects);
+    let shared = shared_fields(&mut defaults);
+    let _ = defaults.each(&mut |declaration, setting| {
+        describe(declaration, setting, number_sentences, &shared, &mut objects);
         ControlFlow::Continue(())
     });
-    lines(objects)
+    object_lines(objects)
 }
 
-/// Returns the keys of fields that more than one group has, as two poses do. Their attributes have the name of the group before the key.
-fn shared_fields(opening: &mut impl Declared) -> Vec<&'static str> {
+/// Returns the keys of fields that more than one group has, as two poses do. Their attributes consist of the group's name and the key.
+fn shared_fields(defaults: &mut impl Declared) -> Vec<&'static str> {
     let (mut seen, mut shared) = (Vec::new(), Vec::new());
-    let _ = opening.each(&mut |_, setting| {
+    let _ = defaults.each(&mut |_, setting| {
         if let Setting::Group(group) = setting {
             for Field { declaration, .. } in group.fields() {
                 if seen.contains(&declaration.key) { &mut shared } else { &mut seen }.push(declaration.key);
@@ -185,42 +185,42 @@ fn shared_fields(opening: &mut impl Declared) -> Vec<&'static str> {
 fn describe(
     declaration: &Declaration,
     setting: Setting,
-    numbered: &[&str],
+    number_sentences: &[&str],
     shared: &[&str],
     objects: &mut Vec<String>,
 ) {
     let Declaration { key, of, sentence, unit } = *declaration;
-    let of = of.map(|whole| format!("of: '{whole}', ")).unwrap_or_default();
+    let of = of.map(|target| format!("of: '{target}', ")).unwrap_or_default();
     let unit = if unit.is_empty() { String::new() } else { format!("unit: '{unit}', ") };
-    let mut line = |rest: String| objects.push(format!("key: '{key}', {of}{rest}, sentence: '{sentence}'"));
+    let mut add = |text: String| objects.push(format!("key: '{key}', {of}{text}, sentence: '{sentence}'"));
     match setting {
         Setting::Number(value, allowed) => {
-            line(format!("type: 'number', {unit}{}, default: {value}", range(&allowed)));
+            add(format!("type: 'number', {unit}{}, default: {value}", range(&allowed)));
         }
         Setting::Whole(value, allowed) => {
-            line(format!("type: 'whole', {unit}{}, default: {}", range(&allowed), value.get()));
+            add(format!("type: 'whole', {unit}{}, default: {}", range(&allowed), value.get()));
         }
         Setting::WholeOrNone(value, allowed) => {
             let value = value.map_or("null".to_owned(), |value| value.to_string());
-            line(format!("type: 'whole', nullable: true, {unit}{}, default: {value}", range(&allowed)));
+            add(format!("type: 'whole', nullable: true, {unit}{}, default: {value}", range(&allowed)));
         }
-        Setting::Truth(value) => line(format!("type: 'boolean', default: {value}")),
+        Setting::Truth(value) => add(format!("type: 'boolean', default: {value}")),
         Setting::Word(word) => {
-            line(format!("type: 'word', words: {}, default: '{}'", words(word.all()), word.get()));
+            add(format!("type: 'word', words: {}, default: '{}'", word_list(word.all()), word.get()));
         }
         Setting::Level(level, allowed) => {
             let value = level.get().map_or("null".to_owned(), |level| level.to_string());
             let weights = level.weights();
-            line(format!(
+            add(format!(
                 "weights: {weights:?}, type: 'number', nullable: true, {unit}{}, default: {value}",
                 range(&allowed)
             ));
         }
         Setting::Numbers(values, allowed) => {
-            line(format!("type: 'numbers', {}, default: {values:?}", range(&allowed)));
-            for (index, (value, sentence)) in values.iter().zip(numbered).enumerate() {
-                // The model with the fewest α's has none of the other numbers, which are null then.
-                let nullable = if sentence == &numbered[0] { "" } else { "nullable: true, " };
+            add(format!("type: 'numbers', {}, default: {values:?}", range(&allowed)));
+            for (index, (value, sentence)) in values.iter().zip(number_sentences).enumerate() {
+                // Models with fewer α's lack the numbers after the first ones. Those are null.
+                let nullable = if sentence == &number_sentences[0] { "" } else { "nullable: true, " };
                 objects.push(format!(
                     "key: 'alpha{}', in: '{key}', index: {index}, type: 'number', {nullable}{}, default: {value}, \
                      sentence: '{sentence}'",
@@ -231,13 +231,13 @@ fn describe(
         }
         Setting::Group(group) => {
             let keys = group.fields().iter().map(|field| field.declaration.key).collect();
-            line(format!("type: 'group', fields: {}", words(keys)));
+            add(format!("type: 'group', fields: {}", word_list(keys)));
             for (i, field) in group.fields().iter().enumerate() {
                 let value = *group.number(i);
                 let Declaration { key: part, sentence, unit, .. } = field.declaration;
                 let name = if shared.contains(&part) {
-                    let (first, rest) = part.split_at(1);
-                    format!("key: '{key}{}{rest}', in: '{key}', field: '{part}'", first.to_uppercase())
+                    let (initial, tail) = part.split_at(1);
+                    format!("key: '{key}{}{tail}', in: '{key}', field: '{part}'", initial.to_uppercase())
                 } else {
                     format!("key: '{part}', in: '{key}'")
                 };
@@ -255,12 +255,12 @@ fn range<T: std::fmt::Display>(allowed: &RangeInclusive<T>) -> String {
     format!("min: {}, max: {}", allowed.start(), allowed.end())
 }
 
-fn words(words: Vec<&str>) -> String {
+fn word_list(words: Vec<&str>) -> String {
     format!("['{}']", words.join("', '"))
 }
 
 /// Returns the numbers of a group by their keys.
-fn group(mut group: impl Group) -> String {
+fn group_entries(mut group: impl Group) -> String {
     let numbers = group.fields().iter().enumerate();
     let entries: Vec<String> =
         numbers.map(|(i, field)| format!("{}: {}", field.declaration.key, group.number(i))).collect();

@@ -12,7 +12,7 @@ fn machine(settings: Settings) -> AlphaCalibrator {
 }
 
 /// Returns true for each α, and then for each systematic error, whose interval holds the value of the simulation.
-fn held_by_intervals(machine: &AlphaCalibrator) -> [bool; 10] {
+fn intervals_hold_truth(machine: &AlphaCalibrator) -> [bool; 10] {
     let calibration = machine.calibration();
     let truth = machine.truth().expect("a simulated log");
     let [ahead, left] = truth.lever_arm;
@@ -30,7 +30,7 @@ fn held_by_intervals(machine: &AlphaCalibrator) -> [bool; 10] {
 #[test]
 fn the_opening_intervals_hold_the_true_values() {
     let machine = machine(Settings::default());
-    assert_eq!(held_by_intervals(&machine), [true; 10]);
+    assert_eq!(intervals_hold_truth(&machine), [true; 10]);
     assert_eq!(machine.calibration().diagnostics.verdict, Verdict::Consistent);
 }
 
@@ -53,19 +53,19 @@ fn legs_end_after_a_duration_where_one_is_set() {
 /// A standard deviation of 0 is estimated from the log; any other is used as stated.
 #[test]
 fn the_noise_of_the_reference_is_stated_or_estimated() {
-    let noise = |position_std: f64, yaw_std: f64| {
+    let reference_noise = |position_std: f64, yaw_std: f64| {
         let machine = machine(Settings { position_std, yaw_std, ..Settings::default() });
         machine.calibration().reference_noise.map(|std| (std.value, std.interval[0] == std.interval[1]))
     };
-    let [estimated, yaw] = noise(0.0, 0.003);
+    let [estimated, yaw] = reference_noise(0.0, 0.003);
     assert_eq!((estimated.1, yaw.1), (false, true));
     assert!((yaw.0 - 0.003).abs() < 1e-12, "{yaw:?}");
-    let [position, estimated] = noise(0.004, 0.0);
+    let [position, estimated] = reference_noise(0.004, 0.0);
     assert_eq!((position.1, estimated.1), (true, false));
     assert!((position.0 - 0.004).abs() < 1e-12, "{position:?}");
 }
 
-/// Panels are compared with means of squared innovations, less the parts of the other α and the reference, in bins of this test.
+/// Panels are compared with means of squared innovations, less the variance due to the other α and the reference, in bins made here.
 #[test]
 fn panels_are_means_of_squared_innovations() {
     let machine = machine(Settings::default());
@@ -75,7 +75,7 @@ fn panels_are_means_of_squared_innovations() {
     assert_eq!(machine.panels(Driver::Way).map(|panel| panel.alpha), [1, 2, 1]);
     assert_eq!((trans.slope, trans.interval), (alphas[3], intervals[3]));
     let slope = alphas[3].expect("the log turns");
-    // The table charges the drive for the squares of both turns.
+    // By the rule of Table 5.6 the variance of `trans` is α₃·trans² + α₄·(rot1² + rot2²).
     let mut points: Vec<[f64; 2]> = observations
         .iter()
         .zip(leg_fits)
@@ -90,39 +90,39 @@ fn panels_are_means_of_squared_innovations() {
     points.sort_by(|one, other| one[0].total_cmp(&other[0]));
     let size = points.len().div_ceil(8);
     // A bin of legs ends after all legs that turned exactly as much as its last one.
-    let end =
+    let bin_end =
         |i: usize| points.partition_point(|point| point[0] <= points[((i * size).min(points.len())) - 1][0]);
     for i in 0..8 {
-        let bin = &points[if i == 0 { 0 } else { end(i) }..end(i + 1)];
+        let bin = &points[if i == 0 { 0 } else { bin_end(i) }..bin_end(i + 1)];
         let mean = |of: usize| bin.iter().map(|point| point[of]).sum::<f64>() / bin.len() as f64;
         assert!((trans.x[i] - mean(0)).abs() < 1e-12 && (trans.y[i] - mean(1)).abs() < 1e-12, "bin {i}");
     }
     assert_eq!(trans.x.len(), 8);
-    // The model is true, so that the bins are within their errors of the line.
-    let off = |i: usize| ((trans.y[i] - slope * trans.x[i]) / trans.error[i]).powi(2);
-    assert!((0..8).map(off).sum::<f64>() < 26.1, "χ² of 8 is above that once in a thousand times");
+    // The model is true. The bins therefore differ from the line by their error bars only.
+    let term = |i: usize| ((trans.y[i] - slope * trans.x[i]) / trans.error[i]).powi(2);
+    assert!((0..8).map(term).sum::<f64>() < 26.1, "χ² of 8 exceeds that once in a thousand logs");
 }
 
-/// If the model is true, no more bins are beyond two and three of their error bars than normal errors would be. That holds
-/// also for bins that one leg with a large turn decides. Bars from the scatter of the squares alone would miss 1.7 % at three.
+/// If the model is true, no more bins are off by over two and three error bars than with normal errors. That holds also for
+/// bins where one leg with a large turn dominates. Error bars from the scatter of the squares alone would miss 1.7 % of bins at three.
 #[test]
 #[ignore = "nightly: 40 calibrations"]
 fn the_error_bars_of_panels_hold_the_fitted_lines() {
-    let [mut bins, mut beyond, mut far] = [0; 3];
+    let [mut bins, mut over2, mut over3] = [0; 3];
     for seed in 0..40 {
         let machine = machine(Settings { seed, ..Settings::default() });
         for panel in [Driver::Way, Driver::Turn].into_iter().flat_map(|driver| machine.panels(driver)) {
             let slope = panel.slope.expect("the log turns and drives");
             for ((x, y), error) in panel.x.iter().zip(&panel.y).zip(&panel.error) {
-                let off = ((y - slope * x) / error).abs();
+                let deviation = ((y - slope * x) / error).abs();
                 bins += 1;
-                beyond += usize::from(off > 2.0);
-                far += usize::from(off > 3.0);
+                over2 += usize::from(deviation > 2.0);
+                over3 += usize::from(deviation > 3.0);
             }
         }
     }
     let share = |count: usize| count as f64 / bins as f64;
-    assert!(share(beyond) < 0.0455 && share(far) < 0.0027, "{beyond} and {far} of {bins}");
+    assert!(share(over2) < 0.0455 && share(over3) < 0.0027, "{over2} and {over3} of {bins}");
 }
 
 #[test]
@@ -132,14 +132,14 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     let index = 100;
     let view = machine.leg(index).expect("a leg");
     let [from, to] = calibration.legs[index].reference.map(|pose| pose * calibration.corrected.base());
-    let ended = from.inverse() * to;
-    assert_eq!(view.ended, [ended.x(), ended.y(), ended.theta()]);
+    let motion = from.inverse() * to;
+    assert_eq!(view.ended, [motion.x(), motion.y(), motion.theta()]);
     let [rot1, trans, rot2] = calibration.observations[index].reading;
     let read = OdomDelta { rot1, trans, rot2 }.apply(&SE2::identity());
     assert!(
         view.read.iter().zip([read.x(), read.y(), read.theta()]).all(|(is, has)| (is - has).abs() < 1e-12)
     );
-    // The cloud is that of the rule, with four times the variance.
+    // Outcomes are drawn by the rule, with an inflation of four: variances times four.
     let mut alphas = [0.0; 5];
     alphas.iter_mut().zip(&calibration.alphas).for_each(|(alpha, fitted)| *alpha = fitted.expect("known"));
     let variances =
@@ -149,15 +149,15 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
         let mean = view.outcomes.iter().map(of).sum::<f64>() / count;
         view.outcomes.iter().map(|outcome| (of(outcome) - mean).powi(2)).sum::<f64>() / count
     };
-    let length = variance(&|[x, y, _]| libm::hypot(*x, *y));
+    let drive_variance = variance(&|[x, y, _]| libm::hypot(*x, *y));
     assert!(
-        (length / variances.trans.0 - 1.0).abs() < 4.0 * (2.0 / count).sqrt(),
-        "{length}, {}",
+        (drive_variance / variances.trans.0 - 1.0).abs() < 4.0 * (2.0 / count).sqrt(),
+        "{drive_variance}, {}",
         variances.trans.0
     );
-    let turned = variance(&|[_, _, theta]| *theta);
-    let both = variances.rot1.0 + variances.rot2.0;
-    assert!((turned / both - 1.0).abs() < 4.0 * (2.0 / count).sqrt(), "{turned}, {both}");
+    let turn = variance(&|[_, _, theta]| *theta);
+    let expected = variances.rot1.0 + variances.rot2.0;
+    assert!((turn / expected - 1.0).abs() < 4.0 * (2.0 / count).sqrt(), "{turn}, {expected}");
     assert!(machine.leg(calibration.legs.len()).is_none());
 }
 
@@ -166,31 +166,31 @@ fn the_nearest_leg_is_the_one_that_leads_by() {
     let machine = machine(Settings::default());
     let calibration = machine.calibration();
     let [from, to] = calibration.legs[7].reference.map(|pose| pose * calibration.corrected.base());
-    let middle = [0.5 * (from.x() + to.x()), 0.5 * (from.y() + to.y())];
-    let found = machine.nearest(middle, 1e-9).expect("it leads through there");
-    let [from, to] = calibration.legs[found].reference.map(|pose| pose * calibration.corrected.base());
-    let way = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
+    let midpoint = [0.5 * (from.x() + to.x()), 0.5 * (from.y() + to.y())];
+    let nearest = machine.nearest(midpoint, 1e-9).expect("it leads through there");
+    let [from, to] = calibration.legs[nearest].reference.map(|pose| pose * calibration.corrected.base());
+    let distance = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
     let [from, to] = [from, to].map(|pose| [pose.x(), pose.y()]);
-    assert!(way(from, middle) + way(middle, to) - way(from, to) < 1e-9);
+    assert!(distance(from, midpoint) + distance(midpoint, to) - distance(from, to) < 1e-9);
     assert_eq!(machine.nearest([1e6, 0.0], 1.0), None);
-    assert_eq!(machine.nearest(middle, 0.0), None);
+    assert_eq!(machine.nearest(midpoint, 0.0), None);
 }
 
 #[test]
 fn the_model_and_the_rule_go_together() {
     use motion::sim::settings::Rules;
-    let settled = |change: fn(&mut Settings), named: &str| {
+    let settled_by = |change: fn(&mut Settings), named: &str| {
         let before = Settings::default();
         let mut settings = before;
         change(&mut settings);
         settings.settle(&before, &[named]);
         settings
     };
-    assert_eq!(settled(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
-    assert_eq!(settled(|s| s.rule = OdometryRule::Omni, "rule").model, Model::Omnidirectional);
-    assert_eq!(settled(|s| s.rule = OdometryRule::Nav2, "rule").model, Model::Odometry);
-    let both = Settings { model: Model::Odometry, rule: OdometryRule::Omni, ..Settings::default() };
-    let refusal = AlphaCalibrator::new(both).expect_err("they do not").to_string();
+    assert_eq!(settled_by(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
+    assert_eq!(settled_by(|s| s.rule = OdometryRule::Omni, "rule").model, Model::Omnidirectional);
+    assert_eq!(settled_by(|s| s.rule = OdometryRule::Nav2, "rule").model, Model::Odometry);
+    let omni_odometry = Settings { model: Model::Odometry, rule: OdometryRule::Omni, ..Settings::default() };
+    let refusal = AlphaCalibrator::new(omni_odometry).expect_err("they do not").to_string();
     assert_eq!(refusal, "rule is omni; allowed is thrun, nav2 or beluga");
 }
 

@@ -25,14 +25,14 @@ fn poses(settings: &Settings) -> (SE2, SE2) {
     (SE2::new(x, y, theta), SE2::new(next_x, next_y, next_theta))
 }
 
-/// Returns settings with two random poses, some metres apart, and a random command.
-fn random(seed: u64) -> impl Iterator<Item = Settings> {
+/// Returns an infinite stream of settings, each with two random poses some metres apart and a random command.
+fn random_settings(seed: u64) -> impl Iterator<Item = Settings> {
     let mut rng = seeded(seed);
     std::iter::repeat_with(move || {
-        let mut within = |reach: f64| uniform(&mut rng, -reach, reach);
-        let start = [within(3.0), within(3.0), within(PI)];
-        let next = FinalPose { x: within(3.0), y: within(3.0), theta: within(PI) };
-        let command = VelocityCmd { v: within(1.5), omega: within(2.0), dt: 0.1 + within(1.0).abs() };
+        let mut up_to = |reach: f64| uniform(&mut rng, -reach, reach);
+        let start = [up_to(3.0), up_to(3.0), up_to(PI)];
+        let next = FinalPose { x: up_to(3.0), y: up_to(3.0), theta: up_to(PI) };
+        let command = VelocityCmd { v: up_to(1.5), omega: up_to(2.0), dt: 0.1 + up_to(1.0).abs() };
         Settings { start, next, command, ..Settings::default() }
     })
 }
@@ -56,15 +56,15 @@ fn table_as_printed(settings: &Settings) -> [f64; 8] {
 
 #[test]
 fn the_printed_option_computes_the_lines_of_the_table() {
-    for settings in random(1).take(20_000) {
+    for settings in random_settings(1).take(20_000) {
         let printed = machine(Settings { printed: true, ..settings }).table().lines;
         let expected = table_as_printed(&settings);
         // The table loses digits if the radius is much larger than the distance, and for nearly full circles.
         let scale = 1.0 + expected[0].abs() + expected[3].abs();
         for (line, expected) in expected.iter().enumerate() {
-            let off = (printed[line] - expected).abs();
+            let deviation = (printed[line] - expected).abs();
             assert!(
-                off <= 1e-12 * scale * scale / settings.command.dt,
+                deviation <= 1e-12 * scale * scale / settings.command.dt,
                 "line {}: {} for {expected}, {settings:?}",
                 line + 1,
                 printed[line]
@@ -75,7 +75,7 @@ fn the_printed_option_computes_the_lines_of_the_table() {
 
 #[test]
 fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
-    for settings in random(3).take(2000) {
+    for settings in random_settings(3).take(2000) {
         let (_, next) = poses(&settings);
         let Stats { commanded, driven, last_turn, .. } = stats(settings);
         assert!(wrap_angle(driven.end[2] + last_turn - next.theta()).abs() < 1e-13, "{settings:?}");
@@ -90,15 +90,15 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
 /// final position at the start.
 #[test]
 fn the_printed_option_mirrors_centres_to_the_right() {
-    let mut right = 0;
-    for settings in random(4).take(2000) {
+    let mut right_count = 0;
+    for settings in random_settings(4).take(2000) {
         let signed = stats(settings);
         let printed = stats(Settings { printed: true, ..settings });
         let [x, y, _] = printed.driven.end;
         let (start, next) = poses(&settings);
         let mirrored = [2.0 * start.x() - next.x(), 2.0 * start.y() - next.y()];
         let expected = if signed.inverted.radius < 0.0 { mirrored } else { [next.x(), next.y()] };
-        right += usize::from(signed.inverted.radius < 0.0);
+        right_count += usize::from(signed.inverted.radius < 0.0);
         let allowed = 1e-13 * (10.0 + signed.driven.arc_length.abs());
         assert!((x - expected[0]).hypot(y - expected[1]) < allowed, "{settings:?}");
         assert_eq!(printed.inverted, signed.inverted);
@@ -106,8 +106,8 @@ fn the_printed_option_mirrors_centres_to_the_right() {
         assert_eq!(printed.density, signed.density);
         assert_eq!(printed.driven.arc_length.signum(), printed.driven.turn.signum());
     }
-    assert!(right > 500);
-    // The setting `printed` changes p to nearly 0 on two presets, and nothing on the other two.
+    assert!(right_count > 500);
+    // The setting `printed` lowers p to nearly 0 in two presets, and has no effect in the others.
     for (name, collapses) in [("left", false), ("right", true), ("reverse", true), ("straight", false)] {
         let (signed, printed) =
             (stats(preset(name)).share, stats(Settings { printed: true, ..preset(name) }).share);
@@ -118,7 +118,7 @@ fn the_printed_option_mirrors_centres_to_the_right() {
 
 #[test]
 fn p_is_the_product_of_the_factors_and_that_of_the_model() {
-    for (i, settings) in random(5).take(4000).enumerate() {
+    for (i, settings) in random_settings(5).take(4000).enumerate() {
         let noise = NOISE_KINDS[i % 2];
         let settings = Settings { noise, ..settings };
         let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise };
@@ -126,14 +126,14 @@ fn p_is_the_product_of_the_factors_and_that_of_the_model() {
         let stats = stats(settings);
         assert_eq!(stats.prob, model.prob(&next, &settings.command, &start));
         assert_eq!(stats.density, model.pose_density(&next, &settings.command, &start));
-        let best = model.apply_noise(&settings.command, &start, [0.0; 3]);
+        let noise_free_pose = model.apply_noise(&settings.command, &start, [0.0; 3]);
         let peak: f64 =
             model.variances(&settings.command).iter().map(|variance| noise.prob(0.0, *variance)).product();
         assert!((stats.share * peak - stats.prob).abs() <= 1e-13 * peak, "{settings:?}");
         // The inversion finds the shorter of the two arcs.
         if (settings.command.omega * settings.command.dt).abs() < PI {
-            let found = model.prob(&best, &settings.command, &start);
-            assert!((found / peak - 1.0).abs() < 1e-9, "{settings:?}");
+            let peak_prob = model.prob(&noise_free_pose, &settings.command, &start);
+            assert!((peak_prob / peak - 1.0).abs() < 1e-9, "{settings:?}");
         }
         for factor in stats.factors.iter().filter(|_| noise == NoiseKind::Normal) {
             let expected = (-0.5 * factor.deviations.powi(2)).exp();
@@ -148,8 +148,8 @@ fn without_noise_a_residual_is_zero_or_infinite() {
     let Stats { factors, prob, share, density, weakest, .. } = stats(settings);
     assert_eq!(factors.map(|factor| factor.deviations), [f64::NEG_INFINITY, 0.0, f64::INFINITY]);
     assert_eq!((prob, share, density, weakest), (0.0, 0.0, None, 0));
-    let there = FinalPose { x: 1.0, y: 0.0, theta: 0.0 };
-    let Stats { factors, prob, share, .. } = stats(Settings { next: there, ..settings });
+    let reached = FinalPose { x: 1.0, y: 0.0, theta: 0.0 };
+    let Stats { factors, prob, share, .. } = stats(Settings { next: reached, ..settings });
     assert_eq!(factors.map(|factor| factor.deviations), [0.0; 3]);
     assert_eq!((prob, share), (1.0, 1.0));
 }
@@ -157,23 +157,23 @@ fn without_noise_a_residual_is_zero_or_infinite() {
 /// The expected lateral velocity comes from central differences of the path.
 #[test]
 fn the_twist_slips_sideways_when_there_is_a_last_turn() {
-    for settings in random(6).take(200) {
+    for settings in random_settings(6).take(200) {
         let machine = machine(settings);
         let [along, lateral, _] = machine.stats().xi;
         let step = 1e-5;
         for (i, tick) in machine.paths().ticks.iter().enumerate().take(8) {
-            let share = 0.125 * i as f64 + step;
-            let [before, at, after] =
-                [share - step, share, share + step].map(|share| machine.poses_at(share)[2]);
+            let progress = 0.125 * i as f64 + step;
+            let [before, middle, after] =
+                [progress - step, progress, progress + step].map(|progress| machine.poses_at(progress)[2]);
             let velocity = [(after.x() - before.x()) / (2.0 * step), (after.y() - before.y()) / (2.0 * step)];
-            let (sin, cos) = at.theta().sin_cos();
+            let (sin, cos) = middle.theta().sin_cos();
             let sideways = cos * velocity[1] - sin * velocity[0];
             assert!((sideways - lateral).abs() < 1e-8 * (1.0 + along.abs() + lateral.abs()), "{settings:?}");
             let [x, y, to_x, to_y] = *tick;
             assert!(((to_x - x).hypot(to_y - y) - lateral.abs()).abs() < 1e-12 * (1.0 + lateral.abs()));
             assert!((before.x() - x).hypot(before.y() - y) < 1e-12 * (1.0 + along.abs()));
         }
-        // Without the last turn the twist is the arc.
+        // Without the last turn the lateral component of the twist is 0.
         let Stats { driven, .. } = machine.stats();
         let next = FinalPose { theta: driven.end[2], ..settings.next };
         let xi = stats(Settings { next, ..settings }).xi;
@@ -190,15 +190,15 @@ fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
     assert_eq!(factors[0].estimate, 2.0);
     let [mu, x, y, radius, turn, v, ..] = machine.table().lines;
     assert!([mu, x, y, radius].iter().all(|line| line.is_infinite()) && turn == 0.0 && v == 2.0);
-    let near = FinalPose { x: f64::from_bits(1), y: 0.0, theta: 0.0 };
-    let nearly_staying = ArcAnatomy::new(Settings { next: near, ..straight }).expect("valid settings");
+    let nearest = FinalPose { x: f64::from_bits(1), y: 0.0, theta: 0.0 };
+    let nearly_staying = ArcAnatomy::new(Settings { next: nearest, ..straight }).expect("valid settings");
     assert!(nearly_staying.table().lines[0].is_infinite());
     let back = stats(Settings { next: FinalPose { x: -2.0, y: 0.0, theta: 0.0 }, printed: true, ..straight });
     assert_eq!(back.factors[0].estimate, -2.0);
     assert!(back.factors[1].estimate.to_bits() == 0, "a turn of −0");
-    let staying = Settings { next: FinalPose { x: 0.0, y: 0.0, theta: 0.7 }, ..straight };
-    let Stats { factors, density, xi, .. } = stats(staying);
+    let turn_on_spot = Settings { next: FinalPose { x: 0.0, y: 0.0, theta: 0.7 }, ..straight };
+    let Stats { factors, density, xi, .. } = stats(turn_on_spot);
     assert_eq!(factors.map(|factor| factor.estimate), [0.0, 0.7, 0.0]);
     assert_eq!((density, xi), (Some(f64::INFINITY), [0.0, 0.0, 0.7]));
-    assert!(ArcAnatomy::new(staying).expect("valid settings").table().lines[0].is_nan());
+    assert!(ArcAnatomy::new(turn_on_spot).expect("valid settings").table().lines[0].is_nan());
 }

@@ -26,7 +26,7 @@ fn poses(machine: &BananaMachine) -> Vec<SE2> {
     machine.poses().collect()
 }
 
-fn models() -> [Settings; 2] {
+fn settings_of_models() -> [Settings; 2] {
     [preset("gentle"), Settings { model: ModelKind::Odometry, ..preset("gentle") }]
 }
 
@@ -38,13 +38,13 @@ fn results(machine: &BananaMachine) -> String {
 /// Accuracy of a pose after a metre or two. Each factor of a coordinate has the accuracy of a sine or cosine.
 const POSE_ACCURACY: f64 = 4.0 * ACCURACY;
 
-/// The poses are those of the model, in its order of draws, forward and in reverse.
+/// The poses equal the model's own samples from the same seed, forward and in reverse.
 #[test]
 fn the_cloud_is_what_the_model_samples() {
     let start = SE2::identity();
-    let back = VelocityCmd { v: -1.0, omega: 0.5, dt: 1.0 };
+    let reverse = VelocityCmd { v: -1.0, omega: 0.5, dt: 1.0 };
     for (noise, command) in
-        NOISE_KINDS.into_iter().flat_map(|noise| [GENTLE, back].map(|command| (noise, command)))
+        NOISE_KINDS.into_iter().flat_map(|noise| [GENTLE, reverse].map(|command| (noise, command)))
     {
         let settings = Settings { noise, command, samples: 500, seed: 2005, ..preset("gentle") };
         let assert_same = |settings: Settings, draw: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
@@ -60,16 +60,16 @@ fn the_cloud_is_what_the_model_samples() {
         let end = start.boxplus(Vector3::new(command.v, 0.0, command.omega));
         let reading = OdomDelta::from_poses(&start, &end);
         assert_same(odometry, &mut |rng| model.sample(&reading, &start, rng));
-        let aware = Settings { reverse_aware: true, ..odometry };
-        assert_same(aware, &mut |rng| ReverseAware(model).sample(&reading, &start, rng));
+        let reverse_aware = Settings { reverse_aware: true, ..odometry };
+        assert_same(reverse_aware, &mut |rng| ReverseAware(model).sample(&reading, &start, rng));
     }
 }
 
 /// Each robot keeps its noise relative to its standard deviation, such as (v̂ − v)/σ.
 #[test]
 fn changed_settings_move_the_same_robots() {
-    let opening = Settings { samples: 300, ..preset("gentle") };
-    let mut machine = machine(opening);
+    let first_settings = Settings { samples: 300, ..preset("gentle") };
+    let mut machine = machine(first_settings);
     let unit_noises = |machine: &BananaMachine| -> Vec<[f64; 3]> {
         let settings = machine.settings();
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise: settings.noise };
@@ -85,27 +85,27 @@ fn changed_settings_move_the_same_robots() {
             })
             .collect()
     };
-    let before = unit_noises(&machine);
+    let noises = unit_noises(&machine);
     let command = VelocityCmd { v: -0.6, omega: 1.1, dt: 0.7 };
     for settings in [
-        Settings { velocity_alphas: [0.01, 0.2, 0.03, 0.04, 0.3, 0.2], ..opening },
-        Settings { command, ..opening },
+        Settings { velocity_alphas: [0.01, 0.2, 0.03, 0.04, 0.3, 0.2], ..first_settings },
+        Settings { command, ..first_settings },
     ] {
         machine.configure(settings).unwrap();
-        for (a, b) in unit_noises(&machine).iter().zip(&before) {
+        for (a, b) in unit_noises(&machine).iter().zip(&noises) {
             assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} was {b:?}");
         }
     }
-    machine.configure(opening).unwrap();
-    assert_eq!(unit_noises(&machine), before, "and back again to the bit");
-    machine.configure(Settings { seed: 8, ..opening }).unwrap();
-    assert!(unit_noises(&machine).iter().zip(&before).all(|(a, b)| a != b), "a new seed is new luck");
+    machine.configure(first_settings).unwrap();
+    assert_eq!(unit_noises(&machine), noises, "and back again to the bit");
+    machine.configure(Settings { seed: 8, ..first_settings }).unwrap();
+    assert!(unit_noises(&machine).iter().zip(&noises).all(|(a, b)| a != b), "a new seed changes it");
 }
 
 /// Blocks have 25,000 robots or more. The growth of smaller clouds is tested in `tests/fuzz.rs`.
 #[test]
 fn a_large_cloud_grows_in_blocks() {
-    for settings in models() {
+    for settings in settings_of_models() {
         let large = Settings { samples: 60_000, ..settings };
         let mut growing = BananaMachine::showing(settings, 0).unwrap();
         growing.configure_first(large, usize::MAX).unwrap();
@@ -147,8 +147,8 @@ fn isolating_an_alpha_silences_the_others() {
     let straight = Settings { command: PRESETS[0].command, samples: 1000, ..preset("gentle") };
     let end = SE2::new(2.0, 0.0, 0.0);
     let isolated = |alpha| machine(Settings { isolate: Some(alpha), ..straight });
-    for silent in [4, 6] {
-        let machine = isolated(silent);
+    for alpha in [4, 6] {
+        let machine = isolated(alpha);
         assert!(machine.poses().all(|pose| pose == end), "α₄ and α₆ are silent where nothing is turned");
         assert!(machine.figures().cross_track_skew.is_nan());
         assert_eq!(machine.figures().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
@@ -170,34 +170,34 @@ fn a_dragged_end_is_reached() {
             let command = command_reaching(x, y, &VelocityCmd { v: 1.0, omega, dt });
             let settings = Settings { command, ..preset("gentle") };
             let end = machine(settings).linearized().mean;
-            let reached = SE2::new(end.x, end.y, 0.0);
+            let end_position = SE2::new(end.x, end.y, 0.0);
             // A chord d on an arc of length s = |v|Δt carries the rounding of s.
             let rounding = 1e-14 * (1.0 + (command.v * dt).abs());
-            assert!(pose_distance(&reached, &SE2::new(x, y, 0.0)) < rounding, "({x}, {y}): {end}");
-            // No other arc to that end (a straight one has none) turns by an amount nearer to the present one.
+            assert!(pose_distance(&end_position, &SE2::new(x, y, 0.0)) < rounding, "({x}, {y}): {end}");
+            // The command has the arc to that end whose turn is nearest to the present one. A straight line is the only arc to its end.
             assert!(((command.omega - omega) * dt).abs() <= PI + 1e-14 || command.omega == 0.0);
         }
     }
-    let present = VelocityCmd { v: 1.0, omega: 1.2, dt: 3.0 };
-    assert_eq!(command_reaching(0.0, 0.0, &present), VelocityCmd { v: 0.0, omega: 0.0, dt: 3.0 });
+    let present_command = VelocityCmd { v: 1.0, omega: 1.2, dt: 3.0 };
+    assert_eq!(command_reaching(0.0, 0.0, &present_command), VelocityCmd { v: 0.0, omega: 0.0, dt: 3.0 });
 }
 
 /// Exponential coordinates are infinite for a full turn. Statistics in them are then undefined, and the others are not.
 #[test]
 fn without_a_chart_exponential_figures_are_undefined() {
-    let turning = |omega: f64| {
+    let machine_with_turn = |omega: f64| {
         let command = VelocityCmd { v: 1.0, omega, dt: 3.0 };
         machine(Settings { command, velocity_alphas: [0.01; 6], samples: 500, ..preset("gentle") })
     };
     // sd of the turn: 3·√(0.02·(1 + ω²)), 0.7 and 0.9 rad.
-    for (omega, holds) in [(0.9, true), (2.0, false), (-2.0, false)] {
-        let machine = turning(omega);
-        assert_eq!(machine.chart_holds(), holds, "ω = {omega}");
+    for (omega, is_defined) in [(0.9, true), (2.0, false), (-2.0, false)] {
+        let machine = machine_with_turn(omega);
+        assert_eq!(machine.chart_holds(), is_defined, "ω = {omega}");
         let (figures, contours) = (machine.figures(), machine.contours());
         let exponential = [figures.gaussian_skew, figures.coverage.exponential, figures.exponential.mean.x];
-        assert!(exponential.iter().all(|value| value.is_nan() != holds), "ω = {omega}: {figures:?}");
-        assert_eq!(contours.exponential.is_empty(), !holds);
-        assert_eq!(contours.twist_ellipse.is_empty(), !holds);
+        assert!(exponential.iter().all(|value| value.is_nan() != is_defined), "ω = {omega}: {figures:?}");
+        assert_eq!(contours.exponential.is_empty(), !is_defined);
+        assert_eq!(contours.twist_ellipse.is_empty(), !is_defined);
         assert!(figures.cross_track_skew.is_finite() && figures.coverage.ellipse.is_finite());
         assert_eq!(contours.ellipse.len(), contours.linearized.len());
     }
@@ -221,56 +221,56 @@ fn both_views_find_the_nearest_sample() {
         }
         assert_eq!(machine.nearest(view, points[17], [1e-9, 1e-9]), Some(17));
         assert_eq!(machine.nearest(view, [50.0, 50.0], [1.0, 1.0]), None);
-        // The search reaches to the radii: a target beyond the outermost sample finds it from just inside a radius, and not from outside.
+        // The search ends at its radii: the outermost sample is found from a target just inside of its radius, and not from just outside.
         let outermost = (0..points.len()).max_by(|&a, &b| points[a][0].total_cmp(&points[b][0])).unwrap();
-        let beside = |distance| [points[outermost][0] + distance, points[outermost][1]];
-        assert_eq!(machine.nearest(view, beside(0.0099), [0.01, 1e-9]), Some(outermost));
-        assert_eq!(machine.nearest(view, beside(0.0101), [0.01, 1e-9]), None);
+        let right_of_outermost = |distance| [points[outermost][0] + distance, points[outermost][1]];
+        assert_eq!(machine.nearest(view, right_of_outermost(0.0099), [0.01, 1e-9]), Some(outermost));
+        assert_eq!(machine.nearest(view, right_of_outermost(0.0101), [0.01, 1e-9]), None);
     }
 }
 
 #[test]
 fn the_executed_motion_leads_to_the_pose() {
-    for settings in models() {
+    for settings in settings_of_models() {
         let machine = machine(Settings { samples: 200, ..settings });
-        for ((i, numbers), pose) in machine.executed().enumerate().zip(machine.poses()) {
+        for ((i, executed), pose) in machine.executed().enumerate().zip(machine.poses()) {
             let Sample { v_hat, omega_hat, gamma_hat, legs, .. } = machine.inspect(i).unwrap();
-            let led = match legs {
+            let end = match legs {
                 None => {
-                    assert_eq!(numbers, [v_hat, omega_hat, gamma_hat]);
+                    assert_eq!(executed, [v_hat, omega_hat, gamma_hat]);
                     let dt = settings.command.dt;
                     let end = SE2::exp(&Vector3::new(v_hat * dt, 0.0, omega_hat * dt));
                     end * SE2::new(0.0, 0.0, gamma_hat * dt)
                 }
                 Some(legs) => {
-                    assert_eq!(numbers, [legs.rot1, legs.trans, legs.rot2]);
+                    assert_eq!(executed, [legs.rot1, legs.trans, legs.rot2]);
                     legs.apply(&SE2::identity())
                 }
             };
-            assert!(pose_distance(&led, &pose) < 1e-12);
+            assert!(pose_distance(&end, &pose) < 1e-12);
         }
     }
 }
 
-/// In reverse the table charges the heading for two half turns, and the option does not.
+/// In reverse, Table 5.6 adds the noise of two half turns to the heading. The option `reverse_aware` does not.
 #[test]
 fn a_reverse_aware_robot_is_not_charged_for_half_turns() {
     let command = VelocityCmd { v: -1.0, ..GENTLE };
     let odometry = Settings { model: ModelKind::Odometry, command, samples: 10, ..preset("gentle") };
     let machines = [false, true].map(|reverse_aware| machine(Settings { reverse_aware, ..odometry }));
-    let [a1, a2, ..] = odometry.odometry_alphas;
+    let [alpha1, alpha2, ..] = odometry.odometry_alphas;
     let reading = machines[0].reading();
-    // Both rotations fall short of a half turn by half the turn, or are that.
-    let charged = [reading.rot1.abs(), PI - reading.rot1.abs()];
-    for (machine, rotation) in machines.iter().zip(charged) {
-        let variance = 2.0 * (a1 * rotation * rotation + a2 * reading.trans * reading.trans);
+    // Without the option both rotations are a half turn less half the turn of the command. With it they are half that turn.
+    let rotations = [reading.rot1.abs(), PI - reading.rot1.abs()];
+    for (machine, rotation) in machines.iter().zip(rotations) {
+        let variance = 2.0 * (alpha1 * rotation * rotation + alpha2 * reading.trans * reading.trans);
         assert!((machine.exact().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
         assert!((machine.linearized().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
     }
 }
 
-/// Additive noise depends neither on the distance nor on the command: its circle is the same for a short and a long drive. Its
-/// size fits the preset "gentle".
+/// Additive noise does not depend on the command. Its circle is equally large for a short and a long drive, and fits the cloud of the
+/// preset "gentle".
 #[test]
 fn additive_noise_does_not_depend_on_the_motion() {
     for [v, omega, dt] in [[0.05, 0.0, 1.0], [1.0, 0.5, 1.0], [1.0, 0.5, 10.0]] {
@@ -283,20 +283,20 @@ fn additive_noise_does_not_depend_on_the_motion() {
         }
     }
     let cov = machine(Settings { samples: 10, ..preset("gentle") }).exact().cov;
-    let rounded = (10.0 * (0.5 * (cov[(0, 0)] + cov[(1, 1)])).sqrt()).round() / 10.0;
-    assert_eq!(rounded, ADDITIVE_DEVIATION);
+    let rounded_deviation = (10.0 * (0.5 * (cov[(0, 0)] + cov[(1, 1)])).sqrt()).round() / 10.0;
+    assert_eq!(rounded_deviation, ADDITIVE_DEVIATION);
 }
 
-/// The opening seed is chosen so that each readout differs from its exact value by less than a fifth of a standard error.
-/// Another seed has that by chance once in 250.
+/// The default seed is chosen so that each readout differs from its exact value by less than a fifth of a standard error.
+/// Only one seed in 250 has such small differences.
 #[test]
 fn the_opening_cloud_shows_the_exact_figures() {
     let machine = machine(Settings::default());
-    let (shown, exact) = (machine.figures(), machine.table().exact);
-    assert!((shown.cross_track_skew - exact.cross_track_skew).abs() < 0.2 * shown.cross_track_skew_error);
-    assert!((shown.area_ratio - exact.area_ratio).abs() < 0.2 * shown.area_ratio_error);
+    let (cloud, exact) = (machine.figures(), machine.table().exact);
+    assert!((cloud.cross_track_skew - exact.cross_track_skew).abs() < 0.2 * cloud.cross_track_skew_error);
+    assert!((cloud.area_ratio - exact.area_ratio).abs() < 0.2 * cloud.area_ratio_error);
     assert!(
-        (shown.likelihood_gain.pose - exact.likelihood_gain.pose).abs()
-            < 0.2 * shown.likelihood_gain_error.pose
+        (cloud.likelihood_gain.pose - exact.likelihood_gain.pose).abs()
+            < 0.2 * cloud.likelihood_gain_error.pose
     );
 }

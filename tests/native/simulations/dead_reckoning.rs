@@ -1,4 +1,4 @@
-//! The machine of Dead Reckoning: rollouts are compared with poses of the models, and statistics with plain sums.
+//! The machine of Dead Reckoning: rollouts are compared with poses of the models, and statistics with simple sums.
 
 use crate::common::seeded;
 use motion::geom::se2::SE2;
@@ -17,66 +17,66 @@ fn few(samples: usize) -> Settings {
     Settings { samples, ..Settings::default() }
 }
 
-/// Returns settings to which short formulas do not apply: sharp turns, reverse, large noise, headings beyond half a turn.
-fn all_kinds() -> Vec<Settings> {
-    let of = |v: f64, omega: f64, dt: f64, alphas| Settings {
+/// Returns settings where approximations fail: sharp turns, reverse, large noise, headings beyond half a turn.
+fn hard_settings() -> Vec<Settings> {
+    let with_command = |v: f64, omega: f64, dt: f64, alphas| Settings {
         command: VelocityCmd { v, omega, dt },
         alphas,
         steps: 12,
         ..few(700)
     };
-    let opening = Settings::default().alphas;
+    let default_alphas = Settings::default().alphas;
     vec![
         few(700),
-        of(-1.0, 0.5, 0.2, opening),
-        of(1.0, -2.0, 1.0, opening),
-        of(1.0, 0.0, 0.5, opening),
-        of(0.0, 1.5, 0.4, opening),
-        of(0.3, 7.0, 1.0, [0.1; 6]),
-        of(1.0, 0.5, 0.2, [0.0; 6]),
-        of(1.0, 0.5, 0.2, [0.5, 0.1, 20.0, 4.0, 3.0, 1.0]),
+        with_command(-1.0, 0.5, 0.2, default_alphas),
+        with_command(1.0, -2.0, 1.0, default_alphas),
+        with_command(1.0, 0.0, 0.5, default_alphas),
+        with_command(0.0, 1.5, 0.4, default_alphas),
+        with_command(0.3, 7.0, 1.0, [0.1; 6]),
+        with_command(1.0, 0.5, 0.2, [0.0; 6]),
+        with_command(1.0, 0.5, 0.2, [0.5, 0.1, 20.0, 4.0, 3.0, 1.0]),
         Settings { per: NoisePer::Path, ..few(700) },
     ]
 }
 
 /// Asserts that two poses are equal up to rounding at the scale of the path.
 fn assert_same([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
-    let apart = SE2::new(x, y, theta).boxminus(expected);
-    assert!(apart.amax() < 1e-13 * scale, "({x}, {y}, {theta}), not {expected:?}: {apart}");
+    let difference = SE2::new(x, y, theta).boxminus(expected);
+    assert!(difference.amax() < 1e-13 * scale, "({x}, {y}, {theta}), not {expected:?}: {difference}");
 }
 
 /// Paths that are computed in lanes equal poses that are composed one by one, from the same random numbers.
 #[test]
 fn lanes_agree_with_poses_composed_one_by_one() {
     use motion::noise::centred_uniform;
-    for settings in all_kinds() {
+    for settings in hard_settings() {
         let machine = machine(settings);
         let (u, model) = (settings.command, settings.model());
-        // The third block, and in it robot 513: lane 1 of the first four.
+        // Robot 513 is the second robot of the third block of 256. Each block has its own stream of random numbers.
         let mut stream = seeded(settings.seed);
         stream.jump();
         stream.jump();
         let mut pose = SE2::identity();
         let poses = machine.rollout(513).expect("a robot");
-        let mut way = 1.0;
-        for driven in poses {
+        let mut path_size = 1.0;
+        for rollout_pose in poses {
             let uniforms: Vec<[f64; 3]> =
                 (0..256).map(|_| std::array::from_fn(|_| centred_uniform(&mut stream))).collect();
-            let unit = uniforms[1].map(|q| NoiseKind::Normal.quantile(q));
-            let before = pose;
-            pose = model.apply_noise(&u, &pose, unit);
+            let unit_noise = uniforms[1].map(|q| NoiseKind::Normal.quantile(q));
+            let previous = pose;
+            pose = model.apply_noise(&u, &pose, unit_noise);
             // The rounding of a path grows with its length and its turn.
-            way += (pose.x() - before.x()).hypot(pose.y() - before.y()) + (u.omega * u.dt).abs();
-            let turn = model.variances(&u)[1].0.sqrt() * u.dt * unit[1].abs();
-            assert_same(driven, &pose, way * (1.0 + turn) * 4.0);
+            path_size += (pose.x() - previous.x()).hypot(pose.y() - previous.y()) + (u.omega * u.dt).abs();
+            let turn = model.variances(&u)[1].0.sqrt() * u.dt * unit_noise[1].abs();
+            assert_same(rollout_pose, &pose, path_size * (1.0 + turn) * 4.0);
         }
     }
 }
 
 /// The expected means, covariances and relative errors are sums over the paths of all robots.
 #[test]
-fn moments_are_those_of_the_robots() {
-    for (i, settings) in all_kinds().into_iter().enumerate() {
+fn moments_are_those_of_the_cloud() {
+    for (i, settings) in hard_settings().into_iter().enumerate() {
         let machine = machine(settings);
         let n = settings.samples as f64;
         let paths: Vec<_> =
@@ -95,13 +95,13 @@ fn moments_are_those_of_the_robots() {
             assert!((measured.mean - mean).amax() < scale, "{i}, {k}: {} {mean}", measured.mean);
             assert!((measured.cov - cov).amax() < scale, "{i}, {k}: {} {cov}", measured.cov);
             for axis in 0..3 {
-                let power = |p: i32| xi.iter().map(|xi| (xi[axis] - mean[axis]).powi(p)).sum::<f64>() / n;
-                let expected = ((power(4) / power(2).powi(2) - 1.0) / n).sqrt();
-                let found = measured.relative_error[axis];
-                if power(2) > 1e-20 {
+                let moment = |p: i32| xi.iter().map(|xi| (xi[axis] - mean[axis]).powi(p)).sum::<f64>() / n;
+                let expected = ((moment(4) / moment(2).powi(2) - 1.0) / n).sqrt();
+                let relative_error = measured.relative_error[axis];
+                if moment(2) > 1e-20 {
                     assert!(
-                        (found / expected - 1.0).abs() < 1e-6,
-                        "{i}, {k}, {axis}: {found}, not {expected}"
+                        (relative_error / expected - 1.0).abs() < 1e-6,
+                        "{i}, {k}, {axis}: {relative_error}, not {expected}"
                     );
                 }
             }
@@ -109,35 +109,35 @@ fn moments_are_those_of_the_robots() {
     }
 }
 
-/// A ratio is the predicted variance over the measured one, and its misses are counted from 1.
+/// A ratio is the predicted variance over the measured one. Steps with a miss (a ratio off by more than 5 %) are counted from 1.
 #[test]
 fn ratios_and_misses_are_counted() {
     let machine = machine(Settings::default());
     for order in RECURSIONS {
-        let compared = machine.comparison(order);
-        for (axis, misses) in compared.misses.iter().enumerate() {
+        let comparison = machine.comparison(order);
+        for (axis, misses) in comparison.misses.iter().enumerate() {
             let ratios: Vec<f64> = (0..20)
                 .map(|k| {
                     let predicted = machine.predicted(order)[k].expect("a covariance");
                     predicted[(axis, axis)] / machine.measured()[k].cov[(axis, axis)]
                 })
                 .collect();
-            assert!(compared.ratios.iter().zip(&ratios).all(|(told, ratio)| told[axis] == *ratio));
-            let off: Vec<u32> = (1..=20).filter(|k| (ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
+            assert!(comparison.ratios.iter().zip(&ratios).all(|(row, ratio)| row[axis] == *ratio));
+            let miss: Vec<u32> = (1..=20).filter(|k| (ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
             assert!(misses.told);
-            assert_eq!((misses.first, misses.last), (off.first().copied(), off.last().copied()));
+            assert_eq!((misses.first, misses.last), (miss.first().copied(), miss.last().copied()));
             assert_eq!(misses.end, ratios[19] - 1.0);
         }
     }
 }
 
-/// Misses of the chapter's recursion are established with enough robots that have a spread, and not otherwise.
+/// Misses of the chapter's recursion are reported only if the robots have a spread and are enough to measure it.
 #[test]
 fn misses_are_reported_with_enough_robots_only() {
-    let told = |settings| machine(settings).comparison(Compounding::Chapter).misses.map(|misses| misses.told);
-    assert_eq!(told(Settings::default()), [true; 3]);
-    assert_eq!(told(few(5000)), [false; 3]);
-    assert_eq!(told(Settings { alphas: [0.0; 6], ..few(20_000) }), [false; 3]);
+    let sure = |settings| machine(settings).comparison(Compounding::Chapter).misses.map(|misses| misses.told);
+    assert_eq!(sure(Settings::default()), [true; 3]);
+    assert_eq!(sure(few(5000)), [false; 3]);
+    assert_eq!(sure(Settings { alphas: [0.0; 6], ..few(20_000) }), [false; 3]);
     let empty = DeadReckoning::showing(Settings::default(), 0).expect("valid settings");
     assert!(
         empty
@@ -164,16 +164,16 @@ fn a_zero_variance_has_no_relative_error() {
     let [along, _, heading] =
         errors(Settings { command: on_the_spot, alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0], ..few(300) }).into();
     assert!(along.is_nan() && heading.is_finite(), "{along} {heading}");
-    // Squares of such variances are no doubles.
+    // The squares of such small variances underflow.
     let slow = Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..few(300) };
     assert_eq!(machine(slow).comparison(Compounding::Chapter).misses.map(|misses| misses.told), [false; 3]);
 }
 
-/// The corrections of the fourth order can make a matrix that is no covariance. From that step on there is no covariance and no ratio.
+/// Fourth-order corrections can produce a matrix that is no covariance. From that step on there is no covariance and no ratio.
 #[test]
 fn a_fourth_order_without_a_covariance_has_no_ratio() {
-    let wild = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..few(1000) };
-    let machine = machine(wild);
+    let noisy = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..few(1000) };
+    let machine = machine(noisy);
     let covs = machine.predicted(Compounding::FourthOrder);
     let first = covs.iter().position(Option::is_none).expect("some step without");
     assert!(covs[first..].iter().all(Option::is_none));
@@ -181,33 +181,33 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
         machine.comparison(Compounding::FourthOrder).ratios[first..].iter().all(|ratio| ratio.x.is_nan())
     );
     assert!(machine.predicted(Compounding::FirstOrder).iter().all(Option::is_some));
-    let shown = Settings { step: first as u32 + 1, compounding: Compounding::FourthOrder, ..wild };
+    let shown = Settings { step: first as u32 + 1, compounding: Compounding::FourthOrder, ..noisy };
     let outlines = DeadReckoning::new(shown).expect("valid settings").outlines(shown.step).expect("a step");
     assert!(outlines.ellipse.is_empty() && outlines.exponential.is_empty() && outlines.predicted.is_empty());
     assert!(!outlines.measured.is_empty());
 }
 
-/// Equal seeds have equal random numbers. Fewer robots are the first of more, and a shorter path is the beginning of a longer one.
+/// Equal seeds give equal random numbers. A smaller cloud is the first part of a larger one, and a shorter path that of a longer one.
 /// Other α's scale the noise.
 #[test]
 fn a_seed_gives_the_same_draws() {
     let large = machine(few(1500));
     let small = machine(few(300));
     let short = machine(Settings { steps: 7, ..few(300) });
-    let still = machine(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..few(300) });
+    let double = machine(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..few(300) });
     for index in [0, 1, 255, 256, 299] {
         let path = large.rollout(index).expect("a robot");
         assert_eq!(small.rollout(index).as_ref(), Some(&path));
         assert_eq!(short.rollout(index).as_deref(), Some(&path[..7]));
-        // Twice the noise in the first step: twice as far from the commanded pose, in the noises' own coordinates.
+        // With twice the noise, the executed velocities of the first step differ from the command by twice as much.
         let u = Settings::default().command;
         let noise = |path: &[[f64; 3]]| {
             let [x, y, theta] = path[0];
-            let done = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
-            Vector3::new(done.v_hat - u.v, done.omega_hat - u.omega, done.gamma_hat)
+            let executed = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
+            Vector3::new(executed.v_hat - u.v, executed.omega_hat - u.omega, executed.gamma_hat)
         };
-        let doubled = noise(&still.rollout(index).expect("a robot"));
-        assert!((doubled - noise(&path) * 2.0).amax() < 1e-12, "{doubled}");
+        let double_noise = noise(&double.rollout(index).expect("a robot"));
+        assert!((double_noise - noise(&path) * 2.0).amax() < 1e-12, "{double_noise}");
     }
     assert_ne!(large.rollout(0), machine(Settings { seed: 4, ..few(300) }).rollout(0));
     assert_eq!(large.rollout(1500), None);
@@ -216,22 +216,22 @@ fn a_seed_gives_the_same_draws() {
 /// Each step has a share of the variance of the whole path. The shares add up to that variance for any number of steps.
 #[test]
 fn noise_of_the_whole_path_is_shared_by_its_steps() {
-    let whole = VelocityCmd { v: 1.0, omega: 0.5, dt: 4.0 };
+    let whole_command = VelocityCmd { v: 1.0, omega: 0.5, dt: 4.0 };
     let expected =
         VelocityModel { alphas: VelocityAlphas(Settings::default().alphas), noise: NoiseKind::Normal }
-            .variances(&whole)
-            .map(|variance| variance.0 * whole.dt * whole.dt);
+            .variances(&whole_command)
+            .map(|variance| variance.0 * whole_command.dt * whole_command.dt);
     for steps in [1, 20, 200] {
-        let command = VelocityCmd { dt: whole.dt / f64::from(steps), ..whole };
+        let command = VelocityCmd { dt: whole_command.dt / f64::from(steps), ..whole_command };
         let settings = Settings { command, steps, step: 1, per: NoisePer::Path, ..few(1) };
         let noise = settings.model().variances(&command).map(|variance| variance.0 * command.dt * command.dt);
         for i in 0..3 {
             assert!((noise[i] * f64::from(steps) / expected[i] - 1.0).abs() < 1e-12, "{steps}, {i}");
         }
         // The heading's variance adds up.
-        let sigma =
+        let covariance =
             machine(settings).predicted(Compounding::FirstOrder)[steps as usize - 1].expect("a covariance");
-        assert!((sigma[(2, 2)] / (expected[1] + expected[2]) - 1.0).abs() < 1e-12);
+        assert!((covariance[(2, 2)] / (expected[1] + expected[2]) - 1.0).abs() < 1e-12);
     }
 }
 
@@ -247,45 +247,45 @@ fn the_level_of_heading_noise_is_that_of_four_alphas() {
 fn outlines_are_those_of_the_covariance() {
     let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..few(300) };
     let machine = machine(settings);
-    let sigma = machine.predicted(Compounding::FirstOrder)[19].expect("a covariance");
+    let covariance = machine.predicted(Compounding::FirstOrder)[19].expect("a covariance");
     let nominal = machine.nominal()[19];
     let outlines = machine.outlines(20).expect("a step");
     assert_eq!([machine.outlines(0), machine.outlines(21)], [None, None]);
-    let plane = sigma.fixed_view::<2, 2>(0, 0).into_owned().try_inverse().expect("full rank");
+    let information = covariance.fixed_view::<2, 2>(0, 0).into_owned().try_inverse().expect("full rank");
     for [x, y] in &outlines.ellipse {
-        let seen = nominal.inverse() * SE2::new(*x, *y, 0.0);
-        let at = nalgebra::Vector2::new(seen.x(), seen.y());
-        assert!(((at.transpose() * plane * at)[0] - 4.0).abs() < 1e-9);
+        let relative = nominal.inverse() * SE2::new(*x, *y, 0.0);
+        let position = nalgebra::Vector2::new(relative.x(), relative.y());
+        assert!(((position.transpose() * information * position)[0] - 4.0).abs() < 1e-9);
     }
     for [a, l] in &outlines.predicted {
-        let at = nalgebra::Vector2::new(*a, *l);
-        assert!(((at.transpose() * plane * at)[0] - 4.0).abs() < 1e-9);
+        let position = nalgebra::Vector2::new(*a, *l);
+        assert!(((position.transpose() * information * position)[0] - 4.0).abs() < 1e-9);
     }
-    // Without lateral variance in the first step, both are lines.
+    // In the first step the lateral variance is 0. The predicted outline is a line.
     let first = DeadReckoning::new(few(300)).expect("valid settings").outlines(1).expect("a step");
     assert!(first.predicted.iter().all(|[_, lateral]| *lateral == 0.0));
 }
 
 #[test]
 fn the_commanded_way_leads_through_its_poses() {
-    for settings in all_kinds() {
+    for settings in hard_settings() {
         let machine = machine(settings);
-        let way = machine.commanded();
-        let chords = (way.len() - 1) / settings.steps as usize;
-        assert_eq!((way.len() - 1) % settings.steps as usize, 0);
+        let path = machine.commanded();
+        let chords_per_step = (path.len() - 1) / settings.steps as usize;
+        assert_eq!((path.len() - 1) % settings.steps as usize, 0);
         let twist = TangentNoiseModel::twist(&settings.command);
         let mut pose = SE2::identity();
         for k in 1..=settings.steps as usize {
             pose = pose.boxplus(twist);
             let nominal = machine.nominal()[k - 1];
             assert!(nominal.boxminus(&pose).amax() < 1e-11, "{nominal:?}, not {pose:?}");
-            assert_eq!(way[k * chords], [nominal.x(), nominal.y()]);
+            assert_eq!(path[k * chords_per_step], [nominal.x(), nominal.y()]);
         }
     }
 }
 
-/// Duration at which the variances along and across the drive are equal (exercise 2). The formula is compared with bisection of the
-/// exact variances at small noise, and with sampled robots that drive straight ahead.
+/// Duration at which the variances along and across a straight drive are equal (exercise 2). At small noise the formula is compared with
+/// bisection of the exact variances.
 #[test]
 fn variances_of_a_straight_drive_cross_where_the_formula_says() {
     for (v, [along, turn]) in [(1.0, [1e-6, 1e-6]), (-0.5, [2e-6, 1e-6]), (1.4, [1e-6, 7e-6])] {
@@ -293,9 +293,9 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         let alphas = [along, 1e-6, turn, 1e-6, 0.0, 0.0];
         let machine = machine(Settings { command, alphas, ..few(1) });
         let growth = machine.straight_growth();
-        let told = growth.crossing.expect("a crossing");
+        let crossing = growth.crossing.expect("a crossing");
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
-        let exact = |dt: f64| {
+        let exact_ratio = |dt: f64| {
             let cov =
                 motion::stats::ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt }).cov;
             cov[(1, 1)] / cov[(0, 0)]
@@ -303,24 +303,24 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         let (mut low, mut high) = (1e-3, 1e3);
         for _ in 0..100 {
             let middle = f64::sqrt(low * high);
-            if exact(middle) < 1.0 { low = middle } else { high = middle }
+            if exact_ratio(middle) < 1.0 { low = middle } else { high = middle }
         }
         // The formula is exact to first order in the noise. Its relative error is a few times the variances, 1e-6.
-        assert!((told / low - 1.0).abs() < 1e-4, "{told}, found {low}");
-        // The exact variances follow the first order while headings stay small: up to three seconds within 0.01 rad.
-        for (first_order, of) in
+        assert!((crossing / low - 1.0).abs() < 1e-4, "{crossing}, found {low}");
+        // Exact variances equal the first-order ones while headings are small: for three seconds they stay within 0.01 rad.
+        for (first_order, exact_values) in
             [(&growth.along_first_order, &growth.along), (&growth.across_first_order, &growth.across)]
         {
-            for ((line, exact), dt) in first_order.iter().zip(of).zip(&growth.durations) {
-                assert!(*dt > 3.0 || (exact / line - 1.0).abs() < 2e-3, "{exact} {line}");
+            for ((line, exact_ratio), dt) in first_order.iter().zip(exact_values).zip(&growth.durations) {
+                assert!(*dt > 3.0 || (exact_ratio / line - 1.0).abs() < 2e-3, "{exact_ratio} {line}");
             }
         }
     }
-    let crossing = |v, alphas| {
+    let crossing_of = |v, alphas| {
         let command = VelocityCmd { v, ..Settings::default().command };
         machine(Settings { command, alphas, ..few(1) }).straight_growth().crossing
     };
     for (v, alphas) in [(0.0, [0.02; 6]), (1.0, [0.0; 6]), (1.0, [0.02, 0.0, 0.0, 0.0, 0.0, 0.0])] {
-        assert_eq!(crossing(v, alphas), None, "{v} {alphas:?}");
+        assert_eq!(crossing_of(v, alphas), None, "{v} {alphas:?}");
     }
 }

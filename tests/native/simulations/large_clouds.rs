@@ -1,4 +1,4 @@
-//! Statistics of up to ten million robots, against sums in twice the precision.
+//! Statistics of up to ten million robots, compared with sums in twice the precision.
 
 use crate::common::preset;
 use crate::simulations::banana::machine;
@@ -8,18 +8,18 @@ use motion::stats::{CartesianMoments, CrossTrack, Ellipse};
 use motion::{NoiseKind, VelocityCmd};
 use nalgebra::Vector3;
 
-/// Sum in twice the precision (Knuth's two-sum, with a sum of the errors). Its error is 1e-30 of the sum of absolute terms.
+/// Sum in twice the precision (Knuth's two-sum, with a sum of the rounding errors). Its relative error is 1e-30.
 #[derive(Clone, Copy, Default)]
 struct ExactSum {
     sum: f64,
-    lost: f64,
+    rounding: f64,
 }
 
 impl ExactSum {
     fn add(&mut self, term: f64) {
         let sum = self.sum + term;
-        let of_term = sum - self.sum;
-        self.lost += (self.sum - (sum - of_term)) + (term - of_term);
+        let added = sum - self.sum;
+        self.rounding += (self.sum - (sum - added)) + (term - added);
         self.sum = sum;
     }
 }
@@ -30,14 +30,14 @@ fn mean(terms: impl Iterator<Item = f64>) -> f64 {
         sum.add(term);
         count += 1.0;
     }
-    (sum.sum + sum.lost) / count
+    (sum.sum + sum.rounding) / count
 }
 
 fn assert_close(name: &str, found: f64, expected: f64, size: f64) {
     assert!((found - expected).abs() <= 1e-12 * size, "{name}: {found} is not {expected}");
 }
 
-/// Asserts that moments of a cloud, and its skew, its error and the correlation with the heading, equal their definitions, each computed in its own pass.
+/// Asserts that moments of a cloud, and its skew, skew error and correlation with the heading, equal their definitions.
 fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track: [f64; 3]) {
     let n = poses.len() as f64;
     let (sin, cos) = (
@@ -58,26 +58,26 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
     let mean_turn = mean(residuals().map(|r| r.z));
     for i in 0..3 {
         for j in 0..3 {
-            let shift = |r: Vector3<f64>, k: usize| if k == 2 { r.z - mean_turn } else { r[k] };
-            let cov = mean(residuals().map(|r| shift(r, i) * shift(r, j))) * n / (n - 1.0);
+            let centred = |r: Vector3<f64>, k: usize| if k == 2 { r.z - mean_turn } else { r[k] };
+            let cov = mean(residuals().map(|r| centred(r, i) * centred(r, j))) * n / (n - 1.0);
             let size = (cartesian.cov[(i, i)] * cartesian.cov[(j, j)]).sqrt();
             assert_close(&format!("cov {i}{j}"), cartesian.cov[(i, j)], cov, size);
         }
     }
 
     let (sin, cos) = libm::sincos(heading);
-    let across = |r: Vector3<f64>| (r.x * cos + r.y * sin, r.y * cos - r.x * sin, r.z);
-    let tracks = || residuals().map(across);
+    let along_and_across = |r: Vector3<f64>| (r.x * cos + r.y * sin, r.y * cos - r.x * sin, r.z);
+    let tracks = || residuals().map(along_and_across);
     let m2 = mean(tracks().map(|(_, d, _)| d * d));
     let sd = m2.sqrt();
     let skew = mean(tracks().map(|(_, d, _)| (d / sd).powi(3)));
     assert_close("skew", cross_track[0], skew, 1.0);
     let resultant = mean(residuals().map(|r| libm::cos(r.z)));
     let (ad, add) = (mean(tracks().map(|(a, d, _)| a * d)), mean(tracks().map(|(a, d, _)| a * d * d)));
-    let by_heading = 3.0 * (skew * ad / m2 - add / (m2 * sd)) / resultant;
+    let heading_factor = 3.0 * (skew * ad / m2 - add / (m2 * sd)) / resultant;
     let influence = |(_, d, turn): (f64, f64, f64)| {
         let z = d / sd;
-        z * z * z - skew - 3.0 * z - 1.5 * skew * (z * z - 1.0) + by_heading * libm::sin(turn)
+        z * z * z - skew - 3.0 * z - 1.5 * skew * (z * z - 1.0) + heading_factor * libm::sin(turn)
     };
     let skew_error = (mean(tracks().map(|track| influence(track).powi(2))) / n).sqrt();
     assert_close("skew error", cross_track[1], skew_error, skew_error);

@@ -16,8 +16,8 @@ fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
     (one[0] - other[0]).hypot(one[1] - other[1])
 }
 
-/// Returns where a body with constant velocity in its own frame ends, by steps of the midpoint rule.
-fn integrated([vx, vy, omega]: [f64; 3]) -> [f64; 2] {
+/// Returns the position at which a body with constant velocity in its own frame ends, by steps of the midpoint rule.
+fn integrated_twist([vx, vy, omega]: [f64; 3]) -> [f64; 2] {
     const STEPS: usize = 2000;
     let step = 1.0 / STEPS as f64;
     (0..STEPS).map(|i| omega * step * (i as f64 + 0.5)).fold([0.0; 2], |[x, y], heading: f64| {
@@ -38,11 +38,11 @@ fn robots_are_where_the_map_has_them() {
         let machine = machine(Settings { samples: 103, ..settings });
         for (index, (pose, twist)) in machine.poses().zip(machine.twists()).enumerate() {
             for morph in MORPHS {
-                let place = unbend(&twist, morph);
-                assert_eq!(machine.nearest(View::at(morph), place, [1e-10; 2]), Some(index), "{morph}");
-                let left = 1.0 - morph;
-                let [x, y] = integrated([twist.x, left * twist.y, left * twist.z]);
-                assert!(distance(place, [x, y + morph * twist.z]) < 1e-5, "{morph}: {twist}");
+                let position = unbend(&twist, morph);
+                assert_eq!(machine.nearest(View::at(morph), position, [1e-10; 2]), Some(index), "{morph}");
+                let remaining = 1.0 - morph;
+                let [x, y] = integrated_twist([twist.x, remaining * twist.y, remaining * twist.z]);
+                assert!(distance(position, [x, y + morph * twist.z]) < 1e-5, "{morph}: {twist}");
             }
             assert!(distance(unbend(&twist, 0.0), [pose.x(), pose.y()]) < 1e-12);
             assert_eq!(unbend(&twist, 1.0), [twist.x, twist.z]);
@@ -57,14 +57,14 @@ fn robots_move_smoothly() {
     for twist in machine.twists() {
         let speed = twist.y.abs() + twist.z.abs() * (1.0 + twist.x.abs() + twist.y.abs());
         for morph in (0..1000).map(|i| f64::from(i) * STEP) {
-            let moved = distance(unbend(&twist, morph), unbend(&twist, morph + STEP));
-            assert!(moved <= STEP * speed * (1.0 + 1e-9), "{twist} at {morph}");
+            let displacement = distance(unbend(&twist, morph), unbend(&twist, morph + STEP));
+            assert!(displacement <= STEP * speed * (1.0 + 1e-9), "{twist} at {morph}");
         }
     }
 }
 
-/// Without γ̂ the morph is one-to-one, so that the same robots stay inside an outline. Exceptions are robots between a chord and
-/// its arc.
+/// Without the last turn γ̂ the morph is one-to-one, so that the same robots stay inside an outline. Exceptions are robots between an
+/// outline's curve and the chords with which it is drawn.
 #[test]
 fn outlines_keep_their_robots() {
     let alphas = [0.002, 0.002, 0.1, 0.1, 0.0, 0.0];
@@ -93,7 +93,7 @@ fn outlines_keep_their_robots() {
     }
 }
 
-/// At both ends of the morph, the outline of the Gaussian in exponential coordinates is the one of that view, also with γ̂.
+/// At both ends of the morph, the outline of the Gaussian in exponential coordinates equals that of the view, also with a last turn γ̂.
 #[test]
 fn the_outline_ends_as_both_views_have_it() {
     let machine = machine(Settings { samples: 5000, ..preset("hard") });
@@ -114,12 +114,12 @@ fn a_line_is_carried_whole_or_not_at_all() {
     };
     for morph in MORPHS {
         assert!(unbend_line(&circle(0.1), 0.3, morph).is_empty());
-        let carried = unbend_line(&circle(0.7), 0.3, morph);
-        assert_eq!(carried.len(), 129);
-        assert!(carried.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.4), "{morph}");
+        let unbent = unbend_line(&circle(0.7), 0.3, morph);
+        assert_eq!(unbent.len(), 129);
+        assert!(unbent.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.4), "{morph}");
     }
-    for (point, carried) in circle(0.7).iter().zip(unbend_line(&circle(0.7), 0.3, 0.0)) {
-        assert!(distance(*point, carried) < 1e-12);
+    for (point, unbent) in circle(0.7).iter().zip(unbend_line(&circle(0.7), 0.3, 0.0)) {
+        assert!(distance(*point, unbent) < 1e-12);
     }
 }
 
@@ -127,9 +127,9 @@ fn a_line_is_carried_whole_or_not_at_all() {
 fn a_place_leads_back_to_its_arc() {
     for morph in MORPHS {
         for [length, turn] in [[1.0, 0.5], [2.0, -1.0], [1.4, 1.7], [0.3, 0.0]] {
-            let place = unbend(&Vector3::new(length, 0.0, turn), morph);
-            let found = arc_at(place, [length + 0.1, turn - 0.1], morph).expect("an arc");
-            assert!(distance(found, [length, turn]) < 1e-9, "{morph}: {found:?}");
+            let position = unbend(&Vector3::new(length, 0.0, turn), morph);
+            let arc = arc_at(position, [length + 0.1, turn - 0.1], morph).expect("an arc");
+            assert!(distance(arc, [length, turn]) < 1e-9, "{morph}: {arc:?}");
         }
     }
 }

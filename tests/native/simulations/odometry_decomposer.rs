@@ -15,7 +15,7 @@ pub fn of_preset(name: &str) -> Settings {
     Settings { from: preset.from, to: preset.to, ..Settings::default() }
 }
 
-/// By the rule of the table the outcomes are the draws of `OdometryModel` with the same seed.
+/// With the rule of Table 5.6 the outcomes equal samples of `OdometryModel` with the same seed.
 #[test]
 fn the_outcomes_are_the_models_samples() {
     for noise in NOISE_KINDS {
@@ -36,20 +36,20 @@ fn the_outcomes_are_the_models_samples() {
 /// With only α₃, the lengths of the drives differ by constant random numbers times √α₃.
 #[test]
 fn changed_settings_move_the_same_outcomes() {
-    let alone = |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..of_preset("drive-turn") };
-    let mut machine = machine(alone(0.01));
-    let excess = |machine: &OdometryDecomposer| -> Vec<f64> {
+    let with_alpha3_only = |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..of_preset("drive-turn") };
+    let mut machine = machine(with_alpha3_only(0.01));
+    let excess_lengths = |machine: &OdometryDecomposer| -> Vec<f64> {
         machine.poses().iter().map(|pose| pose.x() - 1.5).collect()
     };
-    let before = excess(&machine);
-    machine.configure(alone(0.04)).expect("a valid setting");
-    for (before, after) in before.iter().zip(excess(&machine)) {
+    let before = excess_lengths(&machine);
+    machine.configure(with_alpha3_only(0.04)).expect("a valid setting");
+    for (before, after) in before.iter().zip(excess_lengths(&machine)) {
         assert!((2.0 * before - after).abs() < 1e-14);
     }
     // A larger cloud begins with the smaller one.
-    let more = Settings { samples: 900, ..alone(0.01) };
-    machine.configure_first(more, 700).expect("a valid setting");
-    assert_eq!((machine.poses().len(), &excess(&machine)[..500]), (700, &before[..]));
+    let more_samples = Settings { samples: 900, ..with_alpha3_only(0.01) };
+    machine.configure_first(more_samples, 700).expect("a valid setting");
+    assert_eq!((machine.poses().len(), &excess_lengths(&machine)[..500]), (700, &before[..]));
     assert_eq!(machine.add_samples(usize::MAX), 900);
 }
 
@@ -58,29 +58,29 @@ fn the_linkage_is_the_reading() {
     for preset in PRESETS {
         for rule in OdometryRule::ALL {
             let machine = machine(Settings { rule, ..of_preset(preset.name) });
-            let [start, turned, driven, end] = machine.linkage();
+            let [start, rotated, driven, end] = machine.linkage();
             let legs = machine.legs();
             assert_eq!(start, preset.from.into());
-            assert_eq!((turned.x(), turned.y()), (start.x(), start.y()));
+            assert_eq!((rotated.x(), rotated.y()), (start.x(), start.y()));
             assert!(((driven.x() - start.x()).hypot(driven.y() - start.y()) - legs.trans).abs() < 1e-15);
-            assert_eq!([driven.x(), driven.y(), driven.theta()], [end.x(), end.y(), turned.theta()]);
+            assert_eq!([driven.x(), driven.y(), driven.theta()], [end.x(), end.y(), rotated.theta()]);
             assert!(pose_distance(&end, &preset.to.into()) < 0.01, "{} by {rule:?}", preset.name);
             let robot = |phase| {
                 let settings = Settings { phase, ..*machine.settings() };
                 OdometryDecomposer::new(settings).expect("a valid setting").robot()
             };
-            for (phase, pose) in [(0.0, start), (1.0, turned), (2.0, driven), (3.0, end)] {
+            for (phase, pose) in [(0.0, start), (1.0, rotated), (2.0, driven), (3.0, end)] {
                 assert!(pose_distance(&robot(phase), &pose) < 1e-15, "{phase}");
             }
             assert!((robot(1.5).x() - 0.5 * (start.x() + end.x())).abs() < 1e-15);
         }
     }
     // Without noise every ghost is the linkage itself.
-    let still = machine(Settings { alphas: [0.0; 5], ..Settings::default() });
-    assert_eq!(still.ghosts(7), [still.linkage(); 7]);
-    assert_eq!(still.ghosts(usize::MAX).len(), 500);
-    let noisy = machine(Settings::default());
-    for (ghost, pose) in noisy.ghosts(20).iter().zip(noisy.poses()) {
+    let noise_free = machine(Settings { alphas: [0.0; 5], ..Settings::default() });
+    assert_eq!(noise_free.ghosts(7), [noise_free.linkage(); 7]);
+    assert_eq!(noise_free.ghosts(usize::MAX).len(), 500);
+    let opening = machine(Settings::default());
+    for (ghost, pose) in opening.ghosts(20).iter().zip(opening.poses()) {
         assert_eq!(ghost[3], *pose);
     }
 }
@@ -88,24 +88,24 @@ fn the_linkage_is_the_reading() {
 /// The prediction depends only on the relative motion. A drift of the odometry's frame does not change it.
 #[test]
 fn the_prediction_does_not_see_the_drift() {
-    let near = |drift| machine(Settings { drift, ..Settings::default() });
-    let (at_once, late) = (near(0.0), near(300.0));
-    assert_eq!(at_once.poses(), late.poses());
-    assert_eq!(at_once.rules(), late.rules());
-    let [fresh, drifted] = [&at_once, &late].map(OdometryDecomposer::drifted);
-    assert_eq!(fresh.frame, SE2::identity());
+    let with_drift = |drift| machine(Settings { drift, ..Settings::default() });
+    let (without_drift, with_long_drift) = (with_drift(0.0), with_drift(300.0));
+    assert_eq!(without_drift.poses(), with_long_drift.poses());
+    assert_eq!(without_drift.rules(), with_long_drift.rules());
+    let [fixed, drifted] = [&without_drift, &with_long_drift].map(OdometryDecomposer::drifted);
+    assert_eq!(fixed.frame, SE2::identity());
     // The poses in the frame of the odometry are metres away, and the legs are the same.
-    assert!((drifted.to.x() - fresh.to.x()).hypot(drifted.to.y() - fresh.to.y()) > 2.0);
-    let apart = [
-        drifted.legs.rot1 - fresh.legs.rot1,
-        drifted.legs.trans - fresh.legs.trans,
-        drifted.legs.rot2 - fresh.legs.rot2,
+    assert!((drifted.to.x() - fixed.to.x()).hypot(drifted.to.y() - fixed.to.y()) > 2.0);
+    let differences = [
+        drifted.legs.rot1 - fixed.legs.rot1,
+        drifted.legs.trans - fixed.legs.trans,
+        drifted.legs.rot2 - fixed.legs.rot2,
     ];
-    assert!(apart.iter().all(|apart| apart.abs() < 1e-14), "{apart:?}");
+    assert!(differences.iter().all(|difference| difference.abs() < 1e-14), "{differences:?}");
 }
 
-/// The curve contains the values of the readouts. At a large noise of the rotation `lever` is too large, because no robot is farther
-/// across than it drives.
+/// The curve contains the values of the readouts. With a large noise of the rotation, the linear estimate `lever` is too large: it exceeds
+/// the length of the drive, which no robot can.
 #[test]
 fn the_curve_goes_through_the_reading() {
     for rule in OdometryRule::ALL {
@@ -120,7 +120,7 @@ fn the_curve_goes_through_the_reading() {
         assert_eq!((of_rule.deviations[1], of_rule.cross_track), (along, cross_track));
         assert_eq!(machine.curve(1.0, 1).len(), 1);
     }
-    let wild = machine(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
-    let far = wild.curve(10.0, 2)[1];
-    assert!(far.cross_track < far.trans && far.lever > 10.0 * far.trans);
+    let large_noise = machine(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
+    let long_drive = large_noise.curve(10.0, 2)[1];
+    assert!(long_drive.cross_track < long_drive.trans && long_drive.lever > 10.0 * long_drive.trans);
 }

@@ -7,15 +7,15 @@ use motion::sim::picture::{RAMP_STEPS, Ramp};
 use motion::sim::squeeze::{self, MapSqueeze, OUTCOME_KINDS, PRESETS};
 use motion::sim::views::Grid;
 
-/// Returns grids over the middle of a cloud, so that samples are outside on every side. Sixteen empty cells are skipped at once: the widths
-/// are 16, one more, and others.
+/// Returns grids over the middle of a cloud, so that samples are outside on every side. Painting skips sixteen empty cells at once, so that
+/// one grid is 16 cells wide, one 17, and the others have different widths.
 fn grids(min: [f64; 2], max: [f64; 2]) -> [Grid; 4] {
     [(16, 9), (17, 1), (53, 40), (3, 2)].map(|(columns, rows)| Grid { min, max, columns, rows })
 }
 
-/// Returns a ramp whose colours contain their step, and `mark` as the number of the ramp.
-fn ramp(mark: u8) -> Ramp {
-    std::array::from_fn(|step| [step as u8, mark, 7, 255])
+/// Returns a ramp whose colours contain their step and the number of the ramp.
+fn ramp(ramp_number: u8) -> Ramp {
+    std::array::from_fn(|step| [step as u8, ramp_number, 7, 255])
 }
 
 /// Returns the index of the cell of a point, row by row from the top, by the definition of a grid.
@@ -28,30 +28,30 @@ fn cell(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
 }
 
 /// Returns the step of the ramp for a count: 255·√(count/most), rounded.
-fn step(count: u32, most: u32) -> u8 {
-    ((RAMP_STEPS - 1) as f64 * (f64::from(count) / f64::from(most)).sqrt()).round() as u8
+fn ramp_step(count: u32, max_count: u32) -> u8 {
+    ((RAMP_STEPS - 1) as f64 * (f64::from(count) / f64::from(max_count)).sqrt()).round() as u8
 }
 
 #[test]
 fn a_cloud_is_painted_as_it_is_dense() {
     let settings = Settings { samples: 3000, ..preset("gentle") };
     let mut machine = BananaMachine::new(settings).expect("a valid setting");
-    let plane: Vec<[f64; 2]> = machine.poses().map(|pose| [pose.x(), pose.y()]).collect();
+    let positions: Vec<[f64; 2]> = machine.poses().map(|pose| [pose.x(), pose.y()]).collect();
     let twists: Vec<[f64; 2]> = machine.twists().map(|twist| [twist.x, twist.z]).collect();
-    let of = |view, points| move |grid| (view, points, grid);
-    let in_plane = grids([0.75, -0.2], [1.2, 0.4]).map(of(View::Plane, &plane));
-    let of_twists = grids([0.75, 0.1], [1.2, 0.7]).map(of(View::Twist, &twists));
-    for (view, points, grid) in in_plane.into_iter().chain(of_twists) {
+    let to_case = |view, points| move |grid| (view, points, grid);
+    let plane_cases = grids([0.75, -0.2], [1.2, 0.4]).map(to_case(View::Plane, &positions));
+    let twist_cases = grids([0.75, 0.1], [1.2, 0.7]).map(to_case(View::Twist, &twists));
+    for (view, points, grid) in plane_cases.into_iter().chain(twist_cases) {
         let mut counts = vec![0u32; grid.columns * grid.rows];
         points.iter().filter_map(|point| cell(&grid, *point)).for_each(|cell| counts[cell] += 1);
-        let most = *counts.iter().max().expect("there are cells");
+        let max_count = *counts.iter().max().expect("there are cells");
         assert!((1..3000).contains(&counts.iter().sum::<u32>()), "some are outside");
         // Painted twice, because nothing of an image may remain in the next one.
         for time in ["first", "second"] {
             let pixels = machine.paint(view, &grid, &ramp(3));
             assert_eq!(pixels.len(), counts.len());
             for (i, (pixel, count)) in pixels.iter().zip(&counts).enumerate() {
-                let expected = if *count == 0 { [0; 4] } else { [step(*count, most), 3, 7, 255] };
+                let expected = if *count == 0 { [0; 4] } else { [ramp_step(*count, max_count), 3, 7, 255] };
                 assert_eq!(*pixel, expected, "{time}, cell {i} of {grid:?}");
             }
             assert_eq!(machine.density(view, &grid), counts, "{time}");
@@ -61,11 +61,11 @@ fn a_cloud_is_painted_as_it_is_dense() {
 
 #[test]
 fn attempts_are_painted_by_what_became_of_most() {
-    // Facing a wall, behind which many are accepted.
+    // The robot faces a wall. Many of the attempts that end behind the wall are accepted.
     let (_, start) = PRESETS[1];
     let settings = squeeze::Settings { start, samples: 3000, ..squeeze::Settings::default() };
     let mut machine = MapSqueeze::new(settings).expect("a valid setting");
-    let mut shown = [0; OUTCOME_KINDS];
+    let mut painted_cells = [0; OUTCOME_KINDS];
     for grid in grids([2.9, 3.4], [3.7, 4.9]) {
         let mut counts = vec![[0u32; OUTCOME_KINDS]; grid.columns * grid.rows];
         for attempt in machine.attempts() {
@@ -73,24 +73,24 @@ fn attempts_are_painted_by_what_became_of_most() {
                 counts[cell][attempt.kind() as usize] += 1;
             }
         }
-        let all: Vec<u32> = counts.iter().map(|kinds| kinds.iter().sum()).collect();
-        let most = *all.iter().max().expect("there are cells");
-        assert!((1..3000).contains(&all.iter().sum::<u32>()), "some are outside");
+        let totals: Vec<u32> = counts.iter().map(|kinds| kinds.iter().sum()).collect();
+        let max_count = *totals.iter().max().expect("there are cells");
+        assert!((1..3000).contains(&totals.iter().sum::<u32>()), "some are outside");
         for _ in 0..2 {
             let ramps = std::array::from_fn(|kind| ramp(kind as u8));
             let pixels = machine.paint(&grid, &ramps);
-            assert_eq!(pixels.len(), all.len());
-            for ((pixel, kinds), all) in pixels.iter().zip(&counts).zip(&all) {
-                if *all == 0 {
+            assert_eq!(pixels.len(), totals.len());
+            for ((pixel, kinds), total) in pixels.iter().zip(&counts).zip(&totals) {
+                if *total == 0 {
                     assert_eq!(*pixel, [0; 4]);
                     continue;
                 }
                 let [shade, kind, ..] = *pixel;
-                assert_eq!(*pixel, [step(*all, most), kind, 7, 255], "{kinds:?}");
+                assert_eq!(*pixel, [ramp_step(*total, max_count), kind, 7, 255], "{kinds:?}");
                 assert!(kinds.iter().all(|count| *count <= kinds[usize::from(kind)]), "{shade}: {kinds:?}");
-                shown[usize::from(kind)] += 1;
+                painted_cells[usize::from(kind)] += 1;
             }
         }
     }
-    assert!(shown.iter().all(|cells| *cells > 0), "all kinds are seen: {shown:?}");
+    assert!(painted_cells.iter().all(|cells| *cells > 0), "all kinds are seen: {painted_cells:?}");
 }

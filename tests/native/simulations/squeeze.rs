@@ -27,12 +27,12 @@ fn results(machine: &MapSqueeze) -> String {
     )
 }
 
-/// The sampler, conditioning and the map change verdicts and no draw.
+/// The sampler, conditioning and the map change which attempts are accepted, and no random number.
 #[test]
 fn changed_settings_move_no_sample() {
     let endpoint = Settings { samples: 3000, ..Settings::default() };
     let mut machine = machine(endpoint);
-    let (before, cloud) = (results(&machine), poses(&machine));
+    let (old_results, cloud) = (results(&machine), poses(&machine));
     let verdicts = |machine: &MapSqueeze| -> Vec<[bool; 2]> {
         machine.attempts().iter().map(|Attempt { end_free, path_free, .. }| [*end_free, *path_free]).collect()
     };
@@ -48,7 +48,7 @@ fn changed_settings_move_no_sample() {
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         machine.configure(Settings { conditioned: false, sampler, ..endpoint }).expect("valid");
         assert!((poses(&machine), verdicts(&machine)) == (cloud.clone(), free.clone()), "{sampler:?}");
-        assert_eq!(machine.tally().accepted, 3000, "nobody is refused");
+        assert_eq!(machine.tally().accepted, 3000, "no attempt is rejected");
         assert_eq!((machine.tally().draws, machine.tally().wall_tests), (3000, 0));
     }
     machine.set_plan(too_small_room());
@@ -56,28 +56,28 @@ fn changed_settings_move_no_sample() {
     assert_eq!(machine.tally().through_wall, 3000);
     machine.set_plan(FloorPlan::apartment());
     machine.configure(endpoint).expect("valid");
-    assert_eq!(results(&machine), before, "and back again to the bit");
+    assert_eq!(results(&machine), old_results, "and back again to the bit");
     machine.configure(Settings { seed: 8, ..endpoint }).expect("valid");
-    assert!(poses(&machine).iter().zip(&cloud).all(|(a, b)| a != b), "a new seed is new luck");
+    assert!(poses(&machine).iter().zip(&cloud).all(|(a, b)| a != b), "a new seed changes it");
 }
 
-/// A rejected part is drawn again, which moves the following parts. Conditioning moves no sample unless a part is rejected.
+/// A rejected part is drawn again, which moves the parts after it. Without a rejection conditioning moves no sample.
 #[test]
 fn only_rejected_parts_move_samples() {
-    let stepped = Settings { sampler: Sampler::SubStepped(4), samples: 500, ..Settings::default() };
-    let mut machine = machine(stepped);
+    let in_four_parts = Settings { sampler: Sampler::SubStepped(4), samples: 500, ..Settings::default() };
+    let mut machine = machine(in_four_parts);
     machine.set_plan(FloorPlan::new(Vec::new(), [-50.0, -50.0, 50.0, 50.0]).expect("an open field"));
     let open_field = poses(&machine);
-    machine.configure(Settings { conditioned: false, ..stepped }).expect("valid");
+    machine.configure(Settings { conditioned: false, ..in_four_parts }).expect("valid");
     assert!(poses(&machine) == open_field);
     machine.set_plan(FloorPlan::apartment());
     assert!(poses(&machine) == open_field, "without conditioning walls have no effect");
     let tally = machine.tally();
     assert_eq!((tally.accepted, tally.draws, tally.wall_tests), (500, 2000, 0));
-    machine.configure(stepped).expect("valid");
-    let apart = poses(&machine).iter().zip(&open_field).filter(|(a, b)| a != b).count();
+    machine.configure(in_four_parts).expect("valid");
+    let moved_count = poses(&machine).iter().zip(&open_field).filter(|(a, b)| a != b).count();
     let rejected = machine.tally().draws - 2000;
-    assert!(apart > 0 && apart <= rejected, "{apart} moved by {rejected} rejections");
+    assert!(moved_count > 0 && moved_count <= rejected, "{moved_count} moved by {rejected} rejections");
 }
 
 #[test]
@@ -97,11 +97,11 @@ fn attempts_have_the_arcs_that_they_drove() {
             assert!((last.x() - attempt.pose.x()).abs() + (last.y() - attempt.pose.y()).abs() < 1e-12);
             let free = arcs.iter().all(|arc| machine.plan().arc_free(arc, 0.13).free);
             assert_eq!(attempt.path_free, free);
-            let joined = arcs.windows(2).all(|pair| {
+            let are_joined = arcs.windows(2).all(|pair| {
                 let end = pair[0].end();
                 (end.x(), end.y()) == (pair[1].start.x(), pair[1].start.y())
             });
-            assert!(joined && (arcs[0].start.x(), arcs[0].start.y()) == (2.05, 2.6));
+            assert!(are_joined && (arcs[0].start.x(), arcs[0].start.y()) == (2.05, 2.6));
         }
     }
 }
@@ -126,10 +126,10 @@ fn the_commanded_path_and_the_room_at_its_start() {
 #[test]
 fn the_product_of_samples_and_parts_is_limited() {
     for (sampler, most) in [(Sampler::WholeArc, 1_000_000), (Sampler::SubStepped(4), 250_000)] {
-        let error = |samples| {
+        let refused = |samples| {
             Settings { samples, sampler, ..Settings::default() }.check().err().map(|error| error.field)
         };
-        assert_eq!([error(most), error(most + 1)], [None, Some("samples".to_owned())]);
+        assert_eq!([refused(most), refused(most + 1)], [None, Some("samples".to_owned())]);
     }
 }
 
@@ -144,10 +144,10 @@ fn the_machine_stops_after_a_bounded_number_of_draws() {
     let tally = *machine.tally();
     assert_eq!((tally.accepted, tally.through_wall), (0, 0));
     assert!((MAX_DRAWS..=3 * MAX_DRAWS).contains(&tally.draws), "{tally:?}");
-    let shown = machine.attempts().len();
-    assert!((1..10).contains(&shown));
+    let attempt_count = machine.attempts().len();
+    assert!((1..10).contains(&attempt_count));
     assert!(machine.attempts().iter().all(|a| !(a.accepted || a.end_free || a.path_free)));
-    assert_eq!(machine.add_samples(100), shown, "it stops for good");
+    assert_eq!(machine.add_samples(100), attempt_count, "it stops for good");
     assert_eq!(*machine.tally(), tally);
     machine.configure(Settings { sampler: Sampler::Endpoint, ..wedged }).expect("valid");
     assert!(!machine.gave_up());
@@ -180,8 +180,8 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
         let mut rng = seeded(7);
         let mut expected = (0, 0);
         for _ in 0..500 {
-            let done = conditioned.sample(&AHEAD, &start, &mut rng).expect("it fits");
-            expected = (expected.0 + done.cost.draws, expected.1 + done.cost.wall_tests);
+            let sample = conditioned.sample(&AHEAD, &start, &mut rng).expect("it fits");
+            expected = (expected.0 + sample.cost.draws, expected.1 + sample.cost.wall_tests);
         }
         assert_eq!((cost.draws, cost.wall_tests), expected);
     }
@@ -199,8 +199,8 @@ fn the_interval_is_the_wilson_interval() {
     {
         let interval = Tally { accepted, through_wall, ..Tally::default() }.through_wall_interval();
         assert!((interval[0] - low).abs() < 5e-5 && (interval[1] - high).abs() < 5e-5, "{interval:?}");
-        let rest = Tally { accepted, through_wall: accepted - through_wall, ..Tally::default() };
-        let [rest_low, rest_high] = rest.through_wall_interval();
+        let complement = Tally { accepted, through_wall: accepted - through_wall, ..Tally::default() };
+        let [rest_low, rest_high] = complement.through_wall_interval();
         assert!(
             (rest_low + interval[1] - 1.0).abs() < 1e-15 && (rest_high + interval[0] - 1.0).abs() < 1e-15
         );

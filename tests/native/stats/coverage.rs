@@ -8,71 +8,71 @@ use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 use motion::sim::squeeze::{self, MapSqueeze, PRESETS};
 use motion::{NoiseKind, VelocityAlphas, VelocityModel};
 
-/// Number of seeds of each case. A share of 95 % then has a standard error of 0.2 %, and 4.5 times that is 1 %.
+/// Number of seeds of each case. A share of 95 % then has a standard error of 0.2 %. The tolerance, 4.5 standard errors, is 1 %.
 const REPETITIONS: u64 = 10_000;
 
 /// Number of seeds of clouds that are ten times as large. 4.5 standard errors of a share are 1.8 % then.
 const LARGE_REPETITIONS: u64 = 3000;
 
-/// Number of robots of a cloud, a tenth of that with which the widget opens. The skew of smaller clouds, and its error, are biased.
+/// Number of robots of a cloud, a tenth of the widget's default. The skew of smaller clouds, and its error, are biased.
 const ROBOTS: usize = 5000;
 
 /// Returns the share of repetitions in which an interval holds the exact value, for each of several intervals.
 fn shares<const N: usize>(repetitions: u64, mut held: impl FnMut(u64) -> [bool; N]) -> [f64; N] {
     let mut counts = [0; N];
     for seed in 0..repetitions {
-        for (count, held) in counts.iter_mut().zip(held(seed)) {
-            *count += u32::from(held);
+        for (count, holds) in counts.iter_mut().zip(held(seed)) {
+            *count += u32::from(holds);
         }
     }
     counts.map(|count| f64::from(count) / repetitions as f64)
 }
 
-fn assert_covered(what: &str, share: f64, repetitions: u64) {
+fn assert_covered(case: &str, share: f64, repetitions: u64) {
     let allowed = MAX_STANDARD_ERRORS * (0.95 * 0.05 / repetitions as f64).sqrt();
-    assert!((share - 0.95).abs() <= allowed, "{what}: {:.2} % hold the exact value", 100.0 * share);
+    assert!((share - 0.95).abs() <= allowed, "{case}: {:.2} % hold the exact value", 100.0 * share);
 }
 
-/// Returns the shares of clouds in which the skew and the gains of poses and on the floor are within 1.96 standard errors.
+/// Returns shares of clouds: those whose skew, pose gain and floor gain differ by at most 1.96 standard errors from the exact value.
 fn shares_within_errors(settings: Settings, repetitions: u64) -> [f64; 3] {
     let mut machine = BananaMachine::new(settings).expect("valid settings");
     let (skew, gain) = (machine.exact().cross_track_skew, machine.exact_gain().value);
     shares(repetitions, |seed| {
         machine.configure(Settings { seed, ..settings }).expect("valid settings");
         let figures = machine.figures();
-        let (measured, error) = (figures.likelihood_gain, figures.likelihood_gain_error);
-        let within = |value: f64, error: f64, exact: f64| (value - exact).abs() <= 1.959_964 * error;
+        let (gains, error) = (figures.likelihood_gain, figures.likelihood_gain_error);
+        let is_within = |value: f64, error: f64, exact: f64| (value - exact).abs() <= 1.959_964 * error;
         [
-            within(figures.cross_track_skew, figures.cross_track_skew_error, skew),
-            within(measured.pose, error.pose, gain.pose),
-            within(measured.floor, error.floor, gain.floor),
+            is_within(figures.cross_track_skew, figures.cross_track_skew_error, skew),
+            is_within(gains.pose, error.pose, gain.pose),
+            is_within(gains.floor, error.floor, gain.floor),
         ]
     })
 }
 
-const FIGURES: [&str; 3] = ["skew", "gain of poses", "gain on the floor"];
+const FIGURE_NAMES: [&str; 3] = ["skew", "gain of poses", "gain on the floor"];
 
 #[test]
 #[ignore = "nightly: thousands of clouds"]
-fn errors_of_clouds_of_a_tenth() {
-    for (what, settings) in [
+fn errors_of_small_clouds() {
+    for (cloud_name, settings) in [
         ("gentle arc", preset("gentle")),
         ("hard arc", Settings { noise: NoiseKind::Triangular, ..preset("hard") }),
         ("odometry", Settings { model: ModelKind::Odometry, ..preset("gentle") }),
     ] {
         let settings = Settings { samples: ROBOTS, ..settings };
-        for (figure, share) in FIGURES.into_iter().zip(shares_within_errors(settings, REPETITIONS)) {
-            assert_covered(&format!("{figure}, {what}"), share, REPETITIONS);
+        for (figure, share) in FIGURE_NAMES.into_iter().zip(shares_within_errors(settings, REPETITIONS)) {
+            assert_covered(&format!("{figure}, {cloud_name}"), share, REPETITIONS);
         }
     }
 }
 
-/// Here a few robots far off have most of the variance.
+/// In this cloud a few distant robots cause most of the variance.
 #[test]
 #[ignore = "nightly: thousands of clouds"]
-fn errors_of_the_finest_banana_as_it_opens() {
+fn errors_of_the_banana_preset() {
     let shares = shares_within_errors(preset("banana"), LARGE_REPETITIONS);
-    for (figure, share) in FIGURES.into_iter().zip(shares) {
+    for (figure, share) in FIGURE_NAMES.into_iter().zip(shares) {
         assert_covered(&format!("{figure}, banana"), share, LARGE_REPETITIONS);
     }
 }
@@ -81,10 +81,10 @@ fn errors_of_the_finest_banana_as_it_opens() {
 #[ignore = "nightly: thousands of clouds"]
 fn small_clouds_hold_the_exact_skew_as_often_as_printed() {
     let text = Text::in_document(include_str!("../../../doc/statistics.md"));
-    let [few_held, few, more_held, more] = text.numbers(
+    let [held_of_few, few, held_of_more, more] = text.numbers(
         "1.96 errors hold the exact one in # of 100 clouds of #, in # of #, and in 95 of 5000 and more",
     );
-    for (held, robots) in [(few_held, few), (more_held, more)] {
+    for (held, robots) in [(held_of_few, few), (held_of_more, more)] {
         let settings = Settings { samples: robots.value as usize, ..preset("gentle") };
         let [skew, ..] = shares_within_errors(settings, REPETITIONS);
         held.assert_percent(skew, 0.0);
@@ -92,28 +92,28 @@ fn small_clouds_hold_the_exact_skew_as_often_as_printed() {
 }
 
 /// Returns the share of motions whose path is blocked among those whose end is free. It is a sum over the noises of speed and turn rate,
-/// because the turn after the arc moves nothing.
+/// because the turn after the arc does not change the position.
 fn share_through_walls(settings: &squeeze::Settings) -> f64 {
     const NODES: usize = 600;
-    const REACH: f64 = 6.0;
+    const MAX_SIGMAS: f64 = 6.0;
     let (plan, [x, y, theta]) = (FloorPlan::apartment(), settings.start);
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let conditioned =
         MapConditioned { model, plan: &plan, clearance: settings.clearance, sampler: Sampler::Endpoint };
     let draw_tester = conditioned.draw_tester(&settings.command, &SE2::new(x, y, theta));
-    let node = |i: usize| ((i as f64 + 0.5) / NODES as f64 * 2.0 - 1.0) * REACH;
-    let (mut free, mut through) = (0.0, 0.0);
-    for v in (0..NODES).map(node) {
-        for omega in (0..NODES).map(node) {
+    let node_value = |i: usize| ((i as f64 + 0.5) / NODES as f64 * 2.0 - 1.0) * MAX_SIGMAS;
+    let (mut free_weight, mut wall_weight) = (0.0, 0.0);
+    for v in (0..NODES).map(node_value) {
+        for omega in (0..NODES).map(node_value) {
             let weight = libm::exp(-0.5 * (v * v + omega * omega));
             let draw = draw_tester.judge([v, omega, 0.0]);
             if draw.end.free {
-                free += weight;
-                through += if draw.path.free { 0.0 } else { weight };
+                free_weight += weight;
+                wall_weight += if draw.path.free { 0.0 } else { weight };
             }
         }
     }
-    through / free
+    wall_weight / free_weight
 }
 
 #[test]

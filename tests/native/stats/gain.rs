@@ -31,9 +31,9 @@ fn gains(figures: &Figures) -> [[f64; 2]; 2] {
     [[value.pose, error.pose], [value.floor, error.floor]]
 }
 
-fn assert_close(name: &str, found: f64, expected: f64, allowed: f64) {
-    let alike = found == expected || found.is_nan() && expected.is_nan();
-    assert!(alike || (found - expected).abs() <= allowed, "{name}: {found} is not {expected}");
+fn assert_close(name: &str, computed: f64, expected: f64, allowed: f64) {
+    let are_equal = computed == expected || computed.is_nan() && expected.is_nan();
+    assert!(are_equal || (computed - expected).abs() <= allowed, "{name}: {computed} is not {expected}");
 }
 
 // --------------------------------------------------------------------------------------------- the definition
@@ -41,13 +41,13 @@ fn assert_close(name: &str, found: f64, expected: f64, allowed: f64) {
 /// Returns the log-density at each point of the Gaussian with the moments of all points, by inverse and determinant.
 fn log_densities(points: &[DVector<f64>]) -> Vec<f64> {
     let (n, size) = (points.len() as f64, points[0].len());
-    let centre = points.iter().sum::<DVector<f64>>() / n;
-    let scatter = |p: &DVector<f64>| (p - &centre) * (p - &centre).transpose();
+    let mean = points.iter().sum::<DVector<f64>>() / n;
+    let scatter = |p: &DVector<f64>| (p - &mean) * (p - &mean).transpose();
     let cov = points.iter().map(scatter).sum::<DMatrix<f64>>() / (n - 1.0);
     let (precision, volume) =
         (cov.clone().try_inverse().unwrap(), (TAU.powi(size as i32) * cov.determinant()).sqrt());
-    let at = |p: &DVector<f64>| -0.5 * (p - &centre).dot(&(&precision * (p - &centre))) - volume.ln();
-    points.iter().map(at).collect()
+    let log_density_at = |p: &DVector<f64>| -0.5 * (p - &mean).dot(&(&precision * (p - &mean))) - volume.ln();
+    points.iter().map(log_density_at).collect()
 }
 
 /// Returns the determinant of a map's Jacobian, by differences of fourth order. Its absolute error is about 1e-13.
@@ -67,15 +67,15 @@ fn determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVector<f64>) -
     DMatrix::from_columns(&columns).determinant()
 }
 
-/// Returns two gains of each robot in log-density: that of its pose, from the Gaussian in x, y and θ to the one in exponential coordinates,
-/// and that of its position, from the Gaussian in x and y to the one in arc coordinates.
-fn differences(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
+/// Returns two gains in log-density of each robot. The gain of its pose compares a Gaussian in exponential coordinates with one in x, y, θ.
+/// The gain of its position compares a Gaussian in arc coordinates with one in x, y.
+fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
     let heading = CartesianMoments::from_poses(cloud).mean.z;
-    let plain: Vec<_> = cloud
+    let coordinates: Vec<_> = cloud
         .iter()
         .map(|p| DVector::from_vec(vec![p.x(), p.y(), wrap_angle(p.theta() - heading)]))
         .collect();
-    let places: Vec<_> = cloud.iter().map(|p| DVector::from_vec(vec![p.x(), p.y()])).collect();
+    let positions: Vec<_> = cloud.iter().map(|p| DVector::from_vec(vec![p.x(), p.y()])).collect();
     let twists: Vec<_> =
         cloud.iter().map(|p| DVector::from_column_slice(p.log_near(turn).as_slice())).collect();
     let arcs: Vec<_> = cloud
@@ -83,25 +83,25 @@ fn differences(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
         .map(|p| arc_near(&SE2::identity(), p, turn))
         .map(|(length, turn)| DVector::from_vec(vec![length, turn]))
         .collect();
-    let exp = |xi: &DVector<f64>| {
-        let end = SE2::exp(&Vector3::new(xi[0], xi[1], xi[2]));
-        DVector::from_vec(vec![end.x(), end.y(), xi[2]])
+    let pose_of_twist = |xi: &DVector<f64>| {
+        let position_of_arc = SE2::exp(&Vector3::new(xi[0], xi[1], xi[2]));
+        DVector::from_vec(vec![position_of_arc.x(), position_of_arc.y(), xi[2]])
     };
-    let end = |arc: &DVector<f64>| {
+    let position_of_arc = |arc: &DVector<f64>| {
         let (x, y) = chord(arc[0], arc[1]);
         DVector::from_vec(vec![x, y])
     };
-    let each =
+    let gains_of =
         |plain: &[DVector<f64>], bent: &[DVector<f64>], map: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
             let (plain, log) = (log_densities(plain), log_densities(bent));
-            let each = bent.iter().zip(plain.iter().zip(&log));
-            each.map(|(at, (plain, log))| log - determinant(map, at).abs().ln() - plain).collect()
+            let gains_of = bent.iter().zip(plain.iter().zip(&log));
+            gains_of.map(|(at, (plain, log))| log - determinant(map, at).abs().ln() - plain).collect()
         };
-    [each(&plain, &twists, &exp), each(&places, &arcs, &end)]
+    [gains_of(&coordinates, &twists, &pose_of_twist), gains_of(&positions, &arcs, &position_of_arc)]
 }
 
-/// The machine computes the gain from sums, for every model and size. Up to 2048 robots its error is that of all of them, and beyond that
-/// of a sample.
+/// The machine computes the gain from sums, for every model and size. It computes the error from all robots up to 2048, and from a sample
+/// of a larger cloud.
 #[test]
 fn the_machine_has_the_gain_of_its_poses() {
     for model in [ModelKind::Velocity, ModelKind::Odometry] {
@@ -115,20 +115,20 @@ fn the_machine_has_the_gain_of_its_poses() {
                     let settings =
                         Settings { model, noise, command, odometry_alphas, samples, ..preset("gentle") };
                     let machine = BananaMachine::new(settings).expect("a valid setting");
-                    let found = gains(machine.figures());
-                    let what = format!("{model:?} {noise:?} {command:?} {samples}");
+                    let gains_found = gains(machine.figures());
+                    let case = format!("{model:?} {noise:?} {command:?} {samples}");
                     if samples > 4 {
-                        let differences = differences(&poses(&machine), omega * dt);
-                        for ([value, error], differences) in found.into_iter().zip(differences) {
-                            assert_close(&what, value, mean(&differences), 1e-9);
+                        let robot_gains = robot_gains(&poses(&machine), omega * dt);
+                        for ([value, error], robot_gains) in gains_found.into_iter().zip(robot_gains) {
+                            assert_close(&case, value, mean(&robot_gains), 1e-9);
                             if samples <= 2048 {
-                                let expected = (variance(&differences) / samples as f64).sqrt();
-                                assert_close(&what, error, expected, 1e-8 * expected);
+                                let expected = (variance(&robot_gains) / samples as f64).sqrt();
+                                assert_close(&case, error, expected, 1e-8 * expected);
                             }
                         }
                     }
-                    assert_eq!(found[0][0].is_nan(), samples < 4, "{what}");
-                    assert_eq!(found[1][0].is_nan(), samples < 3, "{what}");
+                    assert_eq!(gains_found[0][0].is_nan(), samples < 4, "{case}");
+                    assert_eq!(gains_found[1][0].is_nan(), samples < 3, "{case}");
                 }
             }
         }
@@ -137,9 +137,8 @@ fn the_machine_has_the_gain_of_its_poses() {
 
 // ---------------------------------------------------------------------------------------------- exact figures
 
-/// The references are cut off at 6 or 6.6 standard deviations of each noise, and have a jump to another branch between two steps of a
-/// thousandth. Both change a gain by up to 1e-6. The chord at a crossing of an outline may count to either loop, which changes an area by
-/// up to 1e-4.
+/// The references integrate each noise up to 6 or 6.6 standard deviations, with steps that do not meet the jump between two branches. Both
+/// change a gain by up to 1e-6. Where an outline crosses itself, a chord may belong to either loop, which changes an area by up to 1e-4.
 #[test]
 fn exact_gains_match_the_references() {
     for row in Table::parse(include_str!("../../reference/likelihood_gain.csv")).rows() {
@@ -158,26 +157,26 @@ fn exact_gains_match_the_references() {
     }
 }
 
-/// γ̂ turns the robot where it stands.
+/// The last turn γ̂ does not change the position.
 #[test]
 fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
     for Preset { command, .. } in PRESETS {
-        let of = |last: f64| {
+        let floor_gains = |last: f64| {
             let machine = machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 10_000);
             [machine.figures().likelihood_gain.floor, machine.exact_gain().value.floor]
         };
-        let without = of(0.0);
-        assert!(without.iter().all(|gain| gain.is_finite()), "{command:?}");
+        let without_turn = floor_gains(0.0);
+        assert!(without_turn.iter().all(|gain| gain.is_finite()), "{command:?}");
         for last in [1e-9, 0.01, 0.3] {
-            for (gain, without) in of(last).into_iter().zip(without) {
-                assert_close("floor", gain, without, 1e-12);
+            for (gain, without_turn) in floor_gains(last).into_iter().zip(without_turn) {
+                assert_close("floor", gain, without_turn, 1e-12);
             }
         }
     }
     // That holds also if headings spread over a full turn, where exponential coordinates are undefined.
-    let wild = machine(GENTLE, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
-    assert!(!wild.chart_holds());
-    let Figures { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } = wild.figures();
+    let wide = machine(GENTLE, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
+    assert!(!wide.chart_holds());
+    let Figures { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } = wide.figures();
     assert!(gain.pose.is_nan() && error.pose.is_nan() && area_ratio.is_nan());
     assert_close(
         "floor",
@@ -208,29 +207,29 @@ fn the_ratio_is_that_of_the_areas_drawn() {
     }
 }
 
-/// The reported error is compared with the standard deviation of the ratio over independent clouds. Over 20,000 clouds of 1000 samples the
-/// errors for the presets are 0.89 to 0.99 of it, because they are computed from the outline of the arcs instead of the one in ξ.
+/// The reported error is compared with the standard deviation of the ratio over independent clouds. Over 20,000 clouds of 1000 robots it is
+/// 0.89 to 0.99 times that, because it is computed from the outline in arc coordinates instead of the one in ξ.
 #[test]
 fn the_error_of_the_ratio_is_its_spread_over_clouds() {
     const CLOUDS: usize = 300;
     for Preset { name, command, alphas } in PRESETS {
-        let of = |seed: usize| {
+        let figures_of = |seed: usize| {
             let seed = seed as u64;
             let settings =
                 Settings { command, velocity_alphas: alphas, samples: 1000, seed, ..Settings::default() };
             *BananaMachine::new(settings).expect("a valid setting").figures()
         };
-        let clouds: Vec<Figures> = (0..CLOUDS).map(of).collect();
-        let spread = variance(&clouds.iter().map(|cloud| cloud.area_ratio).collect::<Vec<_>>()).sqrt();
-        let claimed = mean(&clouds.iter().map(|cloud| cloud.area_ratio_error).collect::<Vec<_>>());
-        // The relative standard error of the spread is 1/√(2·CLOUDS).
-        assert_close(name, claimed / spread, 0.94, 0.05 + 4.0 / (2.0 * CLOUDS as f64).sqrt());
+        let clouds: Vec<Figures> = (0..CLOUDS).map(figures_of).collect();
+        let ratio_std = variance(&clouds.iter().map(|cloud| cloud.area_ratio).collect::<Vec<_>>()).sqrt();
+        let mean_error = mean(&clouds.iter().map(|cloud| cloud.area_ratio_error).collect::<Vec<_>>());
+        // The relative standard error of a standard deviation is 1/√(2·CLOUDS).
+        assert_close(name, mean_error / ratio_std, 0.94, 0.05 + 4.0 / (2.0 * CLOUDS as f64).sqrt());
     }
 }
 
 // ---------------------------------------------------------------------------------------- undefined and infinite
 
-/// Without γ̂ the cloud is a curved surface among the poses, and a plane in exponential coordinates.
+/// Without the last turn γ̂ the poses lie on a curved surface, which is a plane in exponential coordinates.
 #[test]
 fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
     for noise in NOISE_KINDS {
@@ -249,13 +248,13 @@ fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
                 assert!(exact.pose == f64::INFINITY && exact.floor.is_finite(), "{command:?}");
             }
             // With a tiny variance of γ̂ the gain is finite. It grows by half a nat if that variance falls by a factor e.
-            let of = |last: f64| {
+            let pose_gain = |last: f64| {
                 machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000).figures().likelihood_gain.pose
             };
-            assert_close("growth", of(1e-16) - of(1e-14), 100f64.ln() / 2.0, 1e-4);
+            assert_close("growth", pose_gain(1e-16) - pose_gain(1e-14), 100f64.ln() / 2.0, 1e-4);
         }
     }
-    // A curve in the plane that is a straight line in exponential coordinates.
+    // The cloud is a curve in the plane, and a straight line in exponential coordinates.
     let fan = machine(STRAIGHT, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0], 2000);
     let Figures { likelihood_gain: gain, area_ratio, .. } = fan.figures();
     assert!(gain.pose == f64::INFINITY && gain.floor == f64::INFINITY && area_ratio.is_nan());

@@ -10,18 +10,18 @@ fn field(columns: usize, rows: usize, value: impl Fn(f64, f64) -> f64) -> Vec<f6
     (0..columns * rows).map(|i| value((i % columns) as f64, (i / columns) as f64)).collect()
 }
 
-/// Between points a step apart the square of the distance leaves its chord by a quarter at most, and so the circle is missed by a
-/// quarter over the sum of both distances.
+/// Linear interpolation of the squared distance between points a step apart is off by a quarter at most. The line is therefore off
+/// the circle by at most a quarter divided by the sum of both distances.
 #[test]
 fn a_circle_is_one_closed_line() {
     for radius in [2.3, 7.9, 14.2] {
-        let square = |x: f64, y: f64| (x - 20.1).powi(2) + (y - 15.7).powi(2);
-        let lines = level_set(&field(41, 33, square), 41, radius * radius);
+        let squared_distance = |x: f64, y: f64| (x - 20.1).powi(2) + (y - 15.7).powi(2);
+        let lines = level_set(&field(41, 33, squared_distance), 41, radius * radius);
         let [line] = lines.as_slice() else { panic!("{} lines", lines.len()) };
         assert_eq!(line.first(), line.last());
         let allowed = 0.2501 / (2.0 * radius - 0.1);
         for [x, y] in line {
-            assert!((square(*x, *y).sqrt() - radius).abs() < allowed, "{radius}: {x} {y}");
+            assert!((squared_distance(*x, *y).sqrt() - radius).abs() < allowed, "{radius}: {x} {y}");
         }
         // The circumference is the sum of the lengths of its chords.
         let length: f64 =
@@ -32,17 +32,17 @@ fn a_circle_is_one_closed_line() {
 
 #[test]
 fn a_saddle_is_parted_as_the_mean_of_its_corners_says() {
-    for (level, joined) in [(0.4, true), (0.6, false)] {
+    for (level, low_cut_off) in [(0.4, true), (0.6, false)] {
         let lines = level_set(&[1.0, 0.0, 0.0, 1.0], 2, level);
         assert_eq!(lines.len(), 2);
         // Two lines that cut off the low corners, or the high ones.
-        let cut = |corner: [f64; 2]| {
+        let cuts_off = |corner: [f64; 2]| {
             lines
                 .iter()
                 .any(|line| line.iter().all(|[x, y]| (x - corner[0]).abs() + (y - corner[1]).abs() < 1.0))
         };
-        assert_eq!(cut([1.0, 0.0]) && cut([0.0, 1.0]), joined, "{lines:?}");
-        assert_eq!(cut([0.0, 0.0]) && cut([1.0, 1.0]), !joined, "{lines:?}");
+        assert_eq!(cuts_off([1.0, 0.0]) && cuts_off([0.0, 1.0]), low_cut_off, "{lines:?}");
+        assert_eq!(cuts_off([0.0, 0.0]) && cuts_off([1.0, 1.0]), !low_cut_off, "{lines:?}");
     }
 }
 
@@ -55,15 +55,15 @@ fn contours_of_noise_contain_every_crossing() {
     let values: Vec<f64> = (0..columns * rows).map(|_| uniform(&mut rng, -1.0, 1.0)).collect();
     let mut crossings = 0;
     for i in 0..columns * rows {
-        let other = |k: usize| usize::from((values[i] > 0.2) != (values[k] > 0.2));
-        crossings += if i % columns + 1 < columns { other(i + 1) } else { 0 };
-        crossings += if i / columns + 1 < rows { other(i + columns) } else { 0 };
+        let crosses = |k: usize| usize::from((values[i] > 0.2) != (values[k] > 0.2));
+        crossings += if i % columns + 1 < columns { crosses(i + 1) } else { 0 };
+        crossings += if i / columns + 1 < rows { crosses(i + columns) } else { 0 };
     }
     let lines = level_set(&values, columns, 0.2);
-    let mut points = 0;
+    let mut point_count = 0;
     for line in &lines {
         let closed = line.len() > 2 && line.first() == line.last();
-        points += line.len() - usize::from(closed);
+        point_count += line.len() - usize::from(closed);
         let on_rim =
             |[x, y]: [f64; 2]| x == 0.0 || y == 0.0 || x == (columns - 1) as f64 || y == (rows - 1) as f64;
         assert!(closed || (on_rim(line[0]) && on_rim(line[line.len() - 1])), "{line:?}");
@@ -71,11 +71,11 @@ fn contours_of_noise_contain_every_crossing() {
             assert!((ends[1][0] - ends[0][0]).abs().max((ends[1][1] - ends[0][1]).abs()) <= 1.0);
         }
     }
-    assert_eq!(points, crossings);
+    assert_eq!(point_count, crossings);
 }
 
 #[test]
-fn what_is_small_or_flat_has_no_lines() {
+fn small_or_flat_fields_have_no_lines() {
     for (values, columns) in [(vec![], 0), (vec![1.0], 1), (vec![1.0, 0.0], 2), (vec![1.0; 12], 4)] {
         assert!(level_set(&values, columns, 0.5).is_empty());
     }
@@ -86,9 +86,9 @@ fn surface(settings: Settings) -> Surface {
     machine.surface([-0.5, -1.0], [2.0, 1.5]).expect("a map")
 }
 
-/// A contour's height by the models themselves. Within a cell of h = 0.028 m the logarithm of p leaves its chord by h²/8 times its
-/// second derivative. Most of that is across the way, where the arc turns by 2/d a metre at the distance d: from 0.7 m on
-/// (2/d)² · (1/σ_ω² + 1/σ_γ²) < 770, which is 0.075.
+/// The heights of contour points are computed by the models. Linear interpolation of log p in a cell of h = 0.028 m is off by h²/8 times
+/// the second derivative, which is largest across the drive: at the distance d the arc's turn changes by 2/d per metre. From d = 0.7 m on
+/// (2/d)² · (1/σ_ω² + 1/σ_γ²) < 770, so that log p is off by up to 0.075.
 #[test]
 fn contours_are_where_the_models_have_their_levels() {
     let settings = Settings { map: SurfaceKind::Density, ..Settings::default() };
@@ -96,38 +96,38 @@ fn contours_are_where_the_models_have_their_levels() {
     assert!(columns * rows == shades.len() && (5_000..=10_000).contains(&shades.len()));
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let start = SE2::identity();
-    let value = |[x, y]: [f64; 2], wanted: SurfaceKind| {
+    let value = |[x, y]: [f64; 2], kind: SurfaceKind| {
         let next = SE2::new(x, y, settings.next.theta);
-        match wanted {
+        match kind {
             SurfaceKind::Prob => model.prob(&next, &settings.command, &start),
             _ => model.pose_density(&next, &settings.command, &start).expect("noise of full rank"),
         }
     };
-    let place = |i: usize| {
+    let cell_centre = |i: usize| {
         let [column, row] = [i % columns, i / columns].map(|index| index as f64 + 0.5);
         [-0.5 + 2.5 * column / columns as f64, 1.5 - 2.5 * row / rows as f64]
     };
-    for (lines, wanted) in [(&prob, SurfaceKind::Prob), (&density, SurfaceKind::Density)] {
-        let top = (0..shades.len()).map(|i| value(place(i), wanted)).fold(0.0, f64::max);
+    for (lines, kind) in [(&prob, SurfaceKind::Prob), (&density, SurfaceKind::Density)] {
+        let maximum = (0..shades.len()).map(|i| value(cell_centre(i), kind)).fold(0.0, f64::max);
         assert!(lines.len() >= CONTOUR_LEVELS.len());
         for point in lines.iter().flatten().filter(|[x, y]| x.hypot(*y) > 0.7) {
-            let height = value(*point, wanted) / top;
+            let height = value(*point, kind) / maximum;
             let level = CONTOUR_LEVELS
                 .into_iter()
                 .min_by(|a, b| (height / a).ln().abs().total_cmp(&(height / b).ln().abs()));
             assert!((height / level.expect("a level") - 1.0).abs() < 0.078, "{point:?} {height}");
         }
     }
-    let top = (0..shades.len()).map(|i| value(place(i), SurfaceKind::Density)).fold(0.0, f64::max);
+    let maximum = (0..shades.len()).map(|i| value(cell_centre(i), SurfaceKind::Density)).fold(0.0, f64::max);
     for (i, shade) in shades.iter().enumerate() {
-        let expected = 255.0 * value(place(i), SurfaceKind::Density) / top;
+        let expected = 255.0 * value(cell_centre(i), SurfaceKind::Density) / maximum;
         assert!((f64::from(*shade) - expected).abs() <= 0.5 + 1e-9);
     }
 }
 
 #[test]
 fn a_map_without_noise_is_empty() {
-    let noiseless = Settings { alphas: [0.0; 6], map: SurfaceKind::Prob, ..Settings::default() };
-    let Surface { shades, prob, density, .. } = surface(noiseless);
+    let noise_free = Settings { alphas: [0.0; 6], map: SurfaceKind::Prob, ..Settings::default() };
+    let Surface { shades, prob, density, .. } = surface(noise_free);
     assert!(shades.iter().all(|shade| *shade == 0) && prob.is_empty() && density.is_empty());
 }

@@ -28,13 +28,13 @@ fn exponential_moments_are_means_of_twists_from_the_start() {
     let start = SE2::new(0.3, -0.2, 0.1);
     let twists: Vec<Vector3<f64>> = poses.iter().map(|pose| pose.boxminus(&start)).collect();
     let exponential = ExponentialMoments::from_poses(&poses, &start);
-    let centre = twists.iter().sum::<Vector3<f64>>() / 500.0;
-    let scatter = twists.iter().map(|t| (t - centre) * (t - centre).transpose()).sum::<Matrix3<f64>>();
-    assert!((exponential.mean - centre).amax() < 1e-14);
-    assert!((exponential.cov - scatter / 499.0).amax() < 1e-14);
+    let mean = twists.iter().sum::<Vector3<f64>>() / 500.0;
+    let squares = twists.iter().map(|t| (t - mean) * (t - mean).transpose()).sum::<Matrix3<f64>>();
+    assert!((exponential.mean - mean).amax() < 1e-14);
+    assert!((exponential.cov - squares / 499.0).amax() < 1e-14);
 }
 
-/// The 2σ contour in ξ contains the same fraction of the robots after exp, if ξ is Gaussian of rank 2. Its outline separates inside from
+/// If ξ is a Gaussian of rank 2, its 2σ contour, mapped by exp, contains the same fraction of robots. The outline separates inside from
 /// outside.
 #[test]
 fn the_exponential_contour_covers_two_deviations() {
@@ -94,8 +94,8 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
             // Minimizes the distance over 4001 headings within three standard deviations. The step is so small that the
             // minimum is too large by less than 1e-5.
             let headings = (0..=4000).map(|i| mean.z + spread * 3.0 * (f64::from(i) / 2000.0 - 1.0));
-            let least = headings.map(distance).fold(f64::INFINITY, f64::min);
-            assert!((1.9..2.0 + 1e-5).contains(&least), "({x}, {y}) is {least} deviations away");
+            let nearest = headings.map(distance).fold(f64::INFINITY, f64::min);
+            assert!((1.9..2.0 + 1e-5).contains(&nearest), "({x}, {y}) is {nearest} deviations away");
         }
     }
 }
@@ -111,7 +111,7 @@ fn predicted_skews_match_the_references() {
     }
 }
 
-const MOMENTS: [&str; 8] = ["mx", "my", "sxx", "sxy", "syy", "sxt", "syt", "stt"];
+const MOMENT_COLUMNS: [&str; 8] = ["mx", "my", "sxx", "sxy", "syy", "sxt", "syt", "stt"];
 
 fn assert_exact(exact: &ExactMoments, row: &crate::common::Row<'_>) {
     let computed = [
@@ -124,7 +124,7 @@ fn assert_exact(exact: &ExactMoments, row: &crate::common::Row<'_>) {
         exact.cov[(1, 2)],
         exact.cov[(2, 2)],
     ];
-    for (name, value) in MOMENTS.into_iter().zip(computed) {
+    for (name, value) in MOMENT_COLUMNS.into_iter().zip(computed) {
         assert!((value - row.get(name)).abs() < 1e-14, "{name}: {value}, not {}", row.get(name));
     }
     assert!((exact.cov - exact.cov.transpose()).amax() < 1e-15);
@@ -152,10 +152,10 @@ fn exact_moments_match_the_references() {
     }
 }
 
-/// Clouds without a spread have no skew, no error, no correlation and nothing inside a contour; they are not errors.
+/// In clouds without a spread the skew, its error and the correlation are NaN, and no robot is inside a contour.
 #[test]
 fn degenerate_clouds_give_nan() {
-    let line = |heading: f64| {
+    let poses_on_line = |heading: f64| {
         let mut rng = seeded(145);
         (0..100)
             .map(|_| {
@@ -164,7 +164,7 @@ fn degenerate_clouds_give_nan() {
             })
             .collect::<Vec<_>>()
     };
-    for cloud in [vec![], line(2.0), line(-0.3)] {
+    for cloud in [vec![], poses_on_line(2.0), poses_on_line(-0.3)] {
         let figures = CrossTrack::from_poses(&cloud);
         for value in [figures.skew, figures.skew_error, figures.rho_heading, cross_track_skew(&cloud)] {
             assert!(value.is_nan(), "{figures:?}");
@@ -179,40 +179,40 @@ fn degenerate_clouds_give_nan() {
         assert_eq!(ExponentialContour::new(&exponential, &SE2::identity()).boundary(16).len(), 17);
     }
     // All pairs of poses have the same shape, so that their skew is undefined. Three poses have one.
-    let three = [SE2::new(0.0, 0.1, 0.0), SE2::new(1.0, -0.1, 0.0), SE2::new(0.5, -0.1, 0.0)];
-    assert!(cross_track_skew(&three[..2]).is_nan());
-    assert!((cross_track_skew(&three) - 0.5f64.sqrt()).abs() < 1e-12, "two at −1, one at 2");
+    let three_poses = [SE2::new(0.0, 0.1, 0.0), SE2::new(1.0, -0.1, 0.0), SE2::new(0.5, -0.1, 0.0)];
+    assert!(cross_track_skew(&three_poses[..2]).is_nan());
+    assert!((cross_track_skew(&three_poses) - 0.5f64.sqrt()).abs() < 1e-12, "residuals −1, −1 and 2");
     assert!(predicted_cross_track_skew(&Vector3::zeros(), &Matrix3::zeros()).is_nan());
     // With a turn of π, the lateral coordinate moves the end along the heading, so that there is no spread across it.
     for turn in [PI, -PI] {
-        let aside = Matrix3::from_diagonal(&Vector3::y());
-        assert!(predicted_cross_track_skew(&Vector3::new(0.0, 0.0, turn), &aside).is_nan());
+        let lateral_cov = Matrix3::from_diagonal(&Vector3::y());
+        assert!(predicted_cross_track_skew(&Vector3::new(0.0, 0.0, turn), &lateral_cov).is_nan());
     }
     let along =
         VelocityModel { alphas: VelocityAlphas([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
-    let still = VelocityModel { alphas: VelocityAlphas([0.0; 6]), ..along };
-    assert!(ExactMoments::of_velocity(&still, &U).cross_track_skew.is_nan());
+    let noise_free = VelocityModel { alphas: VelocityAlphas([0.0; 6]), ..along };
+    assert!(ExactMoments::of_velocity(&noise_free, &U).cross_track_skew.is_nan());
     assert!(ExactMoments::of_velocity(&along, &VelocityCmd { omega: 0.0, ..U }).cross_track_skew.is_nan());
 }
 
-/// A width of the size of rounding counts as 0, also if robots drive to both sides of the start and their mean is at the start. Lengths
-/// are known to a millimetre here, turns to `turn`.
+/// A width of the size of rounding counts as 0, also if robots drive forward and in reverse so that their mean is at the start. Lengths
+/// have a standard deviation of a millimetre here, and turns of `turn`.
 #[test]
 fn a_cloud_whose_breadth_is_rounding_is_a_line() {
     const SPEED: f64 = 1e-6;
-    let of = |turn: f64| {
-        let by_speed = turn / SPEED;
-        let velocity_alphas = [1e6, 0.0, by_speed * by_speed, 0.0, 0.0, 0.0];
+    let skews = |turn: f64| {
+        let turn_per_speed = turn / SPEED;
+        let velocity_alphas = [1e6, 0.0, turn_per_speed * turn_per_speed, 0.0, 0.0, 0.0];
         let command = VelocityCmd { v: SPEED, omega: 0.0, dt: 1.0 };
         let settings = Settings { command, velocity_alphas, samples: 1000, ..Settings::default() };
         let machine = BananaMachine::new(settings).expect("a valid setting");
         let poses: Vec<SE2> = machine.poses().collect();
         [machine.figures().cross_track_skew, CrossTrack::from_poses(&poses).skew]
     };
-    // Half the turn is the bearing: the cloud is 5e-14 of its length across.
-    assert!(of(1e-13).into_iter().all(f64::is_nan));
-    let [fused, plain] = of(1e-9);
-    assert!((fused - plain).abs() < 1e-9 && plain.is_finite(), "{fused}, not {plain}");
+    // The bearing is half the turn. The width of the cloud is therefore 5e-14 of its length.
+    assert!(skews(1e-13).into_iter().all(f64::is_nan));
+    let [reported, plain] = skews(1e-9);
+    assert!((reported - plain).abs() < 1e-9 && plain.is_finite(), "{reported}, not {plain}");
 }
 
 /// A spread that is only rounding of a distant cloud counts as 0, too. At a kilometre, coordinates are rounded to 1e-13 m.
@@ -221,12 +221,12 @@ fn a_cloud_whose_breadth_is_rounding_of_its_place_is_a_line() {
     const BREADTH: f64 = 1e-10;
     let skew = |[x, y]: [f64; 2]| {
         let mut rng = seeded(146);
-        let mut beside = || uniform(&mut rng, -BREADTH, BREADTH);
-        let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + beside(), y + beside(), 0.3)).collect();
+        let mut offset = || uniform(&mut rng, -BREADTH, BREADTH);
+        let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + offset(), y + offset(), 0.3)).collect();
         cross_track_skew(&poses)
     };
-    for far in [[1e3, 0.0], [-1e3, 0.0], [0.0, 1e3], [1e3, -1e3]] {
-        assert!(skew(far).is_nan(), "{far:?}");
+    for centre in [[1e3, 0.0], [-1e3, 0.0], [0.0, 1e3], [1e3, -1e3]] {
+        assert!(skew(centre).is_nan(), "{centre:?}");
     }
     assert!(skew([0.0, 0.0]).is_finite() && skew([1.0, -1.0]).is_finite());
 }

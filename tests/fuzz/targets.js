@@ -38,14 +38,12 @@ const squeeze = new motion.MapSqueeze({ samples: 1 });
  *
  * @type {{ attributes: ReturnType<typeof attributesIn>, machine: any, opening: any }[]}
  */
-const machines = [
-  { attributes: attributesIn(propertiesOf(settings['banana-machine'])), machine: new motion.BananaMachine({ samples: 1 }) },
-  { attributes: attributesIn(propertiesOf(settings['map-squeeze'])), machine: squeeze },
-  { attributes: attributesIn(propertiesOf(settings['arc-anatomy'])), machine: new motion.ArcAnatomy() },
-  { attributes: attributesIn(propertiesOf(settings['odometry-decomposer'])), machine: new motion.OdometryDecomposer({ samples: 1 }) },
-  { attributes: attributesIn(propertiesOf(settings['dead-reckoning'])), machine: new motion.DeadReckoning({ samples: 1 }) },
-  { attributes: attributesIn(propertiesOf(settings['alpha-calibrator'])), machine: calibrator },
-].map((each) => ({ ...each, opening: each.machine.config }));
+const machines = Object.entries(settings).map(([tag, declared]) => {
+  const className = tag.replaceAll(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase());
+  const hasSamples = declared.some(({ key }) => key === 'samples');
+  const machine = { 'map-squeeze': squeeze, 'alpha-calibrator': calibrator }[tag] ?? new (/** @type {any} */ (motion)[className])(hasSamples ? { samples: 1 } : {});
+  return { attributes: attributesIn(propertiesOf(declared)), machine, opening: machine.config };
+});
 
 /** Maximum length of a sentence: long quotations are shortened. */
 const LONGEST = 700;

@@ -6,8 +6,8 @@ use std::sync::LazyLock;
 
 static TARGET: LazyLock<fn(&[u8])> = LazyLock::new(|| {
     let name = std::env::var("FUZZ_TARGET").expect("FUZZ_TARGET names the target");
-    let found = motion_fuzz::TARGETS.iter().find(|(known, _)| *known == name);
-    found.expect("FUZZ_TARGET is a module of fuzz/src").1
+    let target = motion_fuzz::TARGETS.iter().find(|(known_name, _)| *known_name == name);
+    target.expect("FUZZ_TARGET is a module of fuzz/src").1
 });
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| TARGET(bytes));

@@ -1,6 +1,6 @@
-//! Targets of cargo-fuzz, run natively on the inputs that reach new code, and on seeded mutations of them.
+//! Targets of cargo-fuzz, run natively on a corpus (inputs that together reach all code) and on seeded mutations of it.
 //!
-//! `fuzz/src` holds the properties. A failure prints its bytes: give them a test with a name in `found!`.
+//! `fuzz/src` holds the properties. A failure prints the bytes of its input. They become a test in `found!`.
 
 #[path = "../fuzz/src/lib.rs"]
 mod targets;
@@ -17,10 +17,10 @@ type Target = fn(&[u8]);
 /// second.
 macro_rules! tests {
     ($($name:ident: $every:literal, $mutations:literal;)+) => {
-        const NAMES: &[&str] = &[$(stringify!($name)),+];
+        const TESTED_TARGETS: &[&str] = &[$(stringify!($name)),+];
         $(#[test]
         fn $name() {
-            on_corpus_and_mutations(stringify!($name), targets::$name::run, $every, $mutations);
+            run_on_corpus_and_mutations(stringify!($name), targets::$name::run, $every, $mutations);
         })+
     };
 }
@@ -40,13 +40,13 @@ tests! {
 #[test]
 #[ignore = "nightly: 200 calibrations"]
 fn calibrate_on_its_whole_corpus() {
-    on_corpus_and_mutations("calibrate", targets::calibrate::run, 1, 100);
+    run_on_corpus_and_mutations("calibrate", targets::calibrate::run, 1, 100);
 }
 
 #[test]
 fn every_target_of_cargo_fuzz_has_a_test() {
     let targets: Vec<_> = targets::TARGETS.iter().map(|(name, _)| *name).collect();
-    assert_eq!(targets, NAMES);
+    assert_eq!(targets, TESTED_TARGETS);
 }
 
 /// Tests of inputs that once failed, each with its target.
@@ -69,15 +69,15 @@ found! {
         919191bfff91919191c400ffd9116f9191919191919121ffff91919191919191919191919191d9d9d9d991919191d991919191919191",
 }
 
-fn on_corpus_and_mutations(name: &str, target: Target, every: usize, mutations: u32) {
+fn run_on_corpus_and_mutations(name: &str, target: Target, every: usize, mutations: u32) {
     let packed = read_to_string(root().join("fuzz/corpus").join(name).with_extension("txt")).expect("a file");
     let corpus: Vec<_> = packed.lines().map(bytes_of).collect();
     assert!(corpus.len() > 20, "{} inputs of {name}", corpus.len());
     corpus.iter().step_by(every).for_each(|bytes| run(target, bytes));
     let mut rng = seeded(2911);
     for _ in 0..mutations {
-        let mut bytes = pick(&corpus, &mut rng).clone();
-        for _ in 0..=below(4, &mut rng) {
+        let mut bytes = random_item(&corpus, &mut rng).clone();
+        for _ in 0..=random_below(4, &mut rng) {
             mutate(&mut bytes, &corpus, &mut rng);
         }
         run(target, &bytes);
@@ -89,8 +89,8 @@ fn root() -> &'static Path {
 }
 
 fn bytes_of(hex: &str) -> Vec<u8> {
-    let byte = |at| u8::from_str_radix(&hex[at..at + 2], 16).expect("two hexadecimal digits");
-    (0..hex.len()).step_by(2).map(byte).collect()
+    let byte_at = |at| u8::from_str_radix(&hex[at..at + 2], 16).expect("two hexadecimal digits");
+    (0..hex.len()).step_by(2).map(byte_at).collect()
 }
 
 fn run(target: Target, bytes: &[u8]) {
@@ -100,30 +100,30 @@ fn run(target: Target, bytes: &[u8]) {
     });
 }
 
-fn below(count: usize, rng: &mut impl Rng) -> usize {
+fn random_below(count: usize, rng: &mut impl Rng) -> usize {
     rng.next_u32() as usize % count
 }
 
-fn pick<'a, T>(all: &'a [T], rng: &mut impl Rng) -> &'a T {
-    &all[below(all.len(), rng)]
+fn random_item<'a, T>(all: &'a [T], rng: &mut impl Rng) -> &'a T {
+    &all[random_below(all.len(), rng)]
 }
 
 /// Returns the input with one of the changes that libFuzzer makes.
 fn mutate(bytes: &mut Vec<u8>, corpus: &[Vec<u8>], rng: &mut impl Rng) {
     const BYTES: [u8; 9] = [0, 1, 16, 32, 48, 57, 127, 128, 255];
     let end = bytes.len();
-    let at = below(end + 1, rng);
-    let length = below(8, rng).min(end - at);
-    match below(6, rng) {
-        0 => bytes.insert(at, *pick(&BYTES, rng)),
-        1 => drop(bytes.drain(at..at + length)),
-        2 => bytes.extend_from_within(at..at + length),
+    let start = random_below(end + 1, rng);
+    let length = random_below(8, rng).min(end - start);
+    match random_below(6, rng) {
+        0 => bytes.insert(start, *random_item(&BYTES, rng)),
+        1 => drop(bytes.drain(start..start + length)),
+        2 => bytes.extend_from_within(start..start + length),
         3 => {
-            let other = pick(corpus, rng);
-            bytes.splice(at.., other[below(other.len() + 1, rng)..].iter().copied());
+            let other_input = random_item(corpus, rng);
+            bytes.splice(start.., other_input[random_below(other_input.len() + 1, rng)..].iter().copied());
         }
-        _ if at == end => bytes.push(rng.next_u32() as u8),
-        4 => bytes[at] ^= 1 << below(8, rng),
-        _ => bytes[at] = rng.next_u32() as u8,
+        _ if start == end => bytes.push(rng.next_u32() as u8),
+        4 => bytes[start] ^= 1 << random_below(8, rng),
+        _ => bytes[start] = rng.next_u32() as u8,
     }
 }

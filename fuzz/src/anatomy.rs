@@ -13,12 +13,12 @@ const MAX_CALLS: usize = 4;
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let with_paths = input.next_choice(8) == 1;
-    let opening_settings = with_changes(&Settings::default(), &mut input);
-    if !are_allowed(&opening_settings) {
-        assert!(ArcAnatomy::new(opening_settings).is_err());
+    let first_settings = with_changes(&Settings::default(), &mut input);
+    if !are_allowed(&first_settings) {
+        assert!(ArcAnatomy::new(first_settings).is_err());
         return;
     }
-    let mut machine = ArcAnatomy::new(opening_settings).expect("allowed");
+    let mut machine = ArcAnatomy::new(first_settings).expect("allowed");
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
@@ -51,7 +51,7 @@ fn configure(machine: &mut ArcAnatomy, input: &mut Input) {
     assert_eq!(*machine.settings(), settings_before);
 }
 
-/// Asserts that all results are finite, or as documented where they are undefined.
+/// Asserts that all results are finite, or have the documented value where they are undefined.
 fn assert_results(machine: &ArcAnatomy) {
     let settings = machine.settings();
     let Stats { commanded, inverted, driven, last_turn, factors, weakest, prob, share, density, xi } =
@@ -78,7 +78,7 @@ fn assert_results(machine: &ArcAnatomy) {
     let largest_extent =
         [start.x(), start.y(), next.x(), next.y()].iter().fold(0.0, |most: f64, at| most.max(at.abs()));
     let distance_to_next = |[x, y]: [f64; 2]| (x - next.x()).hypot(y - next.y());
-    // Asserts that, with a signed radius, the inverted arc leads to the final pose, and so does the constant twist.
+    // With a signed radius, both the inverted arc and the constant twist lead to the final position.
     let arc_ends = [[inverted.end[0], inverted.end[1]], position_at(machine, 1.0)];
     let tolerance = laws::ROUNDING * largest_extent + f64::MIN_POSITIVE;
     assert!(arc_ends.iter().all(|end| distance_to_next(*end) <= tolerance), "{arc_ends:?} for {settings:?}");
@@ -125,9 +125,9 @@ fn assert_bend(what: &str, bend: &ArcWithCircle) {
 }
 
 /// Returns the position on the path of constant twist after a fraction of the time.
-fn position_at(machine: &ArcAnatomy, share: f64) -> [f64; 2] {
-    let poses = machine.poses_at(share);
-    poses.iter().for_each(|pose| laws::assert_pose("underway", pose));
+fn position_at(machine: &ArcAnatomy, fraction: f64) -> [f64; 2] {
+    let poses = machine.poses_at(fraction);
+    poses.iter().for_each(|pose| laws::assert_pose("poses_at", pose));
     [poses[2].x(), poses[2].y()]
 }
 

@@ -12,19 +12,19 @@ use motion::sim::picture::RAMP_STEPS;
 use motion::sim::settings::QUANTITY_RANGE;
 use motion::sim::views::{EXTENT_RANGE, Grid};
 
-/// Maximum number of samples and calls in a run: enough for every branch, few enough for many runs.
+/// Maximum number of samples in a run, and of calls. They are enough to reach every branch, and small to allow many runs.
 const MAX_SAMPLES: usize = 12;
 const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let [checks_curves, checks_second_machine] = [0; 2].map(|_| input.next_choice(4) == 1);
-    let opening_settings = with_changes(&with_few_samples(Settings::default()), &mut input);
-    if !are_allowed(&opening_settings) {
-        assert!(BananaMachine::showing(opening_settings, 0).is_err());
+    let first_settings = with_changes(&with_few_samples(Settings::default()), &mut input);
+    if !are_allowed(&first_settings) {
+        assert!(BananaMachine::showing(first_settings, 0).is_err());
         return;
     }
-    let mut machine = BananaMachine::showing(with_few_samples(opening_settings), 0).expect("allowed");
+    let mut machine = BananaMachine::showing(with_few_samples(first_settings), 0).expect("allowed");
     if input.next_bool() {
         machine.add_samples(MAX_SAMPLES);
     }
@@ -44,7 +44,7 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// Returns the same settings with fewer samples.
+/// Returns the settings with at most `MAX_SAMPLES` samples.
 fn with_few_samples(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
@@ -69,9 +69,9 @@ fn call(machine: &mut BananaMachine, input: &mut Input) {
         7 => assert_table(machine),
         _ => {
             let [x, y] = [0; 2].map(|_| input.number_within(QUANTITY_RANGE));
-            let command_nearby = machine.settings().command;
-            let reaching_command = command_reaching(x, y, &command_nearby);
-            // The circle of a nearly straight arc is so long that a double overflows.
+            let present_command = machine.settings().command;
+            let reaching_command = command_reaching(x, y, &present_command);
+            // Its v may be infinite, because the circle of a nearly straight arc may be too long for a double.
             assert!(!reaching_command.v.is_nan() && reaching_command.omega.is_finite(), "{reaching_command:?} to {x}, {y}");
         }
     }
@@ -83,10 +83,10 @@ fn configure(machine: &mut BananaMachine, input: &mut Input) {
         machine.configure(with_few_samples(settings)).expect("allowed");
         return;
     }
-    let (before, shown) = (*machine.settings(), all_results(machine));
+    let (settings_before, results_before) = (*machine.settings(), all_results(machine));
     assert!(machine.configure(settings).is_err() && machine.configure_first(settings, 0).is_err());
-    assert_eq!(*machine.settings(), before);
-    laws::assert_same_numbers("after a refusal", &all_results(machine), &shown);
+    assert_eq!(*machine.settings(), settings_before);
+    laws::assert_same_numbers("after a refusal", &all_results(machine), &results_before);
 }
 
 /// Asserts that samples added in blocks equal the samples of one call.
@@ -107,10 +107,10 @@ fn assert_same_in_blocks(machine: &mut BananaMachine, input: &mut Input) {
 
 /// Asserts that a machine depends on its settings only, and not on earlier calls.
 fn assert_as_new(machine: &BananaMachine) {
-    let mut machine_in_one_call = BananaMachine::showing(*machine.settings(), 0).expect("allowed");
+    let mut new_machine = BananaMachine::showing(*machine.settings(), 0).expect("allowed");
     if machine.shown() > 0 {
-        machine_in_one_call.add_samples(machine.shown());
-        laws::assert_same_numbers("as if new", &all_results(machine), &all_results(&machine_in_one_call));
+        new_machine.add_samples(machine.shown());
+        laws::assert_same_numbers("as if new", &all_results(machine), &all_results(&new_machine));
     }
 }
 
@@ -152,7 +152,7 @@ fn assert_results(machine: &BananaMachine) {
     }
     let (skew, skew_error) = (figures.cross_track_skew, figures.cross_track_skew_error);
     laws::assert_finite_or_none("skew", &[skew, skew_error]);
-    // The largest skew of n samples is that of n − 1 equal samples and one different.
+    // The skew of n samples is largest for n − 1 equal samples and one different sample.
     let max_skew = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
     assert!(skew.is_nan() || skew.abs() <= max_skew * (1.0 + 1e-9), "{skew} of {n}");
     assert!(skew_error.is_nan() || skew_error >= 0.0, "{skew_error}");
@@ -224,7 +224,7 @@ fn assert_executed(machine: &BananaMachine, index: usize) {
     let commanded_length = (command.v * command.dt).abs();
     let longest_motion = sample.legs.map_or((sample.v_hat * command.dt).abs(), |legs| legs.trans.abs());
     assert!(path_length <= longest_motion * (1.0 + 1e-9) + 1e-9, "{path_length}, {longest_motion}");
-    // If the noise nearly cancels the command, the rounding error of the command remains.
+    // If the noise nearly cancels the command, the motion still has the rounding error of the command.
     let turn_factor = 1.0 + (command.omega * command.dt).abs();
     let rounding_error = 1e-14 * (longest_motion * turn_factor + commanded_length) + f64::MIN_POSITIVE;
     assert!(
@@ -260,9 +260,9 @@ fn assert_nearest(machine: &BananaMachine, input: &mut Input) {
     let target = [0; 2].map(|_| input.next_number());
     let radii = [0; 2].map(|_| input.number_within(0.0..=f64::INFINITY));
     let Some(index) = machine.nearest(View::Plane, target, radii) else { return };
-    let found_pose: SE2 = machine.pose(index).expect("a sample that is shown");
+    let nearest_pose: SE2 = machine.pose(index).expect("a sample that is shown");
     let distance_to = |pose: &SE2| ((pose.x() - target[0]) / radii[0]).hypot((pose.y() - target[1]) / radii[1]);
     // The square of a distance below 1e-154 underflows to 0.
     let least_distance = machine.poses().map(|pose| distance_to(&pose)).fold(f64::INFINITY, f64::min);
-    assert!(distance_to(&found_pose) <= least_distance * (1.0 + 1e-9) + 1e-150, "{target:?} {radii:?}: {index}");
+    assert!(distance_to(&nearest_pose) <= least_distance * (1.0 + 1e-9) + 1e-150, "{target:?} {radii:?}: {index}");
 }

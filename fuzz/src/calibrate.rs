@@ -1,4 +1,4 @@
-//! Logs of any robot, calibrated with any options.
+//! Calibration of random logs with random options.
 
 use super::input::{Input, is_one_in};
 use super::laws;
@@ -15,9 +15,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 /// Maximum number of parts of a drive.
 const MAX_PARTS: usize = 6;
 
-/// Maximum number of rows of each part of a drive, in most runs and in the few long ones. The time of a calibration grows with the rows.
-const MAX_ROWS_OF_MOST: usize = 12;
-const MAX_ROWS: usize = 64;
+/// Maximum number of rows of each part of a drive in most runs. The time of a calibration grows with the number of rows.
+const MAX_ROWS_OF_MOST_RUNS: usize = 12;
+const MAX_ROWS: usize = 64; // in a few long runs
 
 const MODELS: [Model; 5] = [
     Model::Odometry(OdometryRule::Table),
@@ -29,17 +29,17 @@ const MODELS: [Model; 5] = [
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let read_options = read_options(&mut input);
-    let mut driven_rows = odometry_rows(&mut input, if is_one_in(128, bytes) { MAX_ROWS } else { MAX_ROWS_OF_MOST });
-    let mut reference_poses = reference_rows(&driven_rows, &mut input);
-    edit_rows(&mut driven_rows, &mut input);
-    edit_rows(&mut reference_poses, &mut input);
-    let (Some(odometry), Some(reference)) = (trajectory(&driven_rows, &mut input), trajectory(&reference_poses, &mut input))
+    let options = read_options(&mut input);
+    let mut odometry_log = odometry_rows(&mut input, if is_one_in(128, bytes) { MAX_ROWS } else { MAX_ROWS_OF_MOST_RUNS });
+    let mut reference_log = reference_rows(&odometry_log, &mut input);
+    edit_rows(&mut odometry_log, &mut input);
+    edit_rows(&mut reference_log, &mut input);
+    let (Some(odometry), Some(reference)) = (trajectory(&odometry_log, &mut input), trajectory(&reference_log, &mut input))
     else {
         return;
     };
-    match calibrate(&[Drive { odometry: &odometry, reference: &reference }], &read_options) {
-        Ok(calibration) => assert_calibration(&calibration, &read_options),
+    match calibrate(&[Drive { odometry: &odometry, reference: &reference }], &options) {
+        Ok(calibration) => assert_calibration(&calibration, &options),
         Err(CalibrateError::TooFewLegs { legs }) => assert!(legs < MIN_LEGS),
         Err(CalibrateError::NoCommonTime) => {
             let [odometry_span, reference_span] = [&odometry, &reference].map(|each| each.span().expect("a row at least"));
@@ -75,7 +75,7 @@ fn leg_length(input: &mut Input) -> f64 {
 
 type Row = (f64, SE2);
 
-/// Returns one of the given values, and in some cases any number.
+/// Returns one of the given values, or sometimes any number.
 fn usual_or_any(choices: &[f64], input: &mut Input) -> f64 {
     let choice = input.next_choice(choices.len() + 1);
     choices.get(choice).copied().unwrap_or_else(|| input.number_within(-1e9..=1e9))
@@ -96,15 +96,15 @@ fn odometry_rows(input: &mut Input, max_rows_of_part: usize) -> Vec<Row> {
 }
 
 /// Returns the reference: the odometry with an error in each step, and with occasional jumps.
-fn reference_rows(driven: &[Row], input: &mut Input) -> Vec<Row> {
+fn reference_rows(odometry: &[Row], input: &mut Input) -> Vec<Row> {
     let offset = usual_or_any(&[0.0, 0.12, -3.0, 50.0], input);
     let mount_pose = SE2::new(0.1 * f64::from(input.next_choice(3) as u8), 0.0, usual_or_any(&[0.0, 0.07, 3.0], input));
     let relative_noise = usual_or_any(&[0.0, 0.01, 0.1, 0.5], input);
     let jump_interval = usize::from(input.next_byte());
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(u64::from(input.next_byte()));
     let mut pose = SE2::new(1.0, 2.0, 3.0);
-    let mut rows = vec![(driven[0].0 + offset, pose * mount_pose)];
-    for (i, pair) in driven.windows(2).enumerate() {
+    let mut rows = vec![(odometry[0].0 + offset, pose * mount_pose)];
+    for (i, pair) in odometry.windows(2).enumerate() {
         let step = pair[1].1.boxminus(&pair[0].1);
         let noise = Vector3::from_fn(|_, _| rng.random_range(-1.0..=1.0)) * relative_noise * step.norm();
         pose = pose.boxplus(step + noise);
@@ -136,21 +136,21 @@ fn edit_rows(rows: &mut Vec<Row>, input: &mut Input) {
     }
 }
 
-/// Returns the trajectory of the rows with breaks before some, or None if a row is refused.
+/// Returns the trajectory of the rows, with breaks before some of them, or None if a row is refused.
 fn trajectory(rows: &[Row], input: &mut Input) -> Option<Trajectory> {
-    let read_coordinates = match input.next_choice(4) {
-        // Returns coordinates as commands.
+    let result = match input.next_choice(4) {
+        // The coordinates serve as commands.
         0 => Trajectory::from_commands(rows.iter().map(|(time, pose)| (*time, pose.x(), pose.theta()))),
         _ => Trajectory::new(rows.iter().copied()),
     };
-    match read_coordinates {
+    match result {
         Ok(trajectory) => {
             assert!(rows.is_sorted_by(|a, b| a.0 < b.0));
             let gaps_before = trajectory.gaps();
             let breaks: Vec<usize> = (0..input.next_choice(4)).map(|_| usize::from(input.next_byte())).collect();
-            let broken_trajectory = trajectory.with_breaks_before(breaks.iter().copied());
-            assert!((gaps_before..=gaps_before + breaks.len()).contains(&broken_trajectory.gaps()));
-            Some(broken_trajectory)
+            let with_breaks = trajectory.with_breaks_before(breaks.iter().copied());
+            assert!((gaps_before..=gaps_before + breaks.len()).contains(&with_breaks.gaps()));
+            Some(with_breaks)
         }
         Err(TrajectoryError::NotLater { sample, before }) => {
             assert!(sample > 0 && rows[sample].0 <= before && rows[sample - 1].0 == before);
@@ -180,7 +180,7 @@ fn assert_calibration(calibration: &Calibration, options: &Options) {
         let [low, high] = noise.interval;
         assert!(0.0 <= low && low <= noise.value && noise.value <= high, "{noise:?}");
     }
-    // Numbers overflow where a pose is further away than the square root of the largest double; the log is unusable then.
+    // If a pose is further away than the square root of the largest double, numbers overflow, and the log is unusable.
     let is_usable = calibration.diagnostics.verdict != Verdict::Unusable;
     assert!(!is_usable || !calibration.log_likelihood.is_nan());
     for (i, error) in SystematicError::ALL.into_iter().enumerate() {

@@ -8,19 +8,19 @@ use motion::models::{OdomDelta, MAX_SPIN_DISTANCE};
 use motion::sim::odometry_decomposer::{Drifted, OdometryDecomposer, Settings, Stats};
 use motion::sim::settings::QUANTITY_RANGE;
 
-/// Maximum number of outcomes, points of a curve and calls in a run.
+/// Maximum number of outcomes in a run, of points of a curve, and of calls.
 const MAX_SAMPLES: usize = 12;
 const MAX_POINTS: usize = 6;
 const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let opening_settings = with_changes(&with_few_samples(Settings::default()), &mut input);
-    if !are_allowed(&opening_settings) {
-        assert!(OdometryDecomposer::new(opening_settings).is_err());
+    let first_settings = with_changes(&with_few_samples(Settings::default()), &mut input);
+    if !are_allowed(&first_settings) {
+        assert!(OdometryDecomposer::new(first_settings).is_err());
         return;
     }
-    let mut machine = OdometryDecomposer::new(with_few_samples(opening_settings)).expect("allowed");
+    let mut machine = OdometryDecomposer::new(with_few_samples(first_settings)).expect("allowed");
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
@@ -30,7 +30,7 @@ pub fn run(bytes: &[u8]) {
     assert_results(&machine);
 }
 
-/// Returns the same settings with fewer outcomes.
+/// Returns the settings with at most `MAX_SAMPLES` outcomes.
 fn with_few_samples(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
@@ -88,8 +88,8 @@ fn assert_nearest(machine: &OdometryDecomposer, input: &mut Input) {
     let distance_to = |pose: &SE2| ((pose.x() - target[0]) / radius).hypot((pose.y() - target[1]) / radius);
     let least_distance = machine.poses().iter().map(distance_to).fold(f64::INFINITY, f64::min);
     // The square of a distance below 1e-154 of the radius underflows to 0.
-    let found_distance = distance_to(&machine.poses()[index]);
-    assert!(found_distance <= least_distance * (1.0 + 1e-9) + 1e-150 && found_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
+    let nearest_distance = distance_to(&machine.poses()[index]);
+    assert!(nearest_distance <= least_distance * (1.0 + 1e-9) + 1e-150 && nearest_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
 }
 
 /// Asserts that all results are finite, or NaN without outcomes.
@@ -136,7 +136,7 @@ fn assert_results(machine: &OdometryDecomposer) {
         }
     }
 
-    // Without noise the robot ends at the odometry pose, except for the direction of a tiny translation, which a spin ignores.
+    // The linkage ends at the second odometry pose, except that rules may ignore the direction of a tiny translation.
     let [x, y, _] = settings.to.0;
     let [.., end] = machine.linkage();
     let distance_to_end = (end.x() - x).hypot(end.y() - y);

@@ -19,7 +19,7 @@ pub fn run(bytes: &[u8]) {
     let Some((grid, unknown)) = read(&mut input) else { return };
     let [columns, rows] = grid.size();
     assert_eq!(grid.cells().len(), columns * rows);
-    // The distance field of a plan takes a hundred times as long as everything else.
+    // Most runs stop here, because the distance field of a plan takes a hundred times as long as everything else.
     if input.next_choice(16) != 1 {
         assert_outlined(&grid.with_unknown(unknown), unknown);
         return;
@@ -55,14 +55,14 @@ fn cell_middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)>
     let cells = grid.cells().enumerate();
     let middle_of = |i: usize| {
         let [u, v] = [i % columns, i / columns].map(|at| (at as f64 + 0.5) * cell_side);
-        let middle_of = origin * SE2::new(u, v, 0.0);
-        [middle_of.x(), middle_of.y()]
+        let middle = origin * SE2::new(u, v, 0.0);
+        [middle.x(), middle.y()]
     };
     cells.map(|(i, cell)| (middle_of(i), is_blocking(cell))).collect()
 }
 
-/// Asserts that each cell contains its middle, and that outlines separate obstacle cells from others: their total
-/// length is that of the sides between them.
+/// Asserts that each cell contains its middle, and that outlines separate obstacle cells from other cells: their total
+/// length equals that of the sides between obstacle cells and others.
 fn assert_outlined(grid: &OccupancyGrid, unknown: Unknown) {
     let cell_middles = cell_middles(grid, unknown);
     for (middle, blocks) in &cell_middles {

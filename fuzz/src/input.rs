@@ -1,4 +1,4 @@
-//! Bytes as numbers and choices.
+//! Reads numbers and choices from the bytes of an input.
 
 use std::ops::RangeInclusive;
 
@@ -7,7 +7,7 @@ pub struct Input<'a>(pub &'a [u8]);
 
 /// Returns true for one in `one_in` inputs, chosen by a hash of all their bytes. Slow checks run for those only.
 ///
-/// A byte of the input is no choice for that, because most mutations of the input keep it.
+/// A single byte of the input cannot choose them, because most mutations of the input keep that byte.
 pub fn is_one_in(one_in: u64, bytes: &[u8]) -> bool {
     // FNV-1a.
     let mix_byte = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
@@ -15,8 +15,8 @@ pub fn is_one_in(one_in: u64, bytes: &[u8]) -> bool {
     (hash >> 32) % one_in == 0
 }
 
-/// Limits of ranges, of settings or of the formats of numbers.
-const NUMBER_LIMITS: [f64; 24] = [
+/// Numbers at limits: of the ranges of settings, and of doubles.
+const LIMIT_NUMBERS: [f64; 24] = [
     0.0,
     -0.0,
     1.0,
@@ -49,9 +49,9 @@ impl Input<'_> {
     }
 
     pub fn next_byte(&mut self) -> u8 {
-        let Some((first, rest)) = self.0.split_first() else { return 0 };
-        self.0 = rest;
-        *first
+        let Some((first_byte, other_bytes)) = self.0.split_first() else { return 0 };
+        self.0 = other_bytes;
+        *first_byte
     }
 
     pub fn next_bytes<const N: usize>(&mut self) -> [u8; N] {
@@ -75,7 +75,7 @@ impl Input<'_> {
     pub fn next_number(&mut self) -> f64 {
         match self.next_choice(8) {
             0 => f64::from_le_bytes(self.next_bytes()),
-            1 => self.one_of(&NUMBER_LIMITS),
+            1 => self.one_of(&LIMIT_NUMBERS),
             2 => f64::from(self.next_byte() as i8),
             3 => f64::from(self.next_byte() as i8) * 10f64.powi(i32::from(self.next_byte() as i8) / 4),
             4 => f64::from(i16::from_le_bytes(self.next_bytes())) * 1e-4,
@@ -85,17 +85,17 @@ impl Input<'_> {
 
     /// Returns a double, mostly in this range.
     pub fn number_near(&mut self, range: &RangeInclusive<f64>) -> f64 {
-        let next_number = self.next_number();
-        if self.next_choice(8) == 0 || next_number.is_nan() {
-            return next_number;
+        let number = self.next_number();
+        if self.next_choice(8) == 0 || number.is_nan() {
+            return number;
         }
-        next_number.clamp(*range.start(), *range.end())
+        number.clamp(*range.start(), *range.end())
     }
 
     /// Returns a double in this range.
     pub fn number_within(&mut self, range: RangeInclusive<f64>) -> f64 {
-        let next_number = self.next_number();
-        if next_number.is_nan() { *range.start() } else { next_number.clamp(*range.start(), *range.end()) }
+        let number = self.next_number();
+        if number.is_nan() { *range.start() } else { number.clamp(*range.start(), *range.end()) }
     }
 
     /// Returns a whole number, mostly in this range.

@@ -1,4 +1,4 @@
-//! Properties of displayed numbers.
+//! Assertions on displayed numbers.
 
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
@@ -15,8 +15,8 @@ pub fn assert_finite_or_none(what: &str, numbers: &[f64]) {
     }
 }
 
-pub fn assert_fraction(what: &str, share: f64) {
-    assert!(share.is_nan() || (0.0..=1.0).contains(&share), "{what}: {share}");
+pub fn assert_fraction(what: &str, fraction: f64) {
+    assert!(fraction.is_nan() || (0.0..=1.0).contains(&fraction), "{what}: {fraction}");
 }
 
 pub fn assert_pose(what: &str, pose: &SE2) {
@@ -47,7 +47,7 @@ pub fn assert_moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
 /// Relative rounding error of a few dozen units in the last place.
 pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Bound, with a margin of a factor of two, of deviations whose squares underflow to 0.
+/// Upper bound of the deviations whose squares underflow to 0, times two as a margin.
 pub const UNDERFLOW: f64 = 1e-161;
 
 /// Asserts that lists have the same numbers, where NaN equals NaN.

@@ -1,4 +1,4 @@
-//! Properties that hold for any input: a function for each target, called by cargo-fuzz and by the tests of the package.
+//! Properties that hold for any input: a function for each fuzz target, called by cargo-fuzz and by the native tests.
 
 pub mod input;
 pub mod laws;

@@ -1,11 +1,11 @@
-//! Files of maps.
+//! Map images in PGM files.
 
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, Image, Interpretation, MAX_PIXELS, OccupancyGrid, Pixel, read_grid, read_pgm};
 use std::fmt::Write;
 
 pub fn run(bytes: &[u8]) {
-    match read_image(bytes) {
+    match read_pixels(bytes) {
         Ok(image) => {
             let Image { width, height, ref pixels } = image;
             assert!(width > 0 && height > 0 && width * height <= MAX_PIXELS);
@@ -28,7 +28,7 @@ pub fn run(bytes: &[u8]) {
 }
 
 /// Returns the whole image, or the reason of the refusal.
-fn read_image(bytes: &[u8]) -> Result<Image<Vec<Pixel>>, String> {
+fn read_pixels(bytes: &[u8]) -> Result<Image<Vec<Pixel>>, String> {
     let Image { width, height, pixels } = read_pgm(bytes).map_err(|error| error.to_string())?;
     Ok(Image { width, height, pixels: pixels.map(Pixel::from).collect() })
 }
@@ -44,10 +44,10 @@ fn assert_written_reads_the_same(image: &Image<Vec<Pixel>>) {
         write!(plain_text, " {grey_value}").expect("memory");
         binary_file.extend(grey_value.to_be_bytes());
     }
-    let image_read_again = read_image(plain_text.as_bytes()).expect("a plain file");
-    assert_eq!(image_read_again, read_image(&binary_file).expect("a binary file"));
-    assert_eq!((image_read_again.width, image_read_again.height), (image.width, image.height));
-    for (before, after) in image.pixels.iter().zip(&image_read_again.pixels) {
+    let image_again = read_pixels(plain_text.as_bytes()).expect("a plain file");
+    assert_eq!(image_again, read_pixels(&binary_file).expect("a binary file"));
+    assert_eq!((image_again.width, image_again.height), (image.width, image.height));
+    for (before, after) in image.pixels.iter().zip(&image_again.pixels) {
         assert!((before.shade - after.shade).abs() <= 0.51 / MAX_VALUE, "{before:?} {after:?}");
     }
 }

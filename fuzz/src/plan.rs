@@ -6,7 +6,7 @@ use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, FloorPlanError};
 
-/// Maximum number of walls of a plan, whose distance field grows with it, and number of arcs that are tested.
+/// Maximum number of walls of a plan, and of tested arcs. The time for the distance field grows with the number of walls.
 const MAX_WALLS: usize = 4;
 const MAX_ARCS: usize = 3;
 
@@ -31,16 +31,16 @@ pub fn read_plan(input: &mut Input) -> Option<FloorPlan> {
         [left, bottom, left + width, bottom + height]
     };
     let [left, bottom, right, top] = bounds;
-    let coordinate_between = |input: &mut Input, low: f64, high: f64| {
-        let share = f64::from(input.next_byte()) / 255.0;
-        let value_inside = low + (high - low) * share;
-        if input.next_choice(16) == 0 { input.next_number() } else { value_inside }
+    let coordinate = |input: &mut Input, low: f64, high: f64| {
+        let fraction = f64::from(input.next_byte()) / 255.0;
+        let inside = low + (high - low) * fraction;
+        if input.next_choice(16) == 0 { input.next_number() } else { inside }
     };
     let count = input.next_choice(1 + MAX_WALLS);
     let mut walls: Vec<Segment> = Vec::new();
     for i in 0..count {
         let earlier_wall = walls.get(i.wrapping_sub(1)).copied();
-        let mut point = || [coordinate_between(input, left, right), coordinate_between(input, bottom, top)];
+        let mut point = || [coordinate(input, left, right), coordinate(input, bottom, top)];
         let from = point();
         let to = point();
         // Some walls equal the previous wall, or start at its end.
@@ -69,9 +69,9 @@ pub fn read_plan(input: &mut Input) -> Option<FloorPlan> {
             let message = error.to_string();
             assert!(message.contains("; allowed is "), "{message}");
             match error {
-                FloorPlanError::BadBounds(which) => {
+                FloorPlanError::BadBounds(refused_bounds) => {
                     assert!(!are_valid_bounds, "{message}");
-                    super::laws::assert_same_numbers(&message, &which, &bounds);
+                    super::laws::assert_same_numbers(&message, &refused_bounds, &bounds);
                 }
                 FloorPlanError::BadWall { index, end } => {
                     assert!(index < count, "{message}");
@@ -91,8 +91,8 @@ pub fn read_plan(input: &mut Input) -> Option<FloorPlan> {
 pub fn random_pose(plan: &FloorPlan, input: &mut Input) -> SE2 {
     let [left, bottom, right, top] = plan.bounds();
     let [x, y] = [[left, right], [bottom, top]].map(|[low, high]| {
-        let share = f64::from(u16::from_le_bytes(input.next_bytes())) / 65_535.0;
-        low + (high - low) * share
+        let fraction = f64::from(u16::from_le_bytes(input.next_bytes())) / 65_535.0;
+        low + (high - low) * fraction
     });
     SE2::new(x, y, input.number_within(-1e6..=1e6))
 }
@@ -107,7 +107,7 @@ pub fn assert_verdict(plan: &FloorPlan, input: &mut Input) {
     let tolerance = rounding_error(plan, &arc, clearance);
     let depth_inside = |x: f64, y: f64| depth_inside(plan, [x, y]);
 
-    // Upper bound of the least distance of the path from the edge of the map, by some points of the path.
+    // Upper bound of the distance of the path from the edge of the map, from some points of the path.
     // `least_depth - half_chord` is a lower bound.
     const CHORD_COUNT: u32 = 16;
     let least_depth = (0..=CHORD_COUNT).fold(f64::INFINITY, |least, i| {
@@ -115,7 +115,7 @@ pub fn assert_verdict(plan: &FloorPlan, input: &mut Input) {
         let point_on_path = Arc { length: f * length, turn: f * turn, ..arc }.end();
         least.min(depth_inside(point_on_path.x(), point_on_path.y()))
     });
-    // No point of an arc is further from a tested point than half the length between two of them, or than the circle's diameter.
+    // A point of the arc is at most half the length between two tested points from one of them, and at most the circle's diameter.
     let circle_diameter = if turn == 0.0 { f64::INFINITY } else { 2.0 * (length / turn).abs() };
     let half_chord = (0.5 * length.abs() / f64::from(CHORD_COUNT)).min(circle_diameter);
     let is_in_obstacle = plan.grid().is_some_and(|grid| grid.is_blocked_at([start.x(), start.y()]));

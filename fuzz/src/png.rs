@@ -6,11 +6,11 @@ use motion::map::{Image, MAX_PIXELS, read_png};
 const MAX_TESTED_PIXELS: usize = 1 << 16;
 
 pub fn run(bytes: &[u8]) {
-    if (MAX_TESTED_PIXELS..=MAX_PIXELS).contains(&announced_area(bytes)) {
+    if (MAX_TESTED_PIXELS..=MAX_PIXELS).contains(&pixel_count(bytes)) {
         return;
     }
     check_reading(bytes);
-    // The reader would refuse most mutations because of a wrong checksum.
+    // Without this, the reader would refuse most mutations because of a wrong checksum.
     check_reading(&with_checksums_corrected(bytes));
 }
 
@@ -27,8 +27,8 @@ fn check_reading(bytes: &[u8]) {
     }
 }
 
-/// Number of pixels that the header announces, or 0 if the header is cut short.
-fn announced_area(bytes: &[u8]) -> usize {
+/// Returns the number of pixels according to the header, or 0 if the header is cut short.
+fn pixel_count(bytes: &[u8]) -> usize {
     let side_at = |at| number_at(bytes, at).unwrap_or_default();
     side_at(16).saturating_mul(side_at(20))
 }

@@ -8,8 +8,8 @@ use motion::sim::dead_reckoning::{
 };
 use nalgebra::Matrix3;
 
-/// Maximum numbers of robots, steps and calls in a run. Robots are driven in blocks of 256. Most runs have one block, and some several.
-const MAX_SAMPLES_OF_MOST: usize = 200;
+/// Maximum numbers of robots, steps and calls in a run. Robots are driven in blocks of 256. Most runs have one block, and a few several.
+const MAX_SAMPLES_OF_MOST_RUNS: usize = 200;
 const MAX_SAMPLES: usize = 800;
 const MAX_STEPS: u32 = 5;
 const MAX_CALLS: usize = 4;
@@ -17,15 +17,15 @@ const MAX_CALLS: usize = 4;
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let [checks_straight_growth, checks_second_machine] = [0; 2].map(|_| input.next_choice(4) == 1);
-    let opening_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
-    let opening_settings = with_changes(&opening_settings, &mut input);
-    if !are_allowed(&opening_settings) {
-        assert!(DeadReckoning::showing(opening_settings, 0).is_err());
+    let first_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
+    let first_settings = with_changes(&first_settings, &mut input);
+    if !are_allowed(&first_settings) {
+        assert!(DeadReckoning::showing(first_settings, 0).is_err());
         return;
     }
-    let max_samples = if is_one_in(16, bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST };
+    let max_samples = if is_one_in(16, bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
     let with_few_robots = |settings| with_few_robots(settings, max_samples);
-    let mut machine = DeadReckoning::showing(with_few_robots(opening_settings), 0).expect("allowed");
+    let mut machine = DeadReckoning::showing(with_few_robots(first_settings), 0).expect("allowed");
     if input.next_bool() {
         machine.add_samples(MAX_SAMPLES);
     }
@@ -45,21 +45,21 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// Returns the same settings with few robots and steps.
-fn with_few_robots(settings: Settings, most: usize) -> Settings {
+/// Returns the settings with few robots and steps.
+fn with_few_robots(settings: Settings, max_samples: usize) -> Settings {
     Settings {
-        samples: settings.samples.min(most),
+        samples: settings.samples.min(max_samples),
         steps: settings.steps.min(MAX_STEPS),
         step: settings.step.min(settings.steps.min(MAX_STEPS)),
         ..settings
     }
 }
 
-fn call(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+fn call(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let shown_count = machine.shown();
     match input.next_choice(9) {
-        0 | 1 => configure(machine, few, input),
-        2 | 3 => assert_same_in_blocks(machine, few, input),
+        0 | 1 => configure(machine, with_few_robots, input),
+        2 | 3 => assert_same_in_blocks(machine, with_few_robots, input),
         4 => {
             let count = usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
             assert_eq!(machine.add_samples(count), (shown_count + count).min(machine.settings().samples));
@@ -74,10 +74,10 @@ fn call(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: 
     }
 }
 
-fn configure(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+fn configure(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let settings = with_changes(machine.settings(), input);
     if are_allowed(&settings) {
-        machine.configure(few(settings)).expect("allowed");
+        machine.configure(with_few_robots(settings)).expect("allowed");
         return;
     }
     let results_before = all_results(machine);
@@ -86,12 +86,12 @@ fn configure(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, in
 }
 
 /// Asserts that robots added in blocks equal the robots of one call.
-fn assert_same_in_blocks(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+fn assert_same_in_blocks(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let settings = with_changes(machine.settings(), input);
     if !are_allowed(&settings) {
         return;
     }
-    let settings = few(settings);
+    let settings = with_few_robots(settings);
     let mut machine_in_one_call = machine.clone();
     machine_in_one_call.configure(settings).expect("allowed");
     let count = 1 + usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
@@ -105,9 +105,9 @@ fn assert_same_in_blocks(machine: &mut DeadReckoning, few: &dyn Fn(Settings) -> 
 
 /// Asserts that a machine depends on its settings only, and not on earlier calls.
 fn assert_as_new(machine: &DeadReckoning) {
-    let mut machine_in_one_call = DeadReckoning::showing(*machine.settings(), 0).expect("allowed");
-    machine_in_one_call.add_samples(machine.shown());
-    assert_eq!(all_results(&machine_in_one_call), all_results(machine));
+    let mut new_machine = DeadReckoning::showing(*machine.settings(), 0).expect("allowed");
+    new_machine.add_samples(machine.shown());
+    assert_eq!(all_results(&new_machine), all_results(machine));
 }
 
 /// Returns all results: those of the selected step as bits, and the others as text, in which NaN equals NaN.
@@ -158,13 +158,13 @@ fn assert_results(machine: &DeadReckoning) {
                 "{ratio:?}"
             );
             let Some(cov) = cov else { continue };
-            // The heading of each step mixes the errors along and across.
+            // The heading of each step mixes the errors along and across the drive, so that their rounding mixes too.
             assert_covariance("predicted", cov, |_, _| 1e-12 * cov.amax());
         }
         comparison.misses.iter().for_each(|misses| assert_misses(misses, steps));
     }
-    let Stats { n: counted, .. } = machine.stats();
-    assert_eq!(counted, n);
+    let Stats { n: robot_count, .. } = machine.stats();
+    assert_eq!(robot_count, n);
     assert_outlines(machine, step);
 }
 
@@ -218,8 +218,8 @@ fn assert_outlines(machine: &DeadReckoning, step: u32) {
         laws::assert_finite("an outline", outline.as_flattened());
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
-    let has_none = machine.predicted(settings.compounding)[step as usize - 1].is_none();
-    assert!([&ellipse, &exponential, &predicted].iter().all(|outline| outline.is_empty() == has_none));
+    let has_no_covariance = machine.predicted(settings.compounding)[step as usize - 1].is_none();
+    assert!([&ellipse, &exponential, &predicted].iter().all(|outline| outline.is_empty() == has_no_covariance));
     assert_eq!(measured.is_empty(), machine.shown() < 2);
 }
 

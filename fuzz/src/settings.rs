@@ -1,4 +1,4 @@
-//! Settings that are changed as a reader changes them, to any values.
+//! Changes settings to any values, in the way in which a reader changes them.
 
 use super::input::Input;
 use motion::sim::settings::{Allowed, Group, Rules, Setting, SettingsError};
@@ -6,11 +6,11 @@ use motion::sim::settings::{Allowed, Group, Rules, Setting, SettingsError};
 /// Returns the present settings with some of them changed.
 pub fn with_changes<S: Rules>(present: &S, input: &mut Input) -> S {
     let (mut settings, mut changed_keys) = (*present, Vec::new());
-    let chosen_bits = u16::from_le_bytes(input.next_bytes());
-    let mut settings_seen = 0;
+    let chosen_settings = u16::from_le_bytes(input.next_bytes());
+    let mut count = 0;
     let _: Result<(), ()> = settings.try_each(|declaration, setting| {
-        settings_seen += 1;
-        if chosen_bits >> (settings_seen - 1) & 1 == 1 {
+        count += 1;
+        if chosen_settings >> (count - 1) & 1 == 1 {
             changed_keys.push(declaration.key);
             set_any_value(setting, input);
         }
@@ -35,7 +35,7 @@ fn set_any_value(setting: Setting, input: &mut Input) {
         Setting::Numbers(slots, allowed) => {
             slots.iter_mut().for_each(|slot| *slot = input.number_near(&allowed))
         }
-        // A level is refused before it is taken apart.
+        // A level outside of its range is refused earlier, before it is converted to the numbers that it sets.
         Setting::Level(slot, allowed) => slot.set(input.number_within(allowed)),
         Setting::Group(group) => {
             for (i, field) in group.fields().iter().enumerate() {
@@ -59,8 +59,8 @@ pub fn are_allowed<S: Rules>(settings: &S) -> bool {
     match allowed {
         Allowed::Real(range) => assert!(!range.contains(value), "{message}"),
         Allowed::Whole(range) => {
-            let whole = *value as u64;
-            assert!(whole as f64 != *value || !range.contains(&whole), "{message}");
+            let whole_number = *value as u64;
+            assert!(whole_number as f64 != *value || !range.contains(&whole_number), "{message}");
         }
         Allowed::LessMemory | Allowed::Word { .. } => panic!("{message}"),
     }

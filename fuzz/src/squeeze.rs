@@ -16,7 +16,7 @@ const MAX_CALLS: usize = 3;
 
 thread_local! {
     /// Machine in a room with one wall.
-    static OPENING_MACHINE: LazyCell<MapSqueeze> = LazyCell::new(|| {
+    static FIRST_MACHINE: LazyCell<MapSqueeze> = LazyCell::new(|| {
         let wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
         let plan = FloorPlan::new(vec![wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
         let mut machine = MapSqueeze::new(with_few_samples(Settings::default(), false)).expect("the opening state");
@@ -28,7 +28,7 @@ thread_local! {
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let mut machine = OPENING_MACHINE.with(|opening| (**opening).clone());
+    let mut machine = FIRST_MACHINE.with(|opening| (**opening).clone());
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
@@ -38,10 +38,10 @@ pub fn run(bytes: &[u8]) {
     assert_results(&machine);
 }
 
-/// Returns the settings with few samples. A wedged robot takes 10 000 draws, so that most settings get a sampler that checks once.
-fn with_few_samples(settings: Settings, patient: bool) -> Settings {
+/// Returns the settings with few samples. Most get a sampler without parts, because a robot that is wedged in a part takes 10 000 draws.
+fn with_few_samples(settings: Settings, with_parts: bool) -> Settings {
     let steps = settings.steps.min(MAX_PARTS);
-    let sampler = if patient { settings.sampler.in_parts(steps) } else { without_parts(settings.sampler) };
+    let sampler = if with_parts { settings.sampler.in_parts(steps) } else { without_parts(settings.sampler) };
     Settings { samples: settings.samples.min(MAX_SAMPLES), steps, sampler, ..settings }
 }
 
@@ -80,7 +80,7 @@ fn call(machine: &mut MapSqueeze, input: &mut Input) {
             let found_index = machine.nearest(target, radius);
             assert!(found_index.is_none_or(|index| index < machine.attempts().len()));
         }
-        // A new machine looks along 72 headings for an open place, which takes as long as ten other calls; so it is rare.
+        // A free pose is rarely checked: the search along 72 headings takes as long as ten other calls.
         8 => assert_as_new(machine),
         _ if input.next_choice(64) == 1 => assert_free_pose(machine),
         _ => {}
@@ -89,7 +89,7 @@ fn call(machine: &mut MapSqueeze, input: &mut Input) {
 
 fn configure(machine: &mut MapSqueeze, input: &mut Input) {
     let settings = with_changes(machine.settings(), input);
-    let count_before = *machine.settings();
+    let settings_before = *machine.settings();
     if are_allowed(&settings) {
         let checks_parts = input.next_choice(16) == 1;
         machine.configure(with_few_samples(settings, checks_parts)).expect("allowed");
@@ -97,7 +97,7 @@ fn configure(machine: &mut MapSqueeze, input: &mut Input) {
     }
     let attempts = machine.attempts().to_vec();
     assert!(machine.configure(settings).is_err());
-    assert_eq!(*machine.settings(), count_before);
+    assert_eq!(*machine.settings(), settings_before);
     assert_eq!(machine.attempts(), attempts);
 }
 
@@ -119,10 +119,10 @@ fn assert_same_in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
 
 /// Asserts that a machine depends on its settings and its map only, and not on earlier calls.
 fn assert_as_new(machine: &MapSqueeze) {
-    let mut machine_in_one_call = MapSqueeze::showing(*machine.settings(), 0).expect("allowed");
-    machine_in_one_call.set_plan(machine.plan().clone());
-    machine_in_one_call.add_samples(machine.attempts().len());
-    assert_eq!(machine_in_one_call.attempts(), machine.attempts());
+    let mut new_machine = MapSqueeze::showing(*machine.settings(), 0).expect("allowed");
+    new_machine.set_plan(machine.plan().clone());
+    new_machine.add_samples(machine.attempts().len());
+    assert_eq!(new_machine.attempts(), machine.attempts());
 }
 
 /// Asserts that the robot fits at the free pose that the machine finds.

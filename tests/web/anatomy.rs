@@ -21,19 +21,19 @@ fn the_inversion_and_the_score_are_those_of_the_model() {
     );
     let p = model.prob(&next, &COMMAND, &start);
     let density = model.pose_density(&next, &COMMAND, &start).expect("a density");
-    let [prob, product, given]: [f64; 3] =
+    let [prob_in_js, product_in_js, density_in_js]: [f64; 3] =
         it.get("[it.stats.prob, it.stats.factors.reduce((p, { value }) => p * value, 1), it.stats.density]");
-    assert_near([prob / p, product / p, given / density], [1.0; 3], 1e-12);
+    assert_near([prob_in_js / p, product_in_js / p, density_in_js / density], [1.0; 3], 1e-12);
     assert_near(it.get("it.table.lines.slice(-1)"), [p], 1e-15);
-    let bend: (f64, [f64; 2], [f64; 3]) = it.get("pick(it.stats.commanded, 'radius', 'center', 'end')");
-    assert_eq!((bend.0, bend.1), (2.0, [0.0, 2.0]));
-    assert_near(bend.2, [0.958_851_077_208, 0.244_834_876_219, 0.5], 1e-12);
+    let circle: (f64, [f64; 2], [f64; 3]) = it.get("pick(it.stats.commanded, 'radius', 'center', 'end')");
+    assert_eq!((circle.0, circle.1), (2.0, [0.0, 2.0]));
+    assert_near(circle.2, [0.958_851_077_208, 0.244_834_876_219, 0.5], 1e-12);
     assert_near([it.get("it.stats.weakest")], [2.0], 0.0);
     assert_near(it.get("it.stats.xi"), next.boxminus(&start).into(), 1e-12);
 }
 
 #[wasm_bindgen_test]
-fn ways_maps_and_errors_of_forms_are_drawn() {
+fn paths_maps_and_errors_of_forms_are_arrays() {
     let it = Object::new("new motion.ArcAnatomy({ map: 'density' })");
     let lines = "Object.entries(it.paths).filter(([, line]) => line instanceof Float64Array
         && line.length >= 4).map(([name]) => name)";

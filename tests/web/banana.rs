@@ -38,7 +38,7 @@ fn each_model_keeps_its_alphas_and_a_seed_its_cloud() {
 }
 
 #[wasm_bindgen_test]
-fn samples_are_inspected_found_and_counted() {
+fn samples_can_be_inspected_found_and_counted() {
     let it = Object::new("new motion.BananaMachine({ samples: 4000 })");
     let (pose, twist): ([f64; 3], [f64; 3]) = it.get("pick(it.inspect(17), 'pose', 'twist')");
     assert_eq!((pose, twist), it.get("[it.poses.slice(51, 54), it.twists.slice(51, 54)]"));
@@ -57,10 +57,10 @@ fn samples_are_inspected_found_and_counted() {
         [17, 17, -1]
     );
     let counts: Vec<u32> = it.get("it.density('plane', -4, -4, 4, 4, 20, 10)");
-    let upper = it.get::<u32>("it.poses.filter((y, i) => i % 3 === 1 && y > 0).length");
+    let upper_count = it.get::<u32>("it.poses.filter((y, i) => i % 3 === 1 && y > 0).length");
     assert_eq!(
         (counts.iter().sum::<u32>(), counts[..100].iter().sum::<u32>()),
-        (4000, upper),
+        (4000, upper_count),
         "row 0 is at the top"
     );
     it.assert("it.density('twist', -4, -4, 4, 4, 20, 10) instanceof Uint32Array");
@@ -74,11 +74,11 @@ fn outlines_and_curves_are_arrays_of_points() {
             command: { v: 1, omega: 0.5, dt: 1 }, alphas: [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], samples: 4000,
         })",
     );
-    let closed = "(({ command, ...outlines }) => Object.entries(outlines)
+    let closed_outlines = "(({ command, ...outlines }) => Object.entries(outlines)
         .filter(([, at]) => at instanceof Float64Array && at.length > 60 && at[0] === at.at(-2) && at[1] === at.at(-1))
         .map(([name]) => name))(it.contours)";
     assert_eq!(
-        it.get::<Vec<String>>(closed),
+        it.get::<Vec<String>>(closed_outlines),
         ["ellipse", "linearized", "exponential", "twistEllipse", "additive"]
     );
     assert_near(it.get("it.contours.command.slice(-2)"), [0.958_851_077_208, 0.244_834_876_219], 1e-12);
@@ -88,7 +88,7 @@ fn outlines_and_curves_are_arrays_of_points() {
 }
 
 #[wasm_bindgen_test]
-fn a_cloud_that_comes_in_blocks_ends_as_one_that_comes_at_once() {
+fn a_cloud_made_in_blocks_equals_one_made_at_once() {
     let it = Object::new(
         "({ blocks: motion.BananaMachine.empty({ samples: 300 }), whole: new motion.BananaMachine({ samples: 300 }) })",
     );
@@ -96,7 +96,7 @@ fn a_cloud_that_comes_in_blocks_ends_as_one_that_comes_at_once() {
         "it.blocks.shown === 0 && it.blocks.contours.ellipse.length === 0
         && Number.isNaN(it.blocks.stats.gaussianSkew)",
     );
-    let same = || {
+    let are_equal = || {
         it.get::<bool>(
             "JSON.stringify([it.blocks.config, it.blocks.stats, [...it.blocks.poses]]) ===
              JSON.stringify([it.whole.config, it.whole.stats, [...it.whole.poses]])",
@@ -106,13 +106,13 @@ fn a_cloud_that_comes_in_blocks_ends_as_one_that_comes_at_once() {
         it.get::<[usize; 3]>("[1, 100, 1000].map((count) => it.blocks.addSamples(count))"),
         [1, 101, 300]
     );
-    assert!(same());
+    assert!(are_equal());
     let change = "{ command: { v: 1, omega: 1.2, dt: 1.4 }, samples: 120_000, seed: 5 }";
     it.run(&format!("it.blocks.configureFirst({change}, Infinity)"));
     it.assert("it.blocks.shown === 25_000 && it.blocks.stats.n === 25_000");
     it.run("(() => { while (it.blocks.shown < 120_000) it.blocks.addSamples(it.blocks.block); })()");
     it.run(&format!("it.whole.configure({change})"));
-    assert!(same());
+    assert!(are_equal());
 }
 
 #[wasm_bindgen_test]

@@ -1,4 +1,4 @@
-//! `calibrate` and `AlphaCalibrator`: logs in, α's out.
+//! `calibrate` and `AlphaCalibrator`: logs as arguments, α's as results.
 
 use crate::support::Object;
 use motion::geom::se2::SE2;
@@ -25,23 +25,23 @@ struct Columns {
     theta: Vec<f64>,
 }
 
-/// Returns a drive of 400 legs, each a second long with ten rows. The reference is simulated with these α's and a mount yaw of 0.03 rad.
-fn drive() -> Object {
+/// Returns logs of a drive: 400 legs of a second with ten rows each. The reference is simulated with `ALPHAS` and a mount yaw of 0.03 rad.
+fn simulated_logs() -> Object {
     let model = OdometryModel { alphas: OdomAlphas(ALPHAS), noise: NoiseKind::Normal };
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
-    let (mut read, mut real) = (SE2::identity(), SE2::identity());
+    let (mut odometry_pose, mut true_pose) = (SE2::identity(), SE2::identity());
     let (mut odometry, mut reference) = (Vec::new(), Vec::new());
     for leg in 0..400 {
         let turn = 0.5 * libm::sin(0.7 * f64::from(leg));
         let twist = Vector3::new(0.3 + 0.1 * libm::sin(1.3 * f64::from(leg)), 0.0, turn);
         let control = OdomDelta::from_poses(&SE2::identity(), &SE2::exp(&twist));
-        let done = model.sample(&control, &SE2::identity(), &mut rng).log();
+        let executed_twist = model.sample(&control, &SE2::identity(), &mut rng).log();
         for row in 0..10 {
-            let share = f64::from(row) / 10.0;
-            odometry.push(read.boxplus(twist * share));
-            reference.push(real.boxplus(done * share) * SE2::new(0.0, 0.0, 0.03));
+            let fraction = f64::from(row) / 10.0;
+            odometry.push(odometry_pose.boxplus(twist * fraction));
+            reference.push(true_pose.boxplus(executed_twist * fraction) * SE2::new(0.0, 0.0, 0.03));
         }
-        (read, real) = (read.boxplus(twist), real.boxplus(done));
+        (odometry_pose, true_pose) = (odometry_pose.boxplus(twist), true_pose.boxplus(executed_twist));
     }
     let columns = |poses: &[SE2]| Columns {
         t: (0..poses.len()).map(|row| row as f64 / 10.0).collect(),
@@ -54,12 +54,12 @@ fn drive() -> Object {
 
 #[wasm_bindgen_test]
 fn alphas_of_a_log_are_found_with_their_intervals() {
-    let it = drive();
+    let it = simulated_logs();
     it.run("it.found = motion.calibrate({ ...it, legs: { duration: 1 } })");
     let intervals: Vec<(f64, f64)> = it.get("it.found.intervals");
     let alphas: Vec<f64> = it.get("it.found.alphas");
     for ((alpha, (low, high)), truth) in alphas.iter().zip(&intervals).zip(ALPHAS) {
-        // An interval that is doubled misses the truth in one of ten thousand logs.
+        // Intervals of twice the width miss the truth in one of ten thousand logs.
         assert!(low < alpha && alpha < high, "{low} {alpha} {high}");
         assert!(2.0 * low - alpha < truth && truth < 2.0 * high - alpha, "{low} {truth} {high}");
     }
@@ -75,10 +75,10 @@ fn alphas_of_a_log_are_found_with_their_intervals() {
         "it.found.diagnostics.checks.every(({ passed, message, value, expected: [low, high] }) =>
         passed === (low <= value && value <= high) && passed === (message === ''))",
     );
-    let typed = "Object.fromEntries(Object.entries(it.odometry).map(([key, column]) => [key,
+    let typed_odometry = "Object.fromEntries(Object.entries(it.odometry).map(([key, column]) => [key,
         Float64Array.from(column)]))";
     it.run(&format!(
-        "it.again = motion.calibrate({{ odometry: {typed}, reference: it.reference,
+        "it.again = motion.calibrate({{ odometry: {typed_odometry}, reference: it.reference,
         legs: {{ duration: 1 }}, rule: 'thrun' }})"
     ));
     assert_eq!(it.get::<Vec<f64>>("it.again.alphas"), alphas);
@@ -86,7 +86,7 @@ fn alphas_of_a_log_are_found_with_their_intervals() {
 
 #[wasm_bindgen_test]
 fn commands_have_six_alphas_and_a_drive_ahead_determines_no_turn() {
-    let it = drive();
+    let it = simulated_logs();
     it.run(
         "it.commands = { t: it.odometry.t, v: it.odometry.t.map((t) => 0.3 + 0.1 * Math.sin(t)),
         omega: it.odometry.t.map((t) => 0.6 * Math.sin(0.17 * t)) }",
@@ -115,7 +115,7 @@ fn commands_have_six_alphas_and_a_drive_ahead_determines_no_turn() {
 
 #[wasm_bindgen_test]
 fn no_leg_spans_a_break() {
-    let it = drive();
+    let it = simulated_logs();
     it.run(
         "it.found = motion.calibrate({ odometry: { ...it.odometry, breaks: Uint16Array.of(2005) },
         reference: it.reference, legs: { duration: 1 } })",
@@ -136,18 +136,18 @@ fn the_figure_opens_with_a_log_of_known_alphas() {
         ),
         [0, 3, 0, 1, 2, 1]
     );
-    let ended: [f64; 2] = it.get(
+    let lengths: [f64; 2] = it.get(
         "(({ outcomes, outline, read, ended }) =>
         [outcomes.length % 3 + (outline.length % 2), read.length + ended.length])(it.leg(0))",
     );
-    assert_eq!(ended, [0.0, 6.0]);
+    assert_eq!(lengths, [0.0, 6.0]);
     assert_eq!(it.get::<Option<()>>("it.leg(it.count)"), None);
     assert_eq!(it.get::<i32>("it.nearest(1e6, 1e6, 1)"), -1);
 }
 
 #[wasm_bindgen_test]
 fn a_log_of_ones_own_replaces_it_and_its_fit_can_be_restored() {
-    let it = drive();
+    let it = simulated_logs();
     it.run("it.machine = new motion.AlphaCalibrator({ outliers: 'keep', duration: 1 })");
     it.run("it.machine.setLog(it.odometry, it.reference)");
     assert_eq!(it.get::<Option<()>>("it.machine.truth"), None);
@@ -171,7 +171,7 @@ fn a_log_of_ones_own_replaces_it_and_its_fit_can_be_restored() {
 
 #[wasm_bindgen_test]
 fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
-    let it = drive();
+    let it = simulated_logs();
     it.run("it.few = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] }");
     it.run("it.machine = new motion.AlphaCalibrator()");
     it.assert_refused(

@@ -22,11 +22,11 @@ fn the_reading_is_taken_apart_by_every_rule() {
 }
 
 #[wasm_bindgen_test]
-fn outcomes_spread_as_is_exact() {
+fn outcomes_have_the_exact_spread() {
     let it = Object::new("new motion.OdometryDecomposer({ samples: 5000, seed: 4 })");
-    let [across, error, exact]: [f64; 3] =
+    let [measured, error, exact]: [f64; 3] =
         it.get("pick(it.stats, 'crossTrack', 'crossTrackError', 'exactCrossTrack')");
-    assert_near([across], [exact], 4.5 * error);
+    assert_near([measured], [exact], 4.5 * error);
     assert_eq!(it.get::<i32>("it.nearest(it.poses[3 * 40], it.poses[3 * 40 + 1], 1e-9)"), 40);
     let cloud: Vec<f64> = it.get("it.poses");
     it.run("it.configureFirst({}, 0)");

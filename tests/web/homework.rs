@@ -1,4 +1,4 @@
-//! Models, arcs and SE(2): functions for exercises.
+//! Models, arcs and SE(2): functions that readers call in exercises.
 
 use crate::support::{Object, assert_near, get};
 use motion::geom::se2::SE2;
@@ -11,7 +11,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use wasm_bindgen_test::wasm_bindgen_test;
 
-/// Values of the tests in JavaScript. The constants and functions below have the same values in Rust.
+/// Arguments of the tests in JavaScript. The constants and functions below have equal values in Rust.
 const VALUES: &str = "{
     start: { x: 1, y: -2, theta: 0.5 }, next: { x: 1.7, y: -1.3, theta: 1.2 },
     command: { v: 1, omega: 0.5, dt: 1 }, control: { rot1: 0.2, trans: 1, rot2: 0.3 },
@@ -38,20 +38,20 @@ fn next() -> SE2 {
     SE2::new(1.7, -1.3, 1.2)
 }
 
-fn back() -> SE2 {
+fn behind() -> SE2 {
     SE2::new(0.1, -2.4, 0.55)
 }
 
-fn numbers(pose: &SE2) -> [f64; 3] {
+fn coordinates(pose: &SE2) -> [f64; 3] {
     [pose.x(), pose.y(), pose.theta()]
 }
 
-fn drawn<M: MotionModel>(model: &M, control: &M::Control) -> Vec<f64> {
+fn draws<M: MotionModel>(model: &M, control: &M::Control) -> Vec<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
-    (0..5).flat_map(|_| numbers(&model.sample(control, &start(), &mut rng))).collect()
+    (0..5).flat_map(|_| coordinates(&model.sample(control, &start(), &mut rng))).collect()
 }
 
-fn rows(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
+fn rows_of(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
@@ -60,12 +60,12 @@ fn poses_and_twists_are_those_of_rust() {
     let it = Object::new(VALUES);
     let twist = Vector3::new(0.3, -0.1, 0.7);
     let pose = |expression: &str| it.get::<[f64; 3]>(&format!("Object.values(motion.se2.{expression})"));
-    assert_eq!(pose("exp([0.3, -0.1, 0.7])"), numbers(&SE2::exp(&twist)));
-    assert_eq!(pose("compose(it.start, it.next)"), numbers(&(start() * next())));
-    assert_eq!(pose("inverse(it.start)"), numbers(&start().inverse()));
+    assert_eq!(pose("exp([0.3, -0.1, 0.7])"), coordinates(&SE2::exp(&twist)));
+    assert_eq!(pose("compose(it.start, it.next)"), coordinates(&(start() * next())));
+    assert_eq!(pose("inverse(it.start)"), coordinates(&start().inverse()));
     assert_eq!(
         pose("boxplus(it.start, new Float64Array([0.3, -0.1, 0.7]))"),
-        numbers(&start().boxplus(twist))
+        coordinates(&start().boxplus(twist))
     );
     assert_eq!(it.get::<Vec<f64>>("motion.se2.log(it.next)"), next().log().as_slice());
     assert_eq!(
@@ -73,8 +73,8 @@ fn poses_and_twists_are_those_of_rust() {
         next().boxminus(&start()).as_slice()
     );
     let matrix = |expression: &str| it.get::<Vec<Vec<f64>>>(&format!("motion.se2.{expression}"));
-    assert_eq!(matrix("adjoint(it.start)"), rows(&start().adjoint()));
-    assert_eq!(matrix("rightJacobian([0.3, -0.1, 0.7])"), rows(&SE2::right_jacobian(&twist)));
+    assert_eq!(matrix("adjoint(it.start)"), rows_of(&start().adjoint()));
+    assert_eq!(matrix("rightJacobian([0.3, -0.1, 0.7])"), rows_of(&SE2::right_jacobian(&twist)));
     assert_eq!(it.get::<Vec<String>>("Object.keys(motion.se2.inverse(it.start))"), ["x", "y", "theta"]);
 }
 
@@ -117,24 +117,24 @@ fn models_score_and_draw_as_in_rust() {
         odometry,
         (ODOMETRY.prob(&next(), &CONTROL, &start()), ODOMETRY.pose_density(&next(), &CONTROL, &start()))
     );
-    let reverse = ReverseAware(ODOMETRY);
+    let model = ReverseAware(ODOMETRY);
     assert_eq!(
         aware,
-        (reverse.prob(&back(), &REVERSE, &start()), reverse.pose_density(&back(), &REVERSE, &start()))
+        (model.prob(&behind(), &REVERSE, &start()), model.pose_density(&behind(), &REVERSE, &start()))
     );
-    assert!(aware.0 > 10.0 * ODOMETRY.prob(&back(), &REVERSE, &start()), "the option counts");
+    assert!(aware.0 > 10.0 * ODOMETRY.prob(&behind(), &REVERSE, &start()), "the option has an effect");
 
     assert_eq!(
         it.get::<Vec<f64>>("it.velocity.sample(it.command, it.start, 5, 9)"),
-        drawn(&VELOCITY, &COMMAND)
+        draws(&VELOCITY, &COMMAND)
     );
     assert_eq!(
         it.get::<Vec<f64>>("it.odometry.sample(it.control, it.start, 5, 9)"),
-        drawn(&ODOMETRY, &CONTROL)
+        draws(&ODOMETRY, &CONTROL)
     );
-    assert_eq!(it.get::<Vec<f64>>("it.aware.sample(it.reverse, it.start, 5, 9)"), drawn(&reverse, &REVERSE));
+    assert_eq!(it.get::<Vec<f64>>("it.aware.sample(it.reverse, it.start, 5, 9)"), draws(&model, &REVERSE));
     it.assert("it.aware.sample(it.reverse, it.start, 5, 9) instanceof Float64Array");
-    // The poses lie on a surface, and have no density in space.
+    // Without a last turn the poses lie on a surface, and have no density in space.
     let flat = "new motion.VelocityModel({ alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] })";
     assert_eq!(it.get::<Option<f64>>(&format!("{flat}.poseDensity(it.next, it.command, it.start)")), None);
 }
@@ -157,18 +157,22 @@ fn covariances_are_propagated_as_in_rust() {
             "{{ sigma: [[0.01, 0, 0], [0, 0.02, 0], [0, 0, 0.03]], command: it.command,
                 alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02], compounding: '{word}', steps: 3 }}"
         );
-        assert_eq!(it.get::<Vec<Vec<f64>>>(&format!("motion.propagate({options})")), rows(&sigma), "{word}");
+        assert_eq!(
+            it.get::<Vec<Vec<f64>>>(&format!("motion.propagate({options})")),
+            rows_of(&sigma),
+            "{word}"
+        );
     }
-    let defaults = "motion.propagate({ command: it.command, alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02] })";
-    let once = noise.propagate(&Matrix3::zeros(), &twist, Compounding::Chapter);
-    assert_eq!(it.get::<Vec<Vec<f64>>>(defaults), rows(&once));
+    let call = "motion.propagate({ command: it.command, alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02] })";
+    let after_one_step = noise.propagate(&Matrix3::zeros(), &twist, Compounding::Chapter);
+    assert_eq!(it.get::<Vec<Vec<f64>>>(call), rows_of(&after_one_step));
 }
 
 #[wasm_bindgen_test]
 fn a_dragged_end_is_reached_and_seeds_are_random() {
-    let reached =
+    let reaching_command =
         "motion.commandReaching(0.958851077208406, 0.2448348762192546, { v: 2, omega: 0.1, dt: 1 })";
-    assert_near(get(&format!("Object.values({reached})")), [1.0, 0.5], 1e-12);
+    assert_near(get(&format!("Object.values({reaching_command})")), [1.0, 0.5], 1e-12);
     let seeds: Vec<f64> = get("Array.from({ length: 20 }, motion.randomSeed)");
     assert!(
         seeds.iter().all(|seed| (0.0..4_294_967_296.0).contains(seed) && seed.fract() == 0.0),

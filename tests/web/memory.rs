@@ -1,4 +1,4 @@
-//! Memory of the module: the largest clouds fit, and what is freed is used again.
+//! Memory of the module: the largest clouds fit, and freed memory is used again.
 
 use crate::support::Object;
 use js_sys::{ArrayBuffer, WebAssembly};
@@ -14,7 +14,7 @@ fn memory_size() -> u32 {
     memory.buffer().unchecked_into::<ArrayBuffer>().byte_length()
 }
 
-/// Constructors, and something that their objects compute.
+/// Constructors, and an expression that their objects compute.
 const CLASSES: [(&str, &str); 8] = [
     ("BananaMachine({ samples: 20_000 })", "stats"),
     ("MapSqueeze({ samples: 20_000 })", "stats"),
@@ -30,18 +30,18 @@ const SCORE: &str = "prob(it.pose, it.pose, it.pose)";
 #[wasm_bindgen_test]
 fn a_freed_object_is_gone_with_its_memory() {
     let it = Object::new("({ pose: { x: 0, y: 0, theta: 0 } })");
-    for (class, work) in CLASSES {
-        let used = format!("[it.one = new motion.{class}, it.one.stats, it.one.free()]");
-        it.run(&used);
-        let before = memory_size();
+    for (class, expression) in CLASSES {
+        let use_and_free = format!("[it.one = new motion.{class}, it.one.stats, it.one.free()]");
+        it.run(&use_and_free);
+        let size_before = memory_size();
         for _ in 0..10 {
-            it.run(&used);
+            it.run(&use_and_free);
         }
         // A cloud is larger than a page of memory.
-        assert!(memory_size() <= before + 65_536, "{class} left {} bytes", memory_size() - before);
-        assert!(it.error(&format!("it.one.{work}")).starts_with("Error: "), "{class}");
+        assert!(memory_size() <= size_before + 65_536, "{class} left {} bytes", memory_size() - size_before);
+        assert!(it.error(&format!("it.one.{expression}")).starts_with("Error: "), "{class}");
         it.run(&format!("[it.one = new motion.{class}, it.one[Symbol.dispose]()]"));
-        assert!(it.error(&format!("it.one.{work}")).starts_with("Error: "), "{class}");
+        assert!(it.error(&format!("it.one.{expression}")).starts_with("Error: "), "{class}");
     }
 }
 
@@ -63,15 +63,14 @@ fn the_largest_cloud_fits_in_the_largest_plan() {
     let mut machine = MapSqueeze::new(settings).expect("memory for the largest cloud");
     let tally = *machine.tally();
     assert_eq!(tally.draws, settings.samples);
-    let blocked = Segment { from: [0.0, 0.0], to: [12.0, 0.0] };
-    let plan =
-        FloorPlan::new(vec![blocked; FloorPlan::MAX_WALLS], [0.0, 0.0, 12.0, 9.0]).expect("a valid plan");
+    let wall = Segment { from: [0.0, 0.0], to: [12.0, 0.0] };
+    let plan = FloorPlan::new(vec![wall; FloorPlan::MAX_WALLS], [0.0, 0.0, 12.0, 9.0]).expect("a valid plan");
     machine.set_plan(plan);
     assert!(machine.tally().accepted > tally.accepted, "the other walls are gone");
 }
 
 #[wasm_bindgen_test]
-fn a_reading_has_what_the_members_of_its_names_have() {
+fn the_results_of_read_equal_the_properties_of_the_same_names() {
     for name in [
         "BananaMachine",
         "ArcAnatomy",
@@ -82,11 +81,11 @@ fn a_reading_has_what_the_members_of_its_names_have() {
     ] {
         let it = Object::new(&format!("new motion.{name}()"));
         it.assert("Object.keys(it.read()).length > 3");
-        let others: Vec<String> = it.get(
+        let differing_keys: Vec<String> = it.get(
             "Object.entries(it.read())
                 .filter(([key, value]) => typeof it[key] !== 'function' && key in it && JSON.stringify(value) !== JSON.stringify(it[key]))
                 .map(([key]) => key)",
         );
-        assert_eq!(others, Vec::<String>::new(), "{name}");
+        assert_eq!(differing_keys, Vec::<String>::new(), "{name}");
     }
 }

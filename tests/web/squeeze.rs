@@ -3,7 +3,7 @@
 use crate::support::{Object, assert_near};
 use wasm_bindgen_test::wasm_bindgen_test;
 
-/// Map of 4 × 3 cells of half a metre, the lower left one occupied: the fields of its YAML file, and its image as a PGM
+/// Map of 4 × 3 cells of half a metre, of which the lower left one is occupied: the fields of its YAML file, and its image as a PGM
 /// file.
 const MAP: &str = "({ machine: new motion.MapSqueeze({ samples: 50, clearance: 0.1 }),
     yaml: { image: 'map.pgm', resolution: 0.5, origin: [1, 2, 0], negate: 0, occupied_thresh: 0.65, free_thresh: 0.196 },
@@ -20,11 +20,11 @@ fn statistics_count_the_verdicts() {
     let verdicts: Vec<u8> = it.get("it.verdicts");
     let count =
         |mask: u8, value: u8| verdicts.iter().filter(|verdict| **verdict & mask == value).count() as f64;
-    let [attempts, drawn, accepted, through]: [f64; 4] =
+    let [attempts, drawn, accepted, through_wall]: [f64; 4] =
         it.get("pick(it.stats, 'attempts', 'drawn', 'accepted', 'throughWall')");
-    assert_eq!((attempts, accepted, through), (2000.0, count(4, 4), count(6, 4)));
+    assert_eq!((attempts, accepted, through_wall), (2000.0, count(4, 4), count(6, 4)));
     let rates = it.get("pick(it.stats, 'acceptanceRate', 'throughWallRate', 'drawsPerAccepted')");
-    assert_near(rates, [accepted * 4.0 / drawn, through / accepted, drawn / accepted], 1e-15);
+    assert_near(rates, [accepted * 4.0 / drawn, through_wall / accepted, drawn / accepted], 1e-15);
     it.assert(
         "it.stats.throughWallInterval.length === 2 && it.stats.wallTestsPerAccepted > 0
         && it.stats.gaveUp === false && it.poses.length === 6000",
@@ -32,7 +32,7 @@ fn statistics_count_the_verdicts() {
 }
 
 #[wasm_bindgen_test]
-fn attempts_come_a_few_at_a_time_with_the_paths_they_took() {
+fn attempts_are_added_in_blocks_and_have_their_paths() {
     let it = Object::new("new motion.MapSqueeze({ sampler: 'sub-stepped', samples: 100 })");
     let poses: Vec<f64> = it.get("it.poses");
     it.run("it.configureFirst({}, 0)");

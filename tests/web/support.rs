@@ -1,4 +1,4 @@
-//! Calls of the JavaScript interface: expressions in, values out.
+//! Evaluation of JavaScript expressions that call the interface.
 
 use serde::de::DeserializeOwned;
 use wasm_bindgen::prelude::*;
@@ -7,15 +7,15 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen(inline_js = r#"
 import * as motion from '/wasm-bindgen-test';
 const pick = (object, ...keys) => keys.map((key) => object[key]);
-export const evaluated = (expression, it) =>
+export const evaluate_js = (expression, it) =>
     new Function('motion', 'it', 'pick', `return (${expression})`)(motion, it, pick);
 "#)]
 extern "C" {
     #[wasm_bindgen(catch)]
-    fn evaluated(expression: &str, it: &JsValue) -> Result<JsValue, JsValue>;
+    fn evaluate_js(expression: &str, it: &JsValue) -> Result<JsValue, JsValue>;
 }
 
-/// JavaScript value that expressions refer to as `it`. `motion` is the whole interface, and `pick` returns some of an
+/// JavaScript value that expressions refer to as `it`. In expressions `motion` is the whole interface, and `pick` returns some of an
 /// object's properties as an array.
 pub struct Object(JsValue);
 
@@ -42,7 +42,7 @@ impl Object {
 
     /// Returns class and message of the error that an expression throws.
     pub fn error(&self, expression: &str) -> String {
-        match evaluated(expression, &self.0) {
+        match evaluate_js(expression, &self.0) {
             Ok(value) => panic!("{expression} is {value:?} and throws nothing"),
             Err(error) => error.unchecked_into::<js_sys::Error>().to_string().into(),
         }
@@ -52,24 +52,24 @@ impl Object {
     /// more indentation than the first continues the line before it.
     pub fn assert_refused(&self, state: &str, cases: &str) {
         let indentation = |line: &str| line.len() - line.trim_start().len();
-        let first = cases.lines().find(|line| !line.trim().is_empty()).map_or(0, indentation);
+        let base = cases.lines().find(|line| !line.trim().is_empty()).map_or(0, indentation);
         let mut lines: Vec<String> = Vec::new();
         for line in cases.lines().filter(|line| !line.trim().is_empty()) {
             match lines.last_mut() {
-                Some(before) if indentation(line) > first => *before += &format!(" {}", line.trim()),
+                Some(before) if indentation(line) > base => *before += &format!(" {}", line.trim()),
                 _ => lines.push(line.trim().to_owned()),
             }
         }
         let state = format!("JSON.stringify({state})");
-        let before: String = self.get(&state);
+        let state_before: String = self.get(&state);
         for case in lines.chunks(2) {
             assert_eq!(self.error(&case[0]), case[1], "{}", case[0]);
-            assert_eq!(self.get::<String>(&state), before, "{}", case[0]);
+            assert_eq!(self.get::<String>(&state), state_before, "{}", case[0]);
         }
     }
 
     fn evaluate(&self, expression: &str) -> JsValue {
-        evaluated(expression, &self.0).unwrap_or_else(|error| panic!("{expression}: {error:?}"))
+        evaluate_js(expression, &self.0).unwrap_or_else(|error| panic!("{expression}: {error:?}"))
     }
 }
 

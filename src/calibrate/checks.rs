@@ -63,10 +63,13 @@ pub enum CheckName {
 /// One check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Check {
+    /// Name of the check.
     pub name: CheckName,
+    /// Value that is compared with the range.
     pub value: f64,
     /// Smallest and largest value that passes.
     pub expected: [f64; 2],
+    /// True if the value is in the range.
     pub passed: bool,
 }
 
@@ -88,6 +91,7 @@ impl Check {
 pub struct WindowCoverage {
     /// Least distance driven, m.
     pub length: f64,
+    /// Number of windows.
     pub count: usize,
     /// Fraction of windows inside of the 95 % ellipsoid.
     pub coverage: f64,
@@ -98,7 +102,9 @@ pub struct WindowCoverage {
 /// Checks with the judgement that follows from them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Diagnostics {
+    /// Judgement of the whole calibration.
     pub verdict: Verdict,
+    /// All checks, those of the log first.
     pub checks: Vec<Check>,
     /// Coverage of windows of 1, 2 and 5 m by the fitted α's.
     pub windows: Vec<WindowCoverage>,

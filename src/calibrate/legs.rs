@@ -94,6 +94,7 @@ pub struct LostLegs {
 }
 
 impl LostLegs {
+    /// Returns the number of lost legs of all causes.
     pub fn total(&self) -> usize {
         self.without_reference + self.across_breaks + self.across_pauses + self.standing
     }

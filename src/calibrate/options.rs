@@ -9,7 +9,9 @@ use thiserror::Error;
 /// Odometry and reference of one drive.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive<'a> {
+    /// Poses by the odometry, in its own frame.
     pub odometry: &'a Trajectory,
+    /// Poses by the reference, in another frame and by another clock.
     pub reference: &'a Trajectory,
 }
 
@@ -26,8 +28,11 @@ pub enum Outliers {
 /// Options of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
+    /// Model whose α's are fitted.
     pub model: Model,
+    /// Condition on which a leg ends.
     pub legs: LegLength,
+    /// Treatment of outliers.
     pub outliers: Outliers,
     /// True or false for each of [`SystematicError::ALL`](super::SystematicError::ALL) that is corrected or not. None: an error is corrected if
     /// it is identifiable and constant.

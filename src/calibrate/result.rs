@@ -11,7 +11,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Estimate {
+    /// Estimate.
     pub value: f64,
+    /// Ends of the 95 % interval.
     pub interval: [f64; 2],
 }
 
@@ -29,7 +31,9 @@ pub struct Persistence {
 pub struct Recommended {
     /// Fitted α's times the inflation. None for an α that is not identifiable.
     pub alphas: Vec<Option<f64>>,
+    /// Factor on the fitted α's, 1 or more.
     pub inflation: f64,
+    /// Sentence on the windows from which the factor follows.
     pub reason: String,
 }
 
@@ -42,6 +46,7 @@ pub struct LegFit {
     pub standardized: [f64; 3],
     /// Squared Mahalanobis distance of the innovation: χ² distributed, with one degree of freedom per observed component.
     pub squared: f64,
+    /// True if the fit leaves the leg out.
     pub is_outlier: bool,
 }
 
@@ -59,6 +64,7 @@ pub struct Calibration {
     pub alphas: Vec<Option<f64>>,
     /// 95 % intervals of the α's.
     pub intervals: Vec<Option<[f64; 2]>>,
+    /// Reason for each α that the log does not identify.
     pub not_identifiable: Vec<Option<NotIdentifiable>>,
     /// Systematic errors, all estimated together.
     pub systematic: Systematic,
@@ -73,12 +79,19 @@ pub struct Calibration {
     pub is_corrected: ErrorMask,
     /// Standard deviations of the reference: each coordinate (m) and heading (rad).
     pub reference_noise: [Estimate; 2],
+    /// Correlation of the errors of neighbouring legs.
     pub persistence: Persistence,
+    /// Restricted log-likelihood at its maximum, nats.
     pub log_likelihood: f64,
+    /// Legs of all drives, in their order.
     pub legs: Vec<Leg>,
+    /// Residuals of each leg.
     pub observations: Vec<Observation>,
+    /// Each leg under the fit.
     pub leg_fits: Vec<LegFit>,
+    /// Legs that were left out.
     pub lost: LostLegs,
+    /// Checks and the judgement that follows from them.
     pub diagnostics: Diagnostics,
     /// None where the log is unusable.
     pub recommended: Option<Recommended>,

@@ -24,11 +24,17 @@ pub struct Systematic {
 /// One systematic error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystematicError {
+    /// [`Systematic::clock_offset`].
     ClockOffset,
+    /// [`Systematic::mount_yaw`].
     MountYaw,
+    /// First coordinate of [`Systematic::lever_arm`].
     LeverArmAhead,
+    /// Second coordinate of [`Systematic::lever_arm`].
     LeverArmLeft,
+    /// [`Systematic::distance_scale`].
     DistanceScale,
+    /// [`Systematic::turn_scale`].
     TurnScale,
 }
 
@@ -36,6 +42,7 @@ pub enum SystematicError {
 pub const ERROR_COUNT: usize = 6;
 
 impl SystematicError {
+    /// All systematic errors, in the order of masks and covariances.
     pub const ALL: [Self; ERROR_COUNT] = [
         Self::ClockOffset,
         Self::MountYaw,
@@ -57,13 +64,16 @@ impl SystematicError {
 }
 
 impl Systematic {
+    /// No systematic errors.
     pub const NONE: Self =
         Self { clock_offset: 0.0, mount_yaw: 0.0, lever_arm: [0.0; 2], distance_scale: 1.0, turn_scale: 1.0 };
 
+    /// Returns the value of one error.
     pub fn get(mut self, error: SystematicError) -> f64 {
         *self.get_mut(error)
     }
 
+    /// Returns a reference to the value of one error.
     pub fn get_mut(&mut self, error: SystematicError) -> &mut f64 {
         match error {
             SystematicError::ClockOffset => &mut self.clock_offset,

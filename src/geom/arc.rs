@@ -100,8 +100,11 @@ pub fn arc_near(x: &SE2, x_next: &SE2, near: f64) -> (f64, f64) {
 /// (rad, any number of circles).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
+    /// Pose at the start.
     pub start: SE2,
+    /// Length, m; negative in reverse.
     pub length: f64,
+    /// Turn, rad, counter-clockwise.
     pub turn: f64,
 }
 

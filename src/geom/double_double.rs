@@ -8,7 +8,9 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// A number as `high` + `low`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoubleDouble {
+    /// Nearest double.
     pub high: f64,
+    /// Remainder, at most half a unit in the last place of `high`.
     pub low: f64,
 }
 

@@ -17,8 +17,11 @@ pub const ACCURACY: f64 = 6e-16;
 /// sin x/x, sin x and cos x.
 #[derive(Clone, Copy)]
 pub struct Circle {
+    /// sin x/x; 1 at 0.
     pub sinc: f64x4,
+    /// sin x.
     pub sin: f64x4,
+    /// cos x.
     pub cos: f64x4,
 }
 

@@ -6,7 +6,9 @@ use std::f64::consts::PI;
 /// A straight line between two points, m. It may have no length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
+    /// One end: x and y, m.
     pub from: [f64; 2],
+    /// The other end.
     pub to: [f64; 2],
 }
 

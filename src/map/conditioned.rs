@@ -53,15 +53,20 @@ impl Sampler {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct MapConditioned<'a> {
+    /// Model without the map.
     pub model: VelocityModel,
+    /// Walls and bounds.
     pub plan: &'a FloorPlan,
+    /// Radius of the robot, m: its centre stays further away from walls.
     pub clearance: f64,
+    /// Part of a motion that is tested.
     pub sampler: Sampler,
 }
 
 /// Draw of the model without a map, and the result of both collision tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
+    /// End pose.
     pub pose: SE2,
     /// Arc driven with (v̂, ω̂); `pose` is its end turned by γ̂Δt.
     pub arc: Arc,
@@ -74,9 +79,11 @@ pub struct Draw {
 /// Accepted motion and its cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accepted {
+    /// End pose.
     pub pose: SE2,
     /// True if the whole path was free, as it always is with [`Sampler::WholeArc`].
     pub path_free: bool,
+    /// Draws and wall distances that it took.
     pub cost: Cost,
 }
 
@@ -109,6 +116,7 @@ pub struct DrawTester<'a> {
 }
 
 impl DrawTester<'_> {
+    /// Returns the draw for three random numbers of variance 1, with both collision tests.
     pub fn judge(&self, unit_noise: [f64; 3]) -> Draw {
         self.test_motion(self.part.motion(&self.from, unit_noise))
     }

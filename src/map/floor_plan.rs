@@ -86,7 +86,9 @@ impl FloorPlanError {
 /// field alone. A wall that is close to several pieces of a motion counts for each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Verdict {
+    /// True if the pose or the motion is free of collisions.
     pub free: bool,
+    /// Number of wall distances that were computed.
     pub wall_tests: usize,
 }
 
@@ -161,10 +163,12 @@ impl FloorPlan {
             .unwrap_or_else(|_| unreachable!("a constant that the tests build"))
     }
 
+    /// Returns the walls; of a grid, the outlines of its blocked cells.
     pub fn walls(&self) -> &[Segment] {
         &self.walls
     }
 
+    /// Returns the smallest x and y and the largest x and y, m.
     pub fn bounds(&self) -> [f64; 4] {
         self.bounds
     }

@@ -8,6 +8,7 @@ use std::ops::RangeInclusive;
 /// Rules that convert pixels to cells, as in the YAML file of `map_server`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interpretation {
+    /// Meaning of the pixels.
     pub mode: Mode,
     /// Dark pixels are free instead of occupied.
     pub negate: bool,
@@ -41,8 +42,11 @@ pub enum Mode {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Cell {
+    /// No obstacle.
     Free,
+    /// An obstacle.
     Occupied,
+    /// Not observed by the mapping robot.
     Unknown,
 }
 
@@ -59,12 +63,15 @@ pub enum Unknown {
 /// Grey image with values from 0 (black) to 1 (white), row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image<Pixels = Vec<Pixel>> {
+    /// Number of columns.
     pub width: usize,
+    /// Number of rows.
     pub height: usize,
     /// Pixels, width · height of them.
     pub pixels: Pixels,
 }
 
+/// One pixel of a map image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pixel {
     /// Mean of the colours.
@@ -82,6 +89,7 @@ impl From<[u8; 4]> for Pixel {
 }
 
 impl Interpretation {
+    /// Returns the state of the cell that a pixel shows.
     pub fn cell(&self, pixel: Pixel) -> Cell {
         let Pixel { shade, opacity } = pixel;
         let occupancy = if self.negate { shade } else { 1.0 - shade };

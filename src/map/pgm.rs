@@ -13,6 +13,7 @@ pub struct PgmError {
     pub line: usize,
     /// Text found instead, as the message quotes it.
     pub value: String,
+    /// Values that are allowed, as the message lists them.
     pub allowed: String,
 }
 

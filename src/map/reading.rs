@@ -10,8 +10,10 @@ use thiserror::Error;
 /// Reason why a file is not the image of a map.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ImageError {
+    /// The PGM image is invalid.
     #[error(transparent)]
     Pgm(#[from] PgmError),
+    /// The PNG image is invalid.
     #[cfg(not(widget))]
     #[error(transparent)]
     Png(#[from] PngError),

@@ -21,6 +21,7 @@ use rand::Rng;
 ///
 /// Arguments are not checked: a negative α, or a command whose `dt` is not positive, gives meaningless results, NaN for most.
 pub trait MotionModel {
+    /// Command or odometry reading that leads from one pose to the next.
     type Control: Copy;
 
     /// Returns the score of Tables 5.1 and 5.5: the product of the three noise densities at the residuals that explain

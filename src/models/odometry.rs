@@ -11,8 +11,11 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct OdomDelta {
+    /// First rotation, from the heading to the direction of the displacement, rad.
     pub rot1: f64,
+    /// Translation, m.
     pub trans: f64,
+    /// Second rotation, from that direction to the new heading, rad.
     pub rot2: f64,
 }
 
@@ -59,12 +62,15 @@ pub struct OdomAlphas(pub [f64; 4]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OdometryModel {
+    /// Noise parameters α₁ to α₄.
     pub alphas: OdomAlphas,
+    /// Distribution of the noise.
     pub noise: NoiseKind,
 }
 
 /// Odometry model whose rotation, translation and rotation have independent noises, under any rule for their variances.
 pub trait RotTransRot {
+    /// Returns the distribution of the noise.
     fn noise(&self) -> NoiseKind;
 
     /// Returns the variances of the three legs of `delta` (rad², m², rad²).

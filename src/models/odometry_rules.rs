@@ -25,6 +25,7 @@ pub enum OdometryRule {
 }
 
 impl OdometryRule {
+    /// All rules.
     pub const ALL: [Self; 4] = [Self::Table, Self::Nav2, Self::Beluga, Self::Omni];
 }
 
@@ -98,6 +99,7 @@ impl OdometryRule {
 /// Motion that a robot executed instead of a reading: three legs, and a displacement across the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExecutedLegs {
+    /// Rotation, translation and rotation.
     pub legs: OdomDelta,
     /// Displacement to the left of the drive, m.
     pub strafe: f64,

@@ -53,11 +53,13 @@ pub enum Compounding {
 /// Reason for which a matrix is not a covariance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum TangentNoiseError {
+    /// An entry is infinite or NaN.
     #[error("R has an entry that is not finite; a covariance is needed")]
     NotFinite,
     /// The matrix differs from its transpose by more than rounding.
     #[error("R differs from its transpose; a covariance is symmetric")]
     NotSymmetric,
+    /// The matrix has a negative eigenvalue.
     #[error("R has a negative variance in some direction; a covariance has none")]
     NotPositiveSemidefinite,
 }

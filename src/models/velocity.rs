@@ -11,8 +11,11 @@ use std::f64::consts::TAU;
 /// A velocity command: `v` (m/s) and `omega` (rad/s, counter-clockwise) held for `dt` (s, positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityCmd {
+    /// Speed, m/s; negative in reverse.
     pub v: f64,
+    /// Turn rate, rad/s, counter-clockwise.
     pub omega: f64,
+    /// Duration, s.
     pub dt: f64,
 }
 
@@ -36,7 +39,9 @@ pub struct VelocityAlphas(pub [f64; 6]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityModel {
+    /// Noise parameters α₁ to α₆.
     pub alphas: VelocityAlphas,
+    /// Distribution of the noise.
     pub noise: NoiseKind,
 }
 

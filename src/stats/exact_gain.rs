@@ -22,6 +22,7 @@ use std::f64::consts::{LN_2, PI, TAU};
 /// differs if many robots make them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactGain {
+    /// Gain without sampling error.
     pub value: LikelihoodGain,
     /// Mean and covariance of ξ, on the branch of the turn that was made.
     pub exponential: ExponentialMoments,

@@ -34,6 +34,7 @@ impl LikelihoodGain {
 /// Gain with its standard errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredGain {
+    /// Gain of the samples.
     pub value: LikelihoodGain,
     /// Standard errors: of the per-robot differences of the two log-densities, the standard deviation over √n. The fitted
     /// moments add nothing to first order, because each Gaussian's likelihood is at its maximum over them. NaN where the

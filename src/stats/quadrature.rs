@@ -7,7 +7,9 @@ use std::sync::OnceLock;
 /// Node of a rule: a value of a noise of variance 1, and its weight. The weights of a rule sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
+    /// Value of the noise.
     pub value: f64,
+    /// Weight of the value.
     pub weight: f64,
 }
 

@@ -202,11 +202,11 @@ pub(super) fn log_checks(
     systematic: &Systematic,
     inflation: f64,
 ) -> Vec<Check> {
-    let leg_count = sample.legs.len();
+    let count = sample.legs.len();
     let scales = [SystematicError::DistanceScale, SystematicError::TurnScale];
     let has_plausible_scales = scales.iter().all(|scale| PLAUSIBLE_SCALES.contains(&systematic.get(*scale)));
     let mismatch = if has_plausible_scales { mismatch(sample, systematic) } else { Some(f64::INFINITY) };
-    let mut length_ratios: Vec<f64> = sample
+    let mut ratios: Vec<f64> = sample
         .legs
         .iter()
         .map(|leg| sample.options.legs.length_ratio(&leg.odometry, leg.duration()))
@@ -216,20 +216,16 @@ pub(super) fn log_checks(
     let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, MISMATCH_RANGE));
     let mut checks = Vec::from_iter(mismatch);
     checks.extend([
-        Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
+        Check::new(CheckName::EnoughLegs, count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
         // An infinite inflation: none is enough.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
-        Check::new(CheckName::LegsLost, lost_count as f64 / (leg_count + lost_count) as f64, [0.0, 0.2]),
-        Check::new(CheckName::SamplingDense, median(&mut length_ratios), [0.0, 1.5]),
-        Check::new(CheckName::OutliersFew, outlier_count as f64 / leg_count as f64, [0.0, 0.05]),
+        Check::new(CheckName::LegsLost, lost_count as f64 / (count + lost_count) as f64, [0.0, 0.2]),
+        Check::new(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
+        Check::new(CheckName::OutliersFew, outlier_count as f64 / count as f64, [0.0, 0.05]),
     ]);
     if matches!(sample.options.model, Model::Odometry(rule) if rule != OdometryRule::Omni) {
-        let sideways_count = sample.observations.iter().filter(|leg| moves_sideways(leg.reading)).count();
-        checks.push(Check::new(
-            CheckName::SidewaysRare,
-            sideways_count as f64 / leg_count as f64,
-            [0.0, 0.02],
-        ));
+        let sideways = sample.observations.iter().filter(|leg| moves_sideways(leg.reading)).count();
+        checks.push(Check::new(CheckName::SidewaysRare, sideways as f64 / count as f64, [0.0, 0.02]));
     }
     checks
 }
@@ -252,17 +248,10 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
         }
     };
     for leg in &sample.legs {
-        let (expected_motion, seen_motion) =
-            (systematic.expected(sample.options.model, leg), systematic.motion(leg));
-        let distance_error =
-            libm::hypot(seen_motion.x() - expected_motion.x(), seen_motion.y() - expected_motion.y());
-        add_motion(
-            &mut turns,
-            turn(&expected_motion),
-            (seen_motion.theta() - expected_motion.theta()).abs(),
-            MIN_TURN_ANGLE,
-        );
-        add_motion(&mut drives, distance(&expected_motion), distance_error, MIN_DRIVE_DISTANCE);
+        let (expected, seen) = (systematic.expected(sample.options.model, leg), systematic.motion(leg));
+        let difference = libm::hypot(seen.x() - expected.x(), seen.y() - expected.y());
+        add_motion(&mut turns, turn(&expected), (seen.theta() - expected.theta()).abs(), MIN_TURN_ANGLE);
+        add_motion(&mut drives, distance(&expected), difference, MIN_DRIVE_DISTANCE);
     }
     let median_ratio = |[mut sizes, mut differences]: [Vec<f64>; 2]| {
         (sizes.len() >= MIN_LEGS).then(|| median(&mut differences) / median(&mut sizes))
@@ -319,9 +308,9 @@ const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 
 /// Returns a check of each scale that is identifiable, and the mask of the systematic errors that are constant.
 ///
-/// Only scales are tested: all others, and scales that are not identifiable, count as constant. `repeated` multiplies standard errors
+/// Only scales are tested: all others, and scales that are not identifiable, count as constant. `std_factor` multiplies standard errors
 /// where errors persist; it is 1 otherwise.
-pub(super) fn scale_checks(fit: &Fit, repeated: f64) -> (Vec<Check>, ErrorMask) {
+pub(super) fn scale_checks(fit: &Fit, std_factor: f64) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERROR_COUNT]);
     let half_count = fit.sample.legs.len() / 2;
     let is_turning = |leg: usize| turn(&fit.sample.observations[leg].expected) > TURNING_LEG_ANGLE;
@@ -333,26 +322,25 @@ pub(super) fn scale_checks(fit: &Fit, repeated: f64) -> (Vec<Check>, ErrorMask) 
         if fit.stds[scale as usize] == 0.0 {
             continue;
         }
-        let mut worst_difference = (0.0, NEGLIGIBLE_SCALE_DIFFERENCE);
-        let mut compare_groups = |in_first: &dyn Fn(usize) -> bool| {
+        let mut worst = (0.0, NEGLIGIBLE_SCALE_DIFFERENCE);
+        let mut compare = |in_first: &dyn Fn(usize) -> bool| {
             let [first_group, second_group] =
                 [true, false].map(|which| scale_of(fit, scale, |leg| in_first(leg) == which));
             if let Some(([a, a_std], [b, b_std])) = first_group.zip(second_group) {
                 let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE
-                    .max(MAX_SCALE_STD_ERRORS * repeated * libm::hypot(a_std, b_std));
-                if (a - b).abs() / tolerance > f64::abs(worst_difference.0) / worst_difference.1 {
-                    worst_difference = (a - b, tolerance);
+                    .max(MAX_SCALE_STD_ERRORS * std_factor * libm::hypot(a_std, b_std));
+                if (a - b).abs() / tolerance > f64::abs(worst.0) / worst.1 {
+                    worst = (a - b, tolerance);
                 }
             }
         };
-        compare_groups(&|leg| leg < half_count);
+        compare(&|leg| leg < half_count);
         if scale == SystematicError::DistanceScale {
-            compare_groups(&is_turning);
+            compare(&is_turning);
         }
-        let difference_check =
-            Check::new(name, worst_difference.0, [-worst_difference.1, worst_difference.1]);
-        is_constant[scale as usize] = difference_check.passed;
-        checks.push(difference_check);
+        let check = Check::new(name, worst.0, [-worst.1, worst.1]);
+        is_constant[scale as usize] = check.passed;
+        checks.push(check);
     }
     (checks, is_constant)
 }

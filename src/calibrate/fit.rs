@@ -69,14 +69,14 @@ impl Sample {
             return Self::new(legs.to_vec(), estimated, options);
         }
         let blocks = MAX_LEGS / LEGS_PER_BLOCK;
-        let mut kept_legs = Vec::with_capacity(MAX_LEGS);
+        let mut kept = Vec::with_capacity(MAX_LEGS);
         for block in 0..blocks {
-            let first_leg = block * (legs.len() - LEGS_PER_BLOCK) / (blocks - 1);
-            kept_legs.extend_from_slice(&legs[first_leg..first_leg + LEGS_PER_BLOCK]);
-            let start = kept_legs.len() - LEGS_PER_BLOCK;
-            kept_legs[start].follows = false;
+            let from = block * (legs.len() - LEGS_PER_BLOCK) / (blocks - 1);
+            kept.extend_from_slice(&legs[from..from + LEGS_PER_BLOCK]);
+            let start = kept.len() - LEGS_PER_BLOCK;
+            kept[start].follows = false;
         }
-        Self::new(kept_legs, estimated, options)
+        Self::new(kept, estimated, options)
     }
 
     fn observe(&mut self, corrected: &Systematic, position_std: f64) {
@@ -165,14 +165,13 @@ impl<'a> Log<'a> {
 
     /// Cuts all drives into legs. `clock_offset` (s) is the offset of the first drive.
     pub fn legs(&self, options: &Options, clock_offset: f64) -> (Vec<Leg>, LostLegs) {
-        let (mut all, mut lost_legs) = (Vec::new(), LostLegs::default());
+        let (mut all, mut lost) = (Vec::new(), LostLegs::default());
         for (index, drive) in self.drives.iter().enumerate() {
-            let (offset, first_leg_of_drive) =
-                (clock_offset + self.offsets[index] - self.clock_offset(), all.len());
-            drive.cut_into_legs(options.legs, offset, &mut all, &mut lost_legs);
-            all[first_leg_of_drive..].iter_mut().for_each(|leg| leg.drive = index);
+            let (offset, first) = (clock_offset + self.offsets[index] - self.clock_offset(), all.len());
+            drive.cut_into_legs(options.legs, offset, &mut all, &mut lost);
+            all[first..].iter_mut().for_each(|leg| leg.drive = index);
         }
-        (all, lost_legs)
+        (all, lost)
     }
 
     /// Moves the reference poses of a leg by a change of the clock offset. `clock_offset` is the new offset of the first drive. A leg that

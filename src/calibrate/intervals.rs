@@ -47,14 +47,12 @@ pub(super) fn intervals(
             return [0.0, f64::INFINITY];
         }
         let ridges = ridges(maximum, parameter);
-        let initial_distance = threshold / (1.0 / variance).sqrt();
-        let end_at = |sign: f64| {
-            profile_end(residuals, maximum, &ridges, parameter, sign * initial_distance, threshold)
-        };
+        let guess = threshold / (1.0 / variance).sqrt();
+        let end = |sign: f64| profile_end(residuals, maximum, &ridges, parameter, sign * guess, threshold);
         let sandwich: f64 = block_scores.iter().map(|score| covariances.dot(score).powi(2)).sum();
-        let widening_factor =
+        let widening =
             ((sandwich / variance).sqrt() * block_quantile / NORMAL_95).max(variance_factor.sqrt());
-        [(estimate + widening_factor * end_at(-1.0)).max(0.0), estimate + widening_factor * end_at(1.0)]
+        [(estimate + widening * end(-1.0)).max(0.0), estimate + widening * end(1.0)]
     }
 }
 
@@ -105,27 +103,22 @@ fn profile_end(
     if distance == 0.0 {
         return distance;
     }
-    let (mut inside_distance, mut outside_distance) = (0.0, None::<f64>);
+    let (mut inside, mut outside) = (0.0, None::<f64>);
     for _ in 0..MAX_STEPS {
-        let root_at_distance = excess_root(distance);
-        if (root_at_distance / threshold - 1.0).abs() < TOLERANCE
-            || distance == -estimate && root_at_distance <= threshold
-        {
+        let root = excess_root(distance);
+        if (root / threshold - 1.0).abs() < TOLERANCE || distance == -estimate && root <= threshold {
             break;
         }
-        if root_at_distance < threshold {
-            inside_distance = distance;
+        if root < threshold {
+            inside = distance;
         } else {
-            outside_distance = Some(distance);
+            outside = Some(distance);
         }
-        let next_distance =
-            if root_at_distance > 0.0 { distance * threshold / root_at_distance } else { 2.0 * distance };
-        distance = match outside_distance {
-            Some(outside) if (next_distance - inside_distance) * (next_distance - outside) >= 0.0 => {
-                0.5 * (inside_distance + outside)
-            }
-            Some(_) => next_distance,
-            None => (4.0 * distance.abs()).min(next_distance.abs()).copysign(distance).max(-estimate),
+        let next = if root > 0.0 { distance * threshold / root } else { 2.0 * distance };
+        distance = match outside {
+            Some(outside) if (next - inside) * (next - outside) >= 0.0 => 0.5 * (inside + outside),
+            Some(_) => next,
+            None => (4.0 * distance.abs()).min(next.abs()).copysign(distance).max(-estimate),
         };
     }
     distance
@@ -181,12 +174,12 @@ pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<N
             let is_observed =
                 |k: usize| model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan();
             let motion = &observation.expected;
-            let has_motion = if grows_with_turn {
+            let moves = if grows_with_turn {
                 turn(motion) > MIN_TURN_ANGLE
             } else {
                 distance(motion) > MIN_DRIVE_DISTANCE
             };
-            has_motion && (0..3).any(is_observed)
+            moves && (0..3).any(is_observed)
         };
         Some(match sample.observations.iter().filter(uses_alpha).count() {
             count if count >= MIN_MOVING_LEGS => NotIdentifiable::ReferenceTooNoisy,

@@ -202,15 +202,15 @@ impl Drive<'_> {
                 continue;
             };
             pause_seen |= odometry.has_gap_before(sample);
-            let is_complete = [start_pose, pose];
-            if !length.is_complete(&is_complete, time - start_time) {
+            let ends = [start_pose, pose];
+            if !length.is_complete(&ends, time - start_time) {
                 continue;
             }
             let end_end = self.end_at(sample, clock_offset);
             let (Some(from), Some(to)) = (start_end, end_end) else {
                 // The leg stays open until it is too long: the reference may come back.
                 if start_end.is_none()
-                    || length.length_ratio(&is_complete, time - start_time) > MAX_RATIO_ACROSS_PAUSE
+                    || length.length_ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE
                 {
                     lost.without_reference += 1;
                     (start, follows_previous) = (Some(((time, pose), end_end)), false);
@@ -228,9 +228,7 @@ impl Drive<'_> {
             if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
                 lost.across_breaks += 1;
                 follows_previous = false;
-            } else if has_paused
-                && length.length_ratio(&is_complete, time - start_time) > MAX_RATIO_ACROSS_PAUSE
-            {
+            } else if has_paused && length.length_ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
                 lost.across_pauses += 1;
                 follows_previous = false;
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {

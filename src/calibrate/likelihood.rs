@@ -131,10 +131,9 @@ impl Expansion {
 impl Term {
     pub fn new(model: Model, leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
         let residuals = observation.residuals;
-        let error_jacobian =
-            observation.jacobian * corrected.motion_jacobian(model, leg, &observation.expected);
+        let by_error = observation.jacobian * corrected.motion_jacobian(model, leg, &observation.expected);
         // Squares of huge numbers would overflow: such a leg is not used.
-        if residuals.iter().chain(&error_jacobian).any(|entry| entry.abs() > MAX_ENTRY) {
+        if residuals.iter().chain(&by_error).any(|entry| entry.abs() > MAX_ENTRY) {
             let [start, end] = [Matrix3::zeros(); 2];
             return Self {
                 columns: WideMatrix::ZERO,
@@ -147,7 +146,7 @@ impl Term {
         let observed = residuals.map(|residual| !residual.is_nan());
         let columns = WideMatrix::from_fn(|k, column| match column {
             RESIDUAL_COLUMN if observed[k] => residuals[k],
-            0..RESIDUAL_COLUMN => error_jacobian[(k, column)],
+            0..RESIDUAL_COLUMN => by_error[(k, column)],
             _ => 0.0,
         });
         let [start, end] = corrected.reference_jacobians(leg).map(|by_error| observation.jacobian * by_error);
@@ -195,16 +194,16 @@ impl Innovation {
 /// Returns the residual minus the part that these systematic errors explain.
 #[inline(always)]
 fn residual_without_errors(columns: &JacobianAndResidual, errors: &ErrorVector) -> Vector3<f64> {
-    let mut residual_without_errors = Vector3::zeros();
+    let mut residual = Vector3::zeros();
     for k in 0..3 {
         let row = columns.matrix_row(k);
         let mut explained_part = row[0] * errors[0];
         for error in 1..ERROR_COUNT {
             explained_part += row[error] * errors[error];
         }
-        residual_without_errors[k] = row[RESIDUAL_COLUMN] - explained_part;
+        residual[k] = row[RESIDUAL_COLUMN] - explained_part;
     }
-    residual_without_errors
+    residual
 }
 
 impl Residuals {
@@ -215,8 +214,8 @@ impl Residuals {
         chosen: Vec<(usize, bool)>,
     ) -> Self {
         let observed = chosen.iter().flat_map(|(term, _)| terms[*term].observed);
-        let observed_count = observed.filter(|is_observed| *is_observed).count();
-        Self { terms: Rc::clone(terms), chosen, count: observed_count, model, estimated }
+        let count = observed.filter(|is_observed| *is_observed).count();
+        Self { terms: Rc::clone(terms), chosen, count, model, estimated }
     }
 
     /// Number of legs.
@@ -239,9 +238,9 @@ impl Residuals {
         parameters: &Parameters,
         mut innovations: Option<&mut Vec<Innovation>>,
     ) -> LeastSquares {
-        let error_variances = reference_variances(parameters);
+        let reference_variances = reference_variances(parameters);
         let (mut log_det, mut gram) = (0.0, Gram::ZERO);
-        let initial_state = (JacobianAndResidual::ZERO, Matrix3::from_diagonal(&error_variances));
+        let initial_state = (JacobianAndResidual::ZERO, Matrix3::from_diagonal(&reference_variances));
         let (mut mean, mut prior_cov) = initial_state;
         // A product is cheaper than as many logarithms.
         let mut det = 1.0;
@@ -250,9 +249,9 @@ impl Residuals {
                 (mean, prior_cov) = initial_state;
             }
             let columns = term.columns.with_added(&mean.left_multiplied(&-term.start));
-            let end_covariance = scaled_columns(&term.end, &error_variances);
+            let by_end = scaled_columns(&term.end, &reference_variances);
             let mut covariance = product(&product(&term.start, &prior_cov), &term.start.transpose())
-                + product(&end_covariance, &term.end.transpose());
+                + product(&by_end, &term.end.transpose());
             let wheel_variances = self.model.wheel_variances(&term.coefficients, parameters);
             for k in 0..3 {
                 covariance[(k, k)] +=
@@ -264,11 +263,11 @@ impl Residuals {
                 log_det += libm::log(det.max(f64::MIN_POSITIVE));
                 det = 1.0;
             }
-            let gain = product(&end_covariance.transpose(), &weight);
+            let gain = product(&by_end.transpose(), &weight);
             gram.add_product(&columns, &columns.left_multiplied(&weight));
             mean = columns.left_multiplied(&gain);
-            prior_cov = Matrix3::from_diagonal(&error_variances)
-                - scaled_columns(&product(&gain, &term.end), &error_variances);
+            prior_cov = Matrix3::from_diagonal(&reference_variances)
+                - scaled_columns(&product(&gain, &term.end), &reference_variances);
             if let Some(all_innovations) = &mut innovations {
                 let variance = |k: usize| if term.observed[k] { covariance[(k, k)] } else { f64::NAN };
                 let variances = [variance(0), variance(1), variance(2)];
@@ -306,7 +305,7 @@ impl Residuals {
     pub fn expansion(&self, filtered: Filtered) -> Expansion {
         let LeastSquares { errors, covariance, .. } = filtered.least_squares;
         // For a row x of V⁻¹X, a diagonal entry of P is smaller than that of V⁻¹ by x C xᵀ, because errors are estimated.
-        let estimated_covariance =
+        let covariance_rows =
             WideMatrix::<ERROR_COUNT>::from_fn(|i, j| if j < ERROR_COUNT { covariance[(i, j)] } else { 0.0 });
         let alphas = self.model.component_alphas();
         let mut expansion = Expansion {
@@ -316,9 +315,9 @@ impl Residuals {
             information: Information::zeros(),
             scores: vec![Parameters::zeros(); self.len()],
         };
-        // For each leg: P r, then at the reference poses of its start and its end the sum of Bᵀ P r of the leg that ends there and
-        // Aᵀ P r of the leg that starts there. The entry of the start is 0 if another leg ends there, because that leg has it.
-        let mut projected_residuals = vec![[Vector3::zeros(); 3]; self.len()];
+        // For each leg: P r, and two sums at the reference poses of its start and its end. A sum has Bᵀ P r of the leg that ends there,
+        // and Aᵀ P r of the leg that starts there. That of the start is 0 if another leg ends there, because that leg has it.
+        let mut projected = vec![[Vector3::zeros(); 3]; self.len()];
         // V⁻¹[X r] of the next leg, its block on the diagonal of V⁻¹, and its A.
         let mut next_leg: Option<(JacobianAndResidual, Matrix3<f64>, Matrix3<f64>)> = None;
         let innovations = &expansion.filtered.innovations;
@@ -347,24 +346,18 @@ impl Residuals {
             };
             for component in 0..3 {
                 let trace = block[(component, component)]
-                    - estimated_covariance.quadratic_form(solved_columns.matrix_row(component));
+                    - covariance_rows.quadratic_form(solved_columns.matrix_row(component));
                 for (alpha, factor) in alphas[component].into_iter().zip(term.coefficients[component]) {
                     add_to_score(alpha, factor, leg_projection[component] * leg_projection[component], trace);
                 }
             }
             let mut add_reference_error = |solved: &JacobianAndResidual, block: &Matrix3<f64>| {
-                let projected_residuals = residual_without_errors(solved, &errors);
+                let projection = residual_without_errors(solved, &errors);
                 for row in 0..3 {
-                    let trace =
-                        block[(row, row)] - estimated_covariance.quadratic_form(solved.matrix_row(row));
-                    add_to_score(
-                        REFERENCE_VARIANCES[row],
-                        1.0,
-                        projected_residuals[row] * projected_residuals[row],
-                        trace,
-                    );
+                    let trace = block[(row, row)] - covariance_rows.quadratic_form(solved.matrix_row(row));
+                    add_to_score(REFERENCE_VARIANCES[row], 1.0, projection[row] * projection[row], trace);
                 }
-                projected_residuals
+                projection
             };
             let end = add_reference_error(&at_end, &end_block);
             let start = if follows && i > 0 {
@@ -373,10 +366,10 @@ impl Residuals {
                 let start_block = product(&product(&term.start.transpose(), &block), &term.start);
                 add_reference_error(&solved_columns.left_multiplied(&term.start.transpose()), &start_block)
             };
-            projected_residuals[i] = [leg_projection, start, end];
+            projected[i] = [leg_projection, start, end];
             next_leg = (follows && i > 0).then_some((solved_columns, block, term.start));
         }
-        expansion.information = self.average_information(innovations, &projected_residuals, &covariance);
+        expansion.information = self.average_information(innovations, &projected, &covariance);
         expansion
     }
 
@@ -395,9 +388,9 @@ impl Residuals {
             if !follows {
                 (mean, pose) = (WideMatrix::ZERO, *start);
             }
-            let mut working_columns = WideMatrix::<3>::ZERO;
+            let mut columns = WideMatrix::<3>::ZERO;
             for k in 0..3 {
-                let row = working_columns.row_mut(k);
+                let row = columns.row_mut(k);
                 for (alpha, factor) in alphas[k].into_iter().zip(term.coefficients[k]) {
                     row[alpha] += factor * own[k];
                 }
@@ -405,11 +398,11 @@ impl Residuals {
                     row[variance] += term.start[(k, by)] * pose[by] + term.end[(k, by)] * end[by];
                 }
             }
-            working_columns = working_columns.with_added(&mean.left_multiplied(&-term.start));
-            let weighted_columns = working_columns.left_multiplied(&innovation.weight);
-            gram.add_product(&working_columns, &weighted_columns);
-            cross.add_product(&innovation.columns, &weighted_columns);
-            mean = working_columns.left_multiplied(&innovation.gain);
+            columns = columns.with_added(&mean.left_multiplied(&-term.start));
+            let weighted = columns.left_multiplied(&innovation.weight);
+            gram.add_product(&columns, &weighted);
+            cross.add_product(&innovation.columns, &weighted);
+            mean = columns.left_multiplied(&innovation.gain);
             pose = *end;
         }
         let gram: Information = gram.block(0);
@@ -421,13 +414,13 @@ impl Residuals {
 /// Multiplies the columns of a matrix by the numbers of a vector.
 #[inline(always)]
 fn scaled_columns(matrix: &Matrix3<f64>, by: &Vector3<f64>) -> Matrix3<f64> {
-    let mut scaled_columns = *matrix;
+    let mut scaled = *matrix;
     for column in 0..3 {
         for row in 0..3 {
-            scaled_columns[(row, column)] *= by[column];
+            scaled[(row, column)] *= by[column];
         }
     }
-    scaled_columns
+    scaled
 }
 
 /// Returns the variances of the reference's error: the diagonal of its covariance R.
@@ -455,20 +448,20 @@ fn masked_inverse(information: &ErrorMatrix, mask: &ErrorMask) -> (ErrorMatrix, 
 /// Returns the systematic errors that are identifiable. They are chosen one after the other, the one with the smallest standard error
 /// first. The choice ends when all other errors, estimated together with the chosen ones, have too large a standard error.
 pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
-    let (mut swept_information, mut chosen_errors) = (*information, [false; ERROR_COUNT]);
+    let (mut swept_information, mut chosen) = (*information, [false; ERROR_COUNT]);
     loop {
         let significance = |error: usize| {
             let error_limit = SystematicError::ALL[error].identifiability_limit();
             swept_information[(error, error)] * error_limit * error_limit
         };
         let candidates =
-            (0..ERROR_COUNT).filter(|error| !chosen_errors[*error]).map(|error| (error, significance(error)));
+            (0..ERROR_COUNT).filter(|error| !chosen[*error]).map(|error| (error, significance(error)));
         let Some((pivot, _)) =
             candidates.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, known)| *known > 1.0)
         else {
-            return chosen_errors;
+            return chosen;
         };
-        chosen_errors[pivot] = true;
+        chosen[pivot] = true;
         sweep_variable(&mut swept_information, pivot);
     }
 }

@@ -77,30 +77,30 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
         *corrected.get_mut(error) = errors.get(error);
     }
-    let (fit, all_legs, lost_legs) =
+    let (fit, all_legs, lost) =
         fit_corrected(&log, options, &corrected, is_corrected, &systematic.maximum.parameters)?;
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
     let interval_of = intervals(&fit, correlation);
     let is_identified = |alpha: usize| not_identifiable[alpha].is_none();
-    let identified_alphas: Vec<Option<f64>> =
+    let alphas: Vec<Option<f64>> =
         (0..options.model.alphas()).map(|alpha| is_identified(alpha).then_some(parameters[alpha])).collect();
     let alpha_intervals =
-        (0..identified_alphas.len()).map(|alpha| is_identified(alpha).then(|| interval_of(alpha))).collect();
+        (0..alphas.len()).map(|alpha| is_identified(alpha).then(|| interval_of(alpha))).collect();
     let reference_noise = [POSITION_VARIANCE, YAW_VARIANCE].map(|variance| Estimate {
         value: parameters[variance].sqrt(),
         interval: interval_of(variance).map(f64::sqrt),
     });
     let leg_fits = all_legs.leg_fits(parameters);
-    let recommendation = windows::recommend(&fit, &all_legs, &identified_alphas);
+    let recommendation = windows::recommend(&fit, &all_legs, &alphas);
     let inflation = recommendation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
-    let mut checks = checks::log_checks(&all_legs, &lost_legs, &errors, inflation);
+    let mut checks = checks::log_checks(&all_legs, &lost, &errors, inflation);
     checks.extend(scale_checks);
     checks.extend(checks::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
     checks.extend(recommendation.checks);
-    let verdict = checks::verdict(&checks, identified_alphas.iter().any(Option::is_some));
+    let verdict = checks::verdict(&checks, alphas.iter().any(Option::is_some));
     Ok(Calibration {
-        alphas: identified_alphas,
+        alphas,
         intervals: alpha_intervals,
         not_identifiable,
         systematic: errors,
@@ -114,7 +114,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         legs: all_legs.legs,
         observations: all_legs.observations,
         leg_fits,
-        lost: lost_legs,
+        lost,
         diagnostics: Diagnostics { verdict, checks, windows: recommendation.windows },
         recommended: recommendation.recommended.filter(|_| verdict != Verdict::Unusable),
     })
@@ -123,11 +123,9 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
 /// Returns the correlation of the innovations of neighbouring legs, and its standard error.
 fn neighbour_correlation(Fit { sample, maximum, .. }: &Fit) -> (f64, f64) {
     let residuals = sample.inlier_residuals(0..sample.legs.len());
-    let standardized_fits: Vec<LegFit> = residuals.filtered(&maximum.parameters).leg_fits().collect();
+    let fits: Vec<LegFit> = residuals.filtered(&maximum.parameters).leg_fits().collect();
     let (mut product, mut square_sum, mut count) = (0.0, 0.0, 0);
-    for (pair, _) in
-        standardized_fits.windows(2).zip(residuals.follows().skip(1)).filter(|(_, follows)| *follows)
-    {
+    for (pair, _) in fits.windows(2).zip(residuals.follows().skip(1)).filter(|(_, follows)| *follows) {
         for (before, after) in pair[0].standardized.into_iter().zip(pair[1].standardized) {
             if !before.is_nan() && !after.is_nan() {
                 product += before * after;
@@ -142,14 +140,13 @@ fn neighbour_correlation(Fit { sample, maximum, .. }: &Fit) -> (f64, f64) {
 /// Returns the correlation of the wheels' errors in neighbouring legs, and the distance over which it falls to 1/e.
 fn persistence(fit: &Fit) -> Persistence {
     let (correlation, std) = neighbour_correlation(fit);
-    let clamp_correlation = |value: f64| value.clamp(0.0, 0.95);
+    let clamp = |value: f64| value.clamp(0.0, 0.95);
     // A correlation that chance can explain counts as 0.
-    let value = if correlation > NORMAL_95 * std { clamp_correlation(correlation) } else { 0.0 };
-    let interval_of =
-        [clamp_correlation(correlation - NORMAL_95 * std), clamp_correlation(correlation + NORMAL_95 * std)];
+    let value = if correlation > NORMAL_95 * std { clamp(correlation) } else { 0.0 };
+    let interval = [clamp(correlation - NORMAL_95 * std), clamp(correlation + NORMAL_95 * std)];
     let legs = &fit.sample.legs;
     let driven_distance = |leg: &Leg| distance(&leg.odometry[0].between(&leg.odometry[1]));
     let mean_leg_distance = legs.iter().map(driven_distance).sum::<f64>() / legs.len() as f64;
     let correlation_length = if value > 0.0 { -mean_leg_distance / libm::log(value) } else { 0.0 };
-    Persistence { correlation: Estimate { value, interval: interval_of }, length: correlation_length }
+    Persistence { correlation: Estimate { value, interval }, length: correlation_length }
 }

@@ -34,9 +34,9 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask
         let mut accepted = None;
         for halving in 0..=MAX_HALVINGS {
             let candidate = (parameters + step * 0.5_f64.powi(halving as i32)).map(|each| each.max(0.0));
-            let candidate_innovations = residuals.filtered(&candidate);
-            if candidate_innovations.least_squares.log_likelihood > expansion.log_likelihood() {
-                accepted = Some((candidate, residuals.expansion(candidate_innovations)));
+            let filtered = residuals.filtered(&candidate);
+            if filtered.least_squares.log_likelihood > expansion.log_likelihood() {
+                accepted = Some((candidate, residuals.expansion(filtered)));
                 break;
             }
         }

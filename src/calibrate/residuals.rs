@@ -127,38 +127,31 @@ fn has_direction(read: f64, executed: f64, is_linear: bool) -> bool {
 fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_linear: bool) -> Observation {
     let read = OdomDelta::from_poses(&SE2::identity(), &expected);
     let OdomDelta { rot1, trans, rot2 } = rule.legs(&read);
-    let unit_variances_of_reading = unit_variances(rule, &read);
-    let [first, along, second] = [
-        unit_variances_of_reading.map(|unit| unit.rot1.0),
-        unit_variances_of_reading.map(|unit| unit.trans.0),
-        unit_variances_of_reading.map(|unit| unit.rot2.0),
-    ];
+    let unit = unit_variances(rule, &read);
+    let [first, along, second] =
+        [unit.map(|unit| unit.rot1.0), unit.map(|unit| unit.trans.0), unit.map(|unit| unit.rot2.0)];
     let (sin, cos) = libm::sincos(rot1);
-    let [along_drive, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
+    let [ahead, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
     let turn_residual = wrap_angle(motion.theta() - rot1 - rot2);
-    let (residuals, coefficients, lateral_coefficients) = if has_direction(read.trans, along_drive, is_linear)
-    {
-        let (dir_error, length_error) = if is_linear {
-            (left / trans, along_drive - trans)
+    let (residuals, coefficients, bearing_row) = if has_direction(read.trans, ahead, is_linear) {
+        let (bearing_error, length_error) = if is_linear {
+            (left / trans, ahead - trans)
         } else {
-            (libm::atan2(left, along_drive), libm::hypot(along_drive, left) - trans)
+            (libm::atan2(left, ahead), libm::hypot(ahead, left) - trans)
         };
-        let across_row = RowVector3::new(-sin, cos, 0.0) / trans;
-        ([dir_error, length_error, wrap_angle(turn_residual - dir_error)], [first, along, second], across_row)
-    } else {
-        let both_rotations = [first[0] + second[0], first[1] + second[1]];
+        let bearing_row = RowVector3::new(-sin, cos, 0.0) / trans;
         (
-            [f64::NAN, along_drive - trans, turn_residual],
-            [[0.0; 2], along, both_rotations],
-            RowVector3::zeros(),
+            [bearing_error, length_error, wrap_angle(turn_residual - bearing_error)],
+            [first, along, second],
+            bearing_row,
         )
+    } else {
+        let both = [first[0] + second[0], first[1] + second[1]];
+        ([f64::NAN, ahead - trans, turn_residual], [[0.0; 2], along, both], RowVector3::zeros())
     };
     let forward_row = RowVector3::new(cos, sin, 0.0);
-    let jacobian = Matrix3::from_rows(&[
-        lateral_coefficients,
-        forward_row,
-        RowVector3::new(0.0, 0.0, 1.0) - lateral_coefficients,
-    ]);
+    let jacobian =
+        Matrix3::from_rows(&[bearing_row, forward_row, RowVector3::new(0.0, 0.0, 1.0) - bearing_row]);
     Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
 }
 
@@ -166,18 +159,15 @@ fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_li
 fn omni_residuals(expected: SE2, motion: &SE2) -> Observation {
     let read = OdomDelta::from_poses(&SE2::identity(), &expected);
     let OdomDelta { rot1, trans, rot2 } = read;
-    let unit_variances_of_reading = unit_variances(OdometryRule::Omni, &read);
+    let unit = unit_variances(OdometryRule::Omni, &read);
     let (sin, cos) = libm::sincos(rot1);
     let residuals = [
         wrap_angle(motion.theta() - rot1 - rot2),
         cos * motion.x() + sin * motion.y() - trans,
         cos * motion.y() - sin * motion.x(),
     ];
-    let coefficients = [
-        unit_variances_of_reading.map(|unit| unit.rot2.0),
-        unit_variances_of_reading.map(|unit| unit.trans.0),
-        unit_variances_of_reading.map(|unit| unit.strafe.0),
-    ];
+    let coefficients =
+        [unit.map(|unit| unit.rot2.0), unit.map(|unit| unit.trans.0), unit.map(|unit| unit.strafe.0)];
     let jacobian = Matrix3::new(0.0, 0.0, 1.0, cos, sin, 0.0, -sin, cos, 0.0);
     Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
 }
@@ -204,9 +194,8 @@ fn velocity_residuals(dt: f64, read: &SE2, motion: &SE2, is_linear: bool) -> Obs
             ]) / dt;
             let residuals = if is_linear {
                 let turn_residual = wrap_angle(motion.theta() - expected.theta());
-                let pose_error =
-                    Vector3::new(motion.x() - expected.x(), motion.y() - expected.y(), turn_residual);
-                (jacobian * pose_error).into()
+                let error = Vector3::new(motion.x() - expected.x(), motion.y() - expected.y(), turn_residual);
+                (jacobian * error).into()
             } else {
                 [executed.v_hat - v, wrap_angle((executed.omega_hat - omega) * dt) / dt, executed.gamma_hat]
             };

@@ -58,8 +58,8 @@ impl Sample {
             expected = expected * *expected_motion;
             driven_distance += distance(expected_motion);
             if driven_distance >= length {
-                let (base_motion, reference) = self.reference_motion(first, leg, parameters);
-                windows.push(Window { error: base_motion.boxminus(&expected), wheels, reference });
+                let (seen, reference) = self.reference_motion(first, leg, parameters);
+                windows.push(Window { error: seen.boxminus(&expected), wheels, reference });
                 first = leg + 1;
             }
         }
@@ -69,19 +69,17 @@ impl Sample {
     /// Returns the motion that the reference saw over several legs, and the covariance of its error in the frame of their end.
     fn reference_motion(&self, first: usize, last: usize, parameters: &Parameters) -> (SE2, Matrix3<f64>) {
         let [start, end] = [first, last].map(|leg| &self.legs[leg]);
-        let whole_window = Leg {
+        let window = Leg {
             reference: [start.reference[0], end.reference[1]],
             interpolation_variances: [start.interpolation_variances[0], end.interpolation_variances[1]],
             ..*start
         };
-        let reference_motion = self.systematic.motion(&whole_window);
-        let covariances = self.systematic.reference_jacobians(&whole_window).map(|jacobian| {
-            let rotated_jacobian = to_end_frame(&reference_motion) * jacobian;
-            rotated_jacobian
-                * Matrix3::from_diagonal(&reference_variances(parameters))
-                * rotated_jacobian.transpose()
+        let motion = self.systematic.motion(&window);
+        let covariances = self.systematic.reference_jacobians(&window).map(|jacobian| {
+            let rotated = to_end_frame(&motion) * jacobian;
+            rotated * Matrix3::from_diagonal(&reference_variances(parameters)) * rotated.transpose()
         });
-        (reference_motion, covariances.iter().sum())
+        (motion, covariances.iter().sum())
     }
 
     /// Returns the covariance of the wheels' noise over one leg, in the frame of its end. None of an outlier, and of a leg that does not
@@ -93,9 +91,9 @@ impl Sample {
             jacobian.set_row(0, &wheel_direction.transpose());
         }
         let noise_jacobian = jacobian.try_inverse().filter(|_| !self.outliers[leg])?;
-        let rotated_jacobian = to_end_frame(&expected) * noise_jacobian;
+        let rotated = to_end_frame(&expected) * noise_jacobian;
         let variances = self.options.model.wheel_variances(&coefficients, parameters);
-        Some(rotated_jacobian * Matrix3::from_diagonal(&variances) * rotated_jacobian.transpose())
+        Some(rotated * Matrix3::from_diagonal(&variances) * rotated.transpose())
     }
 }
 
@@ -181,25 +179,25 @@ pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Reco
     let expected_coverage = coverage_range(compared_count, scale_std);
     let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected_coverage)];
     // Windows of the whole log, each under the fit to the other half.
-    let held_out_halves = half_ranges(all.legs.len());
-    let held_out_halves = || held_out_halves.iter().cloned().zip(&by_other_half);
-    let covariances: Vec<Option<Matrix3<f64>>> = held_out_halves()
+    let halves = half_ranges(all.legs.len());
+    let held_out = || halves.iter().cloned().zip(&by_other_half);
+    let covariances: Vec<Option<Matrix3<f64>>> = held_out()
         .flat_map(|(half, parameters)| half.map(|leg| all.wheel_covariance(leg, parameters)))
         .collect();
     let windows = WINDOW_LENGTHS.map(|length| {
         let windows_of_half = |(half, parameters)| all.windows(half, length, &covariances, parameters);
-        held_out_halves().flat_map(windows_of_half).collect::<Vec<_>>()
+        held_out().flat_map(windows_of_half).collect::<Vec<_>>()
     });
     let inflation = required_inflation(&windows[0]);
-    let window_coverages: Vec<WindowCoverage> =
+    let coverages: Vec<WindowCoverage> =
         windows.iter().zip(WINDOW_LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
-    checks.extend(window_checks(&window_coverages, scale_std));
+    checks.extend(window_checks(&coverages, scale_std));
     let recommended = inflation.map(|inflation| Recommended {
         alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),
         inflation,
-        reason: recommendation_reason(&window_coverages[0], inflation),
+        reason: recommendation_reason(&coverages[0], inflation),
     });
-    Recommendation { recommended, checks, windows: window_coverages }
+    Recommendation { recommended, checks, windows: coverages }
 }
 
 fn recommendation_reason(window: &WindowCoverage, inflation: f64) -> String {

@@ -129,7 +129,7 @@ impl Arc {
             .collect()
     }
 
-    /// Returns a box that holds the arc: least x, least y, greatest x, greatest y.
+    /// Returns a box that holds the arc: minimum x, minimum y, maximum x, maximum y.
     pub fn bounding_box(&self) -> [f64; 4] {
         // No point of the arc is further from its middle than half its length, or than the diameter of its circle.
         let middle_pose = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
@@ -254,7 +254,7 @@ impl DrivenArc {
             .flatten()
     }
 
-    /// Returns a box that holds the arc: least x, least y, greatest x, greatest y.
+    /// Returns a box that holds the arc: minimum x, minimum y, maximum x, maximum y.
     pub fn bounding_box(&self) -> [f64; 4] {
         if self.arc.turn.abs() > PI {
             return self.arc.bounding_box();
@@ -293,20 +293,20 @@ impl ArcPiece {
             if length > MIN_LENGTH { (1.0 / (length * half_sinc), turn / length) } else { (0.0, 0.0) };
         let tangent = [(to[0] - from[0]) * per_metre, (to[1] - from[1]) * per_metre];
         let half_length = 0.5 * length;
-        let flat_course = Self {
+        let flat = Self {
             middle: [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])],
             tangent,
             curvature,
             half_length,
             error: 0.0,
         };
-        let [_, rise]: [f64; 2] = flat_course.local_point(half_length);
-        let middle = [flat_course.middle[0] + rise * tangent[1], flat_course.middle[1] - rise * tangent[0]];
+        let [_, rise]: [f64; 2] = flat.local_point(half_length);
+        let middle = [flat.middle[0] + rise * tangent[1], flat.middle[1] - rise * tangent[0]];
         let half_turn_squared = 0.25 * turn * turn;
         Self {
             middle,
             error: half_length * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
-            ..flat_course
+            ..flat
         }
     }
 

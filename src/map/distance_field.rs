@@ -48,7 +48,7 @@ const NOT_COMPUTED: f32 = f32::MIN;
 const UNDIVIDED_DISTANCE: f64 = 8.0;
 
 impl DistanceField {
-    /// Fills the field of the walls of a tree within `bounds` (least x, least y, greatest x, greatest y; m). `solid` are the
+    /// Fills the field of the walls of a tree within `bounds` (minimum x, minimum y, maximum x, maximum y; m). `solid` are the
     /// cells that the walls outline.
     pub fn new(tree: &WallTree, bounds: [f64; 4], solid: Option<&OccupancyGrid>) -> Self {
         let mut builder = FieldBuilder::new(tree, bounds);
@@ -96,10 +96,10 @@ impl DistanceField {
         // With the middle of the cell at distance d from the wall, `least` is d − radius and the upper bound d + radius.
         // In a block that was not divided d is known to d/8: at most (1 + 1/8)/(1 − 1/8) times as far.
         let radius = 1.001 * self.radius;
-        let max_distance = (UNDIVIDED_DISTANCE + 1.0) / (UNDIVIDED_DISTANCE - 1.0)
+        let upper_bound = (UNDIVIDED_DISTANCE + 1.0) / (UNDIVIDED_DISTANCE - 1.0)
             * (least + radius + self.uncertainty)
             + radius;
-        if least == f64::from(NOT_COMPUTED) { f64::INFINITY } else { max_distance }
+        if least == f64::from(NOT_COMPUTED) { f64::INFINITY } else { upper_bound }
     }
 }
 
@@ -182,16 +182,14 @@ impl FieldBuilder {
         let uncertainty = size as f64 * self.field.uncertainty;
         // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
         self.near.truncate(range[1]);
-        let Some([min_distance, max_distance_of_block]) =
-            self.measure_candidates(tree, centre, block, uncertainty)
+        let Some([min_distance, max_distance]) = self.measure_candidates(tree, centre, block, uncertainty)
         else {
             return;
         };
         if size > 1 && min_distance <= UNDIVIDED_DISTANCE * radius + uncertainty / BLOCK_UNCERTAINTY {
-            let child_reach = max_distance_of_block + 2.0 * radius + self.slack;
-            self.near.extend(
-                self.measured.iter().filter(|(least, _)| *least <= child_reach).map(|(_, near)| *near),
-            );
+            let reach = max_distance + 2.0 * radius + self.slack;
+            self.near
+                .extend(self.measured.iter().filter(|(least, _)| *least <= reach).map(|(_, near)| *near));
             let range = [range[1], self.near.len()];
             let half_size = size / 2;
             for [column, row] in [[half_size, half_size], [0, half_size], [half_size, 0], [0, 0]] {
@@ -199,19 +197,19 @@ impl FieldBuilder {
             }
             return;
         }
-        // If `least > radius`, no wall passes through the block, so that all of it is on one side of each outline.
+        // If `min_distance > radius`, no wall passes through the block, so that all of it is on one side of each outline.
         let is_in_blocked_cell =
             min_distance > radius && solid.is_some_and(|solid| solid.is_blocked_at(centre));
         for row in bottom..top {
             for column in left..right {
                 let [x, y] = self.centre([column, row], 1);
-                let cell_slack = self.field.radius
+                let offset = self.field.radius
                     + ((x - centre[0]) * (x - centre[0]) + (y - centre[1]) * (y - centre[1])).sqrt();
                 // A relative error of 1e-6 is larger than the rounding of an f32.
                 let cell_bound = if is_in_blocked_cell {
                     f64::NEG_INFINITY
                 } else {
-                    min_distance * (1.0 - 1e-6) - cell_slack - self.slack
+                    min_distance * (1.0 - 1e-6) - offset - self.slack
                 };
                 self.field.lower_bounds[row * self.field.columns + column] = cell_bound as f32;
             }
@@ -235,7 +233,7 @@ impl FieldBuilder {
         measured.clear();
         open.clear();
         open.extend_from_slice(&near[from..to]);
-        let mut nearest_upper = f64::INFINITY;
+        let mut upper = f64::INFINITY;
         let mut measured_count = 0;
         while let Some(near) = open.pop() {
             measured_count += 1;
@@ -243,25 +241,25 @@ impl FieldBuilder {
                 return None;
             }
             let distance_to_wall = |wall: usize| tree.line(wall).squared_distance(point).sqrt();
-            let candidate_distance = match near {
+            let least = match near {
                 Candidate::Wall(wall) => distance_to_wall(wall as usize),
                 Candidate::Node(node) => tree.node(node as usize).lower_bound(point),
             };
-            if candidate_distance > nearest_upper + max_excess {
+            if least > upper + max_excess {
                 continue;
             }
-            if candidate_distance < nearest_upper {
-                nearest_upper = nearest_upper.min(match near {
-                    Candidate::Wall(_) => candidate_distance,
+            if least < upper {
+                upper = upper.min(match near {
+                    Candidate::Wall(_) => least,
                     Candidate::Node(node) => distance_to_wall(tree.distinct_walls(node as usize).start),
                 });
             }
-            if size == 1 && nearest_upper <= uncertainty {
-                return Some([0.0, nearest_upper]);
+            if size == 1 && upper <= uncertainty {
+                return Some([0.0, upper]);
             }
             match near {
                 Candidate::Node(node)
-                    if candidate_distance < nearest_upper - uncertainty
+                    if least < upper - uncertainty
                         || tree.node(node as usize).thickness > 0.5 * max_excess =>
                 {
                     if tree.is_leaf(node as usize) {
@@ -272,10 +270,10 @@ impl FieldBuilder {
                         open.extend([2 * node, 2 * node + 1].map(Candidate::Node));
                     }
                 }
-                _ => measured.push((candidate_distance, near)),
+                _ => measured.push((least, near)),
             }
         }
-        Some([measured.iter().map(|(least, _)| *least).fold(nearest_upper, f64::min), nearest_upper])
+        Some([measured.iter().map(|(least, _)| *least).fold(upper, f64::min), upper])
     }
 
     fn centre(&self, first: [usize; 2], size: usize) -> [f64; 2] {

@@ -192,14 +192,14 @@ impl FloorPlan {
             return Verdict::BLOCKED;
         }
         let mut wall_tests = 0;
-        let is_free_between = self.all_near_walls(
+        let free = self.all_near_walls(
             point,
             clearance,
             &mut wall_tests,
             |node| node.is_beyond(point, clearance),
             |wall| wall.distance_to_point(point) > clearance,
         );
-        Verdict { free: is_free_between, wall_tests }
+        Verdict { free, wall_tests }
     }
 
     /// Tests whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the
@@ -223,10 +223,10 @@ impl FloorPlan {
             unrolled: OnceCell::new(),
             wall_tests: end.wall_tests,
         };
-        let is_free_between = driven
+        let free = driven
             .arc_pieces()
-            .all(|course| sweep.is_free_between(&course, -course.half_length, course.half_length));
-        Verdict { free: is_free_between, wall_tests: sweep.wall_tests }
+            .all(|piece| sweep.is_piece_free(&piece, -piece.half_length, piece.half_length));
+        Verdict { free, wall_tests: sweep.wall_tests }
     }
 
     fn collision_index(&self) -> &CollisionIndex {
@@ -321,30 +321,30 @@ struct Sweep<'a> {
 
 impl Sweep<'_> {
     /// Tests whether an arc piece is free between `from` and `to` metres after its middle. Tests four parts of it at once.
-    fn is_free_between(&mut self, course: &ArcPiece, from: f64, to: f64) -> bool {
+    fn is_piece_free(&mut self, piece: &ArcPiece, from: f64, to: f64) -> bool {
         let field = self.field;
-        let half_piece = (to - from) / (2 * LANES) as f64;
-        let needed_distance = self.clearance + course.error + half_piece;
-        let piece_middles = course.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_piece + from);
-        let distances = field.lower_bounds(&piece_middles);
-        if !any_lane_set(distances.simd_le(f64x4::splat(needed_distance))) {
+        let half_part = (to - from) / (2 * LANES) as f64;
+        let needed = self.clearance + piece.error + half_part;
+        let middles = piece.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_part + from);
+        let lower_bounds = field.lower_bounds(&middles);
+        if !any_lane_set(lower_bounds.simd_le(f64x4::splat(needed))) {
             return true;
         }
-        let distances = distances.to_array();
-        let nearest_distance = distances.into_iter().fold(f64::INFINITY, f64::min);
-        if field.upper_bound(nearest_distance) <= self.clearance - course.error {
+        let distances = lower_bounds.to_array();
+        let least = distances.into_iter().fold(f64::INFINITY, f64::min);
+        if field.upper_bound(least) <= self.clearance - piece.error {
             return false;
         }
         // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Walls near it are measured.
-        let is_divisible = half_piece > field.radius();
-        let [x, y] = piece_middles.map(|lanes| lanes.to_array());
+        let is_divisible = half_part > field.radius();
+        let [x, y] = middles.map(|lanes| lanes.to_array());
         (0..LANES).all(|i| {
-            distances[i] > needed_distance
+            distances[i] > needed
                 || if is_divisible {
-                    let piece_start = from + (2 * i) as f64 * half_piece;
-                    self.is_free_between(course, piece_start, piece_start + 2.0 * half_piece)
+                    let start = from + (2 * i) as f64 * half_part;
+                    self.is_piece_free(piece, start, start + 2.0 * half_part)
                 } else {
-                    self.walls_keep_clear([x[i], y[i]], half_piece + course.error, course.error)
+                    self.walls_keep_clear([x[i], y[i]], half_part + piece.error, piece.error)
                 }
         })
     }
@@ -366,9 +366,9 @@ impl Sweep<'_> {
                         && node.line().distance_to_local_arc(local_arc()) - node.thickness > clearance
             },
             |wall| {
-                let squared_distance = wall.squared_distance_to_point(middle);
-                if squared_distance > outer * outer || squared_distance < inner * inner {
-                    return squared_distance > outer * outer;
+                let squared = wall.squared_distance_to_point(middle);
+                if squared > outer * outer || squared < inner * inner {
+                    return squared > outer * outer;
                 }
                 wall.distance_to_local_arc(local_arc()) > clearance
             },

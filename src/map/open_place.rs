@@ -83,20 +83,20 @@ impl<'a> SquareRaster<'a> {
     fn middle_of_largest_free_square(&self) -> Option<[f64; 2]> {
         let (mut largest_side, mut middle) = (0, None);
         // Row from which on each column has been free so far.
-        let mut free_since_row = vec![0u32; self.columns];
+        let mut free_since = vec![0u32; self.columns];
         for row in 0..self.rows {
-            for (column, from) in free_since_row.iter_mut().enumerate() {
+            for (column, from) in free_since.iter_mut().enumerate() {
                 if !self.is_free_square(column, row) {
                     *from = row as u32 + 1;
                 }
             }
-            // A square with a side of `largest + 1` ends at this row if each column from `left` to `right` has been free for as many rows.
+            // A square with a side of `largest_side + 1` ends at this row if each column from `left` to `right` has been free for as many rows.
             // Columns below `first_unchecked` were checked already.
             let (mut left, mut first_unchecked) = (0, 0);
             while left + largest_side < self.columns {
                 let right = left + largest_side;
-                let was_blocked = |column: &usize| free_since_row[*column] as usize + largest_side > row;
-                if let Some(short) = (left.max(first_unchecked)..=right).rev().find(was_blocked) {
+                let is_too_short = |column: &usize| free_since[*column] as usize + largest_side > row;
+                if let Some(short) = (left.max(first_unchecked)..=right).rev().find(is_too_short) {
                     (left, first_unchecked) = (short + 1, right + 1);
                     continue;
                 }

@@ -13,7 +13,7 @@ pub(super) struct WallTree {
     /// Walls, those of each node side by side.
     walls: Vec<Segment>,
     /// Walls prepared for distances, in the same order.
-    lines: Vec<PreparedWall>,
+    lines: Vec<PreparedSegment>,
     nodes: Vec<Node>,
     /// Number of times that the walls are halved.
     depth: u32,
@@ -24,7 +24,7 @@ pub(super) struct WallTree {
 /// Walls of a subtree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    hull: PreparedWall,
+    hull: PreparedSegment,
     /// Maximum distance of a wall of the node from the line, m.
     pub thickness: f64,
     /// True if all walls of the node are equal, so that one represents them.
@@ -49,7 +49,7 @@ impl WallTree {
             lines: Vec::new(),
             // The root is always visited, and has no sibling.
             nodes: vec![
-                Node { hull: PreparedWall::AT_ORIGIN, thickness: f64::INFINITY, all_equal: false };
+                Node { hull: PreparedSegment::AT_ORIGIN, thickness: f64::INFINITY, all_equal: false };
                 2
             ],
             depth: leaf_count.ilog2(),
@@ -60,74 +60,63 @@ impl WallTree {
             let children = [2 * parent, 2 * parent + 1].map(|child| tree.make_node(child));
             tree.nodes.extend(children);
         }
-        tree.lines = tree.walls.iter().map(PreparedWall::new).collect();
+        tree.lines = tree.walls.iter().map(PreparedSegment::new).collect();
         tree
     }
 
     /// Sorts the walls of a node into two halves, one for each child. The sort key is the coordinate of [`sort_keys`] that varies
     /// most: x or y of the midpoint, or x or y of the direction.
     fn divide_in_half(&mut self, at: usize) {
-        let (range, middle_index) = (self.range(at), self.range(2 * at).end);
+        let (range, middle) = (self.range(at), self.range(2 * at).end);
         let walls = &mut self.walls[range.clone()];
-        let mut key_ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
+        let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
         for wall in &*walls {
-            for ([least, most], place) in key_ranges.iter_mut().zip(sort_keys(wall)) {
+            for ([least, most], place) in ranges.iter_mut().zip(sort_keys(wall)) {
                 (*least, *most) = (min_of(*least, place), max_of(*most, place));
             }
         }
-        let coordinate_ranges = key_ranges.map(|[least, most]| most - least);
-        let axis =
-            (1..4).fold(
-                0,
-                |widest, axis| {
-                    if coordinate_ranges[axis] > coordinate_ranges[widest] { axis } else { widest }
-                },
-            );
-        select_smallest(walls, middle_index - range.start, axis);
+        let widths = ranges.map(|[least, most]| most - least);
+        let axis = (1..4).fold(0, |widest, axis| if widths[axis] > widths[widest] { axis } else { widest });
+        select_smallest(walls, middle - range.start, axis);
     }
 
     fn make_node(&self, at: usize) -> Node {
         let walls = &self.walls[self.range(at)];
         // The capsule lies along the mean direction of the walls or along an axis, whichever makes it narrowest.
-        let direction_sum =
-            walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], place| [x + place[2], y + place[3]]);
-        let sum_length = libm::hypot(direction_sum[0], direction_sum[1]);
-        let mean_direction = if sum_length > 0.0 {
-            direction_sum.map(|coordinate| coordinate / sum_length)
-        } else {
-            [1.0, 0.0]
-        };
-        let candidate_axes = [mean_direction, [1.0, 0.0], [0.0, 1.0]];
-        let mut axis_extents = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
+        let sum = walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], place| [x + place[2], y + place[3]]);
+        let length = libm::hypot(sum[0], sum[1]);
+        let mean = if length > 0.0 { sum.map(|coordinate| coordinate / length) } else { [1.0, 0.0] };
+        let axes = [mean, [1.0, 0.0], [0.0, 1.0]];
+        let mut extents = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
-            for ([x, y], [back, right, front, left]) in candidate_axes.iter().zip(&mut axis_extents) {
+            for ([x, y], [back, right, front, left]) in axes.iter().zip(&mut extents) {
                 let (along, off) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
                 (*back, *right) = (min_of(*back, along), min_of(*right, off));
                 (*front, *left) = (max_of(*front, along), max_of(*left, off));
             }
         }
-        let mut narrowest_capsule = (f64::INFINITY, PreparedWall::AT_ORIGIN);
-        for ([x, y], [back, right, front, left]) in candidate_axes.into_iter().zip(axis_extents) {
+        let mut narrowest = (f64::INFINITY, PreparedSegment::AT_ORIGIN);
+        for ([x, y], [back, right, front, left]) in axes.into_iter().zip(extents) {
             let (axis_offset, width) = (0.5 * (right + left), left - right);
             // The ends of a capsule are round, so that a capsule as wide as it is long is a disc.
-            let cap_radius = (0.25 * width).min(0.5 * (front - back));
+            let radius = (0.25 * width).min(0.5 * (front - back));
             let point_at = |along: f64| [along * x - axis_offset * y, along * y + axis_offset * x];
-            if width < narrowest_capsule.0 {
-                narrowest_capsule = (
+            if width < narrowest.0 {
+                narrowest = (
                     width,
-                    PreparedWall::new(&Segment {
-                        from: point_at(back + cap_radius),
-                        to: point_at(front - cap_radius),
+                    PreparedSegment::new(&Segment {
+                        from: point_at(back + radius),
+                        to: point_at(front - radius),
                     }),
                 );
             }
         }
-        let capsule_axis = narrowest_capsule.1;
+        let hull = narrowest.1;
         // No point of a wall is further from the capsule's axis than the further end of the wall.
         let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
-        let max_distance = wall_ends.map(|end| capsule_axis.squared_distance(end)).fold(0.0, max_of).sqrt();
+        let max_distance = wall_ends.map(|end| hull.squared_distance(end)).fold(0.0, max_of).sqrt();
         Node {
-            hull: capsule_axis,
+            hull,
             thickness: max_distance + self.slack,
             all_equal: walls.iter().all(|wall| *wall == walls[0]),
         }
@@ -147,7 +136,7 @@ impl WallTree {
         if self.nodes[at].all_equal { range.start..range.start + 1 } else { range }
     }
 
-    pub fn line(&self, wall: usize) -> &PreparedWall {
+    pub fn line(&self, wall: usize) -> &PreparedSegment {
         &self.lines[wall]
     }
 
@@ -193,7 +182,7 @@ impl WallTree {
 impl Node {
     /// Returns the axis of the capsule.
     pub fn line(&self) -> Segment {
-        let PreparedWall { from, along, .. } = self.hull;
+        let PreparedSegment { from, along, .. } = self.hull;
         Segment { from, to: [from[0] + along[0], from[1] + along[1]] }
     }
 
@@ -211,26 +200,22 @@ impl Node {
     }
 }
 
-/// Wall prepared for many distances.
+/// Segment prepared for the distances of many points.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PreparedWall {
+pub(super) struct PreparedSegment {
     from: [f64; 2],
     along: [f64; 2],
-    /// 1/|along|²; 0 for a wall without length.
+    /// 1/|along|²; 0 for a segment without length.
     per_square: f64,
 }
 
-impl PreparedWall {
+impl PreparedSegment {
     const AT_ORIGIN: Self = Self { from: [0.0; 2], along: [0.0; 2], per_square: 0.0 };
 
     fn new(wall: &Segment) -> Self {
-        let direction = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
-        let inverse_squared_length = 1.0 / (direction[0] * direction[0] + direction[1] * direction[1]);
-        Self {
-            from: wall.from,
-            along: direction,
-            per_square: if inverse_squared_length.is_finite() { inverse_squared_length } else { 0.0 },
-        }
+        let along = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
+        let per_square = 1.0 / (along[0] * along[0] + along[1] * along[1]);
+        Self { from: wall.from, along, per_square: if per_square.is_finite() { per_square } else { 0.0 } }
     }
 
     /// Returns the square of the distance to a point, m².

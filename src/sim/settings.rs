@@ -139,9 +139,9 @@ impl Setting<'_> {
 
 pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), SettingsError> {
     for (i, Field { declaration, allowed }) in group.fields().iter().enumerate() {
-        let number_text = *group.number(i);
-        if !allowed.contains(&number_text) {
-            return check_real(&format!("{key}.{}", declaration.key), number_text, allowed);
+        let value = *group.number(i);
+        if !allowed.contains(&value) {
+            return check_real(&format!("{key}.{}", declaration.key), value, allowed);
         }
     }
     Ok(())

@@ -74,7 +74,7 @@ impl CrossTrack {
         let skew = m3 / (m2 * sd);
         // Rotating the axis by dh changes d by −along·dh. The influence of a pose on the mean heading is sin(turn)/resultant.
         let heading_influence = 3.0 * (skew * ad / m2 - ad2 / (m2 * sd)) / resultant;
-        // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + by_heading·sin(turn), with z = d/sd. It
+        // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + heading_influence·sin(turn), with z = d/sd. It
         // is a polynomial in d, so that its mean square is a sum of moments.
         let influence_polynomial = [0.5 * skew, -3.0 / sd, -1.5 * skew / m2, 1.0 / (m2 * sd)];
         let mut mean_squared_influence = heading_influence * heading_influence * ss;

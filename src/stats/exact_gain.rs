@@ -88,15 +88,13 @@ impl PolarMotion {
         let mean_log_jacobians = [chart, mean_log_length + ratio - LN_2];
         let charts = ChartGaussians::new((plain.mean, plain.cov), twist, arc, mean_log_jacobians);
         let [turn, by_bearing, turn_after] = self.turn;
-        let one_if_short_of_circle =
-            |turn: f64, reach: f64| if turn.abs() + reach < TAU { 1.0 } else { f64::NAN };
-        let pose_or_nan = one_if_short_of_circle(turn, self.integration_limit(by_bearing, turn_after));
-        let floor_or_nan =
-            one_if_short_of_circle(2.0 * bearing, self.integration_limit(2.0 * deviation, 0.0));
+        let defined = |turn: f64, reach: f64| if turn.abs() + reach < TAU { 1.0 } else { f64::NAN };
+        let pose = defined(turn, self.integration_limit(by_bearing, turn_after));
+        let floor = defined(2.0 * bearing, self.integration_limit(2.0 * deviation, 0.0));
         let gain = charts.gain();
         ExactGain {
-            value: LikelihoodGain { pose: gain.pose * pose_or_nan, floor: gain.floor * floor_or_nan },
-            exponential: ExponentialMoments { mean: twist.0 * pose_or_nan, cov: twist.1 * pose_or_nan },
+            value: LikelihoodGain { pose: gain.pose * pose, floor: gain.floor * floor },
+            exponential: ExponentialMoments { mean: twist.0 * pose, cov: twist.1 * pose },
         }
     }
 
@@ -120,7 +118,7 @@ impl PolarMotion {
     /// has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
     fn twist_moments(&self) -> (Moments, f64) {
         let ([bearing, deviation], [turn, by_bearing, turn_after]) = (self.bearing, self.turn);
-        let integration_limit = self.integration_limit(by_bearing, turn_after);
+        let limit = self.integration_limit(by_bearing, turn_after);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
         let last_turn_nodes = self.nodes(turn_after, NO_BREAKS);
         for first in self.nodes(deviation, NO_BREAKS) {
@@ -129,7 +127,7 @@ impl PolarMotion {
             for last in &last_turn_nodes {
                 let excess_turn = by_bearing * first.value + turn_after * last.value;
                 let weight = first.weight * last.weight;
-                if excess_turn.abs() > integration_limit {
+                if excess_turn.abs() > limit {
                     continue;
                 }
                 let half_turn = 0.5 * (turn + excess_turn);
@@ -147,20 +145,21 @@ impl PolarMotion {
     /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
     /// mean of ln|c·sinc²(φ/2)|, with c the length of that arc divided by the driven length.
     fn arc_moments(&self) -> (Moments, f64) {
-        let ([bearing, deviation], half_turn) = (self.bearing, 0.5 * self.turn[0]);
+        let ([bearing, deviation], half_nominal_turn) = (self.bearing, 0.5 * self.turn[0]);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
         // Statistics of a cloud use the arc whose turn is nearest to the commanded one. That arc is driven in the opposite
         // direction if the bearing differs from half the commanded turn by more than π/2.
-        let reversal_breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (half_turn + aside - bearing) / deviation);
+        let reversal_breaks =
+            [-0.5 * PI, 0.5 * PI].map(|aside| (half_nominal_turn + aside - bearing) / deviation);
         for node in self.nodes(deviation, reversal_breaks) {
             let driven_bearing = bearing + deviation * node.value;
-            let half_circles = ((driven_bearing - half_turn) / PI).round();
-            let half_turn_of_arc = driven_bearing - half_circles * PI;
+            let half_circles = ((driven_bearing - half_nominal_turn) / PI).round();
+            let half_turn = driven_bearing - half_circles * PI;
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
-            let half_sinc = sinc(half_turn_of_arc);
+            let half_sinc = sinc(half_turn);
             let length_ratio = drive_sign * if self.is_arc { sinc(driven_bearing) } else { 1.0 } / half_sinc;
             logs.add(node.weight, (length_ratio * half_sinc * half_sinc).abs());
-            moments.add(node.weight, [length_ratio, 0.0], 2.0 * (half_turn_of_arc - bearing));
+            moments.add(node.weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
         }
         let (mean, cov) = moments.finish(self.length);
         let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);

@@ -283,7 +283,7 @@ impl SecondPass {
     ) -> CloudFigures {
         let n = count as f64;
         let means = self.sums.finish().map(|sum| sum / n);
-        let [products @ .., ta, inside_count, in_contour] = means;
+        let [products @ .., ta, inside, inside_contour] = means;
         let [.., t, tt, td] = products;
         let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.spread;
         let (sin, cos) = self.heading;
@@ -306,23 +306,22 @@ impl SecondPass {
         let mut differences = Differences::new(charts);
         for (poses, arcs, weights) in sample {
             let FourPoses { x, y, along, lateral, half, sinc, .. } = poses;
-            let turn_from_reference = wrapped_difference(half * 2.0 - self.spread.mean_turn);
+            let turn = wrapped_difference(half * 2.0 - self.spread.mean_turn);
             let robots = FourRobots {
-                plain: [x, y, turn_from_reference],
+                plain: [x, y, turn],
                 twist: [along, lateral, half * 2.0],
                 arc: [arcs.length, arcs.half * 2.0, f64x4::splat(0.0)],
                 jacobians: [sinc * sinc, arcs.length.abs() * 0.5 * (arcs.sinc * arcs.sinc)],
             };
             differences.add(&robots, weights);
         }
-        let fraction_or_nan =
-            |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
+        let share = |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
         CloudFigures {
             cartesian: CartesianMoments { mean: Vector3::new(x, y, wrap_angle(self.spread.mean_turn)), cov },
             exponential: self.spread.exponential,
             cross_track: CrossTrack::from_moments(count, &track_moments),
-            inside_ellipse: fraction_or_nan(&self.ellipse, inside_count),
-            inside_exponential: fraction_or_nan(&self.twist_ellipse, in_contour),
+            inside_ellipse: share(&self.ellipse, inside),
+            inside_exponential: share(&self.twist_ellipse, inside_contour),
             gain: differences.finish(count),
             log_area_error: differences.log_area_error(count),
         }

@@ -230,29 +230,28 @@ pub fn propagate(
 ) -> Result<Array, JsValue> {
     let fields =
         Fields::new("options", "", options, &["sigma", "command", "alphas", "compounding", "steps"])?;
-    let sigma = fields.optional("sigma", read_covariance)?.unwrap_or_default();
+    let mut sigma = fields.optional("sigma", read_covariance)?.unwrap_or_default();
     let command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
-    let recursion_order = fields.optional("compounding", read_word)?.unwrap_or(Compounding::Chapter);
+    let order = fields.optional("compounding", read_word)?.unwrap_or(Compounding::Chapter);
     let steps = fields
         .optional("steps", |field, value| read_integer(field, read_number(field, value)?, 1..=MAX_STEPS))?
         .unwrap_or(1);
     // Arguments in range cannot give a negative or infinite variance.
-    let read_noise = TangentNoiseModel::from_velocity(&model, &command)
+    let noise_model = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|error| RangeError::new(&error.to_string()))?;
     let twist = TangentNoiseModel::twist(&command);
-    let mut last_sigma = sigma;
     for step in 0..steps {
-        last_sigma = read_noise.propagate(&last_sigma, &twist, recursion_order);
+        sigma = noise_model.propagate(&sigma, &twist, order);
         // The other two methods give sums of covariances, up to rounding.
-        if recursion_order == Compounding::FourthOrder && covariance_root(&last_sigma).is_err() {
+        if order == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
             let message = format!(
                 "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
             );
             return Err(RangeError::new(&message).into());
         }
     }
-    Ok(matrix_rows(&last_sigma))
+    Ok(matrix_rows(&sigma))
 }
 
 /// Exponential map: the pose to which a twist leads from the origin in one unit of time.
@@ -335,11 +334,11 @@ fn draw_poses<M: MotionModel>(
 }
 
 fn read_alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {
-    let read_alphas = read_array("alphas", &fields.value("alphas")?)?;
-    for (i, alpha) in read_alphas.iter().enumerate() {
+    let alphas = read_array("alphas", &fields.value("alphas")?)?;
+    for (i, alpha) in alphas.iter().enumerate() {
         check_real(&format!("alphas[{i}]"), *alpha, &ALPHA_RANGE)?;
     }
-    Ok(read_alphas)
+    Ok(alphas)
 }
 
 fn read_noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
@@ -347,9 +346,9 @@ fn read_noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
 }
 
 fn read_pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {
-    let mut read_pose = [0.0; 3];
-    group_in_range(field, value, &mut read_pose)?;
-    Ok(read_pose.into())
+    let mut pose = [0.0; 3];
+    group_in_range(field, value, &mut pose)?;
+    Ok(pose.into())
 }
 
 fn read_command(value: &JsValue) -> Result<VelocityCmd, JsValue> {
@@ -359,9 +358,9 @@ fn read_command(value: &JsValue) -> Result<VelocityCmd, JsValue> {
 }
 
 fn read_legs(value: &JsValue) -> Result<OdomDelta, JsValue> {
-    let mut read_legs = OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 };
-    group_in_range("control", value, &mut read_legs)?;
-    Ok(read_legs)
+    let mut legs = OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 };
+    group_in_range("control", value, &mut legs)?;
+    Ok(legs)
 }
 
 fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {

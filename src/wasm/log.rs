@@ -122,10 +122,10 @@ fn checked_trajectory(
                 "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned(),
             ),
             TrajectoryError::NotLater { sample, before } => {
-                let earlier = number_text(before);
-                let what =
-                    format!("is not later than the one before, at {earlier} s; allowed are times that rise");
-                (sample, what)
+                let before = number_text(before);
+                let problem =
+                    format!("is not later than the one before, at {before} s; allowed are times that rise");
+                (sample, problem)
             }
         };
         let field = fields.path("");

@@ -102,15 +102,14 @@ pub fn example(seed: u64) -> Log {
     let mut leg = CurrentLeg { odometry: SE2::identity(), truth: start, rows: vec![(0.0, SE2::identity())] };
     for row in 1..ROW_COUNT {
         let time = ROW_INTERVAL * row as f64;
-        let (_, leg_motion) = leg.rows[leg.rows.len() - 1];
+        let (_, motion) = leg.rows[leg.rows.len() - 1];
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
         let [v, omega] = robot.next_speeds(time, &(start * odometry[row - 1].1), &mut rng);
-        let new_leg = leg_motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
-        let odometry_step =
-            Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
-        let pose = odometry[row - 1].1 * SE2::exp(&odometry_step);
+        let next_motion = motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
+        let step = Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
+        let pose = odometry[row - 1].1 * SE2::exp(&step);
         odometry.push((time, pose));
-        leg.rows.push((time, new_leg));
+        leg.rows.push((time, next_motion));
         let has_moved = |from: f64, to: f64| (to - from).abs() > LEG_DISTANCE;
         let has_turned = wrap_angle(pose.theta() - leg.odometry.theta()).abs() > LEG_ANGLE;
         if has_moved(leg.odometry.x(), pose.x()) || has_moved(leg.odometry.y(), pose.y()) || has_turned {
@@ -135,42 +134,38 @@ pub fn example(seed: u64) -> Log {
 /// noise were proportional to time, legs with other boundaries would have less of it.
 fn finish_leg(leg: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
     let [a1, a2, a3, a4] = ALPHAS;
-    let leg_rows = &leg.rows[1..];
-    let (_, driven_leg) = leg.rows[leg_rows.len()];
-    let reading = OdomDelta::from_poses(&SE2::identity(), &driven_leg);
+    let rows = &leg.rows[1..];
+    let (_, driven) = leg.rows[rows.len()];
+    let reading = OdomDelta::from_poses(&SE2::identity(), &driven);
     let variances = OdometryRule::Table.variances(&reading, &[a1, a2, a3, a4, 0.0]);
-    let variance_share = Variance(1.0 / leg_rows.len() as f64);
+    let variance_share = Variance(1.0 / rows.len() as f64);
     let mut unit_noise = [0.0; 3];
-    let mut end = driven_leg;
-    for (time, pose) in leg_rows {
+    let mut end = driven;
+    for (time, pose) in rows {
         unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_share, rng));
         [.., end] = variances.executed(&reading, unit_noise).poses(&SE2::identity());
-        truth.push((*time, leg.truth * pose.boxplus(end.boxminus(&driven_leg))));
+        truth.push((*time, leg.truth * pose.boxplus(end.boxminus(&driven))));
     }
     leg.truth * end
 }
 
 /// Returns the true trajectory as the reference measures it.
 fn measured_by_reference(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
-    let mut current_jump = SE2::identity();
-    let mut remaining_jump_rows = 0;
+    let mut jump = SE2::identity();
+    let mut remaining_rows = 0;
     truth
         .iter()
         .map(|(time, pose)| {
-            if remaining_jump_rows > 0 {
-                remaining_jump_rows -= 1;
+            if remaining_rows > 0 {
+                remaining_rows -= 1;
             } else if rng.random_bool(JUMP_PROBABILITY) {
                 let bearing = TAU * rng.random::<f64>();
-                current_jump = SE2::new(JUMP_SIZE * libm::cos(bearing), JUMP_SIZE * libm::sin(bearing), 0.0);
-                remaining_jump_rows = JUMP_ROWS;
+                jump = SE2::new(JUMP_SIZE * libm::cos(bearing), JUMP_SIZE * libm::sin(bearing), 0.0);
+                remaining_rows = JUMP_ROWS;
             }
-            let heading_error = if remaining_jump_rows > 0 { current_jump } else { SE2::identity() };
-            let sensor_pose = *pose * SE2::new(LEVER_ARM[0], LEVER_ARM[1], MOUNT_YAW);
-            let measured_pose = SE2::new(
-                sensor_pose.x() + heading_error.x(),
-                sensor_pose.y() + heading_error.y(),
-                sensor_pose.theta(),
-            );
+            let offset = if remaining_rows > 0 { jump } else { SE2::identity() };
+            let sensor = *pose * SE2::new(LEVER_ARM[0], LEVER_ARM[1], MOUNT_YAW);
+            let measured_pose = SE2::new(sensor.x() + offset.x(), sensor.y() + offset.y(), sensor.theta());
             (time + CLOCK_OFFSET, measured_pose)
         })
         .collect()

@@ -61,45 +61,37 @@ pub fn panels(model: Model, calibration: &Calibration, driver: Driver) -> [Panel
 
 fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -> Panel {
     let Calibration { alphas, intervals, observations, leg_fits, .. } = calibration;
-    let alpha_of_component = usize::from(is_translation_first(model, kind) != (driver == Driver::Way));
+    let index = usize::from(is_translation_first(model, kind) != (driver == Driver::Way));
     let component_alphas = model.component_alphas()[kind];
-    let alpha = component_alphas[alpha_of_component];
-    let slope_or_none = alphas[alpha];
-    let weighted_points: Vec<[f64; 4]> = observations
+    let alpha = component_alphas[index];
+    let slope = alphas[alpha];
+    let points: Vec<[f64; 4]> = observations
         .iter()
         .zip(leg_fits)
         .filter(|(observation, fit)| !observation.residuals[kind].is_nan() && !fit.is_outlier)
         .map(|(observation, fit)| {
-            let coefficient = observation.coefficients[kind][alpha_of_component];
+            let coefficient = observation.coefficients[kind][index];
             let variance = fit.stds[kind] * fit.stds[kind];
-            let other_variance = variance - slope_or_none.unwrap_or(0.0) * coefficient;
+            let other_variance = variance - slope.unwrap_or(0.0) * coefficient;
             let squared_innovation = fit.standardized[kind] * fit.standardized[kind] * variance;
             // The square of a normal variate of variance v has variance 2v².
             [coefficient, squared_innovation - other_variance, 1.0, 2.0 * variance * variance]
         })
         .collect();
-    let mut panel = Panel {
-        alpha,
-        x: Vec::new(),
-        y: Vec::new(),
-        error: Vec::new(),
-        slope: slope_or_none,
-        interval: intervals[alpha],
-    };
+    let mut panel =
+        Panel { alpha, x: Vec::new(), y: Vec::new(), error: Vec::new(), slope, interval: intervals[alpha] };
     // A panel has no bins if its α is not identified, for example the α of rotation for legs that hardly turn.
-    if panel.slope.is_none() {
+    if slope.is_none() {
         return panel;
     }
-    let mut sorted_regressors: Vec<f64> = weighted_points.iter().map(|point| point[0]).collect();
-    sorted_regressors.sort_unstable_by(f64::total_cmp);
-    let bin_size = weighted_points.len().div_ceil(BINS).max(MIN_LEGS_PER_BIN);
+    let mut regressors: Vec<f64> = points.iter().map(|point| point[0]).collect();
+    regressors.sort_unstable_by(f64::total_cmp);
+    let bin_size = points.len().div_ceil(BINS).max(MIN_LEGS_PER_BIN);
     let mut previous_limit = f64::NEG_INFINITY;
-    for bin in sorted_regressors.chunks(bin_size) {
+    for bin in regressors.chunks(bin_size) {
         let bin_limit = bin[bin.len() - 1];
-        let bin: Vec<&[f64; 4]> = weighted_points
-            .iter()
-            .filter(|point| point[0] > previous_limit && point[0] <= bin_limit)
-            .collect();
+        let bin: Vec<&[f64; 4]> =
+            points.iter().filter(|point| point[0] > previous_limit && point[0] <= bin_limit).collect();
         previous_limit = bin_limit;
         let sum =
             |value: &dyn Fn(&[f64; 4]) -> f64| bin.iter().map(|point| point[2] * value(point)).sum::<f64>();

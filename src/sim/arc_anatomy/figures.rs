@@ -27,7 +27,7 @@ js_structs! {
 
 impl ArcWithCircle {
     /// Returns the first part of the arc, up to this fraction of its length.
-    pub(super) fn arc_of_velocities(&self, start: SE2, share: f64) -> Arc {
+    pub(super) fn first_part(&self, start: SE2, share: f64) -> Arc {
         Arc { start, length: self.arc_length * share, turn: self.turn * share }
     }
 

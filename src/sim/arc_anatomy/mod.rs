@@ -86,9 +86,9 @@ impl ArcAnatomy {
             [pose.x(), pose.y(), x, y]
         };
         Paths {
-            commanded: commanded.arc_of_velocities(start, 1.0).points(),
-            inverted: inverted.arc_of_velocities(start, 1.0).points(),
-            driven: driven.arc_of_velocities(start, 1.0).points(),
+            commanded: commanded.first_part(start, 1.0).points(),
+            inverted: inverted.first_part(start, 1.0).points(),
+            driven: driven.first_part(start, 1.0).points(),
             lie: (0..=LIE_CHORDS).map(|i| position_of(pose_on_lie_path(i, LIE_CHORDS))).collect(),
             ticks: (0..=LIE_TICKS).map(tick_segment).collect(),
         }
@@ -101,8 +101,8 @@ impl ArcAnatomy {
         let Stats { commanded, driven, .. } = self.stats();
         let xi = self.settings.next().boxminus(&start);
         [
-            commanded.arc_of_velocities(start, share).end(),
-            driven.arc_of_velocities(start, share).end(),
+            commanded.first_part(start, share).end(),
+            driven.first_part(start, share).end(),
             start.boxplus(xi * share),
         ]
     }

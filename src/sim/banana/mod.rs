@@ -356,15 +356,15 @@ impl BananaMachine {
         let Figures { cartesian, exponential, .. } = &self.figures;
         let outline_if = |holds: bool, outline: Vec<[f64; 2]>| if holds { outline } else { Vec::new() };
         let has_outlines = self.shown() > 1;
-        let defined_charts = has_outlines && self.chart_holds();
+        let has_exponential = has_outlines && self.chart_holds();
         let VelocityCmd { v, omega, dt } = self.settings.command;
         let contour = ExponentialContour::new(exponential, &START_POSE);
         Contours {
             command: arc_points(v * dt, omega * dt),
             ellipse: outline_if(has_outlines, Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS)),
             linearized: Ellipse::from_moments(&self.linearized()).boundary(OUTLINE_SEGMENTS),
-            exponential: outline_if(defined_charts, contour.boundary(OUTLINE_SEGMENTS)),
-            twist_ellipse: outline_if(defined_charts, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
+            exponential: outline_if(has_exponential, contour.boundary(OUTLINE_SEGMENTS)),
+            twist_ellipse: outline_if(has_exponential, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
             additive: Ellipse::from_moments(&self.additive()).boundary(OUTLINE_SEGMENTS),
         }
     }
@@ -387,8 +387,8 @@ impl BananaMachine {
     /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s). Under the odometry model they are
     /// δ̂_rot1 (rad), δ̂_trans (m) and δ̂_rot2 (rad).
     pub fn executed(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
-        let motion_of = self.settings.motion_of(self.settings.command);
-        (0..self.shown()).map(move |index| match motion_of.executed(self.cloud.unit_noise(index)) {
+        let motion = self.settings.motion_of(self.settings.command);
+        (0..self.shown()).map(move |index| match motion.executed(self.cloud.unit_noise(index)) {
             Executed::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
             Executed::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],
         })

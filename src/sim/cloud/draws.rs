@@ -93,17 +93,16 @@ impl Draws {
         noise.quantiles(unit_noise.get_mut(first..).unwrap_or_default().as_flattened_mut());
     }
 
-    /// Adds the complete blocks among the first `fours` groups to the sums, and lists their farthest groups.
+    /// Adds the complete blocks among the first `groups` groups to the sums, and lists their farthest groups.
     #[inline(never)]
-    pub fn sum_blocks_to(&mut self, fours: usize) {
-        while fours >= self.summed + BLOCK_GROUPS {
+    pub fn sum_blocks_to(&mut self, groups: usize) {
+        while groups >= self.summed + BLOCK_GROUPS {
             let block = self.unit_noise[self.summed..][..BLOCK_GROUPS].iter();
             block.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL_BITS_SET)));
             self.sums.close_block();
-            let later_groups_range = self.summed.max(SUBSAMPLE_GROUPS[1])..self.summed + BLOCK_GROUPS;
+            let range = self.summed.max(SUBSAMPLE_GROUPS[1])..self.summed + BLOCK_GROUPS;
             self.farthest.extend(
-                later_groups_range
-                    .filter(|four| subsample_groups(&self.unit_noise[*four]) > SUBSAMPLE_GROUPS[1]),
+                range.filter(|group| subsample_groups(&self.unit_noise[*group]) > SUBSAMPLE_GROUPS[1]),
             );
             self.summed += BLOCK_GROUPS;
         }
@@ -119,8 +118,8 @@ impl Draws {
         }
         self.sum_blocks_to(groups);
         let mut all_sums = self.sums.clone();
-        for (four, noise) in self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed) {
-            let mask = from_lanes(|lane| if LANES * four + lane < count { ALL_BITS_SET } else { 0.0 });
+        for (group, noise) in self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed) {
+            let mask = from_lanes(|lane| if LANES * group + lane < count { ALL_BITS_SET } else { 0.0 });
             all_sums.add([noise[0], noise[1]], mask);
         }
         all_sums.close_block();
@@ -136,14 +135,13 @@ impl Draws {
     /// that each robot represents. Lanes beyond `count` have the weight 0. A cloud of up to 2048 robots is sampled completely.
     pub fn sample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let groups = count.div_ceil(LANES);
-        let later_groups_range =
-            self.farthest.iter().copied().chain(self.summed.max(SUBSAMPLE_GROUPS[1])..groups);
-        (0..groups.min(SUBSAMPLE_GROUPS[1])).chain(later_groups_range).filter_map(move |four| {
-            let noise = &self.unit_noise[four];
-            let subsample_groups = subsample_groups(noise);
-            let weight = (groups as f64 / subsample_groups as f64).max(1.0);
-            (four < subsample_groups)
-                .then(|| (noise, from_lanes(|lane| if LANES * four + lane < count { weight } else { 0.0 })))
+        let later = self.farthest.iter().copied().chain(self.summed.max(SUBSAMPLE_GROUPS[1])..groups);
+        (0..groups.min(SUBSAMPLE_GROUPS[1])).chain(later).filter_map(move |group| {
+            let noise = &self.unit_noise[group];
+            let limit = subsample_groups(noise);
+            let weight = (groups as f64 / limit as f64).max(1.0);
+            (group < limit)
+                .then(|| (noise, from_lanes(|lane| if LANES * group + lane < count { weight } else { 0.0 })))
         })
     }
 

@@ -44,15 +44,15 @@ pub struct Motions {
 impl Drive {
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v, omega, gamma] = model.variances(u).map(|variance| variance.0.sqrt() * u.dt);
-        let half_commanded_turn = 0.5 * (u.omega * u.dt);
+        let near = 0.5 * (u.omega * u.dt);
         Self {
             is_arc: true,
             length: [u.v * u.dt, v],
-            bearing: [half_commanded_turn, 0.5 * omega],
+            bearing: [near, 0.5 * omega],
             share: 1.0,
             half_rest: [0.0, 0.5 * gamma],
-            near: half_commanded_turn,
-            short_formula_interval: short_formula_interval(half_commanded_turn),
+            near,
+            short_formula_interval: short_formula_interval(near),
             trigonometry: Trigonometry::default(),
         }
     }
@@ -90,18 +90,18 @@ impl Drive {
     }
 
     /// Returns the ends (x, y) of four motions, the arcs that lead there, and true if the arcs are regular. Regular arcs are
-    /// the driven ones: their length and half turn differ from the noise-free ones by [`Drive::regular`].
+    /// the driven ones: their length and half turn differ from the noise-free ones by [`Drive::regular_deviations`].
     #[inline(always)]
     pub fn end_points(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;
         let is_far = self.is_far(motions);
-        let bearing_functions =
+        let circle =
             if is_far { self.trigonometry.any_circle(bearing) } else { self.trigonometry.circle(bearing) };
-        let end_positions = self.ends_on(motions, &bearing_functions);
+        let ends = self.ends_on(motions, &circle);
         if is_far || !self.is_arc {
-            return (end_positions, self.other_arcs(bearing, end_positions), false);
+            return (ends, self.other_arcs(bearing, ends), false);
         }
-        (end_positions, FourArcs { length, half: bearing, sinc: bearing_functions.sinc }, true)
+        (ends, FourArcs { length, half: bearing, sinc: circle.sinc }, true)
     }
 
     #[inline(always)]
@@ -113,11 +113,11 @@ impl Drive {
     /// Returns the deviations that noise adds to the length and half turn of regular arcs.
     #[inline(always)]
     pub fn regular_deviations(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
-        let deviations_of_noise = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
-        [unit_noise[0] * deviations_of_noise[0], unit_noise[1] * deviations_of_noise[1]]
+        let scale = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
+        [unit_noise[0] * scale[0], unit_noise[1] * scale[1]]
     }
 
-    /// Returns the sums of [`Drive::regular`] from those of the unit noise.
+    /// Returns the sums of [`Drive::regular_deviations`] from those of the unit noise.
     pub fn sums_of_regular(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
         if !self.is_arc {
             return [0.0; 5];
@@ -169,9 +169,9 @@ impl Drive {
     pub fn four_robots(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);
         let circle = self.trigonometry.any_circle(motions.bearing);
-        let end_positions = self.ends_on(&motions, &circle);
+        let ends = self.ends_on(&motions, &circle);
         let turn = self.trigonometry.any_half_turn(motions.half, self.near);
-        (with_logarithms(&end_positions, turn), self.other_arcs(motions.bearing, end_positions))
+        (with_logarithms(&ends, turn), self.other_arcs(motions.bearing, ends))
     }
 
     /// Returns the coordinates of the noise-free end, which are subtracted in all sums, and the scales of the Jacobians.

@@ -42,8 +42,8 @@ impl Cloud {
     /// Reserves memory for `count` samples.
     pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
         self.draws.reserve(count)?;
-        let fours = count.div_ceil(LANES);
-        self.positions.try_reserve_exact(fours.saturating_sub(self.positions.len()))
+        let groups = count.div_ceil(LANES);
+        self.positions.try_reserve_exact(groups.saturating_sub(self.positions.len()))
     }
 
     /// Drives the first `shown` samples, and returns their statistics. Their memory must be reserved.
@@ -59,11 +59,11 @@ impl Cloud {
         let regular_sums = drive.sums_of_regular(self.draws.pair_sums(shown));
         let mut second_pass = SecondPass::new(first_pass.finish(shown, regular_sums), &START_POSE);
         for parts in blocks(shown) {
-            for (fours, mask) in parts {
+            for (groups, mask) in parts {
                 add_to_second_pass(
                     &drive,
-                    &self.draws.groups()[fours.clone()],
-                    &self.positions[fours],
+                    &self.draws.groups()[groups.clone()],
+                    &self.positions[groups],
                     mask,
                     &mut second_pass,
                 );
@@ -87,11 +87,11 @@ impl Cloud {
             if positions.len() < end {
                 positions.resize(end, [f64x4::splat(0.0); 2]);
             }
-            for (fours, mask) in parts {
+            for (groups, mask) in parts {
                 add_to_first_pass(
                     drive,
-                    &draws.groups()[fours.clone()],
-                    &mut positions[fours],
+                    &draws.groups()[groups.clone()],
+                    &mut positions[groups],
                     mask,
                     &mut sums,
                 );
@@ -135,20 +135,20 @@ impl Cloud {
     #[inline(always)]
     pub fn each_four(&self, view: View, mut see: impl FnMut([f64x4; 2])) {
         let shown = self.shown();
-        let points_of_group = |four: usize| match view {
-            View::Plane => self.positions[four],
+        let points_of_group = |group: usize| match view {
+            View::Plane => self.positions[group],
             View::Twist => {
-                let motions = self.drive.motions(&self.draws.groups()[four]);
-                let poses = self.drive.poses(&motions, &self.positions[four]);
+                let motions = self.drive.motions(&self.draws.groups()[group]);
+                let poses = self.drive.poses(&motions, &self.positions[group]);
                 [poses.along, poses.half * 2.0]
             }
             View::Morph(morph) => {
-                let motions = self.drive.motions(&self.draws.groups()[four]);
-                self.drive.unbent(&motions, &self.positions[four], morph)
+                let motions = self.drive.motions(&self.draws.groups()[group]);
+                self.drive.unbent(&motions, &self.positions[group], morph)
             }
         };
         let (full, remaining) = (shown / LANES, shown % LANES);
-        (0..full).for_each(|four| see(points_of_group(four)));
+        (0..full).for_each(|group| see(points_of_group(group)));
         if remaining > 0 {
             let lane_mask = from_lanes(|lane| if lane < remaining { ALL_BITS_SET } else { 0.0 });
             see(points_of_group(full).map(|points| lane_mask.bitselect(points, f64x4::splat(f64::INFINITY))));
@@ -159,10 +159,10 @@ impl Cloud {
 /// Returns blocks of the groups of four of `count` samples, at least one block. A block has a range of complete groups, and a
 /// range of incomplete ones. Each range has the mask of its samples.
 fn blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
-    let fours = count.div_ceil(LANES);
+    let groups = count.div_ceil(LANES);
     let lane_mask = from_lanes(|lane| if lane < count % LANES { ALL_BITS_SET } else { 0.0 });
-    (0..fours.div_ceil(BLOCK_GROUPS).max(1)).map(move |i| {
-        let (start, end) = (BLOCK_GROUPS * i, fours.min(BLOCK_GROUPS * (i + 1)));
+    (0..groups.div_ceil(BLOCK_GROUPS).max(1)).map(move |i| {
+        let (start, end) = (BLOCK_GROUPS * i, groups.min(BLOCK_GROUPS * (i + 1)));
         let full_groups = start.max(end.min(count / LANES));
         [(start..full_groups, f64x4::splat(ALL_BITS_SET)), (full_groups..end, lane_mask)]
     })

@@ -56,8 +56,8 @@ impl Comparison {
                 None => Vector3::repeat(f64::NAN),
             })
             .collect();
-        let misses_of = std::array::from_fn(|axis| misses_of(&ratios, measured, axis));
-        Self { ratios, misses: misses_of }
+        let misses = std::array::from_fn(|axis| misses_of(&ratios, measured, axis));
+        Self { ratios, misses }
     }
 }
 
@@ -96,16 +96,16 @@ fn variance_ratio(cov: &Matrix3<f64>, measured: &Measured, least: &Vector3<f64>)
 fn misses_of(ratios: &[Vector3<f64>], measured: &[Measured], axis: usize) -> Misses {
     let known_ratios =
         || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
-    let can_tell = known_ratios().next().is_some()
+    let told = known_ratios().next().is_some()
         && known_ratios().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
-    let is_miss = |ratio: &Vector3<f64>| can_tell && (ratio[axis] - 1.0).abs() > TOLERANCE;
+    let is_miss = |ratio: &Vector3<f64>| told && (ratio[axis] - 1.0).abs() > TOLERANCE;
     let step_number = |index: usize| index as u32 + 1;
     let [end, error] = match (ratios.last(), measured.last()) {
         (Some(ratio), Some(measured)) => [ratio[axis] - 1.0, ratio[axis] * measured.relative_error[axis]],
         _ => [f64::NAN; 2],
     };
     Misses {
-        told: can_tell,
+        told,
         first: ratios.iter().position(is_miss).map(step_number),
         last: ratios.iter().rposition(is_miss).map(step_number),
         end,

@@ -206,7 +206,7 @@ impl Rollouts {
             sums.close_block();
             let robot_poses = poses[k * MAX_SHOWN_ROBOTS..][..MAX_SHOWN_ROBOTS].iter_mut().skip(*driven);
             for (i, pose) in robot_poses.take(BLOCK_ROLLOUTS).enumerate() {
-                *pose = block.fours[i / LANES].pose(i % LANES, nominal);
+                *pose = block.groups[i / LANES].pose(i % LANES, nominal);
             }
         }
     }
@@ -229,7 +229,7 @@ impl Rollouts {
         let mut block = Block::new(next_stream);
         let pose_after = |nominal| {
             block.drive(&self.step);
-            block.fours[group].pose(lane, nominal)
+            block.groups[group].pose(lane, nominal)
         };
         self.nominal.iter().map(pose_after).collect()
     }
@@ -247,7 +247,7 @@ impl ErrorPoses {
 struct Block {
     rng: Xoshiro256PlusPlus,
     /// Error poses of the robots.
-    fours: [ErrorPoses; BLOCK_GROUPS],
+    groups: [ErrorPoses; BLOCK_GROUPS],
     /// Draws of a step, replaced by the resulting ξ.
     draws: [[f64x4; 3]; BLOCK_GROUPS],
 }
@@ -256,12 +256,12 @@ impl Block {
     fn new(rng: Xoshiro256PlusPlus) -> Self {
         let [zero, one] = [0.0, 1.0].map(f64x4::splat);
         let start = ErrorPoses { x: zero, y: zero, half: zero, sin: zero, cos: one };
-        Self { rng, fours: [start; BLOCK_GROUPS], draws: [[zero; 3]; BLOCK_GROUPS] }
+        Self { rng, groups: [start; BLOCK_GROUPS], draws: [[zero; 3]; BLOCK_GROUPS] }
     }
 
     #[inline(never)]
     fn drive(&mut self, step: &StepInErrorFrame) {
-        let Self { rng, fours, draws } = self;
+        let Self { rng, groups, draws } = self;
         for draw in draws.iter_mut() {
             let mut uniforms = [[0.0; LANES]; 3];
             for lane in 0..LANES {
@@ -270,7 +270,7 @@ impl Block {
             *draw = uniforms.map(f64x4::from);
         }
         NoiseKind::Normal.quantiles(draws.as_flattened_mut());
-        for (four, draw) in fours.iter_mut().zip(draws) {
+        for (four, draw) in groups.iter_mut().zip(draws) {
             *draw = step.drive(four, draw);
         }
     }

@@ -243,12 +243,12 @@ impl MapSqueeze {
     /// # Errors
     /// [`NoAcceptedSample`] if one of the samples is not accepted, or if all together take so many draws that the machine would give up.
     pub fn trial(&self, sampler: Sampler, count: usize) -> Result<Cost, NoAcceptedSample> {
-        let conditioned_model = conditioned_model(&self.settings, &self.plan, sampler);
+        let model = conditioned_model(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
         let mut total_cost = Cost::default();
         let part_count = sampler.parts() as usize * count;
         for _ in 0..count {
-            let cost = conditioned_model.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
+            let cost = model.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
             total_cost.draws += cost.draws;
             total_cost.wall_tests += cost.wall_tests;
             if total_cost.draws > max_draws(part_count) {

@@ -133,8 +133,8 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
   const numberOf = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
     const value = values[name];
     if (value === undefined) return undefined;
-    const parseArguments = value.trim() === '' ? NaN : Number(value);
-    if (Number.isFinite(parseArguments)) return parseArguments;
+    const number = value.trim() === '' ? NaN : Number(value);
+    if (Number.isFinite(number)) return number;
     const decimalHint = /^-?\d*,\d+$/.test(value) ? ` with a decimal point, ${value.replace(',', '.')}` : '';
     throw new UsageError(`--${name} must be a number${decimalHint} (got “${cut(value)}”).`);
   };
@@ -238,8 +238,8 @@ function nearestOptions(name: string): string {
   const letterPairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
   const ownPairs = letterPairs(name);
   const optionScores = Object.keys(OPTIONS).map((option) => {
-    const uselessOption = letterPairs(option);
-    const commonFraction = ownPairs.filter((pair) => uselessOption.includes(pair)).length / Math.max(ownPairs.length, uselessOption.length);
+    const pairs = letterPairs(option);
+    const commonFraction = ownPairs.filter((pair) => pairs.includes(pair)).length / Math.max(ownPairs.length, pairs.length);
     return { option, score: option.startsWith(name) ? 1 + commonFraction : option.endsWith(`-${name}`) ? 1 : commonFraction };
   });
   const bestScore = Math.max(0.4, ...optionScores.map(({ score }) => score));

@@ -57,7 +57,7 @@ export function reportText({ calibration, options, logs, start, begins, date }: 
   const failedChecks = failedOf(checks);
   const lossTexts = Object.entries(LOST_LEG_CAUSES).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
   const excludedLegs = [...(lossTexts.length ? [`lost legs: ${lossTexts.join(', ')}`] : []), ...outlierLines(legs, begins)];
-  const reportLines = [
+  const text = [
     '',
     ...verdictLines({ calibration, logs }),
     '',
@@ -76,7 +76,7 @@ export function reportText({ calibration, options, logs, start, begins, date }: 
     ...nav2Section({ calibration, options, logs, start, begins, date }),
     '',
   ].join('\n');
-  return isColored ? reportLines.replaceAll(/^Consistent|\bok$/gm, inColor(GREEN)).replace(/^Questionable/m, inColor(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, inColor(RED)) : reportLines;
+  return isColored ? text.replaceAll(/^Consistent|\bok$/gm, inColor(GREEN)).replace(/^Questionable/m, inColor(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, inColor(RED)) : text;
 }
 
 /** Colours of a terminal. */
@@ -140,11 +140,11 @@ function systematicRow([key, name, unit]: [string, string, string], { systematic
   const { value, interval, constant, corrected } = systematicErrors[key];
   const [values, intervals] = Array.isArray(value) ? [value, interval] : [[value], [interval]];
   if (values.includes(null)) return [name, 'not identifiable'];
-  const texts = (print: (one: any, its: Interval) => string) => values.map((one: any, i: number) => print(one, intervals[i])).join(', ');
+  const list = (print: (one: any, its: Interval) => string) => values.map((one: any, i: number) => print(one, intervals[i])).join(', ');
   return [
     name,
-    texts((one, its) => fixed(one, its) + (unit && ` ${unit}`)),
-    texts((_, its) => formatInterval(its)),
+    list((one, its) => fixed(one, its) + (unit && ` ${unit}`)),
+    list((_, its) => formatInterval(its)),
     `${corrected ? 'corrected' : 'not corrected'}${constant ? '' : ', not a constant'}`,
   ];
 }
@@ -165,11 +165,11 @@ function windowRow({ length, count, coverage, nees }: any): string[] {
 /** Lists outliers by their times after the start of the odometry. */
 function outlierLines({ count, times, outliers }: any, begins: number[]): string[] {
   const outlierLegs = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
-  const texts = outlierLegs.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
+  const timeTexts = outlierLegs.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
     const driveBegin = Math.max(...begins.filter((each) => each <= times[2 * leg]));
     return `${(times[2 * leg] - driveBegin).toFixed(2)} s${begins.length > 1 ? ` of drive ${begins.indexOf(driveBegin) + 1}` : ''}`;
   }).join(', ');
-  return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${count} legs, at ${texts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
+  return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${count} legs, at ${timeTexts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
 }
 
 function nav2Section(result: CalibrationResult): string[] {

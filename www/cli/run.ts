@@ -8,7 +8,7 @@ import { logOf } from '../logs/pairs.ts';
 import { summarySentences } from '../logs/summary.ts';
 import { optionAdvice } from './advice.ts';
 import { recordingsOf } from './files.ts';
-import { byOrder, inspect, inspectionText as textOfContents, type GivenRecording } from './inspect.ts';
+import { byOrder, inspect, inspectionText, type GivenRecording } from './inspect.ts';
 import { HELP, UsageError, optionsOf, withOption, type CalibrateArguments } from './options.ts';
 import { drivesSvg } from './plot.ts';
 import { resultJson, logSummaries, nav2Yaml, ruleWarning, reportText, verdictLines, type CalibrationResult } from './report.ts';
@@ -40,7 +40,7 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
       const givenRecordings: GivenRecording[] = [];
       for (const input of options.inputs) for (const recording of await recordingsOf(input, onSkip)) givenRecordings.push({ recording, path: input.path });
       const inspection = await inspect(givenRecordings, options.stated, onProgress);
-      print(options.isJson ? `${JSON.stringify(inspection, undefined, 1)}\n` : textOfContents(inspection));
+      print(options.isJson ? `${JSON.stringify(inspection, undefined, 1)}\n` : inspectionText(inspection));
       if (inspection.command === undefined) return BAD_INPUT;
     } else return await calibrate(options, environment, onSkip);
     return SUCCESS;

@@ -116,34 +116,34 @@ const UNITS_OF: Partial<Record<Field, [ParsedUnit['of'], boolean]>> = {
 
 /** Returns a name in lower case, with dots between its parts. */
 function dottedName(name: string): string {
-  const spacedName = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
-  return spacedName.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
+  const parts = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
+  return parts.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
 }
 
 interface ColumnMeaning { field: Field; rank: number; prefix: string; unit?: string }
 
 /** Returns the field of a column, or undefined for another quantity. */
 function readName(name: string): ColumnMeaning | undefined {
-  const [bracketText, unitText] = UNIT_IN_BRACKETS.exec(name) ?? [];
-  if (bracketText !== undefined && unitText !== undefined && !EMPTY_UNIT.test(unitText.trim())) {
+  const [bracket, unitText] = UNIT_IN_BRACKETS.exec(name) ?? [];
+  if (bracket !== undefined && unitText !== undefined && !EMPTY_UNIT.test(unitText.trim())) {
     const unit = unitOf(unitText);
-    const reading = fieldOf(dottedName(name.slice(0, -bracketText.length)));
+    const reading = fieldOf(dottedName(name.slice(0, -bracket.length)));
     return reading && canHaveUnit(reading.field, unit) ? { ...reading, unit: unit?.unit ?? unitText.trim() } : undefined;
   }
-  const nameWithoutUnit = bracketText === undefined ? name : name.slice(0, -bracketText.length);
-  const dottedPath = dottedName(nameWithoutUnit);
+  const bare = bracket === undefined ? name : name.slice(0, -bracket.length);
+  const dottedPath = dottedName(bare);
   const wholeMeaning = fieldOf(dottedPath);
   // Times of rostopic are always in nanoseconds, also the small times of a simulation.
   if (wholeMeaning?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...wholeMeaning, unit: 'ns' };
   // Clocks of microcontrollers are named after their unit.
   if (wholeMeaning) return { ...wholeMeaning, ...(/millis$/.test(dottedPath) ? { unit: 'ms' } : /micros$/.test(dottedPath) ? { unit: 'us' } : /nanos$/.test(dottedPath) ? { unit: 'ns' } : {}) };
-  const [last, word] = UNIT_AT_END.exec(nameWithoutUnit) ?? [];
+  const [last, word] = UNIT_AT_END.exec(bare) ?? [];
   const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
-  const reading = last !== undefined && unit ? fieldOf(dottedName(nameWithoutUnit.slice(0, -last.length))) : undefined;
+  const reading = last !== undefined && unit ? fieldOf(dottedName(bare.slice(0, -last.length))) : undefined;
   if (reading && unit && canHaveUnit(reading.field, unit)) return { ...reading, unit: unit.unit };
   const [, baseName, suffix] = SUFFIXED_NAME.exec(dottedPath) ?? [];
-  const frontMeaning = baseName === undefined ? undefined : fieldOf(baseName);
-  return frontMeaning && suffix !== undefined && !OTHER_QUANTITIES.test(suffix) ? { ...frontMeaning, prefix: suffix } : undefined;
+  const baseMeaning = baseName === undefined ? undefined : fieldOf(baseName);
+  return baseMeaning && suffix !== undefined && !OTHER_QUANTITIES.test(suffix) ? { ...baseMeaning, prefix: suffix } : undefined;
 }
 
 /** Checks that a field can have a unit. Unknown units pass, and are refused when the column is read. */

@@ -72,8 +72,8 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
     return { name, at, factor, ...bestAgreementOf(correctedMotions, step), straight: forwardness(correctedMotions.odometry) + forwardness(correctedMotions.reference) };
   });
   const minScore = Math.max(MIN_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
-  const bestCorrection = greatest(triedCorrections.filter((each) => each.score >= minScore && isPlausible(each.length) && isPlausible(each.angle)), (each) => each.score + each.straight);
-  if (bestCorrection) return bestCorrection;
+  const best = greatest(triedCorrections.filter((each) => each.score >= minScore && isPlausible(each.length) && isPlausible(each.angle)), (each) => each.score + each.straight);
+  if (best) return best;
   if (score < MIN_SCORE) return undefined;
   if (!isPlausible(factor)) return { name: 'lengths', at: 'reference', score, factor };
   return isPlausible(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor };
@@ -99,18 +99,18 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
 function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
   const maxLag = Math.round(MAX_CLOCK_OFFSET / step);
   const [odo, ref] = [withoutJumps(odometry), withoutJumps(reference)];
-  let bestCorrection: Agreement = { score: -1, length: 1, angle: 1 };
-  for (let i = 0; i <= 2 * maxLag && bestCorrection.score < AGREEMENT; i++) {
-    const agreementAtLag = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag, anyYaw);
-    if (agreementAtLag.score > bestCorrection.score) bestCorrection = agreementAtLag;
+  let best: Agreement = { score: -1, length: 1, angle: 1 };
+  for (let i = 0; i <= 2 * maxLag && best.score < AGREEMENT; i++) {
+    const found = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag, anyYaw);
+    if (found.score > best.score) best = found;
   }
-  return bestCorrection;
+  return best;
 }
 
 /** Returns motions with jumps replaced by zeros. */
 function withoutJumps(motions: Motion[]): Motion[] {
-  const maxStep = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(STANDSTILL, quantile(Float64Array.from(motions, size), 0.9));
-  const [drive, spin] = [maxStep(([forward, left]) => Math.hypot(forward, left)), maxStep(([, , turn]) => Math.abs(turn))];
+  const limitOf = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(STANDSTILL, quantile(Float64Array.from(motions, size), 0.9));
+  const [drive, spin] = [limitOf(([forward, left]) => Math.hypot(forward, left)), limitOf(([, , turn]) => Math.abs(turn))];
   return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= drive && Math.abs(motion[2]) <= spin ? motion : [0, 0, 0]));
 }
 

@@ -63,10 +63,10 @@ export function planDrives(all: Recording[], wishes: Wishes = {}): LogPlan {
   const missingRole = odometry.length < reference.length ? 'odometry' : 'reference';
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[missingRole].push(...plan.drives.splice(0).map((drive) => drive[missingRole]));
   if (odometry.length !== reference.length) {
-    const longerList = odometry.length > reference.length ? odometry : reference;
+    const longer = odometry.length > reference.length ? odometry : reference;
     // If a recording also has the missing log, but it is not clear which one it is, the error about that choice is more helpful.
-    for (const { recording } of longerList) attempt(() => bothLogsOf(recording, wishes), ({ ask }) => ask?.what !== 'series');
-    const [first] = longerList;
+    for (const { recording } of longer) attempt(() => bothLogsOf(recording, wishes), ({ ask }) => ask?.what !== 'series');
+    const [first] = longer;
     const isSameFile = recordings.length === 2 && recordings[0].name === recordings[1].name;
     const ask = { what: 'roles' as const, choices: [] };
     throw new LogError({ file: first.recording.name }, (say) => (isSameFile ? say.givenTwice : say.unpaired(odometry.length, reference.length)), isSameFile ? undefined : ask);
@@ -80,8 +80,8 @@ function onlyRole(recording: Recording, wishes: Wishes): Role | 'both' | undefin
   const [isOdometry, isReference] = ROLES.map((role) => attempt(() => chooseLog(recording, role, wishes)) !== undefined);
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
   // Several bodies of one file are ambiguous in both roles.
-  const hasCandidate = isOdometry || ROLES.every((role) => candidates(recording, role, wishes).some(({ length }) => length > 0));
-  if (!hasCandidate) return 'both';
+  const hasLogs = isOdometry || ROLES.every((role) => candidates(recording, role, wishes).some(({ length }) => length > 0));
+  if (!hasLogs) return 'both';
   return roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);
 }
 

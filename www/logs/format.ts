@@ -115,14 +115,14 @@ function separatorOf(lines: string[]): string {
  * @throws {LogError} where the columns are not clear
  */
 export function formatOf(lines: string[], file: string, columns: string[] | undefined): Format {
-  const filledCells = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
+  const filledLines = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
-  const textLines = filledCells.filter((each) => !isComment(each));
+  const textLines = filledLines.filter((each) => !isComment(each));
   if (textLines.length === 0) throw new LogError({ file }, (say) => say.empty);
   const [, notation] = OTHER_NOTATIONS.find(([pattern]) => pattern.test(textLines[0].line)) ?? [];
   if (notation !== undefined) throw new LogError({ file }, (say) => say.noTable(notation));
   const records = CARMEN_RECORDS.filter(([tag]) => textLines.some(({ line }) => line.startsWith(`${tag} `)));
-  if (records.length > 0 && textLines.every(({ line }) => /^[A-Z_0-9]+ /.test(line))) return carmenFormat(records, filledCells[0].number);
+  if (records.length > 0 && textLines.every(({ line }) => /^[A-Z_0-9]+ /.test(line))) return carmenFormat(records, filledLines[0].number);
 
   const separator = separatorOf(textLines.slice(0, SAMPLED_LINES).map(({ line }) => line.trim()));
   const cells = (line: string) => cellsOf(line, separator);
@@ -130,8 +130,8 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   const rows = first ? textLines.filter(({ number }) => number >= first.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];
   const hasCommas = (separator !== ',' || rows.some((_, i) => textLines[i].line.includes('"'))) && rows.flat().some((cell) => DECIMAL_COMMA.test(cell));
   const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
-  const commonFormat = { name: 'csv' as const, separator, hasCommas, firstLine: first?.number ?? (filledCells.at(-1)?.number ?? 0) + 1, isSparse: false };
-  const errorPlace = { file, line: first?.number ?? filledCells[0].number };
+  const commonFormat = { name: 'csv' as const, separator, hasCommas, firstLine: first?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
+  const errorPlace = { file, line: first?.number ?? filledLines[0].number };
   const noLogError = () => new LogError({ file }, (say) => say.noLog);
 
   if (columns) {
@@ -140,7 +140,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
   if (2 * rows.filter(isDataRow).length < rows.length) throw noLogError();
-  const linesAbove = filledCells.filter(({ number }) => number < commonFormat.firstLine);
+  const linesAbove = filledLines.filter(({ number }) => number < commonFormat.firstLine);
   const motiveInfo = linesAbove.length > 0 && /^"?Format Version/.test(linesAbove[0].line) ? motiveFormat(linesAbove.map(({ line }) => cells(line)), errorPlace) : undefined;
   if (motiveInfo) return { ...commonFormat, ...motiveInfo };
 

@@ -53,12 +53,12 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
   const recordings: Recording[] = [];
   for (const metadata of openedSources.filter((source) => formatByFile.get(source) === 'metadata')) {
     await attempt(async () => {
-      const { listedFiles: filesOf, joinedContainer: joined } = await import('./formats/folder.ts');
+      const { listedFiles, joinedContainer } = await import('./formats/folder.ts');
       formatByFile.delete(metadata);
-      const { name, found: foundFiles, missing: missingFiles } = await filesOf(metadata, openedSources);
-      const openParts = Promise.all(foundFiles.map((source) => openContainer(source, formatByFile.get(source))));
-      for (const source of foundFiles) formatByFile.delete(source);
-      const container = joined(await openParts, missingFiles);
+      const { name, found, missing } = await listedFiles(metadata, openedSources);
+      const parts = Promise.all(found.map((source) => openContainer(source, formatByFile.get(source))));
+      for (const source of found) formatByFile.delete(source);
+      const container = joinedContainer(await parts, missing);
       recordings.push(await (await import('./topics.ts')).recordingOf(name, container, optionsOf(name)));
     });
   }

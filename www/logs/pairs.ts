@@ -117,38 +117,38 @@ export function logOf(drives: Drive[]): Pick<CalibrationLog, Role> {
 }
 
 /**
- * Returns true if two logs are copies of one path: rows at equal times have the same motion since the first such row, in any frames, or the
- * positions of one log are those of the other, rounded.
+ * Returns true if two logs are copies of one path. Rows at equal times then have the same motion since the first such row, in any frames,
+ * or the positions of one log are those of the other, rounded.
  */
 export function isSamePath(one: Log, two: Log): boolean {
-  const [poses, poses2] = [one.data, two.data];
+  const [poses, other] = [one.data, two.data];
   const { t } = poses;
   // A log of commands has no poses to compare. Two logs from the same rows of a table have all times in common.
-  if ('v' in poses || 'v' in poses2) {
-    return (one.kind === two.kind || one.name === two.name) && t.length === poses2.t.length && t.every((time, i) => time === poses2.t[i]);
+  if ('v' in poses || 'v' in other) {
+    return (one.kind === two.kind || one.name === two.name) && t.length === other.t.length && t.every((time, i) => time === other.t[i]);
   }
   const rowStride = Math.ceil(t.length / COMPARED_ROWS);
   const motionBetween = ({ x, y, theta }: Poses, from: number, to: number) => {
     const [dx, dy, cos, sin] = [x[to] - x[from], y[to] - y[from], Math.cos(theta[from]), Math.sin(theta[from])];
     return [cos * dx + sin * dy, cos * dy - sin * dx, theta[to] - theta[from]];
   };
-  const isRoundedTo = (step: number) => [poses, poses2].some(({ x, y }) => [x, y].every((all) => all.every((value) => Math.abs(value / step - Math.round(value / step)) < 1e-6)));
+  const isRoundedTo = (step: number) => [poses, other].some(({ x, y }) => [x, y].every((all) => all.every((value) => Math.abs(value / step - Math.round(value / step)) < 1e-6)));
   const step = ROUNDING_STEPS.find((each) => one.summary.distance > MIN_ROUNDED_LENGTH * each && isRoundedTo(each)) ?? 0;
   let [isMoved, isRounded] = [true, step > 0];
-  let firstRows: [number, number] | undefined;
-  let [comparedRows, movedRows] = [0, 0];
+  let first: [number, number] | undefined;
+  let [comparedRows, motion] = [0, 0];
   for (let i = 0; i < t.length; i += rowStride) {
-    const j = bisectLeft(poses2.t, t[i] - 1e-6);
-    if (!(Math.abs(poses2.t[j] - t[i]) <= 1e-6)) continue;
-    firstRows ??= [i, j];
-    const [own, its] = [motionBetween(poses, firstRows[0], i), motionBetween(poses2, firstRows[1], j)];
+    const j = bisectLeft(other.t, t[i] - 1e-6);
+    if (!(Math.abs(other.t[j] - t[i]) <= 1e-6)) continue;
+    first ??= [i, j];
+    const [own, its] = [motionBetween(poses, first[0], i), motionBetween(other, first[1], j)];
     const distance = Math.hypot(own[0], own[1]);
     const turn = Math.abs(Math.sin((own[2] - its[2]) / 2));
     isMoved &&= Math.hypot(own[0] - its[0], own[1] - its[1]) <= COPY_TOLERANCE * (1 + distance) && turn <= COPY_TOLERANCE;
-    isRounded &&= Math.max(Math.abs(poses.x[i] - poses2.x[j]), Math.abs(poses.y[i] - poses2.y[j])) < 0.5 * step + COPY_TOLERANCE;
+    isRounded &&= Math.max(Math.abs(poses.x[i] - other.x[j]), Math.abs(poses.y[i] - other.y[j])) < 0.5 * step + COPY_TOLERANCE;
     if (!isMoved && !isRounded) return false;
     comparedRows += 1;
-    movedRows = Math.max(movedRows, distance, Math.abs(Math.sin(own[2] / 2)));
+    motion = Math.max(motion, distance, Math.abs(Math.sin(own[2] / 2)));
   }
-  return comparedRows >= MIN_EQUAL_ROWS && movedRows > MIN_MOTION;
+  return comparedRows >= MIN_EQUAL_ROWS && motion > MIN_MOTION;
 }

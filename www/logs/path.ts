@@ -41,8 +41,8 @@ export function pathOf(data: Poses | Commands, every = 1): Path {
 export function poseAt({ t, poses }: Path, time: number): Pose {
   const nextIndex = Math.min(Math.max(bisectLeft(t, time), 1), t.length - 1);
   const fraction = Math.min(Math.max((time - t[nextIndex - 1]) / (t[nextIndex] - t[nextIndex - 1]), 0), 1);
-  const [one, next] = [poses[nextIndex - 1], poses[nextIndex]];
-  return [one[0] + fraction * (next[0] - one[0]), one[1] + fraction * (next[1] - one[1]), one[2] + fraction * wrapAngle(next[2] - one[2])];
+  const [a, b] = [poses[nextIndex - 1], poses[nextIndex]];
+  return [a[0] + fraction * (b[0] - a[0]), a[1] + fraction * (b[1] - a[1]), a[2] + fraction * wrapAngle(b[2] - a[2])];
 }
 
 /** Rotates and moves a path so that its squared distance to the target is smallest. Times of the target are later by `offset`. */

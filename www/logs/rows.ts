@@ -128,7 +128,7 @@ export class Rows {
     if (clocks[1] !== undefined) this.#sortByOtherClock();
     const usesOtherClock = this.#chooseClock(clocks[1] !== undefined);
     const rollover = this.#continueClock();
-    const { rows, late: lateRows, causes, ...times } = this.#inOrder(kind);
+    const { rows, late, causes, ...times } = this.#inOrder(kind);
     const brokenRows = this.#brokenRows(causes);
     const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
     const { count } = this;
@@ -139,17 +139,17 @@ export class Rows {
     const columns = { ...times, a, b, c };
     const units = judgeUnits(this.#logPlace, kind, columns, assumed, options);
     const { start, t } = columns;
-    const { breaks, jumped: jumpRows, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
+    const { breaks, jumped, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = [
       ...decisions.notes,
       ...(rollover > 0 ? [{ name: 'rollover' as const, values: [rollover] }] : []),
-      ...(lateRows > 0 ? [{ name: 'sorted' as const, values: [lateRows] }] : []),
+      ...(late > 0 ? [{ name: 'sorted' as const, values: [late] }] : []),
     ];
-    const duration = t[t.length - 1] - t[0];
+    const seconds = t[t.length - 1] - t[0];
     const clock = clocks[usesOtherClock ? 1 : 0] ?? '';
     const summary = {
-      rows: count, used: t.length, dropped: this.#dropped, seconds: duration, distance: distanceOf(data, jumpRows), ...foundGaps,
+      rows: count, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumped), ...foundGaps,
       ...decisions, ...(decisions.columns && { columns: { ...decisions.columns, t: clock } }), units, clock, notes,
     };
     return { name, kind, start, data, summary };
@@ -250,9 +250,9 @@ export class Rows {
     const start = Math.floor(seconds) + Math.floor(seconds - Math.floor(seconds) + fraction);
     let [last, differentRows] = [-Infinity, 0];
     let rows = sortedRows.filter((row, i) => {
-      const rowTime = this.#time(row, start);
-      if (i === 0 || rowTime > last) {
-        last = rowTime;
+      const time = this.#time(row, start);
+      if (i === 0 || time > last) {
+        last = time;
         return true;
       }
       causes.set(row, 'duplicate');
@@ -263,14 +263,14 @@ export class Rows {
       const line = this.#number(min(causes.keys()) as number, LINE);
       throw new LogError(this.#placeOf(line), (say) => say.sameTimes(differentRows, sortedRows.length, this.#messageNumber(line)));
     }
-    const timesOfRows = (chosen: Uint32Array) => this.#column(chosen, (row) => this.#time(row, start));
-    const distinctRows = rows;
-    const isRepeated = (i: number) => i > 0 && this.#isSame(distinctRows[i - 1], distinctRows[i]);
-    const repeatsPerPose = kind === 'poses' ? repeatFactor(timesOfRows(distinctRows), isRepeated) : 1;
+    const timesOf = (chosen: Uint32Array) => this.#column(chosen, (row) => this.#time(row, start));
+    const distinct = rows;
+    const isRepeated = (i: number) => i > 0 && this.#isSame(distinct[i - 1], distinct[i]);
+    const repeatsPerPose = kind === 'poses' ? repeatFactor(timesOf(distinct), isRepeated) : 1;
     let repeatCount = 0;
     // Every `repeatsPerPose`-th of repeated poses is kept, so that the log has the same rate while the robot stands.
     if (repeatsPerPose > 1) {
-      rows = distinctRows.filter((row, i) => {
+      rows = distinct.filter((row, i) => {
         repeatCount = isRepeated(i) ? repeatCount + 1 : 0;
         if (repeatCount % repeatsPerPose !== 0) causes.set(row, 'repeated');
         return repeatCount % repeatsPerPose === 0;
@@ -280,7 +280,7 @@ export class Rows {
       if (classes[i] === STRAY || classes[i] === SET_BACK) causes.set(row, classes[i] === STRAY ? 'stray' : 'setBack');
     });
     if (usedRows.length < this.#addedCount) for (const row of this.#rows) if (this.#isUnset(row)) causes.set(row, 'noStamp');
-    return { start, t: timesOfRows(rows), rows, late: classes.reduce((count, each) => count + Number(each === LATE), 0), causes };
+    return { start, t: timesOf(rows), rows, late: classes.reduce((count, each) => count + Number(each === LATE), 0), causes };
   }
 
   /** Returns the rows before which the path is unknown: after unusable rows, and where the clock was set back. Counts the dropped rows. */
@@ -304,23 +304,23 @@ export class Rows {
     const medianStep = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     const gaps = { count: 0, longest: 0, first: NaN };
     const jumps = { count: 0, first: NaN };
-    const [breaks, jumpRows]: number[][] = [[], []];
+    const [breaks, jumped]: number[][] = [[], []];
     const isJump = kind === 'poses' ? jumpChecker(t, a, b, c) : () => false;
     for (let i = 1; i < t.length; i++) {
-      const timeStep = t[i] - t[i - 1];
-      if (timeStep > MIN_GAP_STEPS * medianStep) {
+      const step = t[i] - t[i - 1];
+      if (step > MIN_GAP_STEPS * medianStep) {
         if (gaps.count === 0) gaps.first = t[i - 1] - t[0];
         gaps.count += 1;
-        gaps.longest = Math.max(gaps.longest, timeStep);
+        gaps.longest = Math.max(gaps.longest, step);
       }
       if (isJump(i)) {
         if (jumps.count === 0) jumps.first = t[i] - t[0];
         jumps.count += 1;
-        jumpRows.push(i);
+        jumped.push(i);
         breaks.push(i);
       } else if (isBroken(i)) breaks.push(i);
     }
-    return { rate: 1 / medianStep, gaps, jumps, jumped: jumpRows, breaks: Uint32Array.from(breaks) };
+    return { rate: 1 / medianStep, gaps, jumps, jumped, breaks: Uint32Array.from(breaks) };
   }
 
   #placeOf(line: number): Place {

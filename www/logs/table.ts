@@ -111,19 +111,19 @@ const lineEndOf = (text: string) => (text.includes('\n') || !text.includes('\r')
 async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
   const decoder = new TextDecoder(encoding);
   let [tail, number] = ['', 0];
-  const passLine = (line: string, isOpen: boolean) => {
+  const takeLine = (line: string, isOpen: boolean) => {
     number += 1;
     if (number >= from) take(line, number, isOpen);
   };
   for (let at = 0; at < source.size; at += BLOCK_BYTES) {
     onProgress?.(at / source.size);
     const text = tail + joinZeros(decoder.decode(await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
-    const headLines = text.split(end);
-    tail = headLines.pop() ?? '';
-    for (const line of headLines) passLine(line, false);
+    const lines = text.split(end);
+    tail = lines.pop() ?? '';
+    for (const line of lines) takeLine(line, false);
     if (tail.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   }
-  passLine(tail + decoder.decode(), true);
+  takeLine(tail + decoder.decode(), true);
 }
 
 /** Returns a group of columns with Y as the vertical axis: X of the robot's plane is Z, and Y is X. */

@@ -33,12 +33,12 @@ export async function listedFiles(metadata: Source, sources: Source[]): Promise<
   }
   const filesInFolder = sources.filter((source) => folderOf(source) === folderOf(metadata));
   // A decompressed file has no ".zstd" at the end of its name.
-  const fileByName = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
-  const foundFiles = fileByName.filter((file) => file !== undefined);
-  const missingNames = fileNames.filter((_, i) => !fileByName[i]);
-  if (foundFiles.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listing(fileNames)));
+  const files = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
+  const found = files.filter((file) => file !== undefined);
+  const missing = fileNames.filter((_, i) => !files[i]);
+  if (found.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listing(fileNames)));
   const folder = baseName(folderOf(metadata).replace(/\/$/, ''));
-  return { name: folder || foundFiles[0].name, found: foundFiles, missing: missingNames };
+  return { name: folder || found[0].name, found, missing };
 }
 
 /** Returns a container with the messages of several containers, one after the other. */

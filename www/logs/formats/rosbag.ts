@@ -84,7 +84,7 @@ class HeaderFields {
   }
 }
 
-/** Header of the record at a position of a block, and the range of its data, which ends at the next record. Throws a RangeError if it is cut short. */
+/** Returns the header of a record and the range of its data, which ends at the next record. Throws a RangeError if it is cut short. */
 function recordAt(bytes: Uint8Array, view: DataView, at: number): { fields: HeaderFields; from: number; next: number } {
   const header = at + 4 + view.getUint32(at, true);
   const nextRecord = header + 4 + view.getUint32(header, true);

@@ -143,16 +143,16 @@ class Rosbag2 implements Container {
     let levelPages = [root];
     for (let depth = 0; depth < MAX_DEPTH; depth++) {
       const nextLevel: number[] = [];
-      for (const index of levelPages.filter((each) => this.#hasPage(each))) {
+      for (const number of levelPages.filter((each) => this.#hasPage(each))) {
         // These pages are far from each other, so that reading ahead would be slow.
-        const page = await bytesOf(this.#source, (index - 1) * this.#pageSize, index * this.#pageSize);
-        if (page.length === this.#pageSize && page[index === 1 ? HEADER_BYTES : 0] === LEAF && nextLevel.length === 0) return levelPages;
+        const page = await bytesOf(this.#source, (number - 1) * this.#pageSize, number * this.#pageSize);
+        if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF && nextLevel.length === 0) return levelPages;
         try {
           const view = viewOf(page);
-          for (const cell of cellsOf(page, index, INTERIOR)) nextLevel.push(view.getUint32(cell));
-          nextLevel.push(view.getUint32((index === 1 ? HEADER_BYTES : 0) + 8));
+          for (const cell of cellsOf(page, number, INTERIOR)) nextLevel.push(view.getUint32(cell));
+          nextLevel.push(view.getUint32((number === 1 ? HEADER_BYTES : 0) + 8));
         } catch (error) {
-          this.damage.set(index, reasonOf(error));
+          this.damage.set(number, reasonOf(error));
         }
       }
       // A file that was cut short has no pages behind its end.
@@ -219,12 +219,12 @@ function cellsOf(page: Uint8Array, number: number, type: number): number[] {
 
 /** Returns a number of one to nine bytes, and the position behind it. */
 function varintAt(bytes: Uint8Array, at: number): [value: number, next: number] {
-  let decodedCount = 0;
+  let value = 0;
   for (let i = 0; i < 9; i++) {
     if (at + i >= bytes.length) break;
     const byte = bytes[at + i];
-    if (i < 8 && byte & 0x80) decodedCount = decodedCount * 128 + (byte & 0x7f);
-    else return [i < 8 ? decodedCount * 128 + byte : decodedCount * 256 + byte, at + i + 1];
+    if (i < 8 && byte & 0x80) value = value * 128 + (byte & 0x7f);
+    else return [i < 8 ? value * 128 + byte : value * 256 + byte, at + i + 1];
   }
   throw new RangeError('a row is damaged');
 }

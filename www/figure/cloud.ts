@@ -30,7 +30,7 @@ export interface GrowingMachine extends SampleCount {
 const GROWTH_STEPS = 150;
 
 /** Time for adding samples in a frame, ms. A frame, with its pictures, then takes less than 50 ms. */
-const MS_PER_FRAME = 12;
+const ADDING_MS = 12;
 
 export class Cloud extends FigureController {
   playing = false;
@@ -49,13 +49,13 @@ export class Cloud extends FigureController {
   }
 
   /** Latest reading, or the machine if it has changed since. */
-  get #latestCount(): SampleCount {
+  get #latest(): SampleCount {
     return this.host.settings.stale ? this.#machine : this.host.reading;
   }
 
   /** True if the goal is all samples, or the machine has given up. */
   get isComplete() {
-    return this.#goalCount >= this.#samples || this.#gaveUp(this.#latestCount);
+    return this.#goalCount >= this.#samples || this.#gaveUp(this.#latest);
   }
 
   /** Number of samples of the complete cloud. */
@@ -75,7 +75,7 @@ export class Cloud extends FigureController {
 
   /** True if all samples to show are shown. */
   get isSettled(): boolean {
-    return !this.playing && (this.#latestCount.shown >= this.asked || this.#gaveUp(this.#latestCount));
+    return !this.playing && (this.#latest.shown >= this.asked || this.#gaveUp(this.#latest));
   }
 
   /** Starts the growth, or shows a state; readers who prefer reduced motion see the complete cloud. */
@@ -111,16 +111,16 @@ export class Cloud extends FigureController {
   }
 
   /** Adds samples for `limit` milliseconds; returns true if all are shown. */
-  refine(limit = MS_PER_FRAME): boolean {
-    const { asked: askedCount } = this;
+  refine(limit = ADDING_MS): boolean {
+    const { asked } = this;
     const endTime = performance.now() + limit;
-    const latestRequest = this.#latestCount;
-    const { block } = latestRequest;
-    let { shown } = latestRequest;
-    while (shown < askedCount) {
+    const latest = this.#latest;
+    const { block } = latest;
+    let { shown } = latest;
+    while (shown < asked) {
       if (performance.now() > endTime) return false;
       const shownBefore = shown;
-      shown = this.#machine.addSamples(Math.min(askedCount - shown, block));
+      shown = this.#machine.addSamples(Math.min(asked - shown, block));
       // The machine has given up.
       if (shown === shownBefore) break;
       this.host.settings.stale = true;
@@ -168,7 +168,7 @@ export class Cloud extends FigureController {
 
   /** True if the selected sample is shown. */
   get isMarked() {
-    return this.index >= 0 && this.index < this.#latestCount.shown;
+    return this.index >= 0 && this.index < this.#latest.shown;
   }
 
   /** True if the selected sample is shown or will be. */
@@ -189,11 +189,11 @@ export class Cloud extends FigureController {
   /** Adds samples in a frame. The first frame after a change shows one block, so that drags are quick. The last frame adds all samples. */
   advance(isLast: boolean) {
     if (this.playing) this.grow();
-    else if (isLast || !this.host.settings.stale) this.refine(isLast ? Infinity : MS_PER_FRAME);
+    else if (isLast || !this.host.settings.stale) this.refine(isLast ? Infinity : ADDING_MS);
   }
 
   grow() {
-    this.show(this.#latestCount.shown + this.#batchSize);
+    this.show(this.#latest.shown + this.#batchSize);
     if (!this.isComplete) return;
     this.#goalCount = Infinity;
     this.playing = false;
@@ -207,7 +207,7 @@ export class Cloud extends FigureController {
   }
 
   step() {
-    this.#control(false, () => this.show(this.#latestCount.shown + this.#batchSize));
+    this.#control(false, () => this.show(this.#latest.shown + this.#batchSize));
   }
 
   clear() {

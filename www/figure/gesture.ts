@@ -45,7 +45,7 @@ export class Gesture extends FigureController {
     if (!this.#isOpen && !this.#hasStep) this.previousReading = this.host.reading;
     this.#hasStep = true;
     this.#isAtEnd = false;
-    this.#queueEvent();
+    this.#queueEvents();
   }
 
   /** Ends a change: applies it and announces the outcome. */
@@ -81,11 +81,11 @@ export class Gesture extends FigureController {
 
   #finish() {
     this.#isAtEnd = true;
-    this.#queueEvent();
+    this.#queueEvents();
   }
 
-  /** Fires one event after the running handler, which may change several values. */
-  #queueEvent() {
+  /** Fires each event once after the running handler, which may change several values. */
+  #queueEvents() {
     queueMicrotask(() => {
       const [step, end] = [this.#hasStep, this.#isAtEnd];
       this.#hasStep = this.#isAtEnd = false;

@@ -61,12 +61,12 @@ export class Reflection extends FigureController {
     }
     this.#pendingAttributes.clear();
     // Properties between two states are sorted by dependency. States keep their order in time.
-    let firstPending = 0;
-    const sortedPending = [...this.#pendingProperties].map(([name, { apply }]) =>
-      ({ apply, when: typeof name === 'string' ? firstPending + this.#order.indexOf(name) : (firstPending += this.#order.length) }));
+    let base = 0;
+    const pending = [...this.#pendingProperties].map(([name, { apply }]) =>
+      ({ apply, when: typeof name === 'string' ? base + this.#order.indexOf(name) : (base += this.#order.length) }));
     this.#pendingProperties.clear();
-    sortedPending.sort((one, other) => one.when - other.when);
-    for (const { apply } of sortedPending) this.host.runtime.attemptOrReport(apply);
+    pending.sort((one, other) => one.when - other.when);
+    for (const { apply } of pending) this.host.runtime.attemptOrReport(apply);
   }
 
   /** Applies a state, now or as soon as there is a machine. */
@@ -97,8 +97,8 @@ export class Reflection extends FigureController {
   /** Returns the value of a property. Before there is a machine, that is the pending value. */
   get(name: string) {
     const { machine, state } = this.host;
-    const sortedPending = this.pendingValue(name);
-    if (sortedPending !== undefined) return sortedPending;
+    const pending = this.pendingValue(name);
+    if (pending !== undefined) return pending;
     if (name in state.own) return structuredClone(state.own[name]);
     return machine ? this.host.ask(() => this.#properties[name].get(state.config)) : undefined;
   }
@@ -180,7 +180,7 @@ export class Reflection extends FigureController {
     for (const [name, { covers }] of Object.entries(this.#attributes)) {
       if (!covers || texts.get(name) !== null || !changedNames.has(name)) continue;
       const defaultTexts = this.#textsOf(this.#defaultConfig);
-      for (const coveredNames of covers) if (texts.get(coveredNames) !== defaultTexts.get(coveredNames)) changedNames.add(coveredNames);
+      for (const covered of covers) if (texts.get(covered) !== defaultTexts.get(covered)) changedNames.add(covered);
     }
     this.#isWriting = true;
     for (const name of changedNames) {

@@ -220,7 +220,7 @@ function curveKey(curves: Curve[]) {
   </ul>`;
 }
 
-/** Returns a function that converts values to pixels; NaN only for NaN. On a logarithmic axis, values of 0 or less are far below the axis. */
+/** Returns a function that converts values to pixels; NaN only for NaN. Values of 0 or less are far below a logarithmic axis. */
 function pixelScale({ from, to, logarithmic }: Axis, first: number, last: number): (value: number) => number {
   const toLinear = logarithmic ? (value: number) => Math.log10(Math.max(value, 0)) : Number;
   const [start, end] = [toLinear(from), toLinear(to)];

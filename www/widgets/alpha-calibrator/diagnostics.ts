@@ -9,7 +9,7 @@ import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
 import { NOISE_COMPONENTS, type Regressor } from './settings.ts';
-import { checkText, expectedOf, messageOf, localized, thousandsScale } from './words.ts';
+import { checkText, expectedOf, messageOf, localized, powerOf1000 } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -104,12 +104,12 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   const axisEnd = maxRegressor > MIN_REGRESSOR ? 1.06 * maxRegressor : 1;
   const { from, to } = axisOfSquares(y, error, (slope ?? 0) * axisEnd);
   const axisTop = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
-  const { scaled, unit } = thousandsScale(Math.max(axisTop, -from));
-  const alphaIndex = subscriptOf(alpha);
+  const { scaled, unit } = powerOf1000(Math.max(axisTop, -from));
+  const sub = subscriptOf(alpha);
   const [low, high] = interval ?? [NaN, NaN];
   const slopeMiddle = (low + high) / 2;
   const slopeLines: Curve[] = slope === null ? [] : [
-    { name: say.slope(alphaIndex), role: 'prediction', x: [0, axisEnd], y: [0, scaled(slope * axisEnd)] },
+    { name: say.slope(sub), role: 'prediction', x: [0, axisEnd], y: [0, scaled(slope * axisEnd)] },
     { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, axisEnd], y: [0, scaled(slopeMiddle * axisEnd)], error: [0, scaled(((high - low) / 2) * axisEnd)] },
   ];
   return {
@@ -125,8 +125,8 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
 function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./reading.ts').Reading) {
   const { panels: say, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';
-  const alphaIndex = subscriptOf(alpha);
-  return html`<p class="note">${formatMarkup(slope === null ? say.noSlope(alphaIndex) : say.zero(alphaIndex, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
+  const sub = subscriptOf(alpha);
+  return html`<p class="note">${formatMarkup(slope === null ? say.noSlope(sub) : say.zero(sub, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
 }
 
 /**

@@ -63,8 +63,8 @@ export function fixed(value: number | null, interval: Interval | undefined) {
   if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return toText(value);
   const decimals = WIDTH_DIGITS - 1 - Math.floor(Math.log10(intervalWidth));
   if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MOST_DECIMALS, decimals)));
-  const significantDigits = decimals + Math.floor(Math.log10(Math.abs(value)));
-  return significantDigits < 0 ? '0' : withPointInMantissa(value.toExponential(Math.min(MOST_DECIMALS, significantDigits)));
+  const digits = decimals + Math.floor(Math.log10(Math.abs(value)));
+  return digits < 0 ? '0' : withPointInMantissa(value.toExponential(Math.min(MOST_DECIMALS, digits)));
 }
 
 /** Prints an interval; empty if an end is not finite. */

@@ -155,9 +155,9 @@ async function startLogWorker(core: SharedCore): Promise<WorkerLink | undefined>
 }
 
 async function linkInPage(core: SharedCore): Promise<WorkerLink> {
-  const { serveRequests: serve } = await import('../../logs/worker.ts');
+  const { serveRequests } = await import('../../logs/worker.ts');
   const { port1, port2 } = new MessageChannel();
-  serve(port2);
+  serveRequests(port2);
   await new Promise<void>((resolve, reject) => {
     port1.onmessage = ({ data }: MessageEvent<Answer>) => ('failure' in data ? reject(new LogFailure(data.failure)) : resolve());
     port1.postMessage({ core });

@@ -150,12 +150,12 @@ export class LogOpener extends FileOpener<Figure> {
       // A skipped file may be the missing log, so its question comes first.
       const skipped = chosen.skipped.find(({ ask }) => ask);
       if (skipped) throw skipped;
-      const lonelyFiles = this.#loneLogFiles;
+      const lone = this.#loneLogFiles;
       const isLoneLog = chosen.recordings.length === 1 && (error as LogError).ask !== undefined;
       if (isLoneLog) this.#loneLogFiles = { ...chosen };
-      if (!isLoneLog || !lonelyFiles || lonelyFiles.files === chosen.files) throw error;
-      const [files, questions] = [[...lonelyFiles.files, ...chosen.files], [...lonelyFiles.questions, ...chosen.questions]];
-      Object.assign(chosen, { files, questions, answers: { ...lonelyFiles.answers, ...chosen.answers } });
+      if (!isLoneLog || !lone || lone.files === chosen.files) throw error;
+      const [files, questions] = [[...lone.files, ...chosen.files], [...lone.questions, ...chosen.questions]];
+      Object.assign(chosen, { files, questions, answers: { ...lone.answers, ...chosen.answers } });
       Object.assign(chosen, await this.host.service.open(files, chosen.answers));
       return planOf(reader, chosen, this.kind);
     }
@@ -195,11 +195,11 @@ export class LogOpener extends FileOpener<Figure> {
     this.refusal = error;
     const { ask, file, place } = error;
     const { chosen } = this;
-    const query = ask && chosen && { file: file ?? place?.file ?? '', ask };
-    if (query && !chosen.questions.some((each) => each.file === query.file && each.ask.what === ask.what)) chosen.questions.push(query);
+    const asked = ask && chosen && { file: file ?? place?.file ?? '', ask };
+    if (asked && !chosen.questions.some((each) => each.file === asked.file && each.ask.what === ask.what)) chosen.questions.push(asked);
     this.host.requestUpdate();
     await this.host.updateComplete;
-    if (!(query && this.reader?.focusChooser(this.host, query))) await this.showRefusal();
+    if (!(asked && this.reader?.focusChooser(this.host, asked))) await this.showRefusal();
   }
 
   /** Cancels reading, and starts again. */

@@ -110,10 +110,10 @@ function axisOf(values: (number | null)[]) {
 
 function whisker({ at }: ReturnType<typeof axisOf>, value: number, interval: [number, number] | null, truth: number | undefined) {
   const { width, height, middle } = WHISKER_ROW;
-  const [lowX, high] = (interval ?? [value, value]).map(at);
+  const [low, high] = (interval ?? [value, value]).map(at);
   return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">
     ${truth === undefined ? nothing : svg`<path class="true" d="M${at(truth)} 2V${height - 2}" />`}
-    <path class="whisker" d="M${lowX} ${middle}H${high}M${lowX} ${middle - 4}v8M${high} ${middle - 4}v8" />
+    <path class="whisker" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
     <path class="dot" d="M${at(value)} ${middle}h0" />
   </svg>`;
 }

@@ -65,7 +65,7 @@ export const noiseNames = (model: Reading['config']['model']) => words.alphas[mo
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${powerOfTen(Number(exponent))}`);
 
 /** Scales small numbers by a power of 1000, so that labels fit next to an axis. The unit is empty for the power 1. */
-export function thousandsScale(highest: number): { scaled: (value: number) => number, unit: string } {
+export function powerOf1000(highest: number): { scaled: (value: number) => number, unit: string } {
   const exponent = Math.min(0, 3 * Math.floor(Math.log10(highest) / 3));
   return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? powerOfTen(exponent) : '' };
 }
@@ -84,8 +84,8 @@ export function captionOf({ reading, warnings, logName }: Figure) {
 
 export function pathText({ legs, classes }: Reading, chosen: number) {
   if (chosen < 0) return words.calibrator.noWay;
-  const unlikelyLegs = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
-  return words.calibrator.way(integer(legs.count), integer(unlikelyLegs), integer(chosen + 1));
+  const unlikelyCount = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
+  return words.calibrator.way(integer(legs.count), integer(unlikelyCount), integer(chosen + 1));
 }
 
 export function legText(leg: LegView | null, chosen: number) {

@@ -56,7 +56,7 @@ const PICK_RADIUS = 14;
 
 class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   #density = new Density();
-  #placesMemo: Memo<Float64Array> = new Memo();
+  #places: Memo<Float64Array> = new Memo();
 
   /** Morph that is shown, from the floor to exponential coordinates. */
   get morph(): number {
@@ -71,7 +71,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
   places({ machine, stats }: Scene): Float64Array {
     const { morph } = this;
-    return this.#placesMemo.of([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.twists, morph)));
+    return this.#places.of([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.twists, morph)));
   }
 
   /** Draws the robots. `area` is the area that they cover, in square pixels. */
@@ -210,12 +210,12 @@ function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { 
     const { path, pose } = machine.inspect(i);
     // The first robot has arrived when the others start.
     const chords = path.length / 2 - 1;
-    const chordPosition = (i === 0 && robots > 1 ? 1 : share) * chords;
-    const chord = Math.min(Math.floor(chordPosition), chords - 1);
+    const position = (i === 0 && robots > 1 ? 1 : share) * chords;
+    const chord = Math.min(Math.floor(position), chords - 1);
     const [x, y, nextX, nextY] = path.subarray(2 * chord, 2 * chord + 4);
-    const [endX, endY] = [x + (chordPosition - chord) * (nextX - x), y + (chordPosition - chord) * (nextY - y)];
+    const [endX, endY] = [x + (position - chord) * (nextX - x), y + (position - chord) * (nextY - y)];
     drawOutline(brush, Float64Array.of(...path.subarray(0, 2 * chord + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
-    const heading = chordPosition === chords ? pose[2] : Math.atan2(nextY - y, nextX - x);
+    const heading = position === chords ? pose[2] : Math.atan2(nextY - y, nextX - x);
     drawRobot(brush, { x: endX, y: endY, heading, colour: palette.cloud });
   }
 }

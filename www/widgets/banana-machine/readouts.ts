@@ -84,9 +84,9 @@ function legNoise(driven: import('../../types.d.ts').OdomDelta, read: import('..
   });
 }
 
-/** Decimals of computed numbers, as in the book, and of numbers with a standard error. */
-const COMPUTED_DECIMALS = 5;
-const MEASURED_DECIMALS = 3;
+/** Significant digits of computed numbers, as in the book, and of measured numbers. */
+const COMPUTED_DIGITS = 5;
+const MEASURED_DIGITS = 3;
 
 const covarianceName = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 
@@ -114,8 +114,8 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
     columns: [say.quantity, say.linearized, say.exact, say.measured],
     rows: exampleRows.map(([name, of, withItsError]) => [
       name,
-      ...computedColumns.map((column) => significantText(of(column), COMPUTED_DECIMALS)),
-      withItsError ?? significantText(of(measured), MEASURED_DECIMALS),
+      ...computedColumns.map((column) => significantText(of(column), COMPUTED_DIGITS)),
+      withItsError ?? significantText(of(measured), MEASURED_DIGITS),
     ]),
   });
 }
@@ -131,8 +131,8 @@ export function twistTable({ table: { tangent }, stats: { exponential } }: Readi
     columns: [say.quantity, say.command, say.measured],
     rows: twistRows.map(([name, of]) => [
       formatMarkup(name),
-      tangent === null ? NO_VALUE : significantText(of(tangent), COMPUTED_DECIMALS),
-      significantText(of(exponential), MEASURED_DECIMALS),
+      tangent === null ? NO_VALUE : significantText(of(tangent), COMPUTED_DIGITS),
+      significantText(of(exponential), MEASURED_DIGITS),
     ]),
   });
 }

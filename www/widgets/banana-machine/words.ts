@@ -50,7 +50,7 @@ const MIN_GAIN = 0.02;
 /** Area ratio above which the ellipse is visibly too large. */
 const VISIBLE_AREA_RATIO = 1.1;
 
-/** Gains on the floor and of whole poses, nats per robot, above which the cloud is visibly bent: a likelihood ratio of e for 20 and 4 robots. */
+/** Gains (nats per robot) above which the cloud is visibly bent: a likelihood ratio of e for 20 positions, or for 4 poses. */
 const VISIBLE_GAINS = { floor: 0.05, pose: 0.25 };
 
 /** Returns the title of the view of the floor: how the ellipse fits, by the exact figures, or by the samples where no figure is exact. */

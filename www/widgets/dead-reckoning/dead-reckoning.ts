@@ -42,7 +42,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   #step = new StepPicture();
   pictures = [this.#floor, this.#step];
 
-  #rolloutMemo: Memo<Float64Array> = new Memo();
+  #rollout: Memo<Float64Array> = new Memo();
   #straightGrowth: Memo<Machine['straightGrowth']> = new Memo();
 
   // The machine starts without robots: the reader sees them appear, and the first frame does not wait for them.
@@ -83,7 +83,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {
     const { machine, reading, cloud: { isMarked, index } } = this;
-    return isMarked && machine ? this.#rolloutMemo.of([reading.stats, index], () => machine.rollout(index)) : undefined;
+    return isMarked && machine ? this.#rollout.of([reading.stats, index], () => machine.rollout(index)) : undefined;
   }
 
   content(reading: Reading) {

@@ -37,16 +37,16 @@ export class PathPicture extends SamplesPicture<Scene> {
   paint: Picture<Scene>['paint'] = (brush, { commanded, outlines, milestones, poses, pose, marked, overlays, config: { step } }) => {
     const { palette } = brush;
     const styles = lineStyles(brush, OUTLINE_STYLES);
-    const namesShown = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
-    const shownNames = namesShown(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineKeys(brush, OUTLINE_STYLES, namesShown(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
+    const shownOf = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
+    const shownNames = shownOf(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineKeys(brush, OUTLINE_STYLES, shownOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
     const linesOf = (of: Scene['outlines']) => shownNames.map((name) => ({ points: of[name], ...styles[name] }));
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       for (const milestone of milestones) drawMilestone(brush, milestone.poses);
       drawDots(brush, poses, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [
-        ...namesShown(['command']).map((name) => ({ points: commanded, ...styles[name] })),
+        ...shownOf(['command']).map((name) => ({ points: commanded, ...styles[name] })),
         ...shownNames.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
       ]);
       if (brush.previousReading) callouts.push(...drawGhosts(brush, linesOf(brush.previousReading.outlines), [pose, [0, 0]], words.before));
@@ -100,16 +100,16 @@ export class StepPicture extends Picture<Scene> {
 
   paint: Picture<Scene>['paint'] = (brush, { outlines: { predicted, measured }, overlays, twists }) => {
     const styles = lineStyles(brush, OUTLINE_STYLES);
-    const namesShown = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
-    drawAxes(brush, axesOf(this.view), lineKeys(brush, OUTLINE_STYLES, namesShown, words.reckoning.overlays));
+    const shownNames = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
+    drawAxes(brush, axesOf(this.view), lineKeys(brush, OUTLINE_STYLES, shownNames, words.reckoning.overlays));
     const points = { exponential: predicted, measured };
-    const earlierCallouts: Callout[] = [];
+    const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
-      if (brush.previousReading && overlays.includes('exponential')) earlierCallouts.push(...drawGhosts(brush, [{ points: brush.previousReading.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
-      drawOutlines(brush, namesShown.map((name) => ({ points: points[name], ...styles[name] })));
+      if (brush.previousReading && overlays.includes('exponential')) callouts.push(...drawGhosts(brush, [{ points: brush.previousReading.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
+      drawOutlines(brush, shownNames.map((name) => ({ points: points[name], ...styles[name] })));
     });
-    drawCallouts(brush, earlierCallouts, { from: [0, 0], lines: [predicted, measured] });
+    drawCallouts(brush, callouts, { from: [0, 0], lines: [predicted, measured] });
   };
 }
 
@@ -121,7 +121,7 @@ export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>)
   return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > NOTICEABLE_RATIO ? significantText(by, by < 10 ? 2 : 1) : ''));
 }
 
-/** Returns the names of the axes. The upper name has the factor by which an axis is stretched, which would hide ticks near the lower name. */
+/** Returns the names of the axes. The factor of a stretched axis is in the upper name, because it would hide ticks near the lower one. */
 function axesOf(view: View) {
   const { axisAlong: x, axisLateral, stretched } = words.reckoning;
   const [along, lateral] = stretchesOf(view);

@@ -97,8 +97,8 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const gripName = handleName(grip);
     // The wall may be missing in a new plan, until its handle is removed.
     const callWithGrip = <Result>(use: (present: Grip) => Result) => {
-      const presentHandles = this.#presentGrips.find((each) => each && handleName(each) === gripName);
-      return presentHandles && use(presentHandles);
+      const present = this.#presentGrips.find((each) => each && handleName(each) === gripName);
+      return present && use(present);
     };
     const handle = this.#handles.get(gripName) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${gripName}`, {
       view: () => this.host.picture.view,

@@ -18,9 +18,9 @@ function nearestWallPoint(walls: ArrayLike<number>, k: number, x: number, y: num
   const [x0, y0] = [walls[k], walls[k + 1]];
   const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
   const projection = ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1);
-  const wallFraction = Math.min(1, Math.max(0, projection));
-  const wallPoint = [x0 + wallFraction * dx, y0 + wallFraction * dy];
-  return { point: wallPoint, distance: Math.hypot(x - wallPoint[0], y - wallPoint[1]) };
+  const fraction = Math.min(1, Math.max(0, projection));
+  const point = [x0 + fraction * dx, y0 + fraction * dy];
+  return { point, distance: Math.hypot(x - point[0], y - point[1]) };
 }
 
 /** Returns the first point of a wall that a robot with this radius touches on a path of x, y pairs; undefined for none. */
@@ -89,9 +89,9 @@ function isFreeEnd(walls: Float64Array, wall: number, [x, y]: readonly number[])
 /** Returns how far points may move along an axis within bounds. */
 function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
   let [minMove, maxMove] = [-Infinity, Infinity];
-  for (const wallPoint of points) {
+  for (const point of points) {
     for (const i of [0, 1].filter((each) => Math.abs(axis[each]) > TOUCH_DISTANCE)) {
-      const limits = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - wallPoint[i]) / axis[i]).sort((a, b) => a - b);
+      const limits = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - point[i]) / axis[i]).sort((a, b) => a - b);
       [minMove, maxMove] = [Math.max(minMove, limits[0]), Math.min(maxMove, limits[1])];
     }
   }
@@ -100,24 +100,24 @@ function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[
 
 /** Returns how far the end of a wall may move ahead before it is near another wall. */
 function freeDistance(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
-  let nearestDistance = Infinity;
+  let free = Infinity;
   for (let k = 0; k < walls.length; k += 4) {
     if (k === wall) continue;
     const wallEnds = [k, k + 2].map((i) => [(walls[i] - x) * ux + (walls[i + 1] - y) * uy, (walls[i + 1] - y) * ux - (walls[i] - x) * uy]);
     const [[ahead, left], [further, right]] = wallEnds;
     if (Math.min(left, right) > TOUCH_DISTANCE || Math.max(left, right) < -TOUCH_DISTANCE) continue;
     const at = Math.abs(right - left) < TOUCH_DISTANCE ? Math.min(ahead, further) : ahead - (left * (further - ahead)) / (right - left);
-    if (at > 0) nearestDistance = Math.min(nearestDistance, at - MIN_GAP);
+    if (at > 0) free = Math.min(free, at - MIN_GAP);
   }
-  return nearestDistance;
+  return free;
 }
 
 /** Returns the walls with one of them moved along an axis. Walls that end on a wall that moves sideways follow it, if they only get longer or shorter. */
 export function movedWalls(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
-  const movedNumbers = walls.slice();
+  const moved = walls.slice();
   const moveEnd = (at: number) => {
-    movedNumbers[at] = walls[at] + distance * ux;
-    movedNumbers[at + 1] = walls[at + 1] + distance * uy;
+    moved[at] = walls[at] + distance * ux;
+    moved[at + 1] = walls[at + 1] + distance * uy;
   };
   if (part !== 'to') moveEnd(wall);
   if (part !== 'from') moveEnd(wall + 2);
@@ -126,5 +126,5 @@ export function movedWalls(walls: Float64Array, { wall, part, axis: [ux, uy] }: 
     if (k === wall || Math.abs(dx * uy - dy * ux) > TOUCH_DISTANCE) continue;
     for (const end of [k, k + 2]) if (nearestWallPoint(walls, wall, walls[end], walls[end + 1]).distance < TOUCH_DISTANCE) moveEnd(end);
   }
-  return movedNumbers;
+  return moved;
 }

@@ -47,9 +47,9 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, new motion.OdometryDecomposer(), state);
 
-  #curveMemo: Memo<Float64Array> = new Memo();
+  #curve: Memo<Float64Array> = new Memo();
   #curveOf = (longest: number, points: number) =>
-    this.#curveMemo.of([this.reading.stats, longest, points], () => (this.machine as Machine).curve(longest, points));
+    this.#curve.of([this.reading.stats, longest, points], () => (this.machine as Machine).curve(longest, points));
 
   read = readingOf;
 

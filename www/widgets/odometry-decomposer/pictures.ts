@@ -109,12 +109,12 @@ export class LegsPicture extends OutcomesPicture {
       return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
     // The arcs have a fixed size in pixels. They fit at half of the scale at which the positions alone would fit.
-    let maxScale = view.scaleFor(extentOf(worldPoints, 1.2));
-    let low = maxScale / 2;
+    let high = view.scaleFor(extentOf(worldPoints, 1.2));
+    let low = high / 2;
     for (let i = 0; i < SCALE_BISECTIONS; i++) {
-      const middleScale = (low + maxScale) / 2;
-      if (view.scaleFor(boxAtScale(middleScale)) < middleScale) maxScale = middleScale;
-      else low = middleScale;
+      const scale = (low + high) / 2;
+      if (view.scaleFor(boxAtScale(scale)) < scale) high = scale;
+      else low = scale;
     }
     view.fit(boxAtScale(low));
   }

@@ -83,7 +83,7 @@ function renamingFields(keys: string[], take: () => void) {
   }
 }
 
-/** Returns cells as a PGM image. The first row of an image is the top one, that of a grid the bottom one. With `negate`, white is occupied. */
+/** Returns cells as a PGM image. The first row of an image is at the top, that of a grid at the bottom. With `negate`, white is occupied. */
 function imageOf(columns: number, rows: number, occupiedBits: Uint8Array, unknownBits: Uint8Array) {
   const pgmHeader = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED_SHADE}\n`);
   const pgmImage = new Uint8Array(pgmHeader.length + columns * rows);

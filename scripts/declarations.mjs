@@ -105,7 +105,7 @@ export function widgets() {
 /** Returns the declarations of a widget. @param {string} tag @returns {Promise<Widget>} */
 async function widgetOf(tag) {
   // They import libraries, which a bare clone does not have yet.
-  const { COMMON_ATTRS, NUMBER_CONVERTER: NUMBER, WORD_LIST_CONVERTER: WORD_LIST } = await importTypeScript('www/figure/attributes.ts');
+  const { COMMON_ATTRS, NUMBER_CONVERTER, WORD_LIST_CONVERTER } = await importTypeScript('www/figure/attributes.ts');
   const { definition: { attributes, declared, own }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/attributes.ts').Documentation[]} */
   const documentations = [...('marked' in own ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
@@ -130,7 +130,7 @@ async function widgetOf(tag) {
     const { words, covers, converter, property } = entry;
     const nullable = covers || entry.nullable;
     const openingText = own[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
-    const type = converter === NUMBER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST ? `(${unionType(words)})[]` : unionType(words);
+    const type = converter === NUMBER_CONVERTER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST_CONVERTER ? `(${unionType(words)})[]` : unionType(words);
     const text = Array.isArray(openingText) ? openingText.join(' ') : openingText;
     const description = describe({ ...entry, sentence: attributeSentences[name] }, text);
     return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: rangeText(entry), withoutRange: description };

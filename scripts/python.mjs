@@ -32,12 +32,12 @@ export async function writePython() {
 
 /** @returns {Promise<string>} a module of Python */
 export async function elementsModule() {
-  const { GLOBAL_ATTRIBUTES: GLOBAL } = await importTypeScript('www/named.ts');
+  const { GLOBAL_ATTRIBUTES } = await importTypeScript('www/named.ts');
   const { classes } = await classComments();
   const widgetClasses = (await widgets()).map(({ tag, machine, attributes, properties }) => {
     const documentedFields = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
     const traits = documentedFields.filter(({ readonly }) => !readonly).map((each) => ({ ...each, trait: traitOf(each, tag) }));
-    const globalTraits = GLOBAL.map((/** @type {string} */ name) => ({ name, trait: OPTIONAL_TRAITS.Unicode, description: `As the attribute \`${name}\` of HTML.` }));
+    const globalTraits = GLOBAL_ATTRIBUTES.map((/** @type {string} */ name) => ({ name, trait: OPTIONAL_TRAITS.Unicode, description: `As the attribute \`${name}\` of HTML.` }));
     return { machine, tag, sentence: oneLine(classes.get(`${machine}Element`).description), traits: [...traits, ...globalTraits] };
   });
   const lines = [

@@ -37,9 +37,8 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
     let overlap = to.min(end) - from.max(start);
     let finest_step = FINEST_STEP.max(0.5 * odometry.median_period()).max((to - from) / MAX_SAMPLES);
     let scan = |range: [f64; 2], step: f64| best_match(odometry, reference, range, finest_step.max(step));
-    let near_match =
-        if overlap < min_overlap { None } else { scan([-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], 0.0) };
-    if let Some((offset, _)) = near_match.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
+    let near = if overlap < min_overlap { None } else { scan([-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], 0.0) };
+    if let Some((offset, _)) = near.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
         return Some(offset);
     }
     let range = [start - to + min_overlap, end - from - min_overlap];
@@ -50,7 +49,7 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
         step = finest_step.max(step / 50.0);
         far_match = scan(nearby_range, step);
     }
-    match [near_match, far_match] {
+    match [near, far_match] {
         [Some((offset, correlation)), Some((_, farther))] if farther - correlation < MIN_CORRELATION_GAIN => {
             Some(offset)
         }
@@ -108,8 +107,7 @@ fn turns(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Op
         let fraction = (time - times[sample_before]) / (time_after - times[sample_before]);
         Some((gaps, headings[sample_before] + fraction * (headings[next] - headings[sample_before])))
     };
-    let headings: Vec<Option<(usize, f64)>> =
-        (0..=count).map(|i| heading_at(start + i as f64 * step)).collect();
+    let headings: Vec<_> = (0..=count).map(|i| heading_at(start + i as f64 * step)).collect();
     let turn_between = |pair: &[Option<(usize, f64)>]| {
         let [(gaps_at_start, from), (gaps_at_end, to)] = [pair[0]?, pair[1]?];
         (gaps_at_start == gaps_at_end).then_some(to - from)

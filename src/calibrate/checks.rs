@@ -206,11 +206,8 @@ pub(super) fn log_checks(
     let scales = [SystematicError::DistanceScale, SystematicError::TurnScale];
     let has_plausible_scales = scales.iter().all(|scale| PLAUSIBLE_SCALES.contains(&systematic.get(*scale)));
     let mismatch = if has_plausible_scales { mismatch(sample, systematic) } else { Some(f64::INFINITY) };
-    let mut ratios: Vec<f64> = sample
-        .legs
-        .iter()
-        .map(|leg| sample.options.legs.length_ratio(&leg.odometry, leg.duration()))
-        .collect();
+    let mut ratios: Vec<f64> =
+        sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = sample.outliers.iter().filter(|is| **is).count();
     let lost_count = lost.total() - lost.standing;
     let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, MISMATCH_RANGE));
@@ -278,9 +275,8 @@ pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
 /// Returns the range of coverage on logs that are simulated by the model. A relative error of the variances moves it by 0.14 times as
 /// much: that is the density of ln χ² with 3 degrees of freedom at its quantile 0.95.
 pub(super) fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
-    let binomial_variance = 0.95 * 0.05 / count as f64;
-    let tolerance =
-        NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (binomial_variance + (0.14 * scale_std).powi(2)).sqrt());
+    let variance = 0.95 * 0.05 / count as f64;
+    let tolerance = NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (variance + (0.14 * scale_std).powi(2)).sqrt());
     [0.95 - tolerance, (0.95 + tolerance).min(1.0)]
 }
 
@@ -354,11 +350,10 @@ fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -
     if residuals.len() < MIN_GROUP_LEGS {
         return None;
     }
-    let least_squares = residuals.least_squares(&fit.maximum.parameters);
-    let variance = least_squares.covariance[(scale as usize, scale as usize)];
+    let solution = residuals.least_squares(&fit.maximum.parameters);
+    let variance = solution.covariance[(scale as usize, scale as usize)];
     let std = variance.sqrt();
-    (variance > 0.0 && std < scale.identifiability_limit())
-        .then(|| [-least_squares.errors[scale as usize], std])
+    (variance > 0.0 && std < scale.identifiability_limit()).then(|| [-solution.errors[scale as usize], std])
 }
 
 /// Returns the verdict from all checks. `identifies` is true if the log identifies at least one α.

@@ -168,7 +168,7 @@ impl<'a> Log<'a> {
         let (mut all, mut lost) = (Vec::new(), LostLegs::default());
         for (index, drive) in self.drives.iter().enumerate() {
             let (offset, first) = (clock_offset + self.offsets[index] - self.clock_offset(), all.len());
-            drive.cut_into_legs(options.legs, offset, &mut all, &mut lost);
+            drive.cut(options.legs, offset, &mut all, &mut lost);
             all[first..].iter_mut().for_each(|leg| leg.drive = index);
         }
         (all, lost)
@@ -204,15 +204,14 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
         let gate_factor = if parameters.is_some() { 1.0 } else { FIRST_ROUND_GATE_FACTOR };
         let mut has_converged = !sample.mark_outliers(&guess, gate_factor, round) && round > 1;
         let (residuals, maximum) = sample.fit(guess)?;
-        let least_squares = &maximum.expansion.filtered.least_squares;
+        let solution = &maximum.expansion.filtered.least_squares;
         let previous_errors = systematic;
         for (i, error) in SystematicError::ALL.into_iter().enumerate() {
             if sample.estimated[i] {
-                let max_change = 4.0 * error.identifiability_limit();
-                let error_change = -least_squares.errors[i];
-                has_converged &=
-                    error_change.abs() <= CONVERGENCE_TOLERANCE * least_squares.covariance[(i, i)].sqrt();
-                *systematic.get_mut(error) += error_change.clamp(-max_change, max_change);
+                let limit = 4.0 * error.identifiability_limit();
+                let change = -solution.errors[i];
+                has_converged &= change.abs() <= CONVERGENCE_TOLERANCE * solution.covariance[(i, i)].sqrt();
+                *systematic.get_mut(error) += change.clamp(-limit, limit);
             } else {
                 *systematic.get_mut(error) = initial.get(error);
             }
@@ -221,7 +220,7 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
         if has_converged || round == MAX_ROUNDS {
             let block_length = (residuals.len() as f64).cbrt().ceil() as usize;
             let sandwich = maximum.expansion.filtered.sandwich(block_length);
-            let std = |i: usize| least_squares.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt();
+            let std = |i: usize| solution.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt();
             let stds = std::array::from_fn(std);
             return Ok(Fit { sample, residuals, maximum, stds });
         }

@@ -35,7 +35,7 @@ pub(super) fn intervals(
     let block_length = ((leg_count as f64).cbrt() * variance_factor).ceil().max(1.0) as usize;
     let block_scores: Vec<Parameters> =
         maximum.expansion.scores.chunks(block_length).map(|block| block.iter().sum()).collect();
-    let block_quantile = student_95(block_scores.len().saturating_sub(1));
+    let quantile = student_95(block_scores.len().saturating_sub(1));
     move |parameter| {
         let estimate = maximum.parameters[parameter];
         if !maximum.free[parameter] {
@@ -50,8 +50,7 @@ pub(super) fn intervals(
         let guess = threshold / (1.0 / variance).sqrt();
         let end = |sign: f64| profile_end(residuals, maximum, &ridges, parameter, sign * guess, threshold);
         let sandwich: f64 = block_scores.iter().map(|score| covariances.dot(score).powi(2)).sum();
-        let widening =
-            ((sandwich / variance).sqrt() * block_quantile / NORMAL_95).max(variance_factor.sqrt());
+        let widening = ((sandwich / variance).sqrt() * quantile / NORMAL_95).max(variance_factor.sqrt());
         [(estimate + widening * end(-1.0)).max(0.0), estimate + widening * end(1.0)]
     }
 }
@@ -61,14 +60,13 @@ pub(super) fn intervals(
 fn ridges(maximum: &Maximum, parameter: usize) -> Vec<Parameters> {
     let parameters = maximum.parameters;
     let has_zero_alpha = (0..MAX_ALPHAS).any(|alpha| maximum.free[alpha] && parameters[alpha] == 0.0);
-    let with_small_alphas = has_zero_alpha.then(|| unknown_alphas(&parameters));
-    let ridge_at = |parameters| {
+    let raised = has_zero_alpha.then(|| unknown_alphas(&parameters));
+    let ridge = |parameters| {
         let covariances = maximum.covariances(&parameters, parameter);
         let variance = covariances[parameter];
         if variance > 0.0 { covariances / variance } else { Parameters::ith(parameter, 1.0) }
     };
-    let mut ridges: Vec<Parameters> =
-        [Some(parameters), with_small_alphas].into_iter().flatten().map(ridge_at).collect();
+    let mut ridges: Vec<Parameters> = [Some(parameters), raised].into_iter().flatten().map(ridge).collect();
     ridges.dedup();
     ridges
 }
@@ -169,21 +167,18 @@ pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<N
         if marginal >= MIN_INFORMATION {
             return Some(NotIdentifiable::Collinear);
         }
-        let grows_with_turn = model.grows_with_turn(alpha);
+        let by_turn = model.grows_with_turn(alpha);
         let uses_alpha = |observation: &&Observation| {
             let is_observed =
                 |k: usize| model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan();
             let motion = &observation.expected;
-            let moves = if grows_with_turn {
-                turn(motion) > MIN_TURN_ANGLE
-            } else {
-                distance(motion) > MIN_DRIVE_DISTANCE
-            };
+            let moves =
+                if by_turn { turn(motion) > MIN_TURN_ANGLE } else { distance(motion) > MIN_DRIVE_DISTANCE };
             moves && (0..3).any(is_observed)
         };
         Some(match sample.observations.iter().filter(uses_alpha).count() {
             count if count >= MIN_MOVING_LEGS => NotIdentifiable::ReferenceTooNoisy,
-            _ if grows_with_turn => NotIdentifiable::InsufficientRotation,
+            _ if by_turn => NotIdentifiable::InsufficientRotation,
             _ => NotIdentifiable::InsufficientTranslation,
         })
     };

@@ -33,7 +33,7 @@ impl LegLength {
     pub const AMCL_ANGLE: f64 = 0.2;
 
     /// Returns the length of a leg divided by the length at which it should end.
-    pub(super) fn length_ratio(&self, [start, end]: &[SE2; 2], lasted: f64) -> f64 {
+    pub(super) fn ratio(&self, [start, end]: &[SE2; 2], lasted: f64) -> f64 {
         match *self {
             Self::Displacement { distance, angle } => ((end.x() - start.x()).abs() / distance)
                 .max((end.y() - start.y()).abs() / distance)
@@ -44,7 +44,7 @@ impl LegLength {
 
     /// Returns true if a leg ends here: beyond the limit of a displacement, or at the limit of a duration, up to [`LENGTH_TOLERANCE`].
     fn is_complete(&self, ends: &[SE2; 2], lasted: f64) -> bool {
-        let excess_ratio = self.length_ratio(ends, lasted) - 1.0;
+        let excess_ratio = self.ratio(ends, lasted) - 1.0;
         match self {
             Self::Displacement { .. } => excess_ratio > LENGTH_TOLERANCE,
             Self::Duration { .. } => excess_ratio >= -LENGTH_TOLERANCE,
@@ -181,13 +181,7 @@ impl Drive<'_> {
     }
 
     /// Adds the legs of this drive to `legs`, and the numbers of omitted legs to `lost`. Each leg begins where the previous one ended.
-    pub(super) fn cut_into_legs(
-        &self,
-        length: LegLength,
-        clock_offset: f64,
-        legs: &mut Vec<Leg>,
-        lost: &mut LostLegs,
-    ) {
+    pub(super) fn cut(&self, length: LegLength, clock_offset: f64, legs: &mut Vec<Leg>, lost: &mut LostLegs) {
         let Self { odometry, reference } = *self;
         // Reading at which the present leg began, and its start if the reference has a pose there.
         let mut start: Option<((f64, SE2), Option<End>)> = None;
@@ -209,9 +203,7 @@ impl Drive<'_> {
             let end_end = self.end_at(sample, clock_offset);
             let (Some(from), Some(to)) = (start_end, end_end) else {
                 // The leg stays open until it is too long: the reference may come back.
-                if start_end.is_none()
-                    || length.length_ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE
-                {
+                if start_end.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
                     lost.without_reference += 1;
                     (start, follows_previous) = (Some(((time, pose), end_end)), false);
                 }
@@ -228,7 +220,7 @@ impl Drive<'_> {
             if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
                 lost.across_breaks += 1;
                 follows_previous = false;
-            } else if has_paused && length.length_ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+            } else if has_paused && length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
                 lost.across_pauses += 1;
                 follows_previous = false;
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
@@ -260,6 +252,6 @@ pub fn split_into_legs(
     clock_offset: f64,
 ) -> (Vec<Leg>, LostLegs) {
     let (mut legs, mut lost_legs) = (Vec::new(), LostLegs::default());
-    Drive { odometry, reference }.cut_into_legs(length, clock_offset, &mut legs, &mut lost_legs);
+    Drive { odometry, reference }.cut(length, clock_offset, &mut legs, &mut lost_legs);
     (legs, lost_legs)
 }

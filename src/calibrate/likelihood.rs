@@ -196,7 +196,7 @@ impl Innovation {
 fn residual_without_errors(columns: &JacobianAndResidual, errors: &ErrorVector) -> Vector3<f64> {
     let mut residual = Vector3::zeros();
     for k in 0..3 {
-        let row = columns.matrix_row(k);
+        let row = columns.row(k);
         let mut explained_part = row[0] * errors[0];
         for error in 1..ERROR_COUNT {
             explained_part += row[error] * errors[error];
@@ -233,29 +233,24 @@ impl Residuals {
     }
 
     /// Runs the forward recursion. Adds the innovation of each leg to `innovations`, if given.
-    fn run_filter(
-        &self,
-        parameters: &Parameters,
-        mut innovations: Option<&mut Vec<Innovation>>,
-    ) -> LeastSquares {
+    fn filter(&self, parameters: &Parameters, mut innovations: Option<&mut Vec<Innovation>>) -> LeastSquares {
         let reference_variances = reference_variances(parameters);
         let (mut log_det, mut gram) = (0.0, Gram::ZERO);
         let initial_state = (JacobianAndResidual::ZERO, Matrix3::from_diagonal(&reference_variances));
-        let (mut mean, mut prior_cov) = initial_state;
+        let (mut mean, mut prior) = initial_state;
         // A product is cheaper than as many logarithms.
         let mut det = 1.0;
         for (term, follows) in self.terms() {
             if !follows {
-                (mean, prior_cov) = initial_state;
+                (mean, prior) = initial_state;
             }
             let columns = term.columns.with_added(&mean.left_multiplied(&-term.start));
             let by_end = scaled_columns(&term.end, &reference_variances);
-            let mut covariance = product(&product(&term.start, &prior_cov), &term.start.transpose())
+            let mut covariance = product(&product(&term.start, &prior), &term.start.transpose())
                 + product(&by_end, &term.end.transpose());
-            let wheel_variances = self.model.wheel_variances(&term.coefficients, parameters);
+            let wheels = self.model.wheel_variances(&term.coefficients, parameters);
             for k in 0..3 {
-                covariance[(k, k)] +=
-                    wheel_variances[k] + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
+                covariance[(k, k)] += wheels[k] + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
             }
             let (weight, determinant) = inverse(&covariance);
             det *= determinant;
@@ -266,12 +261,12 @@ impl Residuals {
             let gain = product(&by_end.transpose(), &weight);
             gram.add_product(&columns, &columns.left_multiplied(&weight));
             mean = columns.left_multiplied(&gain);
-            prior_cov = Matrix3::from_diagonal(&reference_variances)
+            prior = Matrix3::from_diagonal(&reference_variances)
                 - scaled_columns(&product(&gain, &term.end), &reference_variances);
-            if let Some(all_innovations) = &mut innovations {
+            if let Some(innovations) = &mut innovations {
                 let variance = |k: usize| if term.observed[k] { covariance[(k, k)] } else { f64::NAN };
                 let variances = [variance(0), variance(1), variance(2)];
-                all_innovations.push(Innovation { columns, variances, weight, gain });
+                innovations.push(Innovation { columns, variances, weight, gain });
             }
         }
         self.least_squares_of(log_det + libm::log(det.max(f64::MIN_POSITIVE)), &gram)
@@ -284,20 +279,20 @@ impl Residuals {
         let weighted_residual: ErrorVector = gram.block(RESIDUAL_COLUMN);
         let errors = covariance * weighted_residual;
         let degrees_of_freedom = self.count as f64 - self.estimated.iter().filter(|is| **is).count() as f64;
-        let deviance = log_det + log_det_information + gram.matrix_row(RESIDUAL_COLUMN)[RESIDUAL_COLUMN]
+        let deviance = log_det + log_det_information + gram.row(RESIDUAL_COLUMN)[RESIDUAL_COLUMN]
             - weighted_residual.dot(&errors)
             + degrees_of_freedom * libm::log(TAU);
         LeastSquares { log_likelihood: -0.5 * deviance, information, errors, covariance }
     }
 
     pub fn least_squares(&self, parameters: &Parameters) -> LeastSquares {
-        self.run_filter(parameters, None)
+        self.filter(parameters, None)
     }
 
     /// Returns the innovation of each leg, and the systematic errors that explain a part of them.
     pub fn filtered(&self, parameters: &Parameters) -> Filtered {
         let mut innovations = Vec::with_capacity(self.chosen.len());
-        let least_squares = self.run_filter(parameters, Some(&mut innovations));
+        let least_squares = self.filter(parameters, Some(&mut innovations));
         Filtered { innovations, least_squares }
     }
 
@@ -323,21 +318,21 @@ impl Residuals {
         let innovations = &expansion.filtered.innovations;
         for (i, ((term, follows), innovation)) in self.terms().zip(innovations).enumerate().rev() {
             let Innovation { columns, weight, gain, .. } = innovation;
-            let (mut solved_columns, mut block) = (columns.left_multiplied(weight), *weight);
+            let (mut solved, mut block) = (columns.left_multiplied(weight), *weight);
             let (mut at_end, mut end_block) = (JacobianAndResidual::ZERO, Matrix3::zeros());
             if let Some((next, next_block, start)) = &next_leg {
                 let carried_gain = product(start, gain);
                 at_end = next.left_multiplied(&start.transpose());
-                solved_columns = solved_columns.with_added(&at_end.left_multiplied(&-gain.transpose()));
+                solved = solved.with_added(&at_end.left_multiplied(&-gain.transpose()));
                 let off_diagonal = -product(next_block, &carried_gain);
                 block -= product(&carried_gain.transpose(), &off_diagonal);
                 let cross_block = product(&product(&start.transpose(), &off_diagonal), &term.end);
                 let start_product = product(&product(&start.transpose(), next_block), start);
                 end_block = start_product + cross_block + cross_block.transpose();
             }
-            at_end = at_end.with_added(&solved_columns.left_multiplied(&term.end.transpose()));
+            at_end = at_end.with_added(&solved.left_multiplied(&term.end.transpose()));
             end_block += product(&product(&term.end.transpose(), &block), &term.end);
-            let leg_projection = residual_without_errors(&solved_columns, &errors);
+            let leg_projection = residual_without_errors(&solved, &errors);
             let score = &mut expansion.scores[i];
             let mut add_to_score = |parameter: usize, factor: f64, square: f64, trace: f64| {
                 expansion.quadratic[parameter] += factor * square;
@@ -345,8 +340,8 @@ impl Residuals {
                 score[parameter] += 0.5 * factor * (square - trace);
             };
             for component in 0..3 {
-                let trace = block[(component, component)]
-                    - covariance_rows.quadratic_form(solved_columns.matrix_row(component));
+                let trace =
+                    block[(component, component)] - covariance_rows.quadratic_form(solved.row(component));
                 for (alpha, factor) in alphas[component].into_iter().zip(term.coefficients[component]) {
                     add_to_score(alpha, factor, leg_projection[component] * leg_projection[component], trace);
                 }
@@ -354,7 +349,7 @@ impl Residuals {
             let mut add_reference_error = |solved: &JacobianAndResidual, block: &Matrix3<f64>| {
                 let projection = residual_without_errors(solved, &errors);
                 for row in 0..3 {
-                    let trace = block[(row, row)] - covariance_rows.quadratic_form(solved.matrix_row(row));
+                    let trace = block[(row, row)] - covariance_rows.quadratic_form(solved.row(row));
                     add_to_score(REFERENCE_VARIANCES[row], 1.0, projection[row] * projection[row], trace);
                 }
                 projection
@@ -364,10 +359,10 @@ impl Residuals {
                 Vector3::zeros()
             } else {
                 let start_block = product(&product(&term.start.transpose(), &block), &term.start);
-                add_reference_error(&solved_columns.left_multiplied(&term.start.transpose()), &start_block)
+                add_reference_error(&solved.left_multiplied(&term.start.transpose()), &start_block)
             };
             projected[i] = [leg_projection, start, end];
-            next_leg = (follows && i > 0).then_some((solved_columns, block, term.start));
+            next_leg = (follows && i > 0).then_some((solved, block, term.start));
         }
         expansion.information = self.average_information(innovations, &projected, &covariance);
         expansion

@@ -30,7 +30,7 @@ impl<const ROWS: usize> WideMatrix<ROWS> {
     }
 
     #[inline(always)]
-    pub fn matrix_row(&self, row: usize) -> &[f64; WIDTH] {
+    pub fn row(&self, row: usize) -> &[f64; WIDTH] {
         bytemuck::cast_ref(&self.0[row])
     }
 
@@ -41,7 +41,7 @@ impl<const ROWS: usize> WideMatrix<ROWS> {
 
     /// Returns a block of this matrix that begins at `column` of its first row.
     pub fn block<const R: usize, const C: usize>(&self, column: usize) -> SMatrix<f64, R, C> {
-        SMatrix::from_fn(|i, j| self.matrix_row(i)[column + j])
+        SMatrix::from_fn(|i, j| self.row(i)[column + j])
     }
 
     /// Returns vᵀ M v with M the first `ROWS` columns of this matrix, and v the first `ROWS` entries of `vector`.
@@ -65,7 +65,7 @@ impl<const ROWS: usize> WideMatrix<ROWS> {
     #[inline(always)]
     pub fn add_product(&mut self, left: &WideMatrix<3>, right: &WideMatrix<3>) {
         for row in 0..ROWS {
-            let left_column = [left.matrix_row(0)[row], left.matrix_row(1)[row], left.matrix_row(2)[row]];
+            let left_column = [left.row(0)[row], left.row(1)[row], left.row(2)[row]];
             let product = right.row_combination(left_column);
             for pair in 0..VECTORS_PER_ROW {
                 self.0[row][pair] += product[pair];
@@ -124,8 +124,8 @@ pub(super) fn product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64>
 /// Returns the inverse of a matrix (0 if the matrix is singular), and its determinant.
 #[inline(always)]
 pub(super) fn inverse(matrix: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
-    let matrix_row = |row: usize| [matrix[(row, 0)], matrix[(row, 1)], matrix[(row, 2)]];
-    let [a, b, c] = [matrix_row(0), matrix_row(1), matrix_row(2)];
+    let row = |row: usize| [matrix[(row, 0)], matrix[(row, 1)], matrix[(row, 2)]];
+    let [a, b, c] = [row(0), row(1), row(2)];
     let first_cofactors = cross_product(&b, &c);
     let determinant = a[0] * first_cofactors[0] + a[1] * first_cofactors[1] + a[2] * first_cofactors[2];
     let adjugate = Matrix3::from([first_cofactors, cross_product(&c, &a), cross_product(&a, &b)]);

@@ -62,23 +62,21 @@ fn scoring_step(parameters: &Parameters, expansion: &Expansion, free: &FreeMask)
     let information = &expansion.information;
     let is_free =
         |j: &usize| free[*j] && information[(*j, *j)] > 0.0 && (parameters[*j] > 0.0 || score[*j] > 0.0);
-    let mut free_parameters: Vec<usize> = (0..PARAMETER_COUNT).filter(is_free).collect();
+    let mut active: Vec<usize> = (0..PARAMETER_COUNT).filter(is_free).collect();
     loop {
-        let (factor, scale) = scaled_cholesky(information, &free_parameters, [1e-9, 1e-9])?;
-        let gradient = DVector::from_fn(free_parameters.len(), |a, _| score[free_parameters[a]] / scale[a]);
-        let scaled_steps = factor.solve(&gradient);
+        let (factor, scale) = scaled_cholesky(information, &active, [1e-9, 1e-9])?;
+        let gradient = DVector::from_fn(active.len(), |a, _| score[active[a]] / scale[a]);
+        let steps = factor.solve(&gradient);
         // A variance of 0 that would become negative stays 0, and the step of the others is computed without it.
-        if let Some(stuck) = (0..free_parameters.len())
-            .find(|a| parameters[free_parameters[*a]] == 0.0 && scaled_steps[*a] < 0.0)
-        {
-            free_parameters.remove(stuck);
+        if let Some(stuck) = (0..active.len()).find(|a| parameters[active[*a]] == 0.0 && steps[*a] < 0.0) {
+            active.remove(stuck);
             continue;
         }
-        if 0.5 * gradient.dot(&scaled_steps) < MIN_GAIN {
+        if 0.5 * gradient.dot(&steps) < MIN_GAIN {
             return None;
         }
         let mut step = Parameters::zeros();
-        free_parameters.iter().enumerate().for_each(|(a, j)| step[*j] = scaled_steps[a] / scale[a]);
+        active.iter().enumerate().for_each(|(a, j)| step[*j] = steps[a] / scale[a]);
         return Some(step);
     }
 }
@@ -112,19 +110,16 @@ impl Maximum {
     /// free parameters above 0. Other parameters at 0 are fixed, with covariance 0. All are 0 without information on this parameter.
     pub fn covariances(&self, parameters: &Parameters, parameter: usize) -> Parameters {
         let information = &self.expansion.information;
-        let free_parameters: Vec<usize> = (0..PARAMETER_COUNT)
+        let active: Vec<usize> = (0..PARAMETER_COUNT)
             .filter(|j| *j == parameter || self.free[*j] && parameters[*j] > 0.0)
             .filter(|j| information[(*j, *j)] > 0.0)
             .collect();
         let mut column = Parameters::zeros();
-        if let Some(place) = free_parameters.iter().position(|j| *j == parameter)
-            && let Some((factor, scale)) = scaled_cholesky(information, &free_parameters, [1e-12, 0.0])
+        if let Some(place) = active.iter().position(|j| *j == parameter)
+            && let Some((factor, scale)) = scaled_cholesky(information, &active, [1e-12, 0.0])
         {
             let steps = factor.solve(&DVector::from_fn(scale.len(), |a, _| f64::from(u8::from(a == place))));
-            free_parameters
-                .iter()
-                .enumerate()
-                .for_each(|(a, j)| column[*j] = steps[a] / (scale[a] * scale[place]));
+            active.iter().enumerate().for_each(|(a, j)| column[*j] = steps[a] / (scale[a] * scale[place]));
         }
         column
     }

@@ -18,17 +18,15 @@ const LAST_RETURN_ROUND: usize = 2;
 impl Sample {
     /// Returns the fits of all legs under these parameters. An outlier is computed alone, the inliers along their chain.
     pub(super) fn leg_fits(&self, parameters: &Parameters) -> Vec<LegFit> {
-        let inlier_residuals = self.inlier_residuals(0..self.legs.len());
-        let outlier_terms = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| (leg, false));
-        let outlier_residuals =
-            Residuals::new(self.options.model, self.estimated, &self.terms, outlier_terms.collect());
-        let [inlier_fit, outlier_fit] =
-            [inlier_residuals, outlier_residuals].map(|residuals| residuals.filtered(parameters));
+        let inliers = self.inlier_residuals(0..self.legs.len());
+        let terms = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| (leg, false));
+        let outliers = Residuals::new(self.options.model, self.estimated, &self.terms, terms.collect());
+        let [inlier_fit, outlier_fit] = [inliers, outliers].map(|residuals| residuals.filtered(parameters));
         let errors = inlier_fit.least_squares.errors;
-        let [mut inlier_innovations, mut outlier_innovations] =
+        let [mut inliers, mut outliers] =
             [inlier_fit, outlier_fit].map(|filtered| filtered.innovations.into_iter());
         let fit_of_next = |is_outlier: &bool| {
-            let innovation = if *is_outlier { outlier_innovations.next() } else { inlier_innovations.next() };
+            let innovation = if *is_outlier { outliers.next() } else { inliers.next() };
             innovation.map(|innovation| innovation.leg_fit(&errors, *is_outlier))
         };
         self.outliers.iter().filter_map(fit_of_next).collect()

@@ -140,11 +140,8 @@ fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_li
             (libm::atan2(left, ahead), libm::hypot(ahead, left) - trans)
         };
         let bearing_row = RowVector3::new(-sin, cos, 0.0) / trans;
-        (
-            [bearing_error, length_error, wrap_angle(turn_residual - bearing_error)],
-            [first, along, second],
-            bearing_row,
-        )
+        let residuals = [bearing_error, length_error, wrap_angle(turn_residual - bearing_error)];
+        (residuals, [first, along, second], bearing_row)
     } else {
         let both = [first[0] + second[0], first[1] + second[1]];
         ([f64::NAN, ahead - trans, turn_residual], [[0.0; 2], along, both], RowVector3::zeros())

@@ -149,11 +149,10 @@ impl Trajectory {
     /// Returns the index of the sample nearest to a time (s). None if it is further away than half of the shortest pause.
     pub(super) fn nearest(&self, time: f64) -> Option<usize> {
         let next = self.times.partition_point(|each| *each < time);
-        let time_distance =
-            |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
+        let distance = |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
         let previous = next.saturating_sub(1);
-        let nearest = if time_distance(previous) < time_distance(next) { previous } else { next };
-        (time_distance(nearest) <= 0.5 * MAX_PERIOD_RATIO * self.median_period).then_some(nearest)
+        let nearest = if distance(previous) < distance(next) { previous } else { next };
+        (distance(nearest) <= 0.5 * MAX_PERIOD_RATIO * self.median_period).then_some(nearest)
     }
 
     pub(super) fn has_break_before(&self, sample: usize) -> bool {

@@ -106,15 +106,14 @@ fn to_end_frame(motion: &SE2) -> Matrix3<f64> {
 /// Returns the fraction of windows inside of their 95 % ellipsoid, and their NEES: the mean squared Mahalanobis distance divided by its 3
 /// degrees of freedom. The wheels' variances are multiplied by `inflation`.
 fn coverage(windows: &[Window], length: f64, inflation: f64) -> WindowCoverage {
-    let squared_distances: Vec<f64> =
-        windows.iter().map(|window| window.squared_distance(inflation)).collect();
-    let count = squared_distances.len();
-    let inside_count = squared_distances.iter().filter(|square| **square < CHI2_95[2]).count();
+    let squared: Vec<f64> = windows.iter().map(|window| window.squared_distance(inflation)).collect();
+    let count = squared.len();
+    let inside = squared.iter().filter(|square| **square < CHI2_95[2]).count();
     WindowCoverage {
         length,
         count,
-        coverage: inside_count as f64 / count as f64,
-        nees: squared_distances.iter().sum::<f64>() / (3 * count) as f64,
+        coverage: inside as f64 / count as f64,
+        nees: squared.iter().sum::<f64>() / (3 * count) as f64,
     }
 }
 
@@ -161,9 +160,8 @@ pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Reco
     let half_ranges = |count: usize| [0..count / 2, count / 2..count];
     let count = fit.sample.legs.len();
     let residuals = half_ranges(count).map(|half| fit.sample.inlier_residuals(half));
-    let fit_parameters =
-        |half: &Residuals| maximize(half, fit.maximum.parameters, &fit.maximum.free).parameters;
-    let by_other_half = [fit_parameters(&residuals[1]), fit_parameters(&residuals[0])];
+    let fitted = |half: &Residuals| maximize(half, fit.maximum.parameters, &fit.maximum.free).parameters;
+    let by_other_half = [fitted(&residuals[1]), fitted(&residuals[0])];
     let (mut within_count, mut compared_count) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&by_other_half) {
         compared_count += residuals.len();

@@ -132,15 +132,10 @@ impl Arc {
     /// Returns a box that holds the arc: minimum x, minimum y, maximum x, maximum y.
     pub fn bounding_box(&self) -> [f64; 4] {
         // No point of the arc is further from its middle than half its length, or than the diameter of its circle.
-        let middle_pose = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
+        let middle = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
         let diameter = if self.turn == 0.0 { f64::INFINITY } else { 2.0 * (self.length / self.turn).abs() };
-        let max_distance = (0.5 * self.length.abs()).min(diameter);
-        [
-            middle_pose.x() - max_distance,
-            middle_pose.y() - max_distance,
-            middle_pose.x() + max_distance,
-            middle_pose.y() + max_distance,
-        ]
+        let reach = (0.5 * self.length.abs()).min(diameter);
+        [middle.x() - reach, middle.y() - reach, middle.x() + reach, middle.y() + reach]
     }
 
     pub(crate) fn local_arc(&self) -> LocalArc {
@@ -302,12 +297,8 @@ impl ArcPiece {
         };
         let [_, rise]: [f64; 2] = flat.local_point(half_length);
         let middle = [flat.middle[0] + rise * tangent[1], flat.middle[1] - rise * tangent[0]];
-        let half_turn_squared = 0.25 * turn * turn;
-        Self {
-            middle,
-            error: half_length * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
-            ..flat
-        }
+        let square = 0.25 * turn * turn;
+        Self { middle, error: half_length * square * square * square / 2000.0, ..flat }
     }
 
     /// Returns the coordinates ahead and to the left of the middle, for one length or four.

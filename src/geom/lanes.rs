@@ -169,13 +169,11 @@ pub(crate) fn log(x: f64x4) -> f64x4 {
     let s = f / (2.0 + f);
     let z = s * s;
     let w = z * z;
-    let even_terms = w * (LOG_COEFFICIENTS[1] + w * (LOG_COEFFICIENTS[3] + w * LOG_COEFFICIENTS[5]));
-    let odd_terms = z
+    let even = w * (LOG_COEFFICIENTS[1] + w * (LOG_COEFFICIENTS[3] + w * LOG_COEFFICIENTS[5]));
+    let odd = z
         * (LOG_COEFFICIENTS[0]
             + w * (LOG_COEFFICIENTS[2] + w * (LOG_COEFFICIENTS[4] + w * LOG_COEFFICIENTS[6])));
-    s * (half_square + (odd_terms + even_terms)) + exponent * LN_2_PARTS[1] - half_square
-        + f
-        + exponent * LN_2_PARTS[0]
+    s * (half_square + (odd + even)) + exponent * LN_2_PARTS[1] - half_square + f + exponent * LN_2_PARTS[0]
 }
 
 /// ln 2 in two parts: the second has the digits that the first lacks.

@@ -29,12 +29,8 @@ impl Segment {
     fn offset_of_point(&self, point: [f64; 2]) -> [f64; 2] {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let offset = [point[0] - self.from[0], point[1] - self.from[1]];
-        let length_squared = dot(direction, direction);
-        let t = if length_squared > 0.0 {
-            (dot(offset, direction) / length_squared).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
+        let squared = dot(direction, direction);
+        let t = if squared > 0.0 { (dot(offset, direction) / squared).clamp(0.0, 1.0) } else { 0.0 };
         [offset[0] - t * direction[0], offset[1] - t * direction[1]]
     }
 
@@ -56,7 +52,7 @@ impl Segment {
     /// Returns the maximum distance (m) of an arc to the right of the segment's line. The ends of the arc must not be to the right.
     pub(crate) fn max_distance_on_right(&self, arc: &Arc) -> f64 {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
-        let line_length = libm::hypot(direction[0], direction[1]);
+        let length = libm::hypot(direction[0], direction[1]);
         // The arc is furthest from the line where it is parallel to it, in either direction.
         let bearing = libm::atan2(direction[1], direction[0]) - arc.start.theta();
         let parallel_turn = libm::remainder(bearing * arc.turn.signum(), PI);
@@ -67,8 +63,7 @@ impl Segment {
             .filter(|share| *share < 1.0)
             .map(|share| Arc { length: share * arc.length, turn: share * arc.turn, ..*arc }.end())
             .map(|at| {
-                ((at.x() - self.from[0]) * direction[1] - (at.y() - self.from[1]) * direction[0])
-                    / line_length
+                ((at.x() - self.from[0]) * direction[1] - (at.y() - self.from[1]) * direction[0]) / length
             })
             .fold(0.0, f64::max)
     }

@@ -16,18 +16,17 @@ use std::f64::consts::PI;
 
 /// Returns the point to which a morph from 0 to 1 takes a twist (m, m, rad).
 pub fn unbend(twist: &Vector3<f64>, morph: f64) -> [f64; 2] {
-    let remaining_bend = 1.0 - morph;
-    let pose = SE2::exp(&Vector3::new(twist.x, remaining_bend * twist.y, remaining_bend * twist.z));
+    let bend = 1.0 - morph;
+    let pose = SE2::exp(&Vector3::new(twist.x, bend * twist.y, bend * twist.z));
     [pose.x(), pose.y() + morph * twist.z]
 }
 
 /// Returns the 2 × 3 Jacobian of [`unbend`] with respect to the twist.
 pub fn unbend_jacobian(twist: &Vector3<f64>, morph: f64) -> Matrix2x3<f64> {
-    let remaining_bend = 1.0 - morph;
-    let mut jacobian =
-        position_jacobian(&Vector3::new(twist.x, remaining_bend * twist.y, remaining_bend * twist.z));
-    jacobian.column_mut(1).scale_mut(remaining_bend);
-    jacobian.column_mut(2).scale_mut(remaining_bend);
+    let bend = 1.0 - morph;
+    let mut jacobian = position_jacobian(&Vector3::new(twist.x, bend * twist.y, bend * twist.z));
+    jacobian.column_mut(1).scale_mut(bend);
+    jacobian.column_mut(2).scale_mut(bend);
     jacobian[(1, 2)] += morph;
     jacobian
 }
@@ -60,13 +59,12 @@ pub fn arc_at(place: [f64; 2], near: [f64; 2], morph: f64) -> Option<[f64; 2]> {
     let mut arc = Vector2::from(near);
     for _ in 0..MAX_STEPS {
         let twist = Vector3::new(arc.x, 0.0, arc.y);
-        let position_error = Vector2::from(place) - Vector2::from(unbend(&twist, morph));
-        if position_error.amax() < 1e-12 * (1.0 + arc.amax()) {
+        let error = Vector2::from(place) - Vector2::from(unbend(&twist, morph));
+        if error.amax() < 1e-12 * (1.0 + arc.amax()) {
             return Some(arc.into());
         }
         let jacobian = unbend_jacobian(&twist, morph);
-        arc +=
-            Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * position_error;
+        arc += Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * error;
     }
     None
 }

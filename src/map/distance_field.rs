@@ -75,12 +75,11 @@ impl DistanceField {
     /// Returns [`DistanceField::lower_bound`] of four points. `points` are their x and y.
     #[inline(always)]
     pub fn lower_bounds(&self, points: &[f64x4; 2]) -> f64x4 {
-        let zero_lanes = f64x4::splat(0.0);
+        let zero = f64x4::splat(0.0);
         // On the border of two cells both are correct, so that rounding may select either.
         let [column, row] = [0, 1].map(|axis| {
-            let cell_coordinate = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
-            cell_coordinate.fast_max(zero_lanes).fast_min(f64x4::splat(self.last[axis])) + ROUND_TO_INTEGER
-                - ROUND_TO_INTEGER
+            let cell = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
+            cell.fast_max(zero).fast_min(f64x4::splat(self.last[axis])) + ROUND_TO_INTEGER - ROUND_TO_INTEGER
         });
         // Adding this number to a small whole number puts that number into the last bits of the sum.
         let cells = (row * self.columns as f64 + column + ROUND_TO_INTEGER).to_array();
@@ -182,8 +181,7 @@ impl FieldBuilder {
         let uncertainty = size as f64 * self.field.uncertainty;
         // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
         self.near.truncate(range[1]);
-        let Some([min_distance, max_distance]) = self.measure_candidates(tree, centre, block, uncertainty)
-        else {
+        let Some([min_distance, max_distance]) = self.measure(tree, centre, block, uncertainty) else {
             return;
         };
         if size > 1 && min_distance <= UNDIVIDED_DISTANCE * radius + uncertainty / BLOCK_UNCERTAINTY {
@@ -218,7 +216,7 @@ impl FieldBuilder {
 
     /// Returns bounds on the distance from the middle of a block to the nearest wall, at most `uncertainty` apart (m); None if
     /// too many walls are near. Afterwards `measured` has all walls, or nodes, that may be nearest to a point of the block.
-    fn measure_candidates(
+    fn measure(
         &mut self,
         tree: &WallTree,
         point: [f64; 2],

@@ -51,25 +51,21 @@ pub enum FloorPlanError {
 impl FloorPlanError {
     /// Returns the message, with numbers as `number` prints them.
     pub fn message(&self, number: impl Fn(f64) -> String) -> String {
-        let join_numbers =
-            |numbers: &[f64]| numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
+        let joined = |numbers: &[f64]| numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
         match self {
             Self::BadBounds(bounds) => format!(
                 "bounds is [{}]; allowed is least x, least y, greatest x, greatest y: numbers from -1000000 to \
                  1000000, the sides from 0.01 to 100000",
-                join_numbers(bounds)
+                joined(bounds)
             ),
             Self::BadGrid(bounds) => format!(
                 "origin has the cells from [{}] to [{}]; allowed are coordinates from -1000000 to 1000000, and a grid with \
                  sides from 0.01 to 100000",
-                join_numbers(&bounds[..2]),
-                join_numbers(&bounds[2..])
+                joined(&bounds[..2]),
+                joined(&bounds[2..])
             ),
             Self::BadWall { index, end } => {
-                format!(
-                    "walls[{index}] ends at [{}]; allowed is a point inside the bounds",
-                    join_numbers(end)
-                )
+                format!("walls[{index}] ends at [{}]; allowed is a point inside the bounds", joined(end))
             }
             Self::TooManyWalls(count) => {
                 format!("walls has a length of {count} or more; allowed is at most {}", FloorPlan::MAX_WALLS)
@@ -144,10 +140,9 @@ impl FloorPlan {
             return Err(FloorPlanError::TooManyWalls(walls.len()));
         }
         // Rounding can move a corner of a turned grid slightly outside the grid's own bounds.
-        let rounding_slack = rounding_bound(&bounds);
+        let slack = rounding_bound(&bounds);
         let is_inside = |[x, y]: [f64; 2]| {
-            (left - rounding_slack..=right + rounding_slack).contains(&x)
-                && (bottom - rounding_slack..=top + rounding_slack).contains(&y)
+            (left - slack..=right + slack).contains(&x) && (bottom - slack..=top + slack).contains(&y)
         };
         for (index, wall) in walls.iter().enumerate() {
             if let Some(end) = [wall.from, wall.to].into_iter().find(|end| !is_inside(*end)) {
@@ -223,9 +218,8 @@ impl FloorPlan {
             unrolled: OnceCell::new(),
             wall_tests: end.wall_tests,
         };
-        let free = driven
-            .arc_pieces()
-            .all(|piece| sweep.is_piece_free(&piece, -piece.half_length, piece.half_length));
+        let free =
+            driven.arc_pieces().all(|piece| sweep.is_free(&piece, -piece.half_length, piece.half_length));
         Verdict { free, wall_tests: sweep.wall_tests }
     }
 
@@ -277,10 +271,10 @@ impl FloorPlan {
         }
         // Both ends are inside. An arc that only touches an edge counts as inside, up to rounding.
         let corners = self.corners();
-        let rounding_slack = rounding_bound(corners.as_flattened());
+        let slack = rounding_bound(corners.as_flattened());
         (0..4).any(|i| {
             let edge = Segment { from: corners[i], to: corners[(i + 1) % 4] };
-            edge.max_distance_on_right(arc) > rounding_slack
+            edge.max_distance_on_right(arc) > slack
         })
     }
 
@@ -321,7 +315,7 @@ struct Sweep<'a> {
 
 impl Sweep<'_> {
     /// Tests whether an arc piece is free between `from` and `to` metres after its middle. Tests four parts of it at once.
-    fn is_piece_free(&mut self, piece: &ArcPiece, from: f64, to: f64) -> bool {
+    fn is_free(&mut self, piece: &ArcPiece, from: f64, to: f64) -> bool {
         let field = self.field;
         let half_part = (to - from) / (2 * LANES) as f64;
         let needed = self.clearance + piece.error + half_part;
@@ -342,7 +336,7 @@ impl Sweep<'_> {
             distances[i] > needed
                 || if is_divisible {
                     let start = from + (2 * i) as f64 * half_part;
-                    self.is_piece_free(piece, start, start + 2.0 * half_part)
+                    self.is_free(piece, start, start + 2.0 * half_part)
                 } else {
                     self.walls_keep_clear([x[i], y[i]], half_part + piece.error, piece.error)
                 }

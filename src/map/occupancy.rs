@@ -273,22 +273,21 @@ impl OccupancyGrid {
         // row at which the current outline began.
         let mut outline_starts = vec![None; columns + 1];
         for row in 0..=rows {
-            let row_cells = self.row(row);
-            let row_below_cells = row.checked_sub(1).map_or(&[][..], |below| self.row(below));
-            if row_cells == row_below_cells {
+            let cells = self.row(row);
+            let cells_below = row.checked_sub(1).map_or(&[][..], |below| self.row(below));
+            if cells == cells_below {
                 continue;
             }
             let (mut row_start, mut was_left_different) = (None, false);
             for (column, outline_start) in outline_starts.iter_mut().enumerate() {
-                let [is_here_blocked, is_below_blocked] =
-                    [row_cells, row_below_cells].map(|row| self.is_blocked(row, column));
-                if let Some(from) = outline_end(&mut row_start, is_below_blocked != is_here_blocked, column) {
+                let [blocked, below_blocked] = [cells, cells_below].map(|row| self.is_blocked(row, column));
+                if let Some(from) = outline_end(&mut row_start, below_blocked != blocked, column) {
                     walls.push(self.side([from, row], [column, row]));
                 }
-                if let Some(began) = outline_end(outline_start, was_left_different != is_here_blocked, row) {
+                if let Some(began) = outline_end(outline_start, was_left_different != blocked, row) {
                     upright.push([column, began, row]);
                 }
-                was_left_different = is_here_blocked;
+                was_left_different = blocked;
             }
             if walls.len() + upright.len() > most {
                 return Err(most + 1);

@@ -40,16 +40,16 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
     let width = reader.number("the width", 1, MAX_PIXELS)?;
     let height = reader.number("the height", 1, MAX_PIXELS / width)?;
     let max_value = reader.number("the greatest value", 1, 65_535)?;
-    let pixel_count = width * height;
-    let pixel_coding = if is_plain {
+    let count = width * height;
+    let coding = if is_plain {
         let mut pixels = reader.clone();
-        for _ in 0..pixel_count {
+        for _ in 0..count {
             pixels.number("a pixel", 0, max_value)?;
         }
         PixelCoding::Plain
     } else {
         let (coding, size) = if max_value < 256 { (PixelCoding::Bytes, 1) } else { (PixelCoding::Words, 2) };
-        let raster_bytes = pixel_count * size;
+        let raster_bytes = count * size;
         // One white space character ends the header. Windows editors write two: carriage return and line feed.
         let is_crlf = bytes[reader.at..].starts_with(b"\r\n") && bytes.len() >= reader.at + 2 + raster_bytes;
         reader.at += if is_crlf { 2 } else { 1 };
@@ -64,7 +64,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
     Ok(Image {
         width,
         height,
-        pixels: Shades { reader, remaining: pixel_count, greatest: max_value as u16, coding: pixel_coding },
+        pixels: Shades { reader, remaining: count, greatest: max_value as u16, coding },
     })
 }
 

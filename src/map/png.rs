@@ -48,23 +48,20 @@ fn decode_pixels(source: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingErr
     decoder.set_ignore_iccp_chunk(true);
     let mut reader = decoder.read_info()?;
     let (kind, depth) = reader.output_color_type();
-    let mut sample_bytes = vec![0; reader.output_buffer_size().unwrap_or_default()];
-    reader.next_frame(&mut sample_bytes)?;
+    let mut samples = vec![0; reader.output_buffer_size().unwrap_or_default()];
+    reader.next_frame(&mut samples)?;
     reader.finish()?;
     if depth == BitDepth::Sixteen {
-        sample_bytes =
-            sample_bytes.as_chunks().0.iter().map(|pair| nearest_byte(u16::from_be_bytes(*pair))).collect();
+        samples = samples.as_chunks().0.iter().map(|pair| nearest_byte(u16::from_be_bytes(*pair))).collect();
     }
-    let with_full_opacity = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
+    let opaque = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
     Ok(match kind {
-        ColorType::Grayscale => sample_bytes.iter().map(|grey| with_full_opacity([*grey; 3])).collect(),
+        ColorType::Grayscale => samples.iter().map(|grey| opaque([*grey; 3])).collect(),
         ColorType::GrayscaleAlpha => {
-            sample_bytes.as_chunks().0.iter().map(|&[grey, opacity]| [grey, grey, grey, opacity]).collect()
+            samples.as_chunks().0.iter().map(|&[grey, opacity]| [grey, grey, grey, opacity]).collect()
         }
-        ColorType::Rgb => {
-            sample_bytes.as_chunks().0.iter().map(|colours| with_full_opacity(*colours)).collect()
-        }
-        ColorType::Rgba => sample_bytes.as_chunks().0.to_vec(),
+        ColorType::Rgb => samples.as_chunks().0.iter().map(|colours| opaque(*colours)).collect(),
+        ColorType::Rgba => samples.as_chunks().0.to_vec(),
         ColorType::Indexed => unreachable!("a palette is expanded"),
     })
 }

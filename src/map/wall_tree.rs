@@ -48,10 +48,7 @@ impl WallTree {
             walls: walls.to_vec(),
             lines: Vec::new(),
             // The root is always visited, and has no sibling.
-            nodes: vec![
-                Node { hull: PreparedSegment::AT_ORIGIN, thickness: f64::INFINITY, all_equal: false };
-                2
-            ],
+            nodes: vec![Node { hull: PreparedSegment::POINT, thickness: f64::INFINITY, all_equal: false }; 2],
             depth: leaf_count.ilog2(),
             slack: 1e-9 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs())),
         };
@@ -95,31 +92,22 @@ impl WallTree {
                 (*front, *left) = (max_of(*front, along), max_of(*left, off));
             }
         }
-        let mut narrowest = (f64::INFINITY, PreparedSegment::AT_ORIGIN);
+        let mut narrowest = (f64::INFINITY, PreparedSegment::POINT);
         for ([x, y], [back, right, front, left]) in axes.into_iter().zip(extents) {
             let (axis_offset, width) = (0.5 * (right + left), left - right);
             // The ends of a capsule are round, so that a capsule as wide as it is long is a disc.
             let radius = (0.25 * width).min(0.5 * (front - back));
             let point_at = |along: f64| [along * x - axis_offset * y, along * y + axis_offset * x];
             if width < narrowest.0 {
-                narrowest = (
-                    width,
-                    PreparedSegment::new(&Segment {
-                        from: point_at(back + radius),
-                        to: point_at(front - radius),
-                    }),
-                );
+                let axis = Segment { from: point_at(back + radius), to: point_at(front - radius) };
+                narrowest = (width, PreparedSegment::new(&axis));
             }
         }
         let hull = narrowest.1;
         // No point of a wall is further from the capsule's axis than the further end of the wall.
         let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
-        let max_distance = wall_ends.map(|end| hull.squared_distance(end)).fold(0.0, max_of).sqrt();
-        Node {
-            hull,
-            thickness: max_distance + self.slack,
-            all_equal: walls.iter().all(|wall| *wall == walls[0]),
-        }
+        let distance = wall_ends.map(|end| hull.squared_distance(end)).fold(0.0, max_of).sqrt();
+        Node { hull, thickness: distance + self.slack, all_equal: walls.iter().all(|wall| *wall == walls[0]) }
     }
 
     /// Returns the range of the walls of a node.
@@ -210,7 +198,7 @@ pub(super) struct PreparedSegment {
 }
 
 impl PreparedSegment {
-    const AT_ORIGIN: Self = Self { from: [0.0; 2], along: [0.0; 2], per_square: 0.0 };
+    const POINT: Self = Self { from: [0.0; 2], along: [0.0; 2], per_square: 0.0 };
 
     fn new(wall: &Segment) -> Self {
         let along = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];

@@ -153,13 +153,9 @@ impl<M: RotTransRot> MotionModel for M {
 pub(super) type RotationSize = fn(f64) -> f64;
 
 /// Returns the variances of the three legs of `delta` (rad², m², rad²).
-pub(super) fn variances_by_rotation_size(
-    alphas: OdomAlphas,
-    delta: &OdomDelta,
-    charge: RotationSize,
-) -> [Variance; 3] {
+pub(super) fn variances_with(alphas: OdomAlphas, delta: &OdomDelta, size: RotationSize) -> [Variance; 3] {
     let [a1, a2, a3, a4] = alphas.0;
-    let [rot1_sq, rot2_sq] = [delta.rot1, delta.rot2].map(|rotation| charge(rotation) * charge(rotation));
+    let [rot1_sq, rot2_sq] = [delta.rot1, delta.rot2].map(|rotation| size(rotation) * size(rotation));
     let trans_sq = delta.trans * delta.trans;
     [
         Variance(a1 * rot1_sq + a2 * trans_sq),
@@ -174,7 +170,7 @@ impl RotTransRot for OdometryModel {
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        variances_by_rotation_size(self.alphas, delta, f64::abs)
+        variances_with(self.alphas, delta, f64::abs)
     }
 }
 
@@ -197,7 +193,7 @@ impl RotTransRot for ReverseAware {
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        variances_by_rotation_size(self.0.alphas, delta, turn_either_way)
+        variances_with(self.0.alphas, delta, turn_either_way)
     }
 }
 
@@ -213,7 +209,7 @@ impl RotTransRot for ConfiguredOdometry {
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        let rotation_size: RotationSize = if self.reverse_aware { turn_either_way } else { f64::abs };
-        variances_by_rotation_size(self.model.alphas, delta, rotation_size)
+        let size: RotationSize = if self.reverse_aware { turn_either_way } else { f64::abs };
+        variances_with(self.model.alphas, delta, size)
     }
 }

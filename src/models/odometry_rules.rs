@@ -1,6 +1,6 @@
 //! Rules by which localizers add noise to an odometry reading: Table 5.6, and those of deployed software.
 
-use super::odometry::{OdomAlphas, OdomDelta, RotationSize, turn_either_way, variances_by_rotation_size};
+use super::odometry::{OdomAlphas, OdomDelta, RotationSize, turn_either_way, variances_with};
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::noise::{NoiseKind, Variance};
 
@@ -75,8 +75,8 @@ impl OdometryRule {
     pub fn variances(self, reading: &OdomDelta, alphas: &RuleAlphas) -> LegVariances {
         let [a1, a2, a3, a4, a5] = *alphas;
         let legs = self.legs(reading);
-        let differential_variances = |charge: RotationSize| {
-            let [rot1, trans, rot2] = variances_by_rotation_size(OdomAlphas([a1, a2, a3, a4]), &legs, charge);
+        let differential_variances = |size: RotationSize| {
+            let [rot1, trans, rot2] = variances_with(OdomAlphas([a1, a2, a3, a4]), &legs, size);
             LegVariances { rot1, trans, rot2, strafe: Variance(0.0) }
         };
         match self {

@@ -129,12 +129,10 @@ impl TangentNoiseModel {
         let (length, turn) = (executed.v_hat * u.dt, executed.omega_hat * u.dt);
         let residual = Vector3::new(length - u.v * u.dt, turn - u.omega * u.dt, executed.gamma_hat * u.dt);
         let variances = Vector3::new(self.r[(0, 0)] + PADDING, self.r[(2, 2)] + PADDING, self.last_turn);
-        let twist_half_sinc = sinc(0.5 * x.between(x_next).theta());
-        let arc_half_sinc = sinc(0.5 * turn);
+        let twist_sinc = sinc(0.5 * x.between(x_next).theta());
+        let arc_sinc = sinc(0.5 * turn);
         log_normal(&residual, &Matrix3::from_diagonal(&variances))
-            + libm::log(
-                2.0 * twist_half_sinc * twist_half_sinc / (length.abs() * arc_half_sinc * arc_half_sinc),
-            )
+            + libm::log(2.0 * twist_sinc * twist_sinc / (length.abs() * arc_sinc * arc_sinc))
     }
 
     /// Returns Σ_k from Σ_{k−1} by the chapter's recursion: `propagate` with [`Compounding::Chapter`].
@@ -210,17 +208,16 @@ pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, Tangen
     for j in 0..3 {
         let remaining_covariance =
             |row: usize| cov[(row, j)] - (0..j).map(|k| cov_root[(row, k)] * cov_root[(j, k)]).sum::<f64>();
-        let pivot_column = [remaining_covariance(0), remaining_covariance(1), remaining_covariance(2)];
-        let (pivot, rounding) = (pivot_column[j], ROUNDING * cov[(j, j)].abs());
+        let column = [remaining_covariance(0), remaining_covariance(1), remaining_covariance(2)];
+        let (pivot, rounding) = (column[j], ROUNDING * cov[(j, j)].abs());
         if pivot > rounding {
             for row in j..3 {
-                cov_root[(row, j)] = pivot_column[row] / pivot.sqrt();
+                cov_root[(row, j)] = column[row] / pivot.sqrt();
             }
             continue;
         }
         // A coordinate with no variance left can have no covariance left: |c_ij| ≤ √(c_ii · c_jj).
-        let has_no_covariance =
-            |row: usize| pivot_column[row].abs() <= (rounding * cov[(row, row)].abs()).sqrt();
+        let has_no_covariance = |row: usize| column[row].abs() <= (rounding * cov[(row, row)].abs()).sqrt();
         if pivot < -rounding || !(j + 1..3).all(has_no_covariance) {
             return Err(TangentNoiseError::NotPositiveSemidefinite);
         }

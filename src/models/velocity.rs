@@ -133,7 +133,7 @@ impl MotionModel for VelocityModel {
             return Some(if self.noise.prob(u.v, v_variance) > 0.0 { f64::INFINITY } else { 0.0 });
         }
         // All turns that lead to the pose are on one circle, so that the length is proportional to the turn. A line has no windings.
-        let density_with_windings = |windings: f64| {
+        let density = |windings: f64| {
             let (v_hat, turn) = if windings == 0.0 {
                 (executed.v_hat, shortest_turn)
             } else if executed.omega_hat == 0.0 {
@@ -150,18 +150,13 @@ impl MotionModel for VelocityModel {
             ])
         };
         // Nine standard deviations reach every turn whose Gaussian density is above the rounding of the sum.
-        let nearest_windings = ((u.omega * u.dt - shortest_turn) / TAU).round();
-        let max_windings = self.windings(u);
-        let arc_density: f64 = (-max_windings..=max_windings)
-            .map(|k| density_with_windings(nearest_windings + f64::from(k)))
-            .sum();
+        let nearest = ((u.omega * u.dt - shortest_turn) / TAU).round();
+        let most = self.windings(u);
+        let arcs: f64 = (-most..=most).map(|k| density(nearest + f64::from(k))).sum();
 
         let last_turn = step.theta() - shortest_turn;
         let dt2 = u.dt * u.dt;
-        Some(product_or_zero([
-            arc_density,
-            wrapped_prob(self.noise, last_turn, Variance(dt2 * gamma_variance.0)),
-        ]))
+        Some(product_or_zero([arcs, wrapped_prob(self.noise, last_turn, Variance(dt2 * gamma_variance.0))]))
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {

@@ -37,24 +37,22 @@ pub(super) fn normal_quantiles(fours: &mut [f64x4]) {
 /// Replaces the numbers of a chunk. One number in seven is in a tail, and every second vector has one. The tails are gathered
 /// into full vectors, which saves most of their cost, and unpredictable branches.
 fn normals_of_chunk(fours: &mut [f64x4]) {
-    let mut tail_numbers = [0.0; LANES * CHUNK + LANES];
-    let mut tail_indices = [0u16; LANES * CHUNK + LANES];
-    let mut tail_count = 0;
+    let mut tails = [0.0; LANES * CHUNK + LANES];
+    let mut places = [0u16; LANES * CHUNK + LANES];
+    let mut count = 0;
     for (four, q) in fours.iter_mut().enumerate() {
         let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();
         for (lane, tail) in q.to_array().into_iter().enumerate() {
             // The next number overwrites this one unless it is in a tail.
-            tail_numbers[tail_count] = tail;
-            tail_indices[tail_count] = (LANES * four + lane) as u16;
-            tail_count += (tail_mask >> lane & 1) as usize;
+            tails[count] = tail;
+            places[count] = (LANES * four + lane) as u16;
+            count += (tail_mask >> lane & 1) as usize;
         }
         let r = f64x4::splat(0.180_625) - *q * *q;
         *q *= rational_function(r, &CENTRE_NUMERATOR, &CENTRE_DENOMINATOR);
     }
     let chunk_numbers: &mut [f64] = bytemuck::cast_slice_mut(fours);
-    for (tails, places) in
-        tail_numbers[..tail_count].chunks(LANES).zip(tail_indices[..tail_count].chunks(LANES))
-    {
+    for (tails, places) in tails[..count].chunks(LANES).zip(places[..count].chunks(LANES)) {
         let tail_quantiles = tail_lanes(from_lanes(|lane| *tails.get(lane).unwrap_or(&0.45)));
         for (place, quantile) in places.iter().zip(tail_quantiles.to_array()) {
             chunk_numbers[usize::from(*place)] = quantile;

@@ -33,14 +33,13 @@ impl Ellipse {
     pub fn new(centre: Vector2<f64>, cov: Matrix2<f64>) -> Self {
         let rounding = NO_SPREAD * NO_SPREAD * (centre.norm_squared() + cov.trace());
         let sqrt_above = |variance: f64, least: f64| if variance > least { variance.sqrt() } else { 0.0 };
-        let first_extent = sqrt_above(cov[(0, 0)], rounding);
-        let shared_extent = if first_extent > 0.0 { cov[(1, 0)] / first_extent } else { 0.0 };
-        let second_extent =
-            sqrt_above(cov[(1, 1)] - shared_extent * shared_extent, rounding.max(NO_AREA * cov[(1, 1)]));
-        let inverse_or_zero = |extent: f64| if extent > 0.0 { 1.0 / extent } else { 0.0 };
-        let (z, w) = (inverse_or_zero(first_extent), inverse_or_zero(second_extent));
-        let whitening = Matrix2::new(z, 0.0, -shared_extent * z * w, w);
-        Self { centre, root: Matrix2::new(first_extent, 0.0, shared_extent, second_extent), whitening }
+        let first = sqrt_above(cov[(0, 0)], rounding);
+        let shared = if first > 0.0 { cov[(1, 0)] / first } else { 0.0 };
+        let second = sqrt_above(cov[(1, 1)] - shared * shared, rounding.max(NO_AREA * cov[(1, 1)]));
+        let inverse = |extent: f64| if extent > 0.0 { 1.0 / extent } else { 0.0 };
+        let (z, w) = (inverse(first), inverse(second));
+        let whitening = Matrix2::new(z, 0.0, -shared * z * w, w);
+        Self { centre, root: Matrix2::new(first, 0.0, shared, second), whitening }
     }
 
     /// Returns the ellipse of the position (x, y), m.
@@ -185,20 +184,17 @@ impl ExponentialContour {
         let mut null_scatter = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for end in [axis, -axis] {
-                let position_jacobian = unbend_jacobian(&at(&end), morph) * self.root;
-                let null_direction =
-                    position_jacobian.row(0).transpose().cross(&position_jacobian.row(1).transpose());
+                let jacobian = unbend_jacobian(&at(&end), morph) * self.root;
+                let null_direction = jacobian.row(0).transpose().cross(&jacobian.row(1).transpose());
                 null_scatter += null_direction * null_direction.transpose();
             }
         }
         let null_direction = principal_direction(&null_scatter);
         // Two directions that span the circle. The coordinate axis least parallel to k makes the first well-conditioned.
-        let least_parallel_axis = Matrix3::identity().column(null_direction.iamin()).into_owned();
-        let first_direction =
-            (least_parallel_axis - null_direction * least_parallel_axis.dot(&null_direction)).normalize();
-        let second_direction = null_direction.cross(&first_direction);
-        unit_circle(segments)
-            .map(move |direction| at(&(first_direction * direction.x + second_direction * direction.y)))
+        let axis = Matrix3::identity().column(null_direction.iamin()).into_owned();
+        let first = (axis - null_direction * axis.dot(&null_direction)).normalize();
+        let second = null_direction.cross(&first);
+        unit_circle(segments).map(move |direction| at(&(first * direction.x + second * direction.y)))
     }
 
     /// Returns true if the exponential coordinates of `pose` lie inside the ellipse.
@@ -211,18 +207,17 @@ impl ExponentialContour {
 /// Returns the unit eigenvector of the largest eigenvalue of a symmetric, positive semidefinite matrix; the second axis
 /// for the zero matrix. Ten squarings raise the ratio of the eigenvalues to its 1024th power.
 fn principal_direction(matrix: &Matrix3<f64>) -> Vector3<f64> {
-    let mut matrix_power = *matrix;
+    let mut power = *matrix;
     for _ in 0..10 {
-        let largest_entry = matrix_power.amax();
+        let largest_entry = power.amax();
         if largest_entry == 0.0 || !largest_entry.is_finite() {
             return Vector3::y();
         }
-        matrix_power /= largest_entry;
-        matrix_power *= matrix_power;
+        power /= largest_entry;
+        power *= power;
     }
-    let longest_column =
-        (0..3).map(|i| matrix_power.column(i).into_owned()).max_by(|a, b| a.norm().total_cmp(&b.norm()));
-    longest_column.and_then(|column| column.try_normalize(0.0)).unwrap_or_else(Vector3::y)
+    let longest = (0..3).map(|i| power.column(i).into_owned()).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    longest.and_then(|column| column.try_normalize(0.0)).unwrap_or_else(Vector3::y)
 }
 
 fn unit_circle(segments: usize) -> impl Iterator<Item = Vector2<f64>> {

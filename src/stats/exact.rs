@@ -124,13 +124,12 @@ impl ExactMoments {
 /// positive semidefinite 3 × 3 matrix.
 pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let heading_variance = cov[(2, 2)];
-    let regression_on_heading = if heading_variance > 0.0 {
+    let regression = if heading_variance > 0.0 {
         cov.fixed_view::<2, 1>(0, 2) / heading_variance
     } else {
         nalgebra::Vector2::zeros()
     };
-    let residual_cov = cov.fixed_view::<2, 2>(0, 0)
-        - regression_on_heading * regression_on_heading.transpose() * heading_variance;
+    let residual = cov.fixed_view::<2, 2>(0, 0) - regression * regression.transpose() * heading_variance;
     let (sin, cos) = libm::sincos(mean.z);
     let lateral_components = nodes(NoiseKind::Normal).iter().map(|node| {
         let excess_turn = heading_variance.max(0.0).sqrt() * node.value;
@@ -139,8 +138,8 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
         let row = nalgebra::RowVector2::new(b * cos - a * sin, a * cos + b * sin);
         Component {
             weight: node.weight,
-            mean: (row * (mean.xy() + regression_on_heading * excess_turn)).x,
-            variance: (row * residual_cov * row.transpose()).x.max(0.0),
+            mean: (row * (mean.xy() + regression * excess_turn)).x,
+            variance: (row * residual * row.transpose()).x.max(0.0),
         }
     });
     mixture_skew(lateral_components, mean.xy().norm_squared() + cov[(0, 0)] + cov[(1, 1)])

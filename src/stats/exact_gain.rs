@@ -145,15 +145,14 @@ impl PolarMotion {
     /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
     /// mean of ln|c·sinc²(φ/2)|, with c the length of that arc divided by the driven length.
     fn arc_moments(&self) -> (Moments, f64) {
-        let ([bearing, deviation], half_nominal_turn) = (self.bearing, 0.5 * self.turn[0]);
+        let ([bearing, deviation], half_nominal) = (self.bearing, 0.5 * self.turn[0]);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
         // Statistics of a cloud use the arc whose turn is nearest to the commanded one. That arc is driven in the opposite
         // direction if the bearing differs from half the commanded turn by more than π/2.
-        let reversal_breaks =
-            [-0.5 * PI, 0.5 * PI].map(|aside| (half_nominal_turn + aside - bearing) / deviation);
-        for node in self.nodes(deviation, reversal_breaks) {
+        let breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (half_nominal + aside - bearing) / deviation);
+        for node in self.nodes(deviation, breaks) {
             let driven_bearing = bearing + deviation * node.value;
-            let half_circles = ((driven_bearing - half_nominal_turn) / PI).round();
+            let half_circles = ((driven_bearing - half_nominal) / PI).round();
             let half_turn = driven_bearing - half_circles * PI;
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
             let half_sinc = sinc(half_turn);

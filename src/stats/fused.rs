@@ -179,11 +179,10 @@ impl FirstPass {
     pub fn better_reference(&self, count: usize) -> Option<Reference> {
         let n = count as f64;
         let sums = self.sums.finish();
-        let sum_means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
-        let mean_squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
-        let has_lost_digits =
-            (0..5).any(|i| sum_means[i] * sum_means[i] > 0.99 * mean_squares[i] && mean_squares[i] > 0.0);
-        has_lost_digits.then(|| std::array::from_fn(|i| self.reference[i] + sum_means.get(i).unwrap_or(&0.0)))
+        let means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
+        let squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
+        let has_lost_digits = (0..5).any(|i| means[i] * means[i] > 0.99 * squares[i] && squares[i] > 0.0);
+        has_lost_digits.then(|| std::array::from_fn(|i| self.reference[i] + means.get(i).unwrap_or(&0.0)))
     }
 
     pub fn scale(&self) -> JacobianScale {

@@ -12,11 +12,11 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
     let rows = values.len() / columns.max(1);
     // The previous and the next edge of a line, for each edge of the grid that it crosses. Edge 2i leads from point i to the
     // next point in its row, and edge 2i + 1 to the point in the next row.
-    let mut edge_links = vec![[NO_EDGE; 2]; 2 * values.len()];
+    let mut links = vec![[NO_EDGE; 2]; 2 * values.len()];
     let mut link_edges = |one: usize, other: usize| {
         for (from, to) in [(one, other), (other, one)] {
-            let free_slot = usize::from(edge_links[from][0] != NO_EDGE);
-            edge_links[from][free_slot] = to;
+            let free_slot = usize::from(links[from][0] != NO_EDGE);
+            links[from][free_slot] = to;
         }
     };
     for row in 1..rows {
@@ -48,18 +48,17 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
         if up { [column, row + fraction] } else { [column + fraction, row] }
     };
     let mut lines = Vec::new();
-    let border_edges = (0..edge_links.len())
-        .filter(|edge| edge_links[*edge][0] != NO_EDGE && edge_links[*edge][1] == NO_EDGE);
+    let borders = (0..links.len()).filter(|edge| links[*edge][0] != NO_EDGE && links[*edge][1] == NO_EDGE);
     // Lines that end at the border are followed first. The remaining lines are closed.
-    for first in border_edges.chain(0..edge_links.len()).collect::<Vec<_>>() {
-        if edge_links[first][0] == NO_EDGE {
+    for first in borders.chain(0..links.len()).collect::<Vec<_>>() {
+        if links[first][0] == NO_EDGE {
             continue;
         }
         let (mut line, mut at) = (vec![crossing_point(first)], first);
         loop {
-            let [one, other] = std::mem::replace(&mut edge_links[at], [NO_EDGE; 2]);
-            let next = if one != NO_EDGE && edge_links[one][0] != NO_EDGE { one } else { other };
-            if next == NO_EDGE || edge_links[next][0] == NO_EDGE {
+            let [one, other] = std::mem::replace(&mut links[at], [NO_EDGE; 2]);
+            let next = if one != NO_EDGE && links[one][0] != NO_EDGE { one } else { other };
+            if next == NO_EDGE || links[next][0] == NO_EDGE {
                 // The line is closed if its first and its last edge are linked.
                 if (one == first || other == first) && line.len() > 2 {
                     line.push(line[0]);

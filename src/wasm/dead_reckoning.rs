@@ -79,11 +79,9 @@ impl JsDeadReckoning {
     /// undefined.
     #[wasm_bindgen(getter, unchecked_return_type = "ByRecursion<Float64Array>")]
     pub fn predicted(&self) -> JsValue {
-        let no_variances = Vector3::repeat(f64::NAN);
+        let none = Vector3::repeat(f64::NAN);
         js_by_recursion(|order| {
-            flat_vectors(
-                self.0.predicted(order).iter().map(|cov| cov.map_or(no_variances, |cov| cov.diagonal())),
-            )
+            flat_vectors(self.0.predicted(order).iter().map(|cov| cov.map_or(none, |cov| cov.diagonal())))
         })
     }
 

@@ -110,8 +110,7 @@ fn set_word(field: &str, value: &JsValue, word: &mut dyn Word) -> Result<(), JsV
     if word.set(&text) {
         return Ok(());
     }
-    Err(RangeError::new(&format!("{field} is {}; allowed is {}", description_of(value), allowed(word)))
-        .into())
+    Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe(value), allowed(word))).into())
 }
 
 /// Reads an array (or typed array) of exactly N numbers without checking ranges.
@@ -122,12 +121,10 @@ pub fn read_array<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; 
 }
 
 fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), JsValue> {
-    let expected_type = format!("an array of {} numbers", numbers.len());
-    let length = array_length(field, value, &expected_type)?;
+    let expected = format!("an array of {} numbers", numbers.len());
+    let length = array_length(field, value, &expected)?;
     if length != numbers.len() {
-        return Err(
-            RangeError::new(&format!("{field} has length {length}; allowed is {expected_type}")).into()
-        );
+        return Err(RangeError::new(&format!("{field} has length {length}; allowed is {expected}")).into());
     }
     for (i, slot) in numbers.iter_mut().enumerate() {
         *slot = read_number(&format!("{field}[{i}]"), &array_item(value, i)?)?;
@@ -217,7 +214,7 @@ pub fn array_item(value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
 }
 
 pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
-    TypeError::new(&format!("{field} is {}; allowed is {allowed}", description_of(value))).into()
+    TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe(value))).into()
 }
 
 /// Returns a number as JavaScript prints it.
@@ -255,7 +252,7 @@ pub fn quote(text: &str) -> String {
 }
 
 /// Describes a value for a sentence.
-fn description_of(value: &JsValue) -> String {
+fn describe(value: &JsValue) -> String {
     if let Some(text) = value.as_string() {
         return quote(&shorten(&text));
     }

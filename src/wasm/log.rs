@@ -140,19 +140,17 @@ fn with_stated_breaks(fields: &Fields, mut trajectory: Trajectory) -> Result<Tra
     if breaks.is_undefined() {
         return Ok(trajectory);
     }
-    let (last_index, mut previous_break) = (trajectory.samples().len() - 1, 0);
+    let (last, mut previous) = (trajectory.samples().len() - 1, 0);
     for i in 0..array_length(&field, &breaks, "an array of numbers")? {
         let path = format!("{field}[{i}]");
         let sample =
-            read_integer(&path, read_number(&path, &array_item(&breaks, i)?)?, 1..=last_index as u64)?
-                as usize;
-        if sample <= previous_break {
-            let message =
-                format!("{path} is {sample}; allowed is more than {previous_break}, the one before it");
+            read_integer(&path, read_number(&path, &array_item(&breaks, i)?)?, 1..=last as u64)? as usize;
+        if sample <= previous {
+            let message = format!("{path} is {sample}; allowed is more than {previous}, the one before it");
             return Err(RangeError::new(&message).into());
         }
         trajectory = trajectory.with_breaks_before([sample]);
-        previous_break = sample;
+        previous = sample;
     }
     Ok(trajectory)
 }

@@ -104,13 +104,9 @@ fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
     let width = read_integer("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;
     let height =
         read_integer("image.height", fields.number("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;
-    let pixel_bytes = fields.value("data")?;
-    let Some(data) = pixel_bytes.dyn_ref::<Uint8ClampedArray>() else {
-        return Err(type_error(
-            "image.data",
-            &pixel_bytes,
-            "a Uint8ClampedArray of red, green, blue, opacity",
-        ));
+    let data = fields.value("data")?;
+    let Some(data) = data.dyn_ref::<Uint8ClampedArray>() else {
+        return Err(type_error("image.data", &data, "a Uint8ClampedArray of red, green, blue, opacity"));
     };
     let (length, expected_length) = (data.length() as usize, 4 * width * height);
     if length != expected_length {

@@ -91,11 +91,8 @@ impl JsOdometryDecomposer {
     pub fn curve(&self, longest: f64, count: f64) -> Result<Float64Array, JsValue> {
         let longest = in_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
         let count = read_integer("count", count, 1..=MAX_CURVE_POINTS)? as usize;
-        let numbers_of_point =
-            |CurvePoint { trans, cross_track, lever, along }| [trans, cross_track, lever, along];
-        Ok(flat_float_array(
-            &self.0.curve(longest, count).into_iter().map(numbers_of_point).collect::<Vec<_>>(),
-        ))
+        let numbers = |CurvePoint { trans, cross_track, lever, along }| [trans, cross_track, lever, along];
+        Ok(flat_float_array(&self.0.curve(longest, count).into_iter().map(numbers).collect::<Vec<_>>()))
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Drifted")]

@@ -119,15 +119,12 @@ pub fn example(seed: u64) -> Log {
     }
     // The rows after the last complete leg get no noise.
     truth.extend(leg.rows.iter().skip(1).map(|(time, driven)| (*time, leg.truth * *driven)));
-    let trajectory_of = |samples| {
+    let trajectory = |samples| {
         // The times increase, so that this is no error.
         let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
         trajectory
     };
-    Log {
-        odometry: trajectory_of(odometry),
-        reference: trajectory_of(measured_by_reference(&truth, &mut rng)),
-    }
+    Log { odometry: trajectory(odometry), reference: trajectory(measured_by_reference(&truth, &mut rng)) }
 }
 
 /// Appends the true poses of a finished leg, and returns its true end. Each row adds an independent part of the noise. If the

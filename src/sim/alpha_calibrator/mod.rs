@@ -221,9 +221,8 @@ impl AlphaCalibrator {
             .map(Into::into)
             .collect();
         let poses: Vec<SE2> = outcomes.iter().map(|pose| SE2::from(*pose)).collect();
-        let position_ellipse = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
-        let outline =
-            if position_ellipse.has_area() { position_ellipse.boundary(OUTLINE_SEGMENTS) } else { vec![] };
+        let ellipse = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
+        let outline = if ellipse.has_area() { ellipse.boundary(OUTLINE_SEGMENTS) } else { vec![] };
         let read = self.outcome(&reading, [0.0; 3]);
         let ended = self.calibration().corrected.motion(leg);
         Some(LegView { outcomes, outline, read: read.into(), ended: ended.into() })
@@ -233,19 +232,17 @@ impl AlphaCalibrator {
     fn outcome(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
         let (settings, calibration) = (&self.fit.settings, self.calibration());
         // An α that the log does not identify adds nothing.
-        let used_alpha =
+        let alpha =
             |k: usize| settings.inflation * calibration.alphas.get(k).copied().flatten().unwrap_or(0.0);
         let [first, second, third] = *reading;
         if settings.model == Model::Velocity {
-            let model = VelocityModel {
-                alphas: VelocityAlphas(std::array::from_fn(used_alpha)),
-                noise: settings.noise,
-            };
+            let model =
+                VelocityModel { alphas: VelocityAlphas(std::array::from_fn(alpha)), noise: settings.noise };
             let command = VelocityCmd { v: first, omega: second, dt: third };
             return model.apply_noise(&command, &SE2::identity(), unit_noise);
         }
         let legs = OdomDelta { rot1: first, trans: second, rot2: third };
-        let alphas: RuleAlphas = std::array::from_fn(used_alpha);
+        let alphas: RuleAlphas = std::array::from_fn(alpha);
         let [.., end] =
             settings.rule.variances(&legs, &alphas).executed(&legs, unit_noise).poses(&SE2::identity());
         end
@@ -258,13 +255,9 @@ impl AlphaCalibrator {
             let [from, to] = leg.reference.map(|pose| pose * corrected.base());
             let [dx, dy] = [to.x() - from.x(), to.y() - from.y()];
             let [px, py] = [x - from.x(), y - from.y()];
-            let squared_length = dx * dx + dy * dy;
-            let path_fraction = if squared_length > 0.0 {
-                ((px * dx + py * dy) / squared_length).clamp(0.0, 1.0)
-            } else {
-                0.0
-            };
-            libm::hypot(px - path_fraction * dx, py - path_fraction * dy)
+            let squared = dx * dx + dy * dy;
+            let fraction = if squared > 0.0 { ((px * dx + py * dy) / squared).clamp(0.0, 1.0) } else { 0.0 };
+            libm::hypot(px - fraction * dx, py - fraction * dy)
         };
         let distances = self.legs().iter().map(distance).enumerate();
         distances

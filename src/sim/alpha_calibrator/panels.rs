@@ -95,15 +95,14 @@ fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -
         previous_limit = bin_limit;
         let sum =
             |value: &dyn Fn(&[f64; 4]) -> f64| bin.iter().map(|point| point[2] * value(point)).sum::<f64>();
-        let weight_sum = sum(&|_| 1.0);
-        let [x, y] = [sum(&|point| point[0]) / weight_sum, sum(&|point| point[1]) / weight_sum];
-        let scatter_variance =
-            sum(&|point| (point[1] - y) * (point[1] - y)) / (weight_sum * (weight_sum - 1.0));
-        let model_variance = sum(&|point| point[2] * point[3]) / (weight_sum * weight_sum);
-        if bin.len() >= MIN_LEGS_PER_BIN && weight_sum > 1.0 {
+        let total = sum(&|_| 1.0);
+        let [x, y] = [sum(&|point| point[0]) / total, sum(&|point| point[1]) / total];
+        let scatter = sum(&|point| (point[1] - y) * (point[1] - y)) / (total * (total - 1.0));
+        let model_variance = sum(&|point| point[2] * point[3]) / (total * total);
+        if bin.len() >= MIN_LEGS_PER_BIN && total > 1.0 {
             panel.x.push(x);
             panel.y.push(y);
-            panel.error.push(scatter_variance.max(model_variance).sqrt());
+            panel.error.push(scatter.max(model_variance).sqrt());
         }
     }
     panel

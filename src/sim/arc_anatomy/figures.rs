@@ -27,7 +27,7 @@ js_structs! {
 
 impl ArcWithCircle {
     /// Returns the first part of the arc, up to this fraction of its length.
-    pub(super) fn first_part(&self, start: SE2, share: f64) -> Arc {
+    pub(super) fn part(&self, start: SE2, share: f64) -> Arc {
         Arc { start, length: self.arc_length * share, turn: self.turn * share }
     }
 
@@ -155,12 +155,11 @@ impl Stats {
         let factors = residuals(settings, &estimates).map(|residual| Factor::of(*noise, residual));
         let sigmas_off = |i: &usize| factors[*i].deviations.abs();
         let weakest = (0..3).rev().max_by(|a, b| sigmas_off(a).total_cmp(&sigmas_off(b))).unwrap_or(0);
-        let arc_of_velocities =
-            |v: f64, omega: f64| Arc { start, length: v * command.dt, turn: omega * command.dt };
+        let arc = |v: f64, omega: f64| Arc { start, length: v * command.dt, turn: omega * command.dt };
         Self {
-            commanded: ArcWithCircle::of(&arc_of_velocities(command.v, command.omega)),
-            inverted: ArcWithCircle::of(&arc_of_velocities(inverted_arc.v_hat, inverted_arc.omega_hat)),
-            driven: ArcWithCircle::of(&arc_of_velocities(estimates.v_hat, estimates.omega_hat)),
+            commanded: ArcWithCircle::of(&arc(command.v, command.omega)),
+            inverted: ArcWithCircle::of(&arc(inverted_arc.v_hat, inverted_arc.omega_hat)),
+            driven: ArcWithCircle::of(&arc(estimates.v_hat, estimates.omega_hat)),
             last_turn: estimates.gamma_hat * command.dt,
             factors,
             weakest,

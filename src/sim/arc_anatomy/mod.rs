@@ -86,9 +86,9 @@ impl ArcAnatomy {
             [pose.x(), pose.y(), x, y]
         };
         Paths {
-            commanded: commanded.first_part(start, 1.0).points(),
-            inverted: inverted.first_part(start, 1.0).points(),
-            driven: driven.first_part(start, 1.0).points(),
+            commanded: commanded.part(start, 1.0).points(),
+            inverted: inverted.part(start, 1.0).points(),
+            driven: driven.part(start, 1.0).points(),
             lie: (0..=LIE_CHORDS).map(|i| position_of(pose_on_lie_path(i, LIE_CHORDS))).collect(),
             ticks: (0..=LIE_TICKS).map(tick_segment).collect(),
         }
@@ -100,11 +100,7 @@ impl ArcAnatomy {
         let start = self.settings.start();
         let Stats { commanded, driven, .. } = self.stats();
         let xi = self.settings.next().boxminus(&start);
-        [
-            commanded.first_part(start, share).end(),
-            driven.first_part(start, share).end(),
-            start.boxplus(xi * share),
-        ]
+        [commanded.part(start, share).end(), driven.part(start, share).end(), start.boxplus(xi * share)]
     }
 
     /// Returns the heat map over the rectangle from `min` to `max` (m, `min` below `max` in both coordinates); None if no heat

@@ -44,12 +44,11 @@ impl Surface {
         let [width, height] = [max[0] - min[0], max[1] - min[1]];
         let columns = (max_cells * width / height).sqrt().max(1.0).min(max_cells).floor();
         let rows = (max_cells / columns).max(1.0).floor();
-        let cell_size = [width / columns, height / rows];
+        let size = [width / columns, height / rows];
         let (columns, rows) = (columns as usize, rows as usize);
         // Returns the centre of a cell.
-        let cell_centre = |[column, row]: [f64; 2]| {
-            [min[0] + (column + 0.5) * cell_size[0], max[1] - (row + 0.5) * cell_size[1]]
-        };
+        let cell_centre =
+            |[column, row]: [f64; 2]| [min[0] + (column + 0.5) * size[0], max[1] - (row + 0.5) * size[1]];
         let values_of = |value: &dyn Fn(&Settings) -> f64| -> Vec<f64> {
             let at = |i: usize| {
                 let [x, y] = cell_centre([(i % columns) as f64, (i / columns) as f64]);
@@ -64,24 +63,19 @@ impl Surface {
         let shown_values = if settings.map == SurfaceKind::Prob { &prob } else { &density };
         let maximum_of = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let maximum = maximum_of(shown_values);
-        let shade_of =
-            |value: &f64| if maximum > 0.0 { (255.0 * (value / maximum)).round() as u8 } else { 0 };
+        let shade = |value: &f64| if maximum > 0.0 { (255.0 * (value / maximum)).round() as u8 } else { 0 };
         let contours_of = |values: &[f64]| {
-            let highest_value = maximum_of(values);
+            let top = maximum_of(values);
             // Contours are interpolated between logarithms, which are closer to linear between cells.
-            let log_values: Vec<f64> =
-                values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
-            let log_levels = CONTOUR_LEVELS
-                .iter()
-                .filter(|_| highest_value > 0.0)
-                .map(|share| libm::log(share * highest_value));
-            let level_lines = log_levels.flat_map(|level| level_set(&log_values, columns, level));
-            level_lines.map(|line| line.into_iter().map(cell_centre).collect()).collect()
+            let logs: Vec<f64> = values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
+            let levels = CONTOUR_LEVELS.iter().filter(|_| top > 0.0).map(|share| libm::log(share * top));
+            let lines = levels.flat_map(|level| level_set(&logs, columns, level));
+            lines.map(|line| line.into_iter().map(cell_centre).collect()).collect()
         };
         Some(Self {
             columns,
             rows,
-            shades: shown_values.iter().map(shade_of).collect(),
+            shades: shown_values.iter().map(shade).collect(),
             prob: contours_of(&prob),
             density: contours_of(&density),
         })

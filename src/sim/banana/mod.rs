@@ -30,7 +30,7 @@ use std::f64::consts::TAU;
 
 impl Settings {
     /// Returns the current model with its input for a command: the command itself, or the noise-free odometry reading of it.
-    fn motion_of(&self, command: VelocityCmd) -> ModelWithInput {
+    fn motion(&self, command: VelocityCmd) -> ModelWithInput {
         match self.model {
             ModelKind::Velocity => {
                 let alphas = VelocityAlphas(self.effective(self.velocity_alphas));
@@ -159,7 +159,7 @@ impl BananaMachine {
     /// Errors are those of [`BananaMachine::new`].
     pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
-        let drive = settings.motion_of(settings.command).drive(&settings.command);
+        let drive = settings.motion(settings.command).drive(&settings.command);
         let cloud = Cloud::new(settings.seed, settings.noise, drive);
         let mut machine = Self { settings, cloud, figures: Figures::NONE, picture: Vec::new() };
         machine.reserve_memory(&settings)?;
@@ -195,7 +195,7 @@ impl BananaMachine {
 
     fn show_samples(&mut self, count: usize) {
         let Settings { seed, noise, command, .. } = self.settings;
-        let drive = self.settings.motion_of(command).drive(&command);
+        let drive = self.settings.motion(command).drive(&command);
         let figures = self.cloud.refresh(seed, noise, drive, count);
         self.figures = Figures::of(count, &figures, self.defined_charts());
     }
@@ -253,17 +253,17 @@ impl BananaMachine {
 
     fn defined_charts(&self) -> DefinedCharts {
         let VelocityCmd { omega, dt, .. } = self.settings.command;
-        let is_short_of_circle = |deviation: f64| (omega * dt).abs() + MIN_CIRCLE_SIGMAS * deviation < TAU;
+        let is_defined = |deviation: f64| (omega * dt).abs() + MIN_CIRCLE_SIGMAS * deviation < TAU;
         DefinedCharts {
-            pose: is_short_of_circle(self.cloud.turn_deviation()),
-            arc: is_short_of_circle(self.cloud.arc_deviation()),
+            pose: is_defined(self.cloud.turn_deviation()),
+            arc: is_defined(self.cloud.arc_deviation()),
         }
     }
 
     /// Returns the model's mean τ and covariance R_u in exponential coordinates. The variance of the final turn is added
     /// to that of the heading. None for the odometry model, whose noise is not additive there.
     pub fn tangent(&self) -> Option<ExponentialMoments> {
-        match self.settings.motion_of(self.settings.command) {
+        match self.settings.motion(self.settings.command) {
             ModelWithInput::Velocity(model, command) => {
                 let [.., last] = model.variances(&command);
                 let mut cov = model.tangent_cov(&command)?;
@@ -279,7 +279,7 @@ impl BananaMachine {
         let end = command_end(&self.settings.command);
         CartesianMoments {
             mean: Vector3::new(end.x(), end.y(), end.theta()),
-            cov: self.settings.motion_of(self.settings.command).linearized_cov(),
+            cov: self.settings.motion(self.settings.command).linearized_cov(),
         }
     }
 
@@ -293,13 +293,13 @@ impl BananaMachine {
 
     /// Returns the exact moments of the model, by quadrature.
     pub fn exact(&self) -> ExactMoments {
-        self.settings.motion_of(self.settings.command).exact()
+        self.settings.motion(self.settings.command).exact()
     }
 
     /// Returns the exact moments of the exponential coordinates, by quadrature.
     pub fn exact_gain(&self) -> ExactGain {
         let Settings { command, .. } = self.settings;
-        self.settings.motion_of(command).exact_gain(&command)
+        self.settings.motion(command).exact_gain(&command)
     }
 
     /// Returns the moments of the pose by three methods, and the model's moments of its exponential coordinates.
@@ -343,10 +343,7 @@ impl BananaMachine {
         (0..points)
             .map(|i| {
                 let omega = first + step * i as f64;
-                self.settings
-                    .motion_of(VelocityCmd { omega, ..self.settings.command })
-                    .exact()
-                    .cross_track_skew
+                self.settings.motion(VelocityCmd { omega, ..self.settings.command }).exact().cross_track_skew
             })
             .collect()
     }
@@ -372,12 +369,12 @@ impl BananaMachine {
     /// Returns sample `index` of the samples shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
-        let undefined_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
-        let executed = self.settings.motion_of(self.settings.command).executed(self.cloud.unit_noise(index));
+        let no_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
+        let executed = self.settings.motion(self.settings.command).executed(self.cloud.unit_noise(index));
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs, path) = match executed {
             Executed::Arc { arc, dt } => (arc, None, arc_points(arc.v_hat * dt, arc.omega_hat * dt)),
             Executed::Legs(legs) => {
-                (undefined_arc, Some(legs), vec![[START_POSE.x(), START_POSE.y()], [pose.x(), pose.y()]])
+                (no_arc, Some(legs), vec![[START_POSE.x(), START_POSE.y()], [pose.x(), pose.y()]])
             }
         };
         let (pose, twist) = (pose.into(), self.twist(&pose).into());
@@ -387,7 +384,7 @@ impl BananaMachine {
     /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s). Under the odometry model they are
     /// δ̂_rot1 (rad), δ̂_trans (m) and δ̂_rot2 (rad).
     pub fn executed(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
-        let motion = self.settings.motion_of(self.settings.command);
+        let motion = self.settings.motion(self.settings.command);
         (0..self.shown()).map(move |index| match motion.executed(self.cloud.unit_noise(index)) {
             Executed::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
             Executed::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],

@@ -60,13 +60,8 @@ impl Cloud {
         let mut second_pass = SecondPass::new(first_pass.finish(shown, regular_sums), &START_POSE);
         for parts in blocks(shown) {
             for (groups, mask) in parts {
-                add_to_second_pass(
-                    &drive,
-                    &self.draws.groups()[groups.clone()],
-                    &self.positions[groups],
-                    mask,
-                    &mut second_pass,
-                );
+                let noise = &self.draws.groups()[groups.clone()];
+                add_to_second_pass(&drive, noise, &self.positions[groups], mask, &mut second_pass);
             }
             second_pass.close_block();
         }
@@ -88,13 +83,8 @@ impl Cloud {
                 positions.resize(end, [f64x4::splat(0.0); 2]);
             }
             for (groups, mask) in parts {
-                add_to_first_pass(
-                    drive,
-                    &draws.groups()[groups.clone()],
-                    &mut positions[groups],
-                    mask,
-                    &mut sums,
-                );
+                let noise = &draws.groups()[groups.clone()];
+                add_to_first_pass(drive, noise, &mut positions[groups], mask, &mut sums);
             }
             sums.close_block();
         }

@@ -28,11 +28,8 @@ pub fn density(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32> {
 /// Paints a density, one pixel for each cell: ramp[255·√(count/most)], transparent for empty cells. With the square
 /// root the sparse ends of a cloud stay visible.
 pub fn paint(counts: &[u32], ramp: &Ramp) -> Vec<[u8; 4]> {
-    let highest_count = counts.iter().copied().max().unwrap_or(0);
-    counts
-        .iter()
-        .map(|count| if *count == 0 { [0; 4] } else { ramp[ramp_step(*count, highest_count)] })
-        .collect()
+    let most = counts.iter().copied().max().unwrap_or(0);
+    counts.iter().map(|count| if *count == 0 { [0; 4] } else { ramp[ramp_step(*count, most)] }).collect()
 }
 
 /// Returns the step of a ramp for a count: 255·√(count/most).

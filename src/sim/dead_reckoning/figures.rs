@@ -94,10 +94,9 @@ fn variance_ratio(cov: &Matrix3<f64>, measured: &Measured, least: &Vector3<f64>)
 }
 
 fn misses_of(ratios: &[Vector3<f64>], measured: &[Measured], axis: usize) -> Misses {
-    let known_ratios =
-        || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
-    let told = known_ratios().next().is_some()
-        && known_ratios().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
+    let known = || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
+    let told = known().next().is_some()
+        && known().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
     let is_miss = |ratio: &Vector3<f64>| told && (ratio[axis] - 1.0).abs() > TOLERANCE;
     let step_number = |index: usize| index as u32 + 1;
     let [end, error] = match (ratios.last(), measured.last()) {

@@ -120,9 +120,8 @@ impl MapSqueeze {
     /// Errors are those of [`MapSqueeze::configure`].
     pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        let grid_to_rebuild = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
-        let plan =
-            grid_to_rebuild.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
+        let stale = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
+        let plan = stale.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
         // A grid that was accepted before can only be refused because of its unknown cells.
         let plan = plan.transpose().map_err(|_| SettingsError {
             field: "unknown".to_owned(),

@@ -30,17 +30,17 @@ export class CopyMenu extends FigureController {
   }
 
   linkButton() {
-    const copyWords = words.copies;
-    return this.button('link', copyWords.link, () => this.host.shareLink(), { title: copyWords.linkTitle }, () => this.host.exportData.notInLink);
+    const say = words.copies;
+    return this.button('link', say.link, () => this.host.shareLink(), { title: say.linkTitle }, () => this.host.exportData.notInLink);
   }
 
   /** Returns the button that copies the HTML, with its message. */
   codeButton() {
-    const copyWords = words.copies;
+    const say = words.copies;
     return html`<fieldset class="copies" part="copies">
-      <legend>${copyWords.label}</legend>
+      <legend>${say.label}</legend>
       <div class="buttons">
-        ${this.button('code', copyWords.code, () => this.host.embedCode(), { title: copyWords.codeTitle }, () => this.host.exportData.notInCode)}
+        ${this.button('code', say.code, () => this.host.embedCode(), { title: say.codeTitle }, () => this.host.exportData.notInCode)}
       </div>
       ${this.answer('code')}
     </fieldset>`;
@@ -48,11 +48,11 @@ export class CopyMenu extends FigureController {
 
   /** Returns the message of a button, unless its text has changed since. */
   answer(kind: string, text?: string) {
-    const copyWords = words.copies;
+    const say = words.copies;
     const copied = this.#lastCopy?.kind === kind && this.#lastCopy.text === (text ?? this.#lastCopy.text) ? this.#lastCopy : undefined;
-    return html`<output class="copied">${copied ? `${copied.done ? copyWords.done : copyWords.byHand} ${copied.note}` : nothing}</output>
+    return html`<output class="copied">${copied ? `${copied.done ? say.done : say.byHand} ${copied.note}` : nothing}</output>
       ${copied && !copied.done
-        ? html`<textarea readonly rows="3" aria-label=${copyWords.byHand} .value=${copied.text}></textarea>`
+        ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
         : nothing}`;
   }
 }

@@ -95,15 +95,15 @@ export function save(name: string, blob: Blob) {
 
 /** Returns the buttons that save the figure; `mark` distinguishes file names of states. */
 export function exportButtons(element: Figure, mark: string | number, csvTitle: string = words.exports.csvTitle) {
-  const exportWords = words.exports;
+  const say = words.exports;
   const baseName = `${element.localName}-${mark}`;
   const saveText = (ending: string, type: string, content: string) => save(`${baseName}.${ending}`, new Blob([content], { type }));
   return html`<fieldset class="exports" part="exports">
-    <legend>${exportWords.label}</legend>
+    <legend>${say.label}</legend>
     <div class="buttons">
-      ${button(exportWords.png, () => element.toPNG().then((blob) => save(`${baseName}.png`, blob), (error) => element.runtime.report(error)), { title: exportWords.pngTitle })}
-      ${button(exportWords.svg, () => saveText('svg', 'image/svg+xml', element.toSVG()), { title: exportWords.svgTitle })}
-      ${button(exportWords.csv, () => saveText('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
+      ${button(say.png, () => element.toPNG().then((blob) => save(`${baseName}.png`, blob), (error) => element.runtime.report(error)), { title: say.pngTitle })}
+      ${button(say.svg, () => saveText('svg', 'image/svg+xml', element.toSVG()), { title: say.svgTitle })}
+      ${button(say.csv, () => saveText('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
     </div>
   </fieldset>`;
 }

@@ -105,18 +105,18 @@ export class Presentation extends FigureController {
   }
 
   button() {
-    const presentationWords = words.presentation;
-    return button(presentationWords.begin, () => (this.host.presentation = true), { title: presentationWords.title, name: 'to-present' });
+    const say = words.presentation;
+    return button(say.begin, () => (this.host.presentation = true), { title: say.title, name: 'to-present' });
   }
 
   render() {
     if (!this.#listening) return nothing;
-    const presentationWords = words.presentation;
+    const say = words.presentation;
     const keyHint = (key: string, label: string) => html`<kbd>${key}</kbd> ${label}`;
-    return html`<div class="presenting" role="group" tabindex="-1" aria-label=${presentationWords.begin}>
-      ${button(keyHint(CONTROLS_KEY.toUpperCase(), presentationWords.controls), () => this.#toggle(), { pressed: this.#controls })}
-      ${button(keyHint(RESTORE_KEY, presentationWords.back), () => this.#restoreState(), { title: presentationWords.backTitle })}
-      ${button(keyHint('Esc', presentationWords.end), () => (this.host.presentation = false))}
+    return html`<div class="presenting" role="group" tabindex="-1" aria-label=${say.begin}>
+      ${button(keyHint(CONTROLS_KEY.toUpperCase(), say.controls), () => this.#toggle(), { pressed: this.#controls })}
+      ${button(keyHint(RESTORE_KEY, say.back), () => this.#restoreState(), { title: say.backTitle })}
+      ${button(keyHint('Esc', say.end), () => (this.host.presentation = false))}
     </div>`;
   }
 }

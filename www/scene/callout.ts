@@ -36,10 +36,10 @@ export interface Callout {
  * Draws sentences about points on the outline of a shape with the centre `from`. A sentence is outside of the shape, where it covers the
  * lines (x, y pairs) and other texts least. The cost of a position is continuous in all points, so that a sentence seldom jumps.
  */
-export function drawCallouts({ context, view, palette, font, placed }: Brush, callouts: Callout[], { from: centre, lines }: { from: [number, number], lines: Float64Array[] }) {
+export function drawCallouts({ context, view, palette, font, placed }: Brush, callouts: Callout[], { from, lines }: { from: [number, number], lines: Float64Array[] }) {
   context.font = font;
   const toPixels = ({ 0: x, 1: y }: ArrayLike<number>) => [view.toPixelX(x), view.toPixelY(y)];
-  const [fromX, fromY] = toPixels(centre);
+  const [fromX, fromY] = toPixels(from);
   const avoided = callouts.map(({ at }) => toPixels(at));
   for (const line of lines) {
     for (let i = 0; i + 3 < line.length; i += 2) avoided.push(...pointsBetween(toPixels(line.subarray(i)), toPixels(line.subarray(i + 2))));
@@ -47,29 +47,29 @@ export function drawCallouts({ context, view, palette, font, placed }: Brush, ca
   const { left, right, top, bottom } = view.frame;
   for (const { text, at, colour = palette.ink } of callouts) {
     const textLines = text.split('\n');
-    const halfWidth = Math.max(...textLines.map((row) => context.measureText(row).width)) / 2 + TEXT_MARGIN;
-    const halfHeight = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
+    const across = Math.max(...textLines.map((row) => context.measureText(row).width)) / 2 + TEXT_MARGIN;
+    const down = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
     const [x, y] = toPixels(at);
     const angle = Math.atan2(y - fromY, x - fromX);
-    let [bestBox, lowestCost]: [Box, number] = [{ x, y, across: halfWidth, down: halfHeight }, Infinity];
+    let [bestBox, lowestCost]: [Box, number] = [{ x, y, across, down }, Infinity];
     for (const { turn, length, cost } of SLOTS) {
       if (cost >= lowestCost) break;
-      const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(angle + turn), y + (length + halfHeight) * Math.sin(angle + turn)];
+      const [idealX, idealY] = [x + (length + across) * Math.cos(angle + turn), y + (length + down) * Math.sin(angle + turn)];
       const candidateBox = {
-        x: clamp(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
-        y: clamp(idealY, top + halfHeight, Math.max(top + halfHeight, bottom - halfHeight)),
-        across: halfWidth, down: halfHeight,
+        x: clamp(idealX, left + across, Math.max(left + across, right - across)),
+        y: clamp(idealY, top + down, Math.max(top + down, bottom - down)),
+        across, down,
       };
       const totalCost = cost + overlapOf(candidateBox, avoided, placed);
       if (totalCost < lowestCost) [bestBox, lowestCost] = [candidateBox, totalCost];
     }
-    const leaderStart = [clamp(x, bestBox.x - halfWidth, bestBox.x + halfWidth), clamp(y, bestBox.y - halfHeight, bestBox.y + halfHeight)];
+    const leaderStart = [clamp(x, bestBox.x - across, bestBox.x + across), clamp(y, bestBox.y - down, bestBox.y + down)];
     placed.push(bestBox);
     avoided.push(...pointsBetween(leaderStart, [x, y]));
 
     drawLeader(context, [leaderStart, [x, y]], colour);
     context.fillStyle = palette.paper;
-    fade(context, 0.85, () => context.fillRect(bestBox.x - halfWidth, bestBox.y - halfHeight, 2 * halfWidth, 2 * halfHeight));
+    fade(context, 0.85, () => context.fillRect(bestBox.x - across, bestBox.y - down, 2 * across, 2 * down));
     Object.assign(context, { fillStyle: colour, textAlign: 'center', textBaseline: 'middle' });
     textLines.forEach((row, i) => context.fillText(row, bestBox.x, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT));
   }

@@ -191,8 +191,8 @@ export function drawHandle({ context, palette, handles }: Brush, { x, y, radius,
   if (handles) drawDisc(context, [x, y], radius, palette.paper, { colour, width: 3 });
 }
 
-/** Draws the ring and cross hairs of the selected sample in a colour. */
-export function drawSelectedSample(brush: Brush, { x, y, heading }: { x: number, y: number, heading: number | null }, colour: string = brush.palette.accent) {
+/** Draws a mark, a ring with cross hairs, by default in the colour of the selected sample. */
+export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number, heading: number | null }, colour: string = brush.palette.accent) {
   const { context, view, palette } = brush;
   const [px, py] = view.toPixel(x, y);
   for (const style of [{ colour: palette.paper, width: 5 }, { colour, width: 2 }]) {

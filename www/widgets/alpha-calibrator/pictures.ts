@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes, lineKey } from '../../scene/axes.ts';
-import { drawDots, drawSelectedSample, drawOutline, drawOutlines, drawRobot } from '../../scene/draw.ts';
+import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName } from './settings.ts';
@@ -65,7 +65,7 @@ export class PathPicture extends SamplesPicture<Scene> {
       if (chosen < 0) return;
       const [fromX, fromY, , x, y, heading] = legs.reference.subarray(6 * chosen);
       drawOutline(brush, Float64Array.of(fromX, fromY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
-      drawSelectedSample(brush, { x, y, heading }, palette.ink);
+      drawMark(brush, { x, y, heading }, palette.ink);
     });
     return isUnfinished;
   };
@@ -103,8 +103,8 @@ export class LegPicture extends Picture<Scene> {
         ...lineInStyle('reference', Float64Array.of(0, 0, ended[0], ended[1])),
       ]);
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      if (showsLine('odometry')) drawSelectedSample(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
-      if (showsLine('reference')) drawSelectedSample(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
+      if (showsLine('odometry')) drawMark(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
+      if (showsLine('reference')) drawMark(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });
   };
 }

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import { densityRamp, drawDots, drawGhosts, drawHandle, drawRobotHeap, drawSelectedSample, drawOutline, drawOutlines, drawRobot, hasLength, lineKeys, lineStyles } from '../../scene/draw.ts';
+import { densityRamp, drawDots, drawGhosts, drawHandle, drawRobotHeap, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineKeys, lineStyles } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
@@ -190,7 +190,7 @@ export class PlanePicture extends CloudPicture {
         const { pose, twist: at, path } = marked;
         if (morph === 0) drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
         const [x, y] = morph === 0 ? pose : morphedPoint(at, morph);
-        drawSelectedSample(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
+        drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
       }
     });
     if (callouts.length === 0) return;
@@ -322,7 +322,7 @@ export class TwistPicture extends CloudPicture {
         const { v, omega, dt } = config.command;
         drawDisc(context, view.toPixel(v * dt, omega * dt), 5, palette.paper, { ...command, dash: [] });
       }
-      if (marked) drawSelectedSample(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
+      if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });
     drawCallouts(brush, callouts, { from: twistMiddle, lines: [contours.twistEllipse, Float64Array.of(...twistMiddle), ...(earlierReading ? [earlierReading.contours.twistEllipse] : [])] });
   };

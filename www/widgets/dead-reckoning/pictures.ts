@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import { drawDots, drawGhosts, drawSelectedSample, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { significantText } from '../../ui/format.ts';
@@ -56,7 +56,7 @@ export class PathPicture extends SamplesPicture<Scene> {
       if (!marked) return;
       strokeLines(brush, [{ points: Float64Array.from([0, 0, ...marked.filter((_, i) => i % 3 < 2)]), colour: palette.accent, width: 1.25, dash: [6, 2] }]);
       const [x, y, heading] = marked.subarray(3 * (step - 1));
-      drawSelectedSample(brush, { x, y, heading });
+      drawMark(brush, { x, y, heading });
     });
     drawCallouts(brush, callouts, { from: [pose[0], pose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
   };

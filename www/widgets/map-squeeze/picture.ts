@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { densityRamp, drawSelectedSample, drawOutline, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { densityRamp, drawMark, drawOutline, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Density } from '../../scene/pixels.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
@@ -160,7 +160,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
       if (marked) {
         const { pose, path, contact } = marked;
         drawOutline(brush, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
-        drawSelectedSample(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
+        drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
         if (contact) drawWallContact(brush, contact);
       }
     });

@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { drawDots, drawSelectedSample, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawDots, drawMark, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { LABELS_ABOVE, drawLabelsAbove } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentOf } from '../../scene/view.ts';
@@ -78,7 +78,7 @@ class OutcomesPicture extends SamplesPicture<Scene> {
   view: View = new View({ top: LABELS_ABOVE, snug: true });
 
   paintMark(brush: Brush, { marked }: Scene) {
-    if (marked) drawSelectedSample(brush, { x: marked[0], y: marked[1], heading: marked[2] });
+    if (marked) drawMark(brush, { x: marked[0], y: marked[1], heading: marked[2] });
   }
 }
 

@@ -1,5 +1,5 @@
 /**
- * Catalogue of the elements for the tests, and the choice of one figure for a test about all.
+ * Facts about all elements for the tests, and the choice of the figure on which a test about all of them runs.
  *
  * @module
  */
@@ -20,23 +20,23 @@
  */
 
 /** @satisfies {Partial<FigureFacts>} */
-const COMMAND = { slider: 'v', at: ['command', 'v'], values: /** @type {[number, number]} */ ([0.7, 0.4]), other: /** @type {[string, number]} */ (['omega', 1.25]) };
-const MARKED = { at: 1, field: 'input[type=number]', value: '7' };
+const SPEED_FACTS = { slider: 'v', at: ['command', 'v'], values: /** @type {[number, number]} */ ([0.7, 0.4]), other: /** @type {[string, number]} */ (['omega', 1.25]) };
+const MARKED_SAMPLE_FIELD = { at: 1, field: 'input[type=number]', value: '7' };
 
 /** @typedef {'banana-machine' | 'map-squeeze' | 'arc-anatomy' | 'odometry-decomposer' | 'dead-reckoning' | 'alpha-calibrator'} Name */
 
 /** @type {Record<Name, FigureFacts>} */
 export const FIGURE_FACTS = {
   'banana-machine': {
-    ...COMMAND, cloud: true, handles: ['.handle'], button: 'New seed',
-    fold: MARKED, paper: { at: 1, part: 'table' },
+    ...SPEED_FACTS, cloud: true, handles: ['.handle'], button: 'New seed',
+    fold: MARKED_SAMPLE_FIELD, paper: { at: 1, part: 'table' },
   },
   'map-squeeze': {
-    ...COMMAND, cloud: true, handles: ['.handle.body', '.handle.turn'], button: 'New seed',
-    fold: MARKED, paper: { at: 1, part: 'table' },
+    ...SPEED_FACTS, cloud: true, handles: ['.handle.body', '.handle.turn'], button: 'New seed',
+    fold: MARKED_SAMPLE_FIELD, paper: { at: 1, part: 'table' },
   },
   'arc-anatomy': {
-    ...COMMAND, handles: ['.handle.body.start', '.handle.turn.start', '.handle.body.next', '.handle.turn.next'], button: 'Right turn',
+    ...SPEED_FACTS, handles: ['.handle.body.start', '.handle.turn.start', '.handle.body.next', '.handle.turn.next'], button: 'Right turn',
     fold: { at: 0, field: '.slider:has(#alpha1) .typed', value: '0.070' }, paper: { at: 1, part: '.lines' },
   },
   'odometry-decomposer': {
@@ -46,7 +46,7 @@ export const FIGURE_FACTS = {
   },
   'dead-reckoning': {
     cloud: true, slider: 'headingNoise', at: ['alphas', '2'], values: [0.07, 0.04], other: ['omega', 1.25], button: 'Straight',
-    fold: MARKED, paper: { at: 1, part: 'table' },
+    fold: MARKED_SAMPLE_FIELD, paper: { at: 1, part: 'table' },
   },
   'alpha-calibrator': {
     slider: 'distance', at: ['distance'], values: [0.4, 0.3], other: ['angle', 0.35], button: 'Next largest residual',
@@ -57,7 +57,7 @@ export const FIGURE_FACTS = {
 /** Names of all elements. */
 export const ALL_NAMES = /** @type {Name[]} */ (Object.keys(FIGURE_FACTS));
 
-/** Two elements, for tests of several figures on one page. */
+/** Names of two elements, for tests of several figures on one page. */
 export const TWO_NAMES = /** @type {const} */ (['banana-machine', 'map-squeeze']);
 
 /** Names of the elements with a cloud. */
@@ -67,13 +67,13 @@ export const CLOUD_NAMES = ALL_NAMES.filter((name) => FIGURE_FACTS[name].cloud);
 export const NAMES_WITH_HANDLES = ALL_NAMES.filter((name) => FIGURE_FACTS[name].handles);
 
 /**
- * Returns the figure on which a claim about all of them is tested: always the same for one title, and each in its turn.
+ * Returns the figure on which a test about all figures runs. It depends on the title only, and every figure has some tests.
  *
- * @param {string} title of the test, whose tag does not count
+ * @param {string} title of the test; a tag at its end has no effect
  * @param {Name[]} [among]
  */
 export function figureFor(title, among = ALL_NAMES) {
   let hash = 0;
-  for (const letter of title.replace(/ @\w+$/, '')) hash = (53 * hash + letter.charCodeAt(0)) % 65_521;
+  for (const character of title.replace(/ @\w+$/, '')) hash = (53 * hash + character.charCodeAt(0)) % 65_521;
   return among[hash % among.length];
 }

@@ -10,7 +10,7 @@ import { STILL, frames, pictureOf, pixelsOf, test, unfold } from './support.js';
 
 test.use(STILL);
 
-const ROOM = {
+const ROOM_PLAN = {
   bounds: [0, 0, 6, 4],
   walls: [[0, 0, 6, 0], [6, 0, 6, 4], [6, 4, 0, 4], [0, 4, 0, 0], [3, 0, 3, 1.5]],
 };
@@ -18,13 +18,13 @@ const ROOM = {
 /** Room of 60 × 40 cells whose border is occupied. */
 const COLUMNS = 60;
 const ROWS = 40;
-const border = (/** @type {number} */ column, /** @type {number} */ row) =>
+const isOnBorder = (/** @type {number} */ column, /** @type {number} */ row) =>
   column === 0 || row === 0 || column === COLUMNS - 1 || row === ROWS - 1;
 
-const FIELDS = { image: 'room.pgm', resolution: 0.05, origin: '[0.0, 0.0, 0.0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.1 };
+const YAML_FIELDS = { image: 'room.pgm', resolution: 0.05, origin: '[0.0, 0.0, 0.0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.1 };
 
-const complaint = (/** @type {Locator} */ widget) => widget.locator('.own-map [role=alert]');
-const present = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
+const errorMessageOf = (/** @type {Locator} */ widget) => widget.locator('.own-map [role=alert]');
+const currentMapOf = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
 
 /** Chooses files, as a reader does. @param {Locator} widget @param {MapFile[]} files */
 async function choose(widget, files) {
@@ -52,49 +52,49 @@ function drop(part, files) {
 
 test('a JSON floor plan takes the apartment’s place, and the robot finds room in it', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const before = await pictureOf(widget.locator('canvas.plane'));
+  const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
   await widget.getByRole('button', { name: 'Open corridor' }).click();
-  await choose(widget, [mapFile('room.json', JSON.stringify(ROOM))]);
-  await expect(present(widget)).toHaveText('room.json: 6.0 m × 4.0 m, 5 walls.');
+  await choose(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
+  await expect(currentMapOf(widget)).toHaveText('room.json: 6.0 m × 4.0 m, 5 walls.');
   const { bounds, walls, startFree, openPlace, config, shown } = await squeezeResults(widget);
-  expect(bounds).toEqual(ROOM.bounds);
-  expect(walls).toEqual(ROOM.walls.flat());
+  expect(bounds).toEqual(ROOM_PLAN.bounds);
+  expect(walls).toEqual(ROOM_PLAN.walls.flat());
   // The start in the corridor, (1.4, 4.4), is outside this room.
   expect(startFree).toBe(true);
   expect(config.start).toEqual(openPlace);
   expect(shown).toBe(config.samples);
-  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(before);
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /room\.json/);
 
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   expect((await squeezeResults(widget)).bounds).toEqual([0, 0, 12, 9]);
-  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(before);
+  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
 });
 
 test('presets keep the map of the reader, and buttons lead to the apartment and back', async ({ page }) => {
   const widget = await openSqueeze(page);
-  await choose(widget, [mapFile('room.json', JSON.stringify(ROOM))]);
-  await expect(present(widget)).toContainText('room.json');
+  await choose(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
+  await expect(currentMapOf(widget)).toContainText('room.json');
   // The presets are positions in the apartment, and are not offered here.
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
     await expect(widget.getByRole('button', { name })).toHaveCount(0);
   }
-  const open = widget.getByRole('button', { name: 'Place robot in free space' });
-  await open.click();
-  await expect(open).toHaveAttribute('aria-pressed', 'true');
+  const placeButton = widget.getByRole('button', { name: 'Place robot in free space' });
+  await placeButton.click();
+  await expect(placeButton).toHaveAttribute('aria-pressed', 'true');
   const { config, openPlace, bounds } = await squeezeResults(widget);
   expect(config.start).toEqual(openPlace);
-  expect(bounds).toEqual(ROOM.bounds);
+  expect(bounds).toEqual(ROOM_PLAN.bounds);
   await widget.getByRole('slider', { name: 'Robot', exact: true }).press('ArrowRight');
-  await expect(open).toHaveAttribute('aria-pressed', 'false');
-  const moved = await squeezeResults(widget);
+  await expect(placeButton).toHaveAttribute('aria-pressed', 'false');
+  const resultsAfterMove = await squeezeResults(widget);
 
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   expect((await squeezeResults(widget)).bounds).toEqual([0, 0, 12, 9]);
   await widget.getByRole('button', { name: 'Back to room.json' }).click();
-  expect(await squeezeResults(widget)).toEqual(moved);
-  await expect(present(widget)).toContainText('room.json');
+  expect(await squeezeResults(widget)).toEqual(resultsAfterMove);
+  await expect(currentMapOf(widget)).toContainText('room.json');
   await expect(widget.getByRole('button', { name: 'Back to room.json' })).toHaveCount(0);
 });
 
@@ -103,23 +103,23 @@ test('unknown cells are hatched, and free or blocked as the reader chooses', asy
   await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
   // A corridor of 4 m × 1 m, whose right half is unknown.
   const image = pngFile('map.png', 80, 20, (column) => column >= 40);
-  await choose(widget, [yamlFile('map.yaml', { ...FIELDS, image: 'map.png', mode: 'scale' }), image]);
-  await expect(present(widget)).toContainText('map.yaml');
+  await choose(widget, [yamlFile('map.yaml', { ...YAML_FIELDS, image: 'map.png', mode: 'scale' }), image]);
+  await expect(currentMapOf(widget)).toContainText('map.yaml');
   // The robot is in the left half, whose cells are not unknown.
   expect((await squeezeResults(widget)).config.start.x).toBeLessThan(2);
   await widget.evaluate((element) => Object.assign(element, { theta: 0 }));
   const canvas = widget.locator('canvas.plane');
   const choice = widget.getByRole('radiogroup', { name: 'Unknown cells' });
   await expect(choice.getByLabel('free')).toBeChecked();
-  const along = await squeezeResults(widget);
-  const free = await pictureOf(canvas);
+  const resultsIfFree = await squeezeResults(widget);
+  const pictureIfFree = await pictureOf(canvas);
   await choice.getByLabel('blocked').check();
-  const blocked = await squeezeResults(widget);
-  expect(blocked.config.unknown).toBe('blocked');
-  expect(blocked.poses).toEqual(along.poses);
-  expect(blocked.stats.accepted).toBeLessThan(along.stats.accepted);
-  expect(blocked.walls.length).toBeGreaterThan(along.walls.length);
-  expect(await pictureOf(canvas)).not.toBe(free);
+  const resultsIfBlocked = await squeezeResults(widget);
+  expect(resultsIfBlocked.config.unknown).toBe('blocked');
+  expect(resultsIfBlocked.poses).toEqual(resultsIfFree.poses);
+  expect(resultsIfBlocked.stats.accepted).toBeLessThan(resultsIfFree.stats.accepted);
+  expect(resultsIfBlocked.walls.length).toBeGreaterThan(resultsIfFree.walls.length);
+  expect(await pictureOf(canvas)).not.toBe(pictureIfFree);
   await expect(widget.locator('.legend').getByLabel('unknown cells')).toBeChecked();
 
   // A state contains both, and restores both.
@@ -128,84 +128,84 @@ test('unknown cells are hatched, and free or blocked as the reader chooses', asy
   await expect(choice).toHaveCount(0);
   await widget.evaluate((element, text) => /** @type {any} */ (element).setState(JSON.parse(text)), state);
   await expect(choice.getByLabel('blocked')).toBeChecked();
-  expect(await squeezeResults(widget)).toEqual(blocked);
+  expect(await squeezeResults(widget)).toEqual(resultsIfBlocked);
 });
 
 test('a floor plan can be written on the page', async ({ page }) => {
   const widget = await openSqueeze(page);
   await unfold(widget);
   const field = widget.getByLabel('Or a floor plan here');
-  const use = widget.getByRole('button', { name: 'Use this plan' });
+  const useButton = widget.getByRole('button', { name: 'Use this plan' });
   // The text field opens with an example of a floor plan.
-  await use.click();
-  await expect(present(widget)).toHaveText('Pasted plan: 6.0 m × 4.0 m, 6 walls.');
+  await useButton.click();
+  await expect(currentMapOf(widget)).toHaveText('Pasted plan: 6.0 m × 4.0 m, 6 walls.');
   await field.fill('{"bounds": [0, 0, 3, 3],\n"walls": [[0, 0, 3, 3]}');
-  await use.click();
-  await expect(complaint(widget)).toHaveText(/^Pasted plan, line 2: this is not JSON \(.+\); expected is \{"bounds": .+ in metres\.$/);
+  await useButton.click();
+  await expect(errorMessageOf(widget)).toHaveText(/^Pasted plan, line 2: this is not JSON \(.+\); expected is \{"bounds": .+ in metres\.$/);
   expect((await squeezeResults(widget)).bounds).toEqual([0, 0, 6, 4]);
   await field.fill(JSON.stringify({ bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] }));
-  await use.click();
-  await expect(complaint(widget)).toBeHidden();
+  await useButton.click();
+  await expect(errorMessageOf(widget)).toBeHidden();
   expect((await squeezeResults(widget)).walls).toEqual([0, 0, 3, 3]);
 });
 
 test('a map_server pair can be dropped on the widget', async ({ page }) => {
   const widget = await openSqueeze(page);
-  await expect(present(widget)).toHaveCount(0);
-  await drop(widget.locator('.stage'), [yamlFile('room.yaml', FIELDS), pgmFile('room.pgm', COLUMNS, ROWS, border)]);
-  await expect(present(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
-  await expect(present(widget)).toBeVisible();
+  await expect(currentMapOf(widget)).toHaveCount(0);
+  await drop(widget.locator('.stage'), [yamlFile('room.yaml', YAML_FIELDS), pgmFile('room.pgm', COLUMNS, ROWS, isOnBorder)]);
+  await expect(currentMapOf(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
+  await expect(currentMapOf(widget)).toBeVisible();
   const { bounds, walls, startFree, config, openPlace } = await squeezeResults(widget);
   expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
-  // The outer and the inner outline of the border.
+  // Eight walls: the outer and the inner outline of the border.
   expect(walls).toHaveLength(8 * 4);
   expect(startFree).toBe(true);
   expect(config.start).toEqual(openPlace);
   expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
 });
 
-test('why a dropped map is refused is said in sight of the drop, until it is closed @nightly', async ({ page }) => {
+test('the reason why a dropped map is refused is visible near the drop until it is closed @nightly', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openSqueeze(page);
-  const before = await squeezeResults(widget);
+  const resultsBefore = await squeezeResults(widget);
   await widget.locator('.stage').evaluate((stage) => stage.scrollIntoView());
-  const place = await page.evaluate(() => scrollY);
+  const scrollBefore = await page.evaluate(() => scrollY);
   await drop(widget.locator('.stage'), [mapFile('room.txt', 'a room')]);
   const alert = widget.getByRole('alert');
   await expect(alert).toHaveText(/^room\.txt: this kind of file is not read/);
   // Rounding to device pixels makes the visible ratio slightly smaller than 1.
   await expect(alert).toBeInViewport({ ratio: 0.99 });
-  expect(await page.evaluate(() => scrollY)).toBe(place);
-  expect(await squeezeResults(widget)).toEqual(before);
+  expect(await page.evaluate(() => scrollY)).toBe(scrollBefore);
+  expect(await squeezeResults(widget)).toEqual(resultsBefore);
   await widget.getByRole('button', { name: 'Close' }).click();
   await expect(widget.locator('.notice')).toHaveCount(0);
-  await expect(present(widget)).toContainText('The apartment');
+  await expect(currentMapOf(widget)).toContainText('The apartment');
 });
 
 test('a map that is refused is reported in a sentence, and the present map stays', async ({ page }) => {
-  const image = pgmFile('room.pgm', COLUMNS, ROWS, border);
-  const good = yamlFile('room.yaml', FIELDS);
+  const image = pgmFile('room.pgm', COLUMNS, ROWS, isOnBorder);
+  const roomYaml = yamlFile('room.yaml', YAML_FIELDS);
   const widget = await openSqueeze(page);
-  const before = await squeezeResults(widget);
-  await choose(widget, [good]);
-  await expect(complaint(widget)).toHaveText(/^room\.yaml: image names room\.pgm, which is not there; expected are both files/);
-  // The core refuses the image, which is well-formed for the page.
-  await choose(widget, [good, mapFile('room.pgm', 'P5\n60 40\n255\nabc')]);
-  await expect(complaint(widget)).toHaveText(/^room\.pgm.*(2400|60 × 40)/);
-  expect(await squeezeResults(widget)).toEqual(before);
-  await expect(present(widget)).toContainText('The apartment');
+  const resultsBefore = await squeezeResults(widget);
+  await choose(widget, [roomYaml]);
+  await expect(errorMessageOf(widget)).toHaveText(/^room\.yaml: image names room\.pgm, which is not there; expected are both files/);
+  // The page accepts this image, and the core refuses it.
+  await choose(widget, [roomYaml, mapFile('room.pgm', 'P5\n60 40\n255\nabc')]);
+  await expect(errorMessageOf(widget)).toHaveText(/^room\.pgm.*(2400|60 × 40)/);
+  expect(await squeezeResults(widget)).toEqual(resultsBefore);
+  await expect(currentMapOf(widget)).toContainText('The apartment');
   await expectAccessible(page);
-  await choose(widget, [good, image]);
-  await expect(present(widget)).toContainText('room.yaml');
-  await expect(complaint(widget)).toBeHidden();
+  await choose(widget, [roomYaml, image]);
+  await expect(currentMapOf(widget)).toContainText('room.yaml');
+  await expect(errorMessageOf(widget)).toBeHidden();
 });
 
-test('a map that a page gives is taken; the same again changes nothing, and one with less is refused', async ({ page }) => {
+test('a map set by a page is shown, an equal one changes nothing, and an incomplete one is refused', async ({ page }) => {
   const widget = await openSqueeze(page);
   const results = await widget.evaluate(async (element, room) => {
     const figure = /** @type {any} */ (element);
     /** Sets a map, and returns its keys or the error. @param {any} map @returns {Promise<string>} */
-    const given = (map) => new Promise((resolve) => {
+    const resultOfSetting = (map) => new Promise((resolve) => {
       figure.addEventListener('stats', () => resolve(Object.keys(figure.map).join()), { once: true });
       figure.addEventListener('error', (/** @type {ErrorEvent} */ event) => {
         event.preventDefault();
@@ -214,14 +214,14 @@ test('a map that a page gives is taken; the same again changes nothing, and one 
       figure.map = map;
     });
     const grid = { name: 'grid', columns: 8, rows: 1, resolution: 0.5, origin: [0, 0, 0], occupied: 'gA==' };
-    const all = [];
-    for (const map of [room, { bounds: room.bounds }, grid]) all.push(await given(map));
+    const outcomes = [];
+    for (const map of [room, { bounds: room.bounds }, grid]) outcomes.push(await resultOfSetting(map));
     let changes = 0;
     figure.addEventListener('stats', () => changes++);
     figure.map = { ...grid };
     for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
-    return [...all, changes];
-  }, ROOM);
+    return [...outcomes, changes];
+  }, ROOM_PLAN);
   expect(results).toEqual([
     'name,bounds,walls', expect.stringMatching(/^map\.walls is undefined; /), 'name,columns,rows,resolution,origin,occupied', 0,
   ]);
@@ -231,13 +231,13 @@ test('a large map is opened with a message, and another map takes its place @nig
   test.setTimeout(120_000);
   const widget = await openSqueeze(page);
   const side = 4000;
-  const posts = (/** @type {number} */ c, /** @type {number} */ r) => c === 0 || r === 0 || c === side - 1 || r === side - 1 || (c % 100 === 50 && r % 100 === 50);
-  await choose(widget, [yamlFile('hall.yaml', { ...FIELDS, image: 'hall.pgm' }), pgmFile('hall.pgm', side, side, posts)]);
-  await expect(present(widget)).toContainText('hall.yaml: 200.0 m × 200.0 m', { timeout: 60_000 });
+  const isPost = (/** @type {number} */ c, /** @type {number} */ r) => c === 0 || r === 0 || c === side - 1 || r === side - 1 || (c % 100 === 50 && r % 100 === 50);
+  await choose(widget, [yamlFile('hall.yaml', { ...YAML_FIELDS, image: 'hall.pgm' }), pgmFile('hall.pgm', side, side, isPost)]);
+  await expect(currentMapOf(widget)).toContainText('hall.yaml: 200.0 m × 200.0 m', { timeout: 60_000 });
   const { stats, config } = await squeezeResults(widget);
   expect(stats.attempts).toBe(config.samples);
-  await choose(widget, [mapFile('room.json', JSON.stringify(ROOM))]);
-  await expect(present(widget)).toContainText('room.json');
+  await choose(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
+  await expect(currentMapOf(widget)).toContainText('room.json');
   await frames(page);
   expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(100);
 });

@@ -8,8 +8,8 @@ import { STILL, centreOf, frames, numberIn, pictureOf, readout, stateOf, test, u
 
 test.use(STILL);
 
-const body = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot', exact: true });
-const turn = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot' });
+const bodyHandle = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot', exact: true });
+const headingHandle = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot' });
 
 /** Returns the pixels of a metre. @param {Locator} widget */
 const pixelsPerMetre = (widget) => widget.evaluate((element) => {
@@ -20,17 +20,17 @@ const pixelsPerMetre = (widget) => widget.evaluate((element) => {
 test('the robot moves and turns by keyboard', async ({ page }) => {
   const widget = await openSqueeze(page);
   let { start } = /** @type {any} */ (await stateOf(widget));
-  const degrees5 = Math.PI / 36;
+  const fiveDegrees = Math.PI / 36;
   const keys = /** @type {const} */ ([
-    [body, 'ArrowRight', 0.05, 0, 0],
-    [body, 'ArrowUp', 0, 0.05, 0],
-    [body, '[', 0, 0, degrees5],
-    [body, ']', 0, 0, -degrees5],
-    [body, 'Shift+ArrowLeft', -0.25, 0, 0],
-    [body, 'PageDown', 0, -0.5, 0],
-    [turn, 'ArrowUp', 0, 0, degrees5],
-    [turn, 'Shift+ArrowRight', 0, 0, -5 * degrees5],
-    [turn, 'PageDown', 0, 0, -10 * degrees5],
+    [bodyHandle, 'ArrowRight', 0.05, 0, 0],
+    [bodyHandle, 'ArrowUp', 0, 0.05, 0],
+    [bodyHandle, '[', 0, 0, fiveDegrees],
+    [bodyHandle, ']', 0, 0, -fiveDegrees],
+    [bodyHandle, 'Shift+ArrowLeft', -0.25, 0, 0],
+    [bodyHandle, 'PageDown', 0, -0.5, 0],
+    [headingHandle, 'ArrowUp', 0, 0, fiveDegrees],
+    [headingHandle, 'Shift+ArrowRight', 0, 0, -5 * fiveDegrees],
+    [headingHandle, 'PageDown', 0, 0, -10 * fiveDegrees],
   ]);
   for (const [part, key, dx, dy, dTheta] of keys) {
     await part(widget).press(key);
@@ -40,40 +40,40 @@ test('the robot moves and turns by keyboard', async ({ page }) => {
     expect(next.theta - start.theta, key).toBeCloseTo(dTheta, 9);
     start = next;
   }
-  await expect(body(widget)).toHaveAttribute('aria-valuetext', `x = ${start.x.toFixed(2)} m, y = ${start.y.toFixed(2)} m`);
-  await expect(turn(widget)).toHaveAttribute('aria-valuetext', `${start.theta.toFixed(2)} rad`);
+  await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', `x = ${start.x.toFixed(2)} m, y = ${start.y.toFixed(2)} m`);
+  await expect(headingHandle(widget)).toHaveAttribute('aria-valuetext', `${start.theta.toFixed(2)} rad`);
 });
 
 test('the robot stays inside the map, and says so to the eye and to the ear', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { x, y } = await centreOf(body(widget));
-  const stop = async () => {
+  const { x, y } = await centreOf(bodyHandle(widget));
+  const edgeLabel = async () => {
     await frames(page);
-    return body(widget).evaluate((element) => getComputedStyle(element, '::before').content);
+    return bodyHandle(widget).evaluate((element) => getComputedStyle(element, '::before').content);
   };
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x - 20, y, { steps: 3 });
-  expect(await stop()).toBe('none');
+  expect(await edgeLabel()).toBe('none');
   await page.mouse.move(1, y, { steps: 3 });
-  expect(await stop()).toBe('"The map ends here"');
+  expect(await edgeLabel()).toBe('"The map ends here"');
   await page.mouse.move(x - 20, y, { steps: 3 });
-  expect(await stop()).toBe('none');
+  expect(await edgeLabel()).toBe('none');
   await page.mouse.move(1, y, { steps: 3 });
   await page.mouse.up();
-  expect(await stop()).toBe('none');
+  expect(await edgeLabel()).toBe('none');
   expect((await squeezeResults(widget)).config.start.x).toBe(0);
 
   // With the keyboard, the position and the obstacle are announced.
-  const announced = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
-  await expect(body(widget)).toHaveAttribute('aria-valuetext', announced);
-  await body(widget).press('ArrowRight');
-  await expect(body(widget)).toHaveAttribute('aria-valuetext', /^x = 0\.05 m, y = \d\.\d\d m$/);
-  expect(await stop()).toBe('none');
+  const valueAtEdge = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
+  await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', valueAtEdge);
+  await bodyHandle(widget).press('ArrowRight');
+  await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', /^x = 0\.05 m, y = \d\.\d\d m$/);
+  expect(await edgeLabel()).toBe('none');
   for (let i = 0; i < 2; i++) {
-    await body(widget).press('ArrowLeft');
-    await expect(body(widget)).toHaveAttribute('aria-valuetext', announced);
-    expect(await stop()).toBe('"The map ends here"');
+    await bodyHandle(widget).press('ArrowLeft');
+    await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', valueAtEdge);
+    expect(await edgeLabel()).toBe('"The map ends here"');
   }
   expect((await squeezeResults(widget)).config.start.x).toBe(0);
 });
@@ -82,54 +82,54 @@ test('a robot that a key led into a wall is reported @nightly', async ({ page })
   const widget = await openSqueeze(page);
   await widget.evaluate((element) => void Reflect.set(element, 'start', { x: 4.2, y: 2.6, theta: 0 }));
   expect((await squeezeResults(widget)).startFree).toBe(true);
-  for (let i = 0; i < 2; i++) await body(widget).press('ArrowLeft');
+  for (let i = 0; i < 2; i++) await bodyHandle(widget).press('ArrowLeft');
   expect((await squeezeResults(widget)).startFree).toBe(false);
   await expect(widget.getByRole('status').filter({ hasText: 'The start pose is in collision' })).toHaveCount(1);
   await expect(widget.locator('.verdict')).toContainText('The start pose is in collision');
-  for (let i = 0; i < 2; i++) await body(widget).press('ArrowRight');
+  for (let i = 0; i < 2; i++) await bodyHandle(widget).press('ArrowRight');
   await expect(widget.locator('.verdict')).not.toContainText('start pose is in collision');
 });
 
 test('the sampler is chosen by name, and the readouts are those of the machine', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const names = { Endpoint: 'endpoint', 'Whole arc': 'whole-arc' };
+  const samplersByLabel = { Endpoint: 'endpoint', 'Whole arc': 'whole-arc' };
   await unfold(widget);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
-  for (const [label, sampler] of Object.entries(names)) {
+  for (const [label, sampler] of Object.entries(samplersByLabel)) {
     await widget.getByLabel(label, { exact: true }).check();
     const { config, stats } = await squeezeResults(widget);
     expect(config.sampler).toBe(sampler);
-    const shown = async (/** @type {string | RegExp} */ name) => numberIn(await readout(widget, name).textContent());
-    expect(await shown(/^\s*drawn/)).toBe(stats.drawn);
-    expect(await shown(/^\s*accepted\s*[\d\u202f]/)).toBe(stats.accepted);
-    expect(await shown('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
-    expect(await shown('wall distances computed per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
+    const shownNumber = async (/** @type {string | RegExp} */ name) => numberIn(await readout(widget, name).textContent());
+    expect(await shownNumber(/^\s*drawn/)).toBe(stats.drawn);
+    expect(await shownNumber(/^\s*accepted\s*[\d\u202f]/)).toBe(stats.accepted);
+    expect(await shownNumber('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
+    expect(await shownNumber('wall distances computed per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
     const details = (await widget.locator('.readouts .detail').allTextContents()).map((text) => text.split('%')[0]);
     expect(numberIn(details[0])).toBeCloseTo(100 * stats.acceptanceRate, 1);
     if (sampler === 'whole-arc') {
       await expect(readout(widget, 'accepted through a wall')).toHaveText('0, by construction');
       continue;
     }
-    expect(await shown('accepted through a wall')).toBe(stats.throughWall);
+    expect(await shownNumber('accepted through a wall')).toBe(stats.throughWall);
     expect(numberIn(details[1])).toBeCloseTo(100 * stats.throughWallRate, 1);
     const interval = stats.throughWallInterval.map((end) => (100 * end).toFixed(1)).join('\u2060–\u2060');
     await expect(widget.locator('.verdict')).toContainText(`(95\u202f% interval ${interval}`);
   }
 });
 
-test('the headline says the share as a simple fraction, and what to expect of none and all', async ({ page }) => {
+test('the headline gives the share as a simple fraction, and has words for none and all', async ({ page }) => {
   const widget = await openSqueeze(page);
   const headline = widget.locator('.headline');
   await expect(headline).toHaveText('1 in 3 accepted motions went through a wall');
   const { size } = await headline.evaluate((element) => ({ size: parseFloat(getComputedStyle(element).fontSize) }));
   expect(size).toBeGreaterThanOrEqual(28);
   expect(size).toBeLessThanOrEqual(32);
-  const given = /** @type {[Record<string, unknown>, string][]} */ ([
+  const cases = /** @type {[Record<string, unknown>, string][]} */ ([
     [{ sampler: 'whole-arc' }, 'No accepted motion went through a wall'],
     [{ x: 3.9, y: 2.6, theta: 0 }, 'No motion was accepted'],
     [{ sampler: 'endpoint', conditioned: false }, 'All accepted motions went through a wall'],
   ]);
-  for (const [settings, text] of given) {
+  for (const [settings, text] of cases) {
     await widget.evaluate((element, values) => Object.assign(element, values), settings);
     await expect(headline).toHaveText(text);
   }
@@ -155,7 +155,7 @@ test('the table of costs has each sampler, and the share of a processor core fol
   }
 });
 
-test('a wedged robot is said to be one, with the draws that were tried @nightly', async ({ page }) => {
+test('a wedged robot is reported with the number of draws @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   const note = widget.locator('.verdict.note');
   await expect(note).toHaveCount(0);
@@ -166,22 +166,22 @@ test('a wedged robot is said to be one, with the draws that were tried @nightly'
   const { stats, config } = await squeezeResults(widget);
   expect(stats.gaveUp).toBe(true);
   await expect(note).toContainText('The robot is wedged');
-  const tried = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
+  const noteText = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
   // No other sentence contains another count of the same motions.
-  const through = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
-  const ended = `only ${stats.accepted} of ${config.samples} motions were completed; ${through} went through a wall`;
-  expect(tried.trim()).toBe(`The robot is wedged: of ${stats.drawn} sub-steps drawn, ${stats.accepted === 0 ? 'none completed a motion' : ended}.`);
-  const described = ((await widget.locator('canvas.plane').getAttribute('aria-label')) ?? '').replaceAll('\u202f', '');
-  expect(described).toContain(`${stats.drawn} sub-steps drawn; ${stats.accepted} motions accepted`);
-  expect(described.includes('crosses')).toBe(stats.accepted < stats.attempts);
+  const throughText = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
+  const completedText = `only ${stats.accepted} of ${config.samples} motions were completed; ${throughText} went through a wall`;
+  expect(noteText.trim()).toBe(`The robot is wedged: of ${stats.drawn} sub-steps drawn, ${stats.accepted === 0 ? 'none completed a motion' : completedText}.`);
+  const description = ((await widget.locator('canvas.plane').getAttribute('aria-label')) ?? '').replaceAll('\u202f', '');
+  expect(description).toContain(`${stats.drawn} sub-steps drawn; ${stats.accepted} motions accepted`);
+  expect(description.includes('crosses')).toBe(stats.accepted < stats.attempts);
 
   // Start in the wall, from which no path is free.
   await widget.getByLabel('Whole arc').check();
-  const { x, y } = await centreOf(body(widget));
-  const up = 1.2 * (await pixelsPerMetre(widget));
+  const { x, y } = await centreOf(bodyHandle(widget));
+  const wallDistance = 1.2 * (await pixelsPerMetre(widget));
   await page.mouse.move(x, y);
   await page.mouse.down();
-  await page.mouse.move(x, y - up, { steps: 4 });
+  await page.mouse.move(x, y - wallDistance, { steps: 4 });
   await page.mouse.up();
   const blocked = await squeezeResults(widget);
   expect(blocked.startFree).toBe(false);
@@ -193,48 +193,48 @@ test('a wedged robot is said to be one, with the draws that were tried @nightly'
 test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { verdicts, poses } = await squeezeResults(widget);
-  const through = verdicts.indexOf(5);
-  const rejected = verdicts.findIndex((verdict) => (verdict & 4) === 0);
+  const throughWallIndex = verdicts.indexOf(5);
+  const rejectedIndex = verdicts.findIndex((verdict) => (verdict & 4) === 0);
   const field = widget.getByRole('spinbutton', { name: 'Sample' });
   const output = widget.locator('.marked output');
   const canvas = widget.locator('canvas.plane');
   await unfold(widget);
-  const plain = await pictureOf(canvas);
+  const pictureBefore = await pictureOf(canvas);
 
-  await field.fill(String(through + 1));
+  await field.fill(String(throughWallIndex + 1));
   await expect(output).toHaveText('accepted through a wall: the end pose is free, but the path touches a wall or leaves the map');
-  expect(await pictureOf(canvas)).not.toBe(plain);
-  await field.fill(String(rejected + 1));
+  expect(await pictureOf(canvas)).not.toBe(pictureBefore);
+  await field.fill(String(rejectedIndex + 1));
   await expect(output).toHaveText('rejected: the end pose is in collision');
   await field.fill(String(verdicts.indexOf(7) + 1));
   await expect(output).toHaveText('accepted: end pose and path are collision-free');
   await field.fill('');
-  expect(await pictureOf(canvas)).toBe(plain);
+  expect(await pictureOf(canvas)).toBe(pictureBefore);
 
   // The sample furthest to the right, which has no near neighbour.
-  let last = 0;
-  for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * last]) last = i;
-  const { x, y } = await centreOf(body(widget));
+  let rightmost = 0;
+  for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * rightmost]) rightmost = i;
+  const { x, y } = await centreOf(bodyHandle(widget));
   const metre = await pixelsPerMetre(widget);
-  await page.mouse.move(x + (poses[3 * last] - 2.05) * metre, y - (poses[3 * last + 1] - 2.6) * metre);
-  await expect(field).toHaveValue(String(last + 1));
+  await page.mouse.move(x + (poses[3 * rightmost] - 2.05) * metre, y - (poses[3 * rightmost + 1] - 2.6) * metre);
+  await expect(field).toHaveValue(String(rightmost + 1));
 });
 
 test('a marked motion that went through a wall has a leader to it, and no other has @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { verdicts } = await squeezeResults(widget);
-  const labelled = (/** @type {number | null} */ index) => widget.evaluate((element, marked) => {
+  const hasWallLabel = (/** @type {number | null} */ index) => widget.evaluate((element, marked) => {
     Object.assign(element, { marked });
     return /** @type {any} */ (element).toSVG().includes('through this wall');
   }, index);
-  expect(await labelled(null)).toBe(false);
-  expect(await labelled(verdicts.indexOf(5))).toBe(true);
-  expect(await labelled(verdicts.indexOf(7))).toBe(false);
+  expect(await hasWallLabel(null)).toBe(false);
+  expect(await hasWallLabel(verdicts.indexOf(5))).toBe(true);
+  expect(await hasWallLabel(verdicts.indexOf(7))).toBe(false);
 });
 
 test('the edge of a doorway and a wall are dragged, and Back to the apartment undoes it', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const before = await squeezeResults(widget);
+  const resultsBefore = await squeezeResults(widget);
   const drag = async (/** @type {Locator} */ handle, /** @type {number} */ dx, /** @type {number} */ dy) => {
     const { x, y } = await centreOf(handle);
     await page.mouse.move(x, y);
@@ -244,41 +244,41 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
     return squeezeResults(widget);
   };
   // The left edge of the doorway ahead, from x = 1.6 m to its limit: the right edge is at 2.5 m.
-  const narrow = await drag(widget.locator('.handle.to-4'), 300, 40);
-  expect(narrow.walls.slice(16, 20)).toEqual([0, 3.8, expect.closeTo(2.45, 9), 3.8]);
-  expect(narrow.stats.throughWall).toBeGreaterThan(before.stats.throughWall);
-  expect(narrow.config).toEqual(before.config);
-  const moved = await drag(widget.locator('.handle.side-8'), 10, -20);
-  const [x0, y0, x1, y1] = moved.walls.slice(32, 36);
+  const afterEdgeDrag = await drag(widget.locator('.handle.to-4'), 300, 40);
+  expect(afterEdgeDrag.walls.slice(16, 20)).toEqual([0, 3.8, expect.closeTo(2.45, 9), 3.8]);
+  expect(afterEdgeDrag.stats.throughWall).toBeGreaterThan(resultsBefore.stats.throughWall);
+  expect(afterEdgeDrag.config).toEqual(resultsBefore.config);
+  const afterWallDrag = await drag(widget.locator('.handle.side-8'), 10, -20);
+  const [x0, y0, x1, y1] = afterWallDrag.walls.slice(32, 36);
   expect([x0, x1]).toEqual([0, 2.8]);
   expect(y0).toBeGreaterThan(5);
   expect(y1).toBe(y0);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /Edited apartment/);
   // The full number of samples is tested after the walls have stopped moving.
   await widget.evaluate((element) => Object.assign(element, { samples: 5000 }));
-  const many = await drag(widget.locator('.handle.side-8'), 0, -20);
-  expect(many.walls[33]).toBeGreaterThan(y0 + 0.1);
-  expect(many.shown).toBe(5000);
+  const afterSecondDrag = await drag(widget.locator('.handle.side-8'), 0, -20);
+  expect(afterSecondDrag.walls[33]).toBeGreaterThan(y0 + 0.1);
+  expect(afterSecondDrag.shown).toBe(5000);
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
-  expect((await squeezeResults(widget)).walls).toEqual(before.walls);
+  expect((await squeezeResults(widget)).walls).toEqual(resultsBefore.walls);
 });
 
 test('walls are moved by keyboard from one stop of Tab, and their handles are named', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { walls } = await squeezeResults(widget);
-  await body(widget).focus();
+  await bodyHandle(widget).focus();
   await page.keyboard.press('Shift+Tab');
-  const current = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.className.split(' ')[2]);
-  expect(await current()).toBe('to-4');
+  const focusedHandle = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.className.split(' ')[2]);
+  expect(await focusedHandle()).toBe('to-4');
   await page.keyboard.press('ArrowRight');
   expect((await squeezeResults(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
   await page.keyboard.press(']');
-  expect(await current()).toBe('side-4');
+  expect(await focusedHandle()).toBe('side-4');
   expect(await widget.evaluate(({ shadowRoot }) => getComputedStyle(/** @type {Element} */ (shadowRoot?.activeElement), '::before').content)).toBe('"Drag the wall"');
   await expect(widget.locator('.legend')).toContainText('handles: drag walls and edges of doorways');
   await page.keyboard.press('Shift+ArrowDown');
-  const moved = await squeezeResults(widget);
-  expect(moved.walls[17]).toBeCloseTo(walls[17] - 0.25, 9);
+  const resultsAfterMove = await squeezeResults(widget);
+  expect(resultsAfterMove.walls[17]).toBeCloseTo(walls[17] - 0.25, 9);
   await page.keyboard.press('Shift+Tab');
   expect(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.classList.contains('handle') ?? false)).toBe(false);
 });
@@ -290,11 +290,11 @@ test('the picture has a description, and a reader’s change is announced', asyn
   await expect(canvas).toHaveAttribute('aria-label', /The apartment: 12\.0 m × 9\.0 m, 18 walls/);
   await expect(canvas).toHaveAttribute('aria-label', new RegExp(`${stats.throughWall} of those through a wall`));
   await widget.getByLabel('Whole arc').check();
-  const after = (await squeezeResults(widget)).stats;
+  const statsAfter = (await squeezeResults(widget)).stats;
   const status = widget.locator('p[role=status]');
-  const said = `${after.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
-  await expect(status).toHaveText(said);
-  await expect(widget.locator('.verdict')).toHaveText(said);
+  const text = `${statsAfter.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
+  await expect(status).toHaveText(text);
+  await expect(widget.locator('.verdict')).toHaveText(text);
   // Without the condition all samples are accepted.
   await unfold(widget);
   await widget.getByLabel('Check samples against the map').uncheck();
@@ -312,20 +312,20 @@ test('either view is within the apartment, and a close one has the whole map bes
   const widget = await openSqueeze(page);
   const overview = widget.locator('.overview');
   await expect(overview).toBeVisible();
-  const extent = () => widget.evaluate((element) => /** @type {any} */ (element).picture.view.extent);
-  const edge = 0.301;
+  const viewExtent = () => widget.evaluate((element) => /** @type {any} */ (element).picture.view.extent);
+  const margin = 0.301;
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
     await widget.getByRole('button', { name }).click();
-    const { xMin, yMin, xMax, yMax } = await extent();
-    expect(Math.min(xMin, yMin)).toBeGreaterThan(-edge);
-    expect(xMax).toBeLessThan(12 + edge);
-    expect(yMax).toBeLessThan(9 + edge);
+    const { xMin, yMin, xMax, yMax } = await viewExtent();
+    expect(Math.min(xMin, yMin)).toBeGreaterThan(-margin);
+    expect(xMax).toBeLessThan(12 + margin);
+    expect(yMax).toBeLessThan(9 + margin);
   }
   await unfold(widget);
   await expect(widget.getByLabel('close-up')).toBeChecked();
   await widget.getByLabel('whole map').check();
-  const whole = await extent();
-  expect(Math.min(13 / (whole.xMax - whole.xMin), 10 / (whole.yMax - whole.yMin))).toBeGreaterThan(0.9);
+  const wholeMapExtent = await viewExtent();
+  expect(Math.min(13 / (wholeMapExtent.xMax - wholeMapExtent.xMin), 10 / (wholeMapExtent.yMax - wholeMapExtent.yMin))).toBeGreaterThan(0.9);
   await expect(overview).toHaveCount(0);
 });
 
@@ -344,18 +344,18 @@ test('each entry of the legend hides the marks that it names', async ({ page }) 
 
 test('many samples are a density, those through a wall in a colour of their own', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const about = widget.locator('.about');
-  await expect(about).toHaveCount(0);
+  const densityNote = widget.locator('.about');
+  await expect(densityNote).toHaveCount(0);
   await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));
-  await expect(about).toContainText('Density');
+  await expect(densityNote).toContainText('Density');
   expect((await squeezeResults(widget)).stats.throughWall).toBeGreaterThan(4000);
   // All samples behind the wall at y = 5 passed through one; between the posts of the doorway hardly any did.
-  const [behind, between] = await widget.evaluate((element) => {
+  const [colorBehindWall, colorBetweenPosts] = await widget.evaluate((element) => {
     const { picture: { view }, renderRoot } = /** @type {any} */ (element);
     const canvas = renderRoot.querySelector('canvas.plane');
     const ratio = canvas.width / canvas.clientWidth;
-    const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
-    const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
+    const pixelCopy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
+    const context = /** @type {CanvasRenderingContext2D} */ (pixelCopy.getContext('2d', { willReadFrequently: true }));
     context.drawImage(canvas, 0, 0);
     return [[1.75, 5.4], [2.35, 4.2]].map(([x, y]) => {
       const [left, top] = [ratio * view.toPixelX(x) - 8, ratio * view.toPixelY(y) - 8];
@@ -366,8 +366,8 @@ test('many samples are a density, those through a wall in a colour of their own'
     });
   });
   // Purple has more blue than green, orange more green than blue.
-  expect(behind).toBeLessThan(0);
-  expect(between).toBeGreaterThan(0);
+  expect(colorBehindWall).toBeLessThan(0);
+  expect(colorBetweenPosts).toBeGreaterThan(0);
   await widget.evaluate((element) => Object.assign(element, { samples: 600 }));
-  await expect(about).toHaveCount(0);
+  await expect(densityNote).toHaveCount(0);
 });

@@ -1,7 +1,7 @@
-// Monkey test: random clicks, drags, keys, numbers, files, attributes, sizes and languages. No event may cause an error message, a trap or
-// a broken figure, and a figure that is opened with the state of another shows the same.
+// Monkey test: random clicks, drags, keys, numbers, files, attributes, sizes and languages. No event may cause an error message, a crash of
+// the core or a broken figure. A second figure that gets the state of the first has to show the same results.
 //
-// MONKEY_EVENTS and MONKEY_SEED ask for more, and for another one; a failure names what replays it.
+// MONKEY_EVENTS is the number of events, MONKEY_SEED the seed. The message of a failure contains both, for a replay.
 
 import { expect } from '@playwright/test';
 import { generator } from '../random.js';
@@ -12,48 +12,48 @@ import { ALL_NAMES } from './figures.js';
 /**
  * @typedef {import('@playwright/test').Page} Page
  * @typedef {import('./support.js').AnyElement} AnyElement
- * @typedef {{ below: (end: number) => number, one: <T>(of: readonly T[]) => T }} Luck random numbers, and random elements of lists
- * @typedef {(page: Page, luck: Luck) => Promise<string>} Deed random action, which returns a description of itself
+ * @typedef {{ below: (end: number) => number, one: <T>(of: readonly T[]) => T }} Random random numbers, and random elements of lists
+ * @typedef {(page: Page, luck: Random) => Promise<string>} Action random action, which returns a description of itself
  */
 
 const EVENTS = Number(process.env.MONKEY_EVENTS ?? 600);
 const SEED = Number(process.env.MONKEY_SEED ?? 1);
 
 /** Number of events between two checks of the page. */
-const ROUND = 250;
+const EVENTS_PER_CHECK = 250;
 
 /** Parts of a widget that are clicked and dragged. */
-const PARTS = 'button, summary, input, .handle, canvas, textarea, label';
+const PART_SELECTOR = 'button, summary, input, .handle, canvas, textarea, label';
 
-const NUMBERS = ['0', '1', '0.5', '-3', '\u22120.25', '1,5', '1e-300', '1e9', '12345678901', '100', '7', 'NaN', 'Infinity', '', ' ', 'abc', '2 m', '0x10', '1e'];
+const TYPED_NUMBERS = ['0', '1', '0.5', '-3', '\u22120.25', '1,5', '1e-300', '1e9', '12345678901', '100', '7', 'NaN', 'Infinity', '', ' ', 'abc', '2 m', '0x10', '1e'];
 const KEYS = ['Tab', 'Shift+Tab', 'Enter', ' ', 'Escape', 'ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Home', 'End', 'c', 'C', '5', 'Backspace', 'Delete'];
-const TEXTS = ['', 'null', 'true', 'false', 'toString', '__proto__', '\u0000', 'velocity', 'odometry', 'normal', 'triangular', 'close', 'whole', 'endpoint', 'whole-arc', 'sub-stepped', 'free', 'occupied', 'unknown', 'command ellipse', 'Banana', 'Hard arc', 'doorway', ...NUMBERS];
+const ATTRIBUTE_TEXTS = ['', 'null', 'true', 'false', 'toString', '__proto__', '\u0000', 'velocity', 'odometry', 'normal', 'triangular', 'close', 'whole', 'endpoint', 'whole-arc', 'sub-stepped', 'free', 'occupied', 'unknown', 'command ellipse', 'Banana', 'Hard arc', 'doorway', ...TYPED_NUMBERS];
 const LANGUAGES = ['en', 'de', 'de-AT', 'fr', '', 'constructor', 'x'];
-const SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 1080], [600, 900]];
+const WINDOW_SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 1080], [600, 900]];
 
-const HALL = pgmFile('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
+const HALL_IMAGE = pgmFile('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
 /** Files that readers may drop, the first of them a map. */
-const FILES = [
-  [yamlFile('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL],
+const DROPPED_FILES = [
+  [yamlFile('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL_IMAGE],
   [mapFile('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [[0, 0, 5, 0], [5, 0, 5, 4], [5, 4, 0, 4], [0, 4, 0, 0]] }))],
-  [HALL],
+  [HALL_IMAGE],
   [mapFile('hall.yaml', 'image: &a [*a]')],
-  [mapFile('cut.pgm', HALL.buffer.subarray(0, 200))],
+  [mapFile('cut.pgm', HALL_IMAGE.buffer.subarray(0, 200))],
   [mapFile('plan.json', '{"walls": 7}')],
   [mapFile('notes.txt', 'no map')],
 ];
 
-/** @param {number} seed @returns {Luck} */
-function luckOf(seed) {
+/** @param {number} seed @returns {Random} */
+function randomOf(seed) {
   const next = generator(seed);
   const below = (/** @type {number} */ end) => Math.floor(end * next());
   return { below, one: (of) => of[below(of.length)] };
 }
 
-/** Brings a part of a widget to where the pointer can reach it. @param {Page} page @param {Luck} luck @param {string} selector */
-async function partAt(page, luck, selector) {
-  const [name, choice, x, y] = [luck.one(ALL_NAMES), luck.below(1e6), luck.below(99) + 1, luck.below(99) + 1];
-  const place = await page.evaluate(
+/** Brings a part of a widget to where the pointer can reach it. @param {Page} page @param {Random} random @param {string} selector */
+async function partAt(page, random, selector) {
+  const [name, choice, x, y] = [random.one(ALL_NAMES), random.below(1e6), random.below(99) + 1, random.below(99) + 1];
+  const box = await page.evaluate(
     ([name, selector, choice]) => {
       const parts = [...(document.querySelector(`${name}`)?.shadowRoot?.querySelectorAll(`${selector}`) ?? [])].filter((part) => part.checkVisibility());
       const part = parts[Number(choice) % parts.length];
@@ -64,40 +64,40 @@ async function partAt(page, luck, selector) {
     },
     [name, selector, choice],
   );
-  return place && { x: place.left + (place.width * x) / 100, y: place.top + (place.height * y) / 100, what: `${name} ${place.what}` };
+  return box && { x: box.left + (box.width * x) / 100, y: box.top + (box.height * y) / 100, what: `${name} ${box.what}` };
 }
 
-/** @type {Record<string, Deed>} */
-const DEEDS = {
-  async click(page, luck) {
-    const part = await partAt(page, luck, PARTS);
-    if (part) await page.mouse.click(part.x, part.y, { clickCount: luck.one([1, 1, 1, 2]) });
+/** @type {Record<string, Action>} */
+const ACTIONS = {
+  async click(page, random) {
+    const part = await partAt(page, random, PART_SELECTOR);
+    if (part) await page.mouse.click(part.x, part.y, { clickCount: random.one([1, 1, 1, 2]) });
     return `${part?.what}`;
   },
-  async tap(page, luck) {
-    const part = await partAt(page, luck, PARTS);
+  async tap(page, random) {
+    const part = await partAt(page, random, PART_SELECTOR);
     if (part) await page.touchscreen.tap(part.x, part.y);
     return `${part?.what}`;
   },
-  async drag(page, luck) {
-    const part = await partAt(page, luck, 'input[type=range], .handle, canvas');
+  async drag(page, random) {
+    const part = await partAt(page, random, 'input[type=range], .handle, canvas');
     if (!part) return 'nothing';
-    const by = [luck.below(400) - 200, luck.below(200) - 100];
+    const by = [random.below(400) - 200, random.below(200) - 100];
     await page.mouse.move(part.x, part.y);
     await page.mouse.down();
     await page.mouse.move(part.x + by[0], part.y + by[1], { steps: 4 });
     // Sometimes another event happens during a drag.
-    if (luck.below(4) > 0) await page.mouse.up();
+    if (random.below(4) > 0) await page.mouse.up();
     return `${part.what} by ${by}`;
   },
-  async key(page, luck) {
-    const keys = Array.from({ length: 1 + luck.below(4) }, () => luck.one(KEYS));
+  async key(page, random) {
+    const keys = Array.from({ length: 1 + random.below(4) }, () => random.one(KEYS));
     for (const key of keys) await page.keyboard.press(key);
     return keys.join(' ');
   },
-  async type(page, luck) {
-    const part = await partAt(page, luck, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
-    const [text, end] = [luck.one(NUMBERS), luck.one(['Enter', 'Tab', 'Escape'])];
+  async type(page, random) {
+    const part = await partAt(page, random, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
+    const [text, end] = [random.one(TYPED_NUMBERS), random.one(['Enter', 'Tab', 'Escape'])];
     if (part) {
       await page.mouse.click(part.x, part.y, { clickCount: 3 });
       await page.keyboard.insertText(text);
@@ -105,13 +105,13 @@ const DEEDS = {
     }
     return `${part?.what}: ${JSON.stringify(text)} ${end}`;
   },
-  async wheel(page, luck) {
-    const by = luck.below(2000) - 1000;
+  async wheel(page, random) {
+    const by = random.below(2000) - 1000;
     await page.mouse.wheel(0, by);
     return `${by}`;
   },
-  async attribute(page, luck) {
-    const [name, choice, text] = [luck.one(ALL_NAMES), luck.below(1e6), luck.below(4) === 0 ? null : luck.one(TEXTS)];
+  async attribute(page, random) {
+    const [name, choice, text] = [random.one(ALL_NAMES), random.below(1e6), random.below(4) === 0 ? null : random.one(ATTRIBUTE_TEXTS)];
     return page.evaluate(([name, choice, text]) => {
       const attributes = [.../** @type {any} */ (customElements.get(`${name}`)).observedAttributes, 'lang', 'dir', 'id', 'hidden'];
       const attribute = attributes[Number(choice) % attributes.length];
@@ -121,23 +121,23 @@ const DEEDS = {
       return `${name} ${attribute}=${text}`;
     }, [name, choice, text]);
   },
-  async resize(page, luck) {
-    const [width, height] = luck.one(SIZES);
+  async resize(page, random) {
+    const [width, height] = random.one(WINDOW_SIZES);
     await page.setViewportSize({ width, height });
     return `${width} × ${height}`;
   },
-  async media(page, luck) {
-    const media = { colorScheme: luck.one(/** @type {const} */ (['light', 'dark'])), reducedMotion: luck.one(/** @type {const} */ (['reduce', 'no-preference'])), media: luck.one(/** @type {const} */ (['screen', 'screen', 'print'])) };
+  async media(page, random) {
+    const media = { colorScheme: random.one(/** @type {const} */ (['light', 'dark'])), reducedMotion: random.one(/** @type {const} */ (['reduce', 'no-preference'])), media: random.one(/** @type {const} */ (['screen', 'screen', 'print'])) };
     await page.emulateMedia(media);
     return JSON.stringify(media);
   },
-  async language(page, luck) {
-    const lang = luck.one(LANGUAGES);
+  async language(page, random) {
+    const lang = random.one(LANGUAGES);
     await page.evaluate((to) => (document.documentElement.lang = to), lang);
     return lang;
   },
-  async hash(page, luck) {
-    const [name, choice] = [luck.one(ALL_NAMES), luck.below(4)];
+  async hash(page, random) {
+    const [name, choice] = [random.one(ALL_NAMES), random.below(4)];
     return page.evaluate(async ([name, choice]) => {
       const link = await /** @type {AnyElement} */ (document.querySelector(`${name}`)).shareLink();
       const { hash } = new URL(link);
@@ -145,18 +145,18 @@ const DEEDS = {
       return location.hash.slice(0, 60);
     }, [name, choice]);
   },
-  async files(page, luck) {
-    const given = luck.one(FILES);
+  async files(page, random) {
+    const files = random.one(DROPPED_FILES);
     await page.evaluate(async (files) => {
       const section = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('section');
       const dataTransfer = new DataTransfer();
       for (const { name, bytes } of files) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
       for (const type of ['dragover', 'drop']) section?.dispatchEvent(new DragEvent(type, { dataTransfer, bubbles: true, composed: true, cancelable: true }));
-    }, given.map(({ name, buffer }) => ({ name, bytes: [...buffer] })));
-    return given.map(({ name }) => name).join(' ');
+    }, files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })));
+    return files.map(({ name }) => name).join(' ');
   },
-  async state(page, luck) {
-    const [name, choice, key, text] = [luck.one(ALL_NAMES), luck.below(3), luck.below(1e6), luck.one([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
+  async state(page, random) {
+    const [name, choice, key, text] = [random.one(ALL_NAMES), random.below(3), random.below(1e6), random.one([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
     return page.evaluate(([name, choice, key, text]) => {
       const element = /** @type {any} */ (document.querySelector(`${name}`));
       const kept = /** @type {any} */ (window).kept;
@@ -165,25 +165,25 @@ const DEEDS = {
       const { widget, version, ...values } = state ?? {};
       const names = Object.keys(values);
       const field = names[Number(key) % names.length];
-      const given = choice === 0 ? { widget, version, [field]: text } : kept[Number(key) % kept.length];
+      const nextState = choice === 0 ? { widget, version, [field]: text } : kept[Number(key) % kept.length];
       try {
-        element.setState(given);
+        element.setState(nextState);
       } catch (error) {
         if (!(error instanceof TypeError || error instanceof RangeError)) throw error;
       }
       return `${name} ${choice === 0 ? `${field}: ${JSON.stringify(text)}` : 'a former state'}`;
     }, [name, choice, key, text]);
   },
-  /** Sets a small number of samples: with millions everything else would be slow. */
-  async few(page, luck) {
-    const [name, samples] = [luck.one(ALL_NAMES), luck.one([1, 20, 300, 2000])];
+  /** Sets a small number of samples, because events would be slow with millions. */
+  async few(page, random) {
+    const [name, samples] = [random.one(ALL_NAMES), random.one([1, 20, 300, 2000])];
     return page.evaluate(([name, samples]) => {
       Object.assign(/** @type {Element} */ (document.querySelector(`${name}`)), { samples });
       return `${name} ${samples}`;
     }, [name, samples]);
   },
-  async move(page, luck) {
-    const [name, choice] = [luck.one(ALL_NAMES), luck.below(3)];
+  async move(page, random) {
+    const [name, choice] = [random.one(ALL_NAMES), random.below(3)];
     return page.evaluate(async ([name, choice]) => {
       const element = document.querySelector(`${name}`);
       const mark = document.createComment('');
@@ -198,50 +198,50 @@ const DEEDS = {
 };
 
 /** Relative frequencies of the actions. @type {Record<string, number>} */
-const SHARES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, language: 1, hash: 1, files: 1, state: 2, few: 4, move: 1 };
-const DRAWN = Object.entries(SHARES).flatMap(([name, share]) => Array(share).fill(name));
+const FREQUENCIES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, language: 1, hash: 1, files: 1, state: 2, few: 4, move: 1 };
+const WEIGHTED_ACTIONS = Object.entries(FREQUENCIES).flatMap(([name, share]) => Array(share).fill(name));
 
 /**
- * Returns faults of a widget: in its picture and words, and where its state does not bring back the same machine.
+ * Returns faults of a widget: in its picture and texts, and results that a second widget with its state does not have.
  *
  * @param {Page} page
  * @param {string} name
  */
-function complaintsAbout(page, name) {
+function faultsOf(page, name) {
   return page.evaluate(async (name) => {
     const element = /** @type {any} */ (document.querySelector(name));
-    const there = async (/** @type {any} */ element) => {
+    const untilShown = async (/** @type {any} */ element) => {
       element.scrollIntoView({ block: 'start', behavior: 'instant' });
       await element.settled;
       await element.updateComplete;
     };
     element.hidden = false;
-    await there(element);
+    await untilShown(element);
     const failure = element.shadowRoot.querySelector('.failure');
     if (failure || !element.machine) return [`it shows ${failure?.textContent ?? 'nothing'}`];
-    const complaints = [...element.shadowRoot.querySelectorAll('dd, td, output, .typed, .note, .caption')]
+    const faults = [...element.shadowRoot.querySelectorAll('dd, td, output, .typed, .note, .caption')]
       .map((each) => each.value ?? each.textContent)
       .filter((text) => /NaN|Infinity|undefined|\[object/.test(text))
       .map((text) => `it says ${text}`);
 
-    const resultsOf = async (/** @type {any} */ one) => {
-      const bytes = new Uint8Array(await new Blob([one.poses, one.verdicts ?? one.executed]).arrayBuffer());
+    const resultsOf = async (/** @type {any} */ figure) => {
+      const bytes = new Uint8Array(await new Blob([figure.poses, figure.verdicts ?? figure.executed]).arrayBuffer());
       const hash = [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes))].join();
-      return JSON.stringify([one.getState(), one.stats, hash], (_, value) => (Number.isFinite(value) || typeof value !== 'number' ? value : String(value)));
+      return JSON.stringify([figure.getState(), figure.stats, hash], (_, value) => (Number.isFinite(value) || typeof value !== 'number' ? value : String(value)));
     };
-    // A growing cloud would have more samples a moment later.
+    // A growing cloud is paused. Otherwise it would have more samples a moment later.
     element.setState({ ...element.getState(), ...('playing' in element.getState() && { playing: false }) });
     await element.settled;
-    const before = await resultsOf(element);
+    const results1 = await resultsOf(element);
     const state = element.getState();
-    const fresh = /** @type {any} */ (document.createElement(name));
-    fresh.setState(JSON.parse(JSON.stringify(state)));
-    element.after(fresh);
-    await there(fresh);
-    const after = await resultsOf(fresh);
-    fresh.remove();
-    if (after !== before) complaints.push(`another one in its state is another: ${before.slice(0, 2000)} became ${after.slice(0, 2000)}`);
-    return complaints;
+    const element2 = /** @type {any} */ (document.createElement(name));
+    element2.setState(JSON.parse(JSON.stringify(state)));
+    element.after(element2);
+    await untilShown(element2);
+    const results2 = await resultsOf(element2);
+    element2.remove();
+    if (results2 !== results1) faults.push(`a second figure with its state differs: ${results1.slice(0, 2000)} became ${results2.slice(0, 2000)}`);
+    return faults;
   }, name);
 }
 
@@ -252,14 +252,14 @@ test('random actions leave every figure sound @nightly', FRESH, async ({ page })
   page.on('dialog', (dialog) => dialog.dismiss());
   await page.addInitScript(() => {
     Object.assign(window, { kept: [], trouble: [] });
-    // A window in full screen has one size, so presentations are refused it, as in many frames.
+    // Full screen is refused, as in many frames, because a window in full screen cannot be resized.
     Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('Fullscreen is not permitted'));
     // A refused value fires an `error` event, which is expected. Other errors are not.
     addEventListener('error', (event) => {
       const { error } = event;
       event.preventDefault();
-      const refused = event.target instanceof Element && (error instanceof TypeError || error instanceof RangeError) && /allowed|state/.test(error.message);
-      if (!refused) Reflect.get(window, 'trouble').push(`${error?.stack ?? event.message}`);
+      const isExpected = event.target instanceof Element && (error instanceof TypeError || error instanceof RangeError) && /allowed|state/.test(error.message);
+      if (!isExpected) Reflect.get(window, 'trouble').push(`${error?.stack ?? event.message}`);
     }, true);
   });
   await page.goto('/');
@@ -268,23 +268,23 @@ test('random actions leave every figure sound @nightly', FRESH, async ({ page })
     await untilReady(page.locator(name).first());
   }
 
-  const luck = luckOf(SEED);
+  const random = randomOf(SEED);
   /** @type {string[]} */
-  const done = [];
-  const replay = () => `MONKEY_SEED=${SEED} MONKEY_EVENTS=${EVENTS}, after ${done.length} events; the last:\n${done.slice(-12).join('\n')}\n`;
-  while (done.length < EVENTS) {
-    const name = luck.one(DRAWN);
-    done.push(`${name} …`);
-    await test.step(name, async () => done.push(`${name} ${await DEEDS[name](page, luck)}`), { box: true }).catch((error) => {
-      throw new Error(replay(), { cause: error });
+  const log = [];
+  const replayHint = () => `MONKEY_SEED=${SEED} MONKEY_EVENTS=${EVENTS}, after ${log.length} events; the last:\n${log.slice(-12).join('\n')}\n`;
+  while (log.length < EVENTS) {
+    const name = random.one(WEIGHTED_ACTIONS);
+    log.push(`${name} …`);
+    await test.step(name, async () => log.push(`${name} ${await ACTIONS[name](page, random)}`), { box: true }).catch((error) => {
+      throw new Error(replayHint(), { cause: error });
     });
-    done.splice(-2, 1);
-    if (done.length % ROUND > 0 && done.length < EVENTS) continue;
+    log.splice(-2, 1);
+    if (log.length % EVENTS_PER_CHECK > 0 && log.length < EVENTS) continue;
     await page.mouse.up();
     await page.keyboard.press('Escape');
     await page.emulateMedia({ media: 'screen' });
     await frames(page);
-    for (const widget of ALL_NAMES) expect(await complaintsAbout(page, widget), `${widget}: ${replay()}`).toEqual([]);
-    expect(await page.evaluate(() => Reflect.get(window, 'trouble').splice(0)), replay()).toEqual([]);
+    for (const widget of ALL_NAMES) expect(await faultsOf(page, widget), `${widget}: ${replayHint()}`).toEqual([]);
+    expect(await page.evaluate(() => Reflect.get(window, 'trouble').splice(0)), replayHint()).toEqual([]);
   }
 });

@@ -7,7 +7,7 @@ import { STILL, frames, mount, pictureOf, playSlider, readout, test, unfold } fr
 test.use(STILL);
 
 /** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
-const open = (page, attributes) => mount(page, 'odometry-decomposer', { attributes });
+const openDecomposer = (page, attributes) => mount(page, 'odometry-decomposer', { attributes });
 
 /** @param {Locator} widget */
 async function resultsOf(widget) {
@@ -22,90 +22,90 @@ const slider = (/** @type {Locator} */ widget, /** @type {string} */ name) => wi
 
 test('the views have room for the arcs of the turns and for nearly every outcome', async ({ page }) => {
   await page.setViewportSize({ width: 656, height: 900 });
-  const widget = await open(page);
+  const widget = await openDecomposer(page);
   await frames(page);
-  const outside = await widget.evaluate((element) => {
+  const layout = await widget.evaluate((element) => {
     const { pictures, scene } = /** @type {any} */ (element);
-    const lost = pictures.map((/** @type {any} */ { view: { extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
+    const outsideCount = pictures.map((/** @type {any} */ { view: { extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
       .filter(([x, y]) => x < extent.xMin || x > extent.xMax || y < extent.yMin || y > extent.yMax).length);
-    // Space below the end of the drive, where the ring of half a turn has a radius of some 64 pixels.
+    // `below` is the space below the end of the drive. The ring of half a turn there has a radius of some 64 pixels.
     const { view } = pictures[0];
-    return { lost, below: view.frame.bottom - view.toPixelY(scene.linkage[7]) };
+    return { outsideCount, below: view.frame.bottom - view.toPixelY(scene.linkage[7]) };
   });
-  expect(Math.max(...outside.lost)).toBeLessThanOrEqual(1);
-  expect(outside.below).toBeGreaterThan(64);
+  expect(Math.max(...layout.outsideCount)).toBeLessThanOrEqual(1);
+  expect(layout.below).toBeGreaterThan(64);
 });
 
-test('the scale of the legs depends on the size of the window alone @nightly', async ({ page }) => {
+test('the scale of the legs depends only on the size of the window @nightly', async ({ page }) => {
   const size = { width: 375, height: 740 };
   await page.setViewportSize(size);
-  const widget = await open(page);
-  const scale = async () => {
+  const widget = await openDecomposer(page);
+  const legScale = async () => {
     await frames(page);
     return widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.scaleX);
   };
-  const first = await scale();
-  for (const other of [{ width: 375, height: 1700 }, { width: 740, height: 375 }, size]) {
-    await page.setViewportSize(other);
-    await scale();
+  const firstScale = await legScale();
+  for (const size2 of [{ width: 375, height: 1700 }, { width: 740, height: 375 }, size]) {
+    await page.setViewportSize(size2);
+    await legScale();
   }
-  await expect.poll(scale).toBeCloseTo(first, 6);
+  await expect.poll(legScale).toBeCloseTo(firstScale, 6);
 });
 
 test('opens on Reverse, and presets set the reading', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openDecomposer(page);
   const { config, shown } = await resultsOf(widget);
   expect(shown).toBe(config.samples);
   await expect(widget).toHaveJSProperty('preset', 'reverse');
   await expect(widget.locator('[part=caption]')).toContainText('two rotations beyond π/2');
   await expect(readout(widget, 'standard deviation across the path')).toHaveText('± 0.626 m');
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
-  const forward = await resultsOf(widget);
-  expect(forward.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
+  const results = await resultsOf(widget);
+  expect(results.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
   await expect(widget).toHaveJSProperty('preset', 'all');
   await expect(widget).toHaveAttribute('tox', '1.2');
 });
 
 test('the later pose moves by its body and turns by its heading', async ({ page }) => {
-  const widget = await open(page);
-  const before = await resultsOf(widget);
-  const pixels = await pictureOf(widget.locator('canvas.plane'));
+  const widget = await openDecomposer(page);
+  const resultsBefore = await resultsOf(widget);
+  const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
   await slider(widget, 'Odometry after').press('ArrowRight');
-  const moved = await resultsOf(widget);
-  expect(moved.config.to).toEqual({ ...before.config.to, x: expect.closeTo(before.config.to.x + 0.05, 12) });
-  expect(moved.config.from).toEqual(before.config.from);
-  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pixels);
+  const afterMove = await resultsOf(widget);
+  expect(afterMove.config.to).toEqual({ ...resultsBefore.config.to, x: expect.closeTo(resultsBefore.config.to.x + 0.05, 12) });
+  expect(afterMove.config.from).toEqual(resultsBefore.config.from);
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
   await expect(widget).toHaveJSProperty('preset', null);
   await slider(widget, 'Heading after').press('ArrowLeft');
-  const turned = await resultsOf(widget);
-  expect(turned.config.to.theta - moved.config.to.theta).toBeCloseTo(Math.PI / 36, 12);
+  const afterTurn = await resultsOf(widget);
+  expect(afterTurn.config.to.theta - afterMove.config.to.theta).toBeCloseTo(Math.PI / 36, 12);
 });
 
 test('a rule is chosen in the table, which has the deviations of each rule', async ({ page }) => {
-  const widget = await open(page, 'preset="reverse"');
-  const row = (/** @type {string} */ name) => widget.locator('tbody tr').filter({ has: page.getByText(name, { exact: true }) });
-  await expect(row('Table 5.6').locator('td')).toHaveText(['0.517', '0.602', '0.534', '0.000', '0.626', '0.743']);
-  await expect(row('AMCL of Nav2').locator('td')).toHaveText(['0.131', '0.130', '0.126', '0.000', '0.161', '0.182']);
-  await expect(row('AMCL, omnidirectional').locator('td')).toHaveText(['0.000', '0.124', '0.125', '0.124', '0.124', '0.125']);
+  const widget = await openDecomposer(page, 'preset="reverse"');
+  const rowOf = (/** @type {string} */ name) => widget.locator('tbody tr').filter({ has: page.getByText(name, { exact: true }) });
+  await expect(rowOf('Table 5.6').locator('td')).toHaveText(['0.517', '0.602', '0.534', '0.000', '0.626', '0.743']);
+  await expect(rowOf('AMCL of Nav2').locator('td')).toHaveText(['0.131', '0.130', '0.126', '0.000', '0.161', '0.182']);
+  await expect(rowOf('AMCL, omnidirectional').locator('td')).toHaveText(['0.000', '0.124', '0.125', '0.124', '0.124', '0.125']);
   // Cells that differ from the printed table are marked.
-  await expect(row('Table 5.6').locator('strong')).toHaveCount(0);
-  await expect(row('AMCL of Nav2').locator('strong')).toHaveText(['0.131', '0.130', '0.126', '0.161', '0.182']);
-  const before = await resultsOf(widget);
+  await expect(rowOf('Table 5.6').locator('strong')).toHaveCount(0);
+  await expect(rowOf('AMCL of Nav2').locator('strong')).toHaveText(['0.131', '0.130', '0.126', '0.161', '0.182']);
+  const resultsBefore = await resultsOf(widget);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
-  const after = await resultsOf(widget);
-  expect(after.config).toEqual({ ...before.config, rule: 'nav2' });
-  expect(after.stats.exactCrossTrack).toBeLessThan(before.stats.exactCrossTrack / 3);
+  const resultsAfter = await resultsOf(widget);
+  expect(resultsAfter.config).toEqual({ ...resultsBefore.config, rule: 'nav2' });
+  expect(resultsAfter.stats.exactCrossTrack).toBeLessThan(resultsBefore.stats.exactCrossTrack / 3);
   await expect(widget.locator('p[role=status]')).toContainText('The first rotation has the long lever');
 });
 
 test('on paper every rule has its name, and the chosen one stands out @nightly', async ({ page }) => {
-  const widget = await open(page);
-  const name = (/** @type {string} */ rule) => widget.locator('.rules th').getByText(rule, { exact: true });
+  const widget = await openDecomposer(page);
+  const ruleName = (/** @type {string} */ rule) => widget.locator('.rules th').getByText(rule, { exact: true });
   await page.emulateMedia({ media: 'print' });
-  for (const rule of ['Table 5.6', 'AMCL of Nav2', 'Beluga 2', 'AMCL, omnidirectional']) await expect(name(rule)).toBeVisible();
+  for (const rule of ['Table 5.6', 'AMCL of Nav2', 'Beluga 2', 'AMCL, omnidirectional']) await expect(ruleName(rule)).toBeVisible();
   await expect(widget.locator('.rules input').first()).toBeHidden();
-  await expect(name('Table 5.6')).toHaveCSS('font-weight', '700');
-  await expect(name('Beluga 2')).not.toHaveCSS('font-weight', '700');
+  await expect(ruleName('Table 5.6')).toHaveCSS('font-weight', '700');
+  await expect(ruleName('Beluga 2')).not.toHaveCSS('font-weight', '700');
   // Other groups of radio buttons print the selected one only.
   await page.emulateMedia({ media: 'screen' });
   await unfold(widget);
@@ -115,21 +115,21 @@ test('on paper every rule has its name, and the chosen one stands out @nightly',
 });
 
 test('the frame drifts, and no outcome moves', async ({ page }) => {
-  const widget = await open(page);
-  const before = await resultsOf(widget);
-  const legs = await pictureOf(widget.locator('canvas.plane'));
-  const world = await pictureOf(widget.locator('canvas.world'));
+  const widget = await openDecomposer(page);
+  const resultsBefore = await resultsOf(widget);
+  const legPicture = await pictureOf(widget.locator('canvas.plane'));
+  const worldPicture = await pictureOf(widget.locator('canvas.world'));
   await slider(widget, 'drift time').press('End');
-  const after = await resultsOf(widget);
-  expect(after.config.drift).toBe(120);
-  expect(after.drifted).not.toEqual(before.drifted);
-  expect(after.poses).toEqual(before.poses);
-  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(legs);
-  expect(await pictureOf(widget.locator('canvas.world'))).not.toBe(world);
+  const resultsAfter = await resultsOf(widget);
+  expect(resultsAfter.config.drift).toBe(120);
+  expect(resultsAfter.drifted).not.toEqual(resultsBefore.drifted);
+  expect(resultsAfter.poses).toEqual(resultsBefore.poses);
+  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(legPicture);
+  expect(await pictureOf(widget.locator('canvas.world'))).not.toBe(worldPicture);
 });
 
 test('the spread against the drive has the outcomes beside the curve', async ({ page }) => {
-  const widget = await open(page, 'preset="all"');
+  const widget = await openDecomposer(page, 'preset="all"');
   await unfold(widget);
   const plot = widget.locator('svg.plot');
   await expect(plot).toHaveAttribute('aria-label', /At the reading, 1\.56 m, 0\.305 m across/);
@@ -141,26 +141,26 @@ test('the spread against the drive has the outcomes beside the curve', async ({ 
 });
 
 test('the path is scrubbed, and is played to its end and again from its beginning', async ({ page }) => {
-  const widget = await open(page, 'phase="2.8"');
+  const widget = await openDecomposer(page, 'phase="2.8"');
   // Readers who prefer reduced motion have no button.
   await expect(widget.locator('.playable button')).toHaveCount(0);
   await slider(widget, 'progress of the motion').press('Home');
   const { robot, config } = await resultsOf(widget);
   expect(robot).toEqual(config.from);
   await page.emulateMedia({ reducedMotion: 'no-preference' });
-  const other = await open(page, 'phase="2.8"');
-  const play = other.locator('.playable.phase button');
-  const { values: rest, label } = await playSlider(other, 'phase');
+  const secondWidget = await openDecomposer(page, 'phase="2.8"');
+  const play = secondWidget.locator('.playable.phase button');
+  const { values: valuesToEnd, label } = await playSlider(secondWidget, 'phase');
   expect(label).toBe('Pause');
-  expect(rest[0]).toBeGreaterThan(2.8);
-  expect(rest.at(-1)).toBe(3);
+  expect(valuesToEnd[0]).toBeGreaterThan(2.8);
+  expect(valuesToEnd.at(-1)).toBe(3);
   await expect(play).toHaveText('Play the motion');
-  const { values: beginning } = await playSlider(other, 'phase', 3);
-  expect(beginning[0]).toBe(0);
-  expect(beginning[2]).toBeGreaterThan(beginning[1]);
+  const { values: valuesFromStart } = await playSlider(secondWidget, 'phase', 3);
+  expect(valuesFromStart[0]).toBe(0);
+  expect(valuesFromStart[2]).toBeGreaterThan(valuesFromStart[1]);
   await expect(play).toHaveText('Play the motion');
-  const { config: { phase } } = await resultsOf(other);
-  expect(phase).toBe(beginning[2]);
+  const { config: { phase } } = await resultsOf(secondWidget);
+  expect(phase).toBe(valuesFromStart[2]);
   await frames(page);
-  expect((await resultsOf(other)).config.phase).toBe(phase);
+  expect((await resultsOf(secondWidget)).config.phase).toBe(phase);
 });

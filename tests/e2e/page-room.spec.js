@@ -4,64 +4,64 @@ import { FRESH, STILL, boxOf, frames, mount, showPage, test, testEach, untilRead
 
 test.use(STILL);
 
-/** Greatest difference between the reserved height and the height of a figure, em, in any font and at any width up to 80 em. */
-const TOLERANCE = 8;
+/** Maximum difference between the reserved height and the height of a figure, em, in any font and at any width up to 80 em. */
+const MAX_DIFFERENCE_EM = 8;
 
-testEach('the room that is kept for a figure before its script has come is about as high as the figure', async (page, name, isFull) => {
+testEach('the height reserved for a figure until its script is loaded is about that of the figure', async (page, name, isFull) => {
   const widths = isFull ? [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280] : [375, 700, 1280];
   await showPage(page, '', {
     head: '<style>body { margin: 0; font: 16px "Liberation Serif", serif }</style>',
     script: '<script type="module" src="/external.js"></script>',
   });
-  let come = () => {};
-  const coming = new Promise((resolve) => (come = () => resolve(undefined)));
+  let allowScript = () => {};
+  const scriptIsAllowed = new Promise((resolve) => (allowScript = () => resolve(undefined)));
   await page.route('**/chunks/**', async (route) => {
-    await coming;
+    await scriptIsAllowed;
     await route.continue();
   });
   await page.evaluate((tag) => document.body.append(document.createElement(tag)), name);
   const widget = page.locator(name);
   const heights = async () => {
-    const all = [];
+    const heightsInEm = [];
     for (const width of widths) {
       await page.setViewportSize({ width, height: 900 });
       await frames(page);
-      all.push((await boxOf(widget)).height / 16);
+      heightsInEm.push((await boxOf(widget)).height / 16);
     }
-    return all;
+    return heightsInEm;
   };
-  const before = await heights();
+  const reservedHeights = await heights();
   expect(await widget.evaluate((element) => element.matches(':defined'))).toBe(false);
-  come();
+  allowScript();
   await untilReady(widget);
   await expect(widget.locator('.folds')).toBeVisible();
-  for (const [i, after] of (await heights()).entries()) {
-    expect(after).toBeGreaterThanOrEqual(before[i]);
-    expect(after - before[i]).toBeLessThan(TOLERANCE);
+  for (const [i, height] of (await heights()).entries()) {
+    expect(height).toBeGreaterThanOrEqual(reservedHeights[i]);
+    expect(height - reservedHeights[i]).toBeLessThan(MAX_DIFFERENCE_EM);
   }
   // Little space is left empty below the figure.
-  const emptied = await widget.evaluate((element) => {
+  const emptySpace = await widget.evaluate((element) => {
     const [machine, folds] = ['.machine', '.folds'].map((part) => element.shadowRoot?.querySelector(part)?.getBoundingClientRect().bottom ?? NaN);
     return (machine - folds) / 16;
   });
-  expect(emptied).toBeLessThan(TOLERANCE);
+  expect(emptySpace).toBeLessThan(MAX_DIFFERENCE_EM);
 }, FRESH);
 
-test('a title and a caption move nothing when the script comes', async ({ page }) => {
-  let come = () => {};
-  const coming = new Promise((resolve) => (come = () => resolve(undefined)));
+test('a title and a caption move nothing when the script is loaded', async ({ page }) => {
+  let allowScript = () => {};
+  const scriptIsAllowed = new Promise((resolve) => (allowScript = () => resolve(undefined)));
   await page.route('**/motion-widgets.js', async (route) => {
-    await coming;
+    await scriptIsAllowed;
     await route.continue();
   });
-  const lettered = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';
-  const shown = showPage(page, lettered, { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
-  const top = async () => (await boxOf(page.locator('#after'))).y;
-  const before = await top();
-  come();
-  await shown;
+  const content = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';
+  const pageIsShown = showPage(page, content, { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
+  const topOfText = async () => (await boxOf(page.locator('#after'))).y;
+  const topBefore = await topOfText();
+  allowScript();
+  await pageIsShown;
   await untilReady(page.locator('banana-machine'));
-  expect(await top()).toBe(before);
+  expect(await topOfText()).toBe(topBefore);
 });
 
 testEach('a figure is no wider than a phone, the column of a book or a screen, also in a wide font, and at most a third higher than a screen', async (page, name) => {

@@ -16,7 +16,7 @@ test.use(STILL);
  * @param {string} name
  * @param {{ attributes?: string, before?: string, after?: string }} [options]
  */
-async function unfolded(page, name, { attributes = '', before = '', after = '' } = {}) {
+async function showUnfolded(page, name, { attributes = '', before = '', after = '' } = {}) {
   await showPage(page, `<main><h1>Bare</h1>${before}<${name} heading-level="2" ${attributes}></${name}>${after}</main>`, {
     head: '<meta name="viewport" content="width=device-width"><style>body { margin: 0 }</style>',
     script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
@@ -27,8 +27,8 @@ async function unfolded(page, name, { attributes = '', before = '', after = '' }
   return widget;
 }
 
-/** Media, attributes and widths of figures that are tested for accessibility, the first two of them by day. */
-const LOOKS = /** @type {[Parameters<Page['emulateMedia']>[0], string, number][]} */ ([
+/** Media, attributes and widths of figures that are tested for accessibility. Daily tests use the first two, nightly ones all. */
+const APPEARANCES = /** @type {[Parameters<Page['emulateMedia']>[0], string, number][]} */ ([
   [{ colorScheme: 'light' }, 'theme="light"', 1280],
   [{ colorScheme: 'light' }, 'theme="dark"', 1280],
   [{ forcedColors: 'active', colorScheme: 'light' }, '', 1280],
@@ -37,10 +37,10 @@ const LOOKS = /** @type {[Parameters<Page['emulateMedia']>[0], string, number][]
 ]);
 
 testEach('a figure has no accessibility violations in any look', async (page, name, isFull) => {
-  for (const [media, attributes, width] of isFull ? LOOKS : LOOKS.slice(0, 2)) {
+  for (const [media, attributes, width] of isFull ? APPEARANCES : APPEARANCES.slice(0, 2)) {
     await page.emulateMedia(media);
     await page.setViewportSize({ width, height: 812 });
-    await unfolded(page, name, { attributes });
+    await showUnfolded(page, name, { attributes });
     await expectAccessible(page, JSON.stringify([media, attributes]));
   }
 });
@@ -51,9 +51,9 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
   for (const role of ['prior', 'prediction', 'posterior', 'truth']) {
     expect(await pixelsOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(25);
   }
-  const [pressed, other] = await Promise.all(['Banana', 'Straight'].map((name) =>
+  const [pressedColor, otherColor] = await Promise.all(['Banana', 'Straight'].map((name) =>
     widget.getByRole('button', { name }).evaluate((button) => getComputedStyle(button).backgroundColor)));
-  expect(pressed).not.toBe(other);
+  expect(pressedColor).not.toBe(otherColor);
   // The right end of a slider in its leftmost position shows the track only.
   await unfold(widget);
   const slider = widget.locator('#alpha5');
@@ -63,7 +63,7 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
 });
 
 testEach('Tab leads to every handle and control of a figure, once, and beyond', async (page, name) => {
-  const widget = await unfolded(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
+  const widget = await showUnfolded(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
   await widget.evaluate((element) => {
     const root = /** @type {ShadowRoot} */ (element.shadowRoot);
     const stops = [...root.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((each) => {
@@ -76,8 +76,8 @@ testEach('Tab leads to every handle and control of a figure, once, and beyond', 
   });
   await page.locator('#before').focus();
   /** @type {(number | string)[]} */
-  const reached = [];
-  const stop = () => page.evaluate((tag) => {
+  const reachedStops = [];
+  const focusedStop = () => page.evaluate((tag) => {
     const inside = document.querySelector(tag)?.shadowRoot?.activeElement;
     return inside ? Reflect.get(window, 'stops').indexOf(inside) : `${document.activeElement?.id}`;
   }, name);
@@ -88,23 +88,23 @@ testEach('Tab leads to every handle and control of a figure, once, and beyond', 
   expect(count).toBeGreaterThan(10);
   do {
     await page.keyboard.press('Tab');
-    reached.push(await stop());
-  } while (reached.at(-1) !== 'after' && reached.length <= count + 5);
-  expect(reached.at(-1)).toBe('after');
-  const missed = names.filter((_, i) => !reached.includes(i));
-  expect(missed).toEqual([]);
-  expect(reached.length).toBe(count + 1);
+    reachedStops.push(await focusedStop());
+  } while (reachedStops.at(-1) !== 'after' && reachedStops.length <= count + 5);
+  expect(reachedStops.at(-1)).toBe('after');
+  const missedStops = names.filter((_, i) => !reachedStops.includes(i));
+  expect(missedStops).toEqual([]);
+  expect(reachedStops.length).toBe(count + 1);
 });
 
 test('the focus stays near a control that goes or is disabled by its own action', async ({ page }) => {
-  const focused = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.presets, .lines, section')?.className);
+  const classOfFocusedGroup = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.presets, .lines, section')?.className);
   await showPage(page, '<map-squeeze></map-squeeze><arc-anatomy></arc-anatomy>');
   const map = page.locator('map-squeeze');
   await untilReady(map);
   await map.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
   await map.getByRole('button', { name: 'Back to the apartment' }).press('Enter');
   await expect(map.getByRole('button', { name: 'Back to the apartment' })).toHaveCount(0);
-  expect(await focused(map)).toContain('presets');
+  expect(await classOfFocusedGroup(map)).toContain('presets');
   const arc = page.locator('arc-anatomy');
   await arc.scrollIntoViewIfNeeded();
   await untilReady(arc);
@@ -140,13 +140,13 @@ test('sliders speak their value with its unit, and nothing is announced while on
 
 test('a figure has targets that are large enough for a finger', async ({ page, figure }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  const widget = await unfolded(page, figure);
-  const small = await widget.evaluate((element) =>
+  const widget = await showUnfolded(page, figure);
+  const smallTargets = await widget.evaluate((element) =>
     [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('button, input[type=range], label:has(input):not(td label, th label), .handle')]
       .filter((target) => target.checkVisibility())
       .map((target) => ({ html: target.outerHTML.slice(0, 80), box: target.getBoundingClientRect() }))
       .filter(({ box }) => Math.min(box.width, box.height) < 24));
-  expect(small).toEqual([]);
+  expect(smallTargets).toEqual([]);
 });
 
 test.describe('a finger', () => {
@@ -169,47 +169,47 @@ test.describe('a finger', () => {
    *
    * @param {Locator} part
    */
-  async function lower(part) {
+  async function scrollToLowerHalf(part) {
     await part.evaluate((element) => {
       const { top, height } = element.getBoundingClientRect();
       scrollBy({ top: top + height / 2 - 0.7 * innerHeight, behavior: 'instant' });
     });
     await frames(part.page());
   }
-  const around = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
+  const spaceAround = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
 
   test('moves each handle of a figure and not the page', async ({ page, handled }) => {
-    const widget = await unfolded(page, handled, around);
+    const widget = await showUnfolded(page, handled, spaceAround);
     for (const selector of FIGURE_FACTS[handled].handles ?? []) {
       const handle = widget.locator(selector);
-      await lower(handle);
-      const before = await stateOf(widget);
+      await scrollToLowerHalf(handle);
+      const stateBefore = await stateOf(widget);
       const [from, scrolled] = [await centreOf(handle), await page.evaluate(() => scrollY)];
       await swipe(page, from);
       expect(await page.evaluate(() => scrollY), selector).toBe(scrolled);
-      expect(await stateOf(widget), selector).not.toEqual(before);
+      expect(await stateOf(widget), selector).not.toEqual(stateBefore);
     }
   });
 
   test('that swipes over a picture or a slider scrolls the page and changes nothing', async ({ page, figure }) => {
-    const widget = await unfolded(page, figure, around);
+    const widget = await showUnfolded(page, figure, spaceAround);
     for (const selector of ['canvas.plane', `#${FIGURE_FACTS[figure].slider}`]) {
       const part = widget.locator(selector);
-      await lower(part);
-      const before = await stateOf(widget);
+      await scrollToLowerHalf(part);
+      const stateBefore = await stateOf(widget);
       const { x, y, width, height } = await boxOf(part);
       const scrolled = await page.evaluate(() => scrollY);
       // No thumb is at a third of the width, so that the track is visible there.
       await swipe(page, { x: x + 0.3 * width, y: y + height / 2 });
       await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(scrolled + 60);
-      expect(await stateOf(widget), selector).toEqual(before);
+      expect(await stateOf(widget), selector).toEqual(stateBefore);
     }
   });
 
   test('that taps sets the chart and marks a robot @nightly', async ({ page }) => {
-    const widget = await unfolded(page, 'banana-machine');
+    const widget = await showUnfolded(page, 'banana-machine');
     const chart = widget.locator('#chart-omega');
-    await lower(chart);
+    await scrollToLowerHalf(chart);
     const { x, y, width, height } = await boxOf(chart);
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
     await expect.poll(async () => (await bananaReadings(widget)).config.command.omega).toBeGreaterThan(1);
@@ -217,11 +217,11 @@ test.describe('a finger', () => {
     await widget.evaluate((element) => element.scrollIntoView());
     const [right, down] = await widget.evaluate((element) => {
       const { pictures: [{ view }], poses, reading: { end } } = /** @type {any} */ (element);
-      const place = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
+      const pixelOf = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
       const handle = [view.toPixelX(end[0]), view.toPixelY(end[1])];
-      // A robot that the handle does not cover, inside of the frame.
+      // Finds a robot inside the frame that the handle does not cover.
       for (let i = 0; i < poses.length / 3; i++) {
-        const [x, y] = place(i);
+        const [x, y] = pixelOf(i);
         const { left, right, top, bottom } = view.frame;
         if (Math.hypot(x - handle[0], y - handle[1]) > 60 && x > left && x < right && y > top && y < bottom) return [x / view.width, y / view.height];
       }
@@ -237,27 +237,27 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   await page.emulateMedia({ colorScheme: 'light' });
   const widget = await mount(page, 'banana-machine', { head: '<style>:root { color-scheme: light dark }</style>' });
   const canvas = widget.locator('canvas.plane');
-  // Synchronously, without a frame in between.
-  const print = () => canvas.evaluate((element) => {
+  // Both events are fired synchronously, without a frame in between.
+  const printedPicture = () => canvas.evaluate((element) => {
     dispatchEvent(new Event('beforeprint'));
     const printed = /** @type {HTMLCanvasElement} */ (element).toDataURL();
     dispatchEvent(new Event('afterprint'));
     return printed;
   });
-  const light = await print();
-  const screen = await pictureOf(canvas);
+  const lightPicture = await printedPicture();
+  const screenPicture = await pictureOf(canvas);
   await page.emulateMedia({ colorScheme: 'dark' });
-  await expect.poll(() => pictureOf(canvas)).not.toBe(screen);
-  expect((await print()) === light).toBe(true);
+  await expect.poll(() => pictureOf(canvas)).not.toBe(screenPicture);
+  expect((await printedPicture()) === lightPicture).toBe(true);
   await page.emulateMedia({ colorScheme: 'dark', media: 'print' });
-  const stretched = () => canvas.evaluate((element) => {
+  const aspectRatio = () => canvas.evaluate((element) => {
     const { width, height, clientWidth, clientHeight } = /** @type {HTMLCanvasElement} */ (element);
     return (width * clientHeight) / (height * clientWidth);
   });
-  await expect.poll(stretched).toBeCloseTo(1, 1);
+  await expect.poll(aspectRatio).toBeCloseTo(1, 1);
   await expect(widget.locator('.on-paper')).toHaveText(/α1\s=\s0\.002 α2\s=.* α6\s=\s0\.002/);
   for (const value of ['1.00 m/s', '2.00 s']) await expect(widget.getByText(value, { exact: true }).first()).toBeVisible();
-  // The pixels of a canvas give its proportions on paper, so that setting them anew would resize it in every frame.
+  // On paper the pixels of a canvas determine its proportions. It must not set them in every frame, which would resize it each time.
   await page.evaluate(() => {
     addEventListener('error', ({ message }) => Object.assign(window, { complaint: message }));
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));
@@ -267,17 +267,17 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   for (const width of [600, 701, 1127, 1920]) {
     await page.setViewportSize({ width, height: 900 });
     await frames(page);
-    const before = await sizes();
+    const sizesBefore = await sizes();
     await frames(page);
-    expect([await sizes(), await page.evaluate(() => Reflect.get(window, 'complaint'))]).toEqual([before, undefined]);
+    expect([await sizes(), await page.evaluate(() => Reflect.get(window, 'complaint'))]).toEqual([sizesBefore, undefined]);
   }
 });
 
 test('paper has figures that were far from the window, with their pictures @nightly', async ({ page }) => {
   await showPage(page, '<banana-machine></banana-machine><div style="height: 3000px"></div><map-squeeze></map-squeeze>');
   await untilReady(page.locator('banana-machine'));
-  const far = page.locator('map-squeeze');
-  expect(await far.evaluate((element) => Reflect.get(element, 'machine'))).toBe(undefined);
+  const farFigure = page.locator('map-squeeze');
+  expect(await farFigure.evaluate((element) => Reflect.get(element, 'machine'))).toBe(undefined);
   await page.evaluate(() => {
     addEventListener('afterprint', () => {
       const canvas = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('canvas');
@@ -308,9 +308,9 @@ test('paper has the folds of a figure that the reader opened, and nothing to pre
 
 testEach('a figure with all folds open fits into 320 px', async (page, name, isFull) => {
   await page.setViewportSize({ width: 320, height: 812 });
-  const widget = await unfolded(page, name);
+  const widget = await showUnfolded(page, name);
   /** Returns the widths of the page, and elements beyond the right edge of the window that cannot be scrolled to. */
-  const beyond = () => widget.evaluate((element) => {
+  const overflow = () => widget.evaluate((element) => {
     const { body } = document;
     const isReached = (/** @type {Element} */ part) => {
       for (let at = part.parentElement; at; at = at.parentElement) if (getComputedStyle(at).overflowX !== 'visible') return false;
@@ -322,17 +322,17 @@ testEach('a figure with all folds open fits into 320 px', async (page, name, isF
   for (const lang of isFull ? ['en', 'de'] : ['en']) {
     await widget.evaluate((element, to) => element.setAttribute('lang', to), lang);
     await frames(page);
-    expect(await beyond(), lang).toEqual([320, 320]);
+    expect(await overflow(), lang).toEqual([320, 320]);
   }
 });
 
 test('the help of a slider covers no slider of its group, and no outline crosses it @nightly', async ({ page, figure }) => {
-  const widget = await unfolded(page, figure);
+  const widget = await showUnfolded(page, figure);
   for (const [width, lang] of /** @type {const} */ ([[320, 'en'], [700, 'de']])) {
     await page.setViewportSize({ width, height: 812 });
     await widget.evaluate((element, to) => element.setAttribute('lang', to), lang);
     await frames(page);
-    const crossed = await widget.evaluate((element) => {
+    const coveredSliders = await widget.evaluate((element) => {
       const root = /** @type {ShadowRoot} */ (element.shadowRoot);
       return [...root.querySelectorAll('.slider')].flatMap((row) => {
         const slider = /** @type {HTMLInputElement} */ (row.querySelector('input[type=range]'));
@@ -345,6 +345,6 @@ test('the help of a slider covers no slider of its group, and no outline crosses
           .map(() => slider.id);
       });
     });
-    expect(crossed, `${width} px, ${lang}`).toEqual([]);
+    expect(coveredSliders, `${width} px, ${lang}`).toEqual([]);
   }
 });

@@ -3,7 +3,7 @@ import { STILL, frames, test, untilReady } from './support.js';
 
 /** @import { Locator, Page } from '@playwright/test' */
 
-// The chapter's exercises 4, 5 and 7 on the page, from the keyboard alone: predicted first, then revealed.
+// The chapter's exercises 4, 5 and 7 on the page, by keyboard only: a reader predicts the answer, and then reveals it.
 test.use(STILL);
 
 /** Opens the page at the section of a figure. @param {Page} page @param {string} section */
@@ -15,7 +15,7 @@ async function openAt(page, section) {
 }
 
 /** Returns the text that a form reveals. @param {Locator} form */
-async function revealed(form) {
+async function textRevealedBy(form) {
   await form.getByRole('button').press('Enter');
   await expect(form.getByRole('status')).not.toHaveText('');
   await frames(form.page());
@@ -25,28 +25,28 @@ async function revealed(form) {
 test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ alone appear below it', async ({ page }) => {
   const article = await openAt(page, 'banana');
   const form = article.locator('.sketch');
-  const isolated = () => article.locator('banana-machine').evaluate((figure) => [Reflect.get(figure, 'isolate'), Reflect.get(figure, 'omega')]);
+  const isolateAndOmega = () => article.locator('banana-machine').evaluate((figure) => [Reflect.get(figure, 'isolate'), Reflect.get(figure, 'omega')]);
   const cases = form.locator('[name=case]');
-  const reveal = async (shape = 'an ellipse') => {
+  const revealedText = async (shape = 'an ellipse') => {
     await expect(form.getByRole('button')).toBeDisabled();
     await form.getByLabel(shape).press('Space');
     await expect(form.locator('.drawn')).toHaveAttribute('d', /^M.*Z$/);
-    const text = await revealed(form);
+    const text = await textRevealedBy(form);
     await expect(form.locator('.robots')).toHaveAttribute('d', /^M/);
     return text;
   };
-  const nothing = 'Not what you expected. Every robot stops at the same point, with the same heading. There is no cloud.';
-  expect(await reveal()).toBe(nothing);
-  expect(await isolated()).toEqual([4, 0]);
+  const noCloudText = 'Not what you expected. Every robot stops at the same point, with the same heading. There is no cloud.';
+  expect(await revealedText()).toBe(noCloudText);
+  expect(await isolateAndOmega()).toEqual([4, 0]);
   await cases.nth(0).press('ArrowDown');
-  expect(await reveal()).toBe(nothing);
-  expect(await isolated()).toEqual([6, 0]);
+  expect(await revealedText()).toBe(noCloudText);
+  expect(await isolateAndOmega()).toEqual([6, 0]);
   await cases.nth(1).press('ArrowDown');
-  expect(await reveal()).toMatch(/^Not what you expected\. The robots spread by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);
-  expect(await isolated()).toEqual([4, 0.5]);
+  expect(await revealedText()).toMatch(/^Not what you expected\. The robots spread by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);
+  expect(await isolateAndOmega()).toEqual([4, 0.5]);
   await cases.nth(2).press('ArrowDown');
-  expect(await reveal('a point')).toMatch(/^Right\. Every robot stops at the same point\. Only the headings differ, by 0\.\d+ rad/);
-  expect(await isolated()).toEqual([6, 0.5]);
+  expect(await revealedText('a point')).toMatch(/^Right\. Every robot stops at the same point\. Only the headings differ, by 0\.\d+ rad/);
+  expect(await isolateAndOmega()).toEqual([6, 0.5]);
 });
 
 test('exercise 4: a sketch drawn with the pointer stays over the robots', async ({ page }) => {
@@ -54,25 +54,25 @@ test('exercise 4: a sketch drawn with the pointer stays over the robots', async 
   const pad = form.locator('.pad');
   await pad.scrollIntoViewIfNeeded();
   await pad.dragTo(pad, { sourcePosition: { x: 150, y: 40 }, targetPosition: { x: 220, y: 120 } });
-  const drawn = await form.locator('.drawn').getAttribute('d');
-  expect(drawn?.split('L').length).toBeGreaterThan(1);
+  const sketchPath = await form.locator('.drawn').getAttribute('d');
+  expect(sketchPath?.split('L').length).toBeGreaterThan(1);
   // The first case has no noise.
-  expect(await revealed(form)).toMatch(/^Not what you expected\. Every robot stops at the same point/);
-  expect(await form.locator('.drawn').getAttribute('d')).toBe(drawn);
+  expect(await textRevealedBy(form)).toMatch(/^Not what you expected\. Every robot stops at the same point/);
+  expect(await form.locator('.drawn').getAttribute('d')).toBe(sketchPath);
 });
 
 test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ page }) => {
   const article = await openAt(page, 'squeeze');
-  const shares = [];
+  const answers = [];
   for (const form of await article.locator('.bet').all()) {
     await form.getByRole('slider').press('End');
     await expect(form.locator('.value')).toHaveText('100 %');
-    const text = await revealed(form);
-    const [, share] = /^Your bet: 100 %\. The figure’s answer, ▲: ([\d.]+) %\.$/.exec(text) ?? [];
-    shares.push(Number(share));
+    const text = await textRevealedBy(form);
+    const [, answer] = /^Your bet: 100 %\. The figure’s answer, ▲: ([\d.]+) %\.$/.exec(text) ?? [];
+    answers.push(Number(answer));
   }
-  expect(shares[0]).toBeLessThan(40);
-  expect(shares[1]).toBeGreaterThan(70);
+  expect(answers[0]).toBeLessThan(40);
+  expect(answers[1]).toBeGreaterThan(70);
   expect(await article.locator('map-squeeze').evaluate((figure) => Reflect.get(figure, 'omega'))).toBe(0.6);
 });
 
@@ -81,7 +81,7 @@ test('exercise 7: the steps of both noises are bet on, and only the variance alo
   for (const [index, step] of [15, 9].entries()) {
     const form = article.locator('.bet').nth(index);
     await form.getByRole('slider').press('ArrowRight');
-    expect(await revealed(form)).toBe(`Your bet: 11. The figure’s answer, ▲: ${step}.`);
+    expect(await textRevealedBy(form)).toBe(`Your bet: 11. The figure’s answer, ▲: ${step}.`);
   }
   await expect(article.getByText('predicted along-track variance', { exact: true })).toBeVisible();
 });
@@ -89,10 +89,10 @@ test('exercise 7: the steps of both noises are bet on, and only the variance alo
 test('on a phone, the picture that stays beside an item shows what the item sets', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 800 });
   const article = await openAt(page, 'reckoning');
-  const drawn = () => article.locator('dead-reckoning canvas').first().evaluate((canvas) => /** @type {HTMLCanvasElement} */ (canvas).toDataURL());
+  const pictureOfCanvas = () => article.locator('dead-reckoning canvas').first().evaluate((canvas) => /** @type {HTMLCanvasElement} */ (canvas).toDataURL());
   const button = article.getByRole('button', { name: '200 steps', exact: true });
   await button.scrollIntoViewIfNeeded();
-  const before = await drawn();
+  const pictureBefore = await pictureOfCanvas();
   await button.click();
-  await expect.poll(drawn).not.toBe(before);
+  await expect.poll(pictureOfCanvas).not.toBe(pictureBefore);
 });

@@ -9,7 +9,7 @@ import { STILL, bananaReadings, boxOf, frames, mount, openBanana, posesOf, prope
 test.use(STILL);
 
 /** @param {string} text as `toCSV` writes it */
-function parsed(text) {
+function parsedCSV(text) {
   const [comment, header, ...lines] = text.trimEnd().split('\n');
   expect(comment.startsWith('# ')).toBe(true);
   return { settings: JSON.parse(comment.slice(2)), columns: header.split(','), rows: lines.map((line) => line.split(',').map(Number)) };
@@ -21,17 +21,17 @@ const svgOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /*
 /** Parses an SVG file, and counts its elements. @param {import('@playwright/test').Page} page @param {string} svg */
 function elementsOf(page, svg) {
   return page.evaluate((text) => {
-    const parsed = new DOMParser().parseFromString(text, 'image/svg+xml');
-    if (parsed.querySelector('parsererror')) throw new Error(parsed.documentElement.textContent ?? '');
-    const count = (/** @type {string} */ selector) => parsed.querySelectorAll(selector).length;
+    const svgDocument = new DOMParser().parseFromString(text, 'image/svg+xml');
+    if (svgDocument.querySelector('parsererror')) throw new Error(svgDocument.documentElement.textContent ?? '');
+    const count = (/** @type {string} */ selector) => svgDocument.querySelectorAll(selector).length;
     return {
-      title: parsed.querySelector('title')?.textContent,
-      description: parsed.querySelector('desc')?.textContent,
+      title: svgDocument.querySelector('title')?.textContent,
+      description: svgDocument.querySelector('desc')?.textContent,
       paths: count('path'),
       texts: count('text'),
       images: count('image'),
       dashed: count('[stroke-dasharray]'),
-      size: [parsed.documentElement.getAttribute('width'), parsed.documentElement.getAttribute('height')].map(Number),
+      size: [svgDocument.documentElement.getAttribute('width'), svgDocument.documentElement.getAttribute('height')].map(Number),
     };
   }, svg);
 }
@@ -41,29 +41,29 @@ test('CSV of the Banana Machine has the samples, and the settings that bring the
   await widget.getByRole('button', { name: 'Hard arc' }).click();
   const { config, shown } = await bananaReadings(widget);
   const poses = await posesOf(widget);
-  const { settings, columns, rows } = parsed(await csvOf(widget));
+  const { settings, columns, rows } = parsedCSV(await csvOf(widget));
   expect(columns).toEqual([
     ...['x_m', 'y_m', 'theta_rad', 'xi_along_m', 'xi_lateral_m', 'xi_heading_rad'],
     ...['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
   ]);
   expect(rows).toHaveLength(shown);
-  // Numbers keep every digit.
+  // Numbers are exported with all digits.
   expect(rows.flatMap((row) => row.slice(0, 3))).toEqual(poses);
   expect(settings).toEqual({ element: 'banana-machine', ...config });
-  const again = await widget.evaluate((element, { element: _name, ...given }) => {
+  const recomputedPoses = await widget.evaluate((element, { element: _name, ...given }) => {
     const { motion } = /** @type {import('./support.js').BananaMachineElement} */ (element);
     const machine = new motion.BananaMachine(given);
     const copy = [...machine.poses];
     machine.free();
     return copy;
   }, settings);
-  expect(again).toEqual(poses);
+  expect(recomputedPoses).toEqual(poses);
 });
 
 test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { config, stats } = await squeezeResults(widget);
-  const { settings, columns, rows } = parsed(await csvOf(widget));
+  const { settings, columns, rows } = parsedCSV(await csvOf(widget));
   expect(settings).toEqual({ element: 'map-squeeze', map: null, ...config });
   expect(columns).toEqual(['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted']);
   expect(rows).toHaveLength(stats.attempts);
@@ -74,31 +74,31 @@ test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async 
 test('SVG is vectors with a title and a description: dots while they are few, else an image', async ({ page }) => {
   const widget = await openBanana(page);
   const plane = widget.locator('canvas.plane');
-  // A thousand.
+  // Position 6 of the slider is a thousand samples.
   await widget.locator('#samples').fill('6');
   await frames(page);
-  const few = await elementsOf(page, await svgOf(widget));
+  const fewSamples = await elementsOf(page, await svgOf(widget));
   const { width, height } = await boxOf(plane);
-  expect(few.title).toBe('The Banana Machine');
-  expect(few.description).toBe(await plane.getAttribute('aria-label'));
-  expect(few.size).toEqual([Math.round(width), Math.round(height)]);
-  expect(few.images).toBe(0);
-  expect(few.paths).toBeGreaterThan(1000);
-  expect(few.texts).toBeGreaterThan(8);
-  const drawn = await svgOf(widget);
-  for (const name of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(drawn).toContain(`>${name}`);
+  expect(fewSamples.title).toBe('The Banana Machine');
+  expect(fewSamples.description).toBe(await plane.getAttribute('aria-label'));
+  expect(fewSamples.size).toEqual([Math.round(width), Math.round(height)]);
+  expect(fewSamples.images).toBe(0);
+  expect(fewSamples.paths).toBeGreaterThan(1000);
+  expect(fewSamples.texts).toBeGreaterThan(8);
+  const svgText = await svgOf(widget);
+  for (const name of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(svgText).toContain(`>${name}`);
   // The handle, an element on the page, is exported as a ring.
-  expect(drawn).toMatch(/<path[^>]*a7\.5,7\.5[^>]*stroke-width="3"/);
+  expect(svgText).toMatch(/<path[^>]*a7\.5,7\.5[^>]*stroke-width="3"/);
   await widget.locator('#samples').fill('9');
   await frames(page);
-  const many = await elementsOf(page, await svgOf(widget));
-  expect(many.images).toBe(1);
-  expect(many.paths).toBeLessThan(60);
+  const manySamples = await elementsOf(page, await svgOf(widget));
+  expect(manySamples.images).toBe(1);
+  expect(manySamples.paths).toBeLessThan(60);
 
-  const map = await elementsOf(page, await svgOf(await openSqueeze(page)));
-  expect(map.title).toBe('Map Squeeze');
-  expect(map.images).toBe(0);
-  expect(map.paths).toBeGreaterThan(400);
+  const mapElements = await elementsOf(page, await svgOf(await openSqueeze(page)));
+  expect(mapElements.title).toBe('Map Squeeze');
+  expect(mapElements.images).toBe(0);
+  expect(mapElements.paths).toBeGreaterThan(400);
 });
 
 test('PNG of a figure has twice the pixels and opaque paper', async ({ page, figure }) => {
@@ -138,11 +138,11 @@ test('the menu saves files with names that say what they are, from the keyboard 
 });
 
 /** Characters that XML forbids or that end a part of it. */
-const HOSTILE = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &amp; " \u0027 \u0000\u0001\u0008\u000b\u000c\u001f\ufffe\uffff \ud800 \udc00 \u{1f916} é';
+const HOSTILE_TEXT = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &amp; " \u0027 \u0000\u0001\u0008\u000b\u000c\u001f\ufffe\uffff \ud800 \udc00 \u{1f916} é';
 
-/** Returns a text as an SVG file has it. @param {string} text */
+/** Returns a text with the replacements that an export to SVG makes. @param {string} text */
 // oxlint-disable-next-line no-control-regex
-const harmless = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
+const sanitized = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
 
 test('SVG is well-formed whatever the names of a page are @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
@@ -153,10 +153,10 @@ test('SVG is well-formed whatever the names of a page are @nightly', async ({ pa
     element.style.setProperty('--motion-font', `"${text.replaceAll('"', '').replaceAll('\0', '')}", serif`);
     Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]], name: text } });
     for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
-  }, JSON.stringify(HOSTILE));
+  }, JSON.stringify(HOSTILE_TEXT));
   const svg = await svgOf(widget);
   const { title, description } = await elementsOf(page, svg);
-  expect(title).toBe(harmless(HOSTILE.replace(/\s+/g, ' ')));
-  expect(description).toContain(harmless(HOSTILE));
+  expect(title).toBe(sanitized(HOSTILE_TEXT.replace(/\s+/g, ' ')));
+  expect(description).toContain(sanitized(HOSTILE_TEXT));
   expect(await page.evaluate((text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelectorAll('script').length, svg)).toBe(0);
 });

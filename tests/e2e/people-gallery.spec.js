@@ -12,25 +12,25 @@ test('examples of the reference start when they are opened, and are what their c
   for (const example of await examples.all()) {
     const element = example.locator('banana-machine, map-squeeze');
     expect(await element.evaluate((each) => Reflect.get(each, 'machine') === undefined)).toBe(true);
-    // Read before the figure starts, which writes further attributes if the settings match no preset.
-    const given = await element.evaluate((each) => Object.fromEntries([...each.attributes].map(({ name, value }) => [name, value])));
+    // The attributes are read before the figure starts, which adds attributes if the settings match no preset.
+    const attributes = await element.evaluate((each) => Object.fromEntries([...each.attributes].map(({ name, value }) => [name, value])));
     await example.locator('summary').first().click();
     await element.locator('canvas').first().scrollIntoViewIfNeeded();
     await expect(element.locator('.cloud button').first()).toBeVisible();
     await frames(page);
     const code = (await example.locator('code').first().textContent()) ?? '';
     const settings = await element.evaluate((each) => Reflect.get(each, 'machine').config);
-    for (const [name, value] of Object.entries(given)) expect(code).toContain(`${name}="${value}"`);
-    if ('samples' in given) expect(settings.samples).toBe(Number(given.samples));
-    if ('isolate' in given) expect(settings.isolate).toBe(Number(given.isolate));
-    if ('sampler' in given) expect(settings.sampler).toBe(given.sampler);
-    if (given.lang === 'de') await expect(element.getByRole('button', { name: 'Stichproben ziehen' })).toBeVisible();
+    for (const [name, value] of Object.entries(attributes)) expect(code).toContain(`${name}="${value}"`);
+    if ('samples' in attributes) expect(settings.samples).toBe(Number(attributes.samples));
+    if ('isolate' in attributes) expect(settings.isolate).toBe(Number(attributes.isolate));
+    if ('sampler' in attributes) expect(settings.sampler).toBe(attributes.sampler);
+    if (attributes.lang === 'de') await expect(element.getByRole('button', { name: 'Stichproben ziehen' })).toBeVisible();
     await example.locator('summary').first().click();
   }
 });
 
 /** Settings of items that do not change the preset. */
-const OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
+const KEYS_OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
 
 testEach('each item sets the whole state that it describes, whatever was pressed before', async (page, name) => {
   await page.goto('/');
@@ -39,7 +39,7 @@ testEach('each item sets the whole state that it describes, whatever was pressed
   await figure.scrollIntoViewIfNeeded();
   await untilReady(figure);
   const buttons = await article.locator('button[data-try]').all();
-  const press = async (/** @type {import('@playwright/test').Locator} */ button) => {
+  const stateAfterPress = async (/** @type {import('@playwright/test').Locator} */ button) => {
     // Clicked by script, because some buttons are in a closed disclosure.
     await button.evaluate((element) => /** @type {HTMLElement} */ (element).click());
     await expect(button).toHaveAttribute('aria-current', 'true');
@@ -50,13 +50,13 @@ testEach('each item sets the whole state that it describes, whatever was pressed
       return [state, Object.fromEntries(keys.map((key) => [key, key in element ? Reflect.get(element, key) : Reflect.get(state, key)]))];
     }, Object.keys(values));
     // After a change no preset is selected.
-    const preset = Object.keys(values).every((key) => OUTSIDE_PRESETS.includes(key)) ? values.preset : properties.preset;
+    const preset = Object.keys(values).every((key) => KEYS_OUTSIDE_PRESETS.includes(key)) ? values.preset : properties.preset;
     expect(properties).toEqual({ ...values, ...(values.preset && { preset }) });
     return state;
   };
-  const first = [];
-  for (const button of buttons) first.push(await press(button));
-  for (const [i, button] of [...buttons.entries()].reverse()) expect(await press(button)).toEqual(first[i]);
+  const firstStates = [];
+  for (const button of buttons) firstStates.push(await stateAfterPress(button));
+  for (const [i, button] of [...buttons.entries()].reverse()) expect(await stateAfterPress(button)).toEqual(firstStates[i]);
 });
 
 test('an entry of the legend highlights its curve in the chart', async ({ page }) => {
@@ -72,19 +72,19 @@ test('a term and an entry of the legend highlight their line in the picture', as
   const figure = article.locator('banana-machine');
   await untilReady(figure);
   const canvas = figure.locator('canvas.plane');
-  const plain = await pictureOf(canvas);
+  const pictureBefore = await pictureOf(canvas);
   const term = article.getByText('dashed ellipse', { exact: true });
   await term.focus();
   expect(await property(figure, 'highlight')).toBe('ellipse');
   await frames(page);
-  const lit = await pictureOf(canvas);
-  expect(lit).not.toBe(plain);
+  const highlightedPicture = await pictureOf(canvas);
+  expect(highlightedPicture).not.toBe(pictureBefore);
   await term.blur();
   await frames(page);
-  expect(await pictureOf(canvas)).toBe(plain);
+  expect(await pictureOf(canvas)).toBe(pictureBefore);
   await figure.locator('.legend').getByText('Gaussian in (x, y)').hover();
   await frames(page);
-  expect(await pictureOf(canvas)).toBe(lit);
+  expect(await pictureOf(canvas)).toBe(highlightedPicture);
 });
 
 test('contents lead to every section', async ({ page }) => {
@@ -111,11 +111,11 @@ for (const [width, height] of [[1280, 720], [375, 760]]) {
 
 test('nothing on the page moves while figures load', async ({ page }) => {
   await page.addInitScript(() => {
-    const moved = /** @type {string[]} */ ([]);
-    Object.assign(window, { moved });
+    const layoutShifts = /** @type {string[]} */ ([]);
+    Object.assign(window, { layoutShifts });
     new PerformanceObserver((list) => {
       const sources = list.getEntries().flatMap((entry) => [...Reflect.get(entry, 'sources')]);
-      for (const { node, previousRect: from, currentRect: to } of sources) moved.push(`${node?.className ?? node?.nodeName}: ${JSON.stringify([from, to])}`);
+      for (const { node, previousRect: from, currentRect: to } of sources) layoutShifts.push(`${node?.className ?? node?.nodeName}: ${JSON.stringify([from, to])}`);
     }).observe({ type: 'layout-shift', buffered: true });
   });
   await page.goto('/');
@@ -123,7 +123,7 @@ test('nothing on the page moves while figures load', async ({ page }) => {
     await page.locator(name).first().scrollIntoViewIfNeeded();
     await untilReady(page.locator(name).first());
   }
-  expect(await page.evaluate(() => Reflect.get(window, 'moved'))).toEqual([]);
+  expect(await page.evaluate(() => Reflect.get(window, 'layoutShifts'))).toEqual([]);
 });
 
 for (const path of ['/', '/reference.html']) {

@@ -11,12 +11,12 @@ const FOLDERS = {
 };
 
 /** Names of figures that both languages have. */
-const SAME = ['Map Squeeze', 'Arc Anatomy'];
+const SAME_NAMES = ['Map Squeeze', 'Arc Anatomy'];
 
 /** @param {string} lang @returns {Promise<any>} messages of a language */
 async function catalogueOf(lang) {
-  const own = Object.entries(FOLDERS).map(async ([key, folder]) => [key, (await import(`../../www/widgets/${folder}/${lang}.js`))[lang]]);
-  return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...Object.fromEntries(await Promise.all(own)) };
+  const ofWidgets = Object.entries(FOLDERS).map(async ([key, folder]) => [key, (await import(`../../www/widgets/${folder}/${lang}.js`))[lang]]);
+  return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...Object.fromEntries(await Promise.all(ofWidgets)) };
 }
 
 /** Returns path and message of each entry. @param {any} catalogue @param {string} [path] @returns {[string, string | Function][]} */
@@ -27,7 +27,7 @@ function messagesOf(catalogue, path = '') {
 }
 
 /** Returns all texts of a figure that a reader sees or hears. @param {import('@playwright/test').Locator} widget */
-function said(widget) {
+function textsOf(widget) {
   return widget.evaluate((element) => {
     const root = /** @type {ShadowRoot} */ (element.shadowRoot);
     const texts = [];
@@ -43,29 +43,29 @@ function said(widget) {
       }
     }
     // Italics and subscripts split a sentence into several nodes.
-    const whole = [...root.querySelectorAll('p, li, dt, dd, th, td, caption, figcaption, legend, label')];
-    texts.push(...whole.map((node) => node.textContent ?? ''));
+    const textElements = [...root.querySelectorAll('p, li, dt, dd, th, td, caption, figcaption, legend, label')];
+    texts.push(...textElements.map((node) => node.textContent ?? ''));
     return texts.map((text) => text.replace(/\s+/g, ' ').trim()).filter(Boolean);
   });
 }
 
 test('both catalogues have the same messages, with the same values in them', async () => {
   const [english, german] = (await Promise.all(['en', 'de'].map(catalogueOf))).map((catalogue) => messagesOf(catalogue));
-  const shape = (/** @type {[string, string | Function][]} */ messages) =>
+  const shapesOf = (/** @type {[string, string | Function][]} */ messages) =>
     messages.map(([path, message]) => [path, typeof message, typeof message === 'function' ? message.length : 0]);
-  expect(shape(german)).toEqual(shape(english));
+  expect(shapesOf(german)).toEqual(shapesOf(english));
   expect(english.length).toBeGreaterThan(200);
 });
 
 testEach('no English is left in a German figure', async (page, name) => {
-  const [en, de] = await Promise.all(['en', 'de'].map(catalogueOf));
-  const own = new Set(messagesOf(de).map(([, message]) => message));
-  const english = messagesOf(en)
+  const [englishCatalogue, germanCatalogue] = await Promise.all(['en', 'de'].map(catalogueOf));
+  const germanTexts = new Set(messagesOf(germanCatalogue).map(([, message]) => message));
+  const english = messagesOf(englishCatalogue)
     .map(([, message]) => (typeof message === 'string' ? message : String(message(...'\ue001\ue002\ue003\ue004\ue005'))))
     // Text around the values of a message is English too.
     .flatMap((message) => message.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
     .map((part) => part.replace(/[₀-₉]/g, (/** @type {string} */ digit) => String(digit.charCodeAt(0) - 0x2080)).trim())
-    .filter((part) => /\p{L}{4}/u.test(part) && !SAME.includes(part) && !own.has(part));
+    .filter((part) => /\p{L}{4}/u.test(part) && !SAME_NAMES.includes(part) && !germanTexts.has(part));
   expect(english.length).toBeGreaterThan(400);
   await showPage(page, `<${name} lang="de-AT"></${name}>`, {
     script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
@@ -73,7 +73,7 @@ testEach('no English is left in a German figure', async (page, name) => {
   const widget = page.locator(name);
   await untilReady(widget);
   await unfold(widget);
-  const texts = await said(widget);
+  const texts = await textsOf(widget);
   expect(texts.length).toBeGreaterThan(60);
   expect(english.filter((part) => texts.some((text) => text === part || (part.includes(' ') && text.includes(part))))).toEqual([]);
 });
@@ -81,40 +81,40 @@ testEach('no English is left in a German figure', async (page, name) => {
 test('the nearest lang decides, also on the form of numbers; a language without words is English', async ({ page }) => {
   const widget = await openBanana(page);
   await page.addScriptTag({ type: 'module', url: '/de.js' });
-  const play = (/** @type {string} */ name) => expect(widget.getByRole('button', { name, exact: true })).toBeVisible();
-  const skew = (await readout(widget, 'cross-track skew').textContent()) ?? '';
+  const expectPlayButton = (/** @type {string} */ name) => expect(widget.getByRole('button', { name, exact: true })).toBeVisible();
+  const englishSkew = (await readout(widget, 'cross-track skew').textContent()) ?? '';
   await widget.evaluate((element) => element.setAttribute('lang', 'de'));
-  await play('Stichproben ziehen');
-  const schiefe = (await readout(widget, /[Qq]uer/).textContent()) ?? '';
-  expect(schiefe).toBe(skew.replaceAll('.', ','));
-  expect(schiefe).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
-  expect(numberIn(schiefe.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await bananaReadings(widget)).stats.crossTrackSkew, 3);
+  await expectPlayButton('Stichproben ziehen');
+  const germanSkew = (await readout(widget, /[Qq]uer/).textContent()) ?? '';
+  expect(germanSkew).toBe(englishSkew.replaceAll('.', ','));
+  expect(germanSkew).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
+  expect(numberIn(germanSkew.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await bananaReadings(widget)).stats.crossTrackSkew, 3);
   await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
-  await play('Draw samples');
+  await expectPlayButton('Draw samples');
   await expect(readout(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
   await widget.evaluate((element) => {
     element.removeAttribute('lang');
     /** @type {HTMLElement} */ (element.parentElement).lang = 'de-not a tag';
   });
-  await play('Stichproben ziehen');
+  await expectPlayButton('Stichproben ziehen');
 });
 
 test('a page may replace words and add languages; a message of another shape is refused by name', async ({ page }) => {
   const widget = await openBanana(page, 'preset="gentle"');
   await unfold(widget);
-  const complaints = await page.evaluate(async () => {
+  const errors = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
     setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', bend: { right: () => 'À droite.' } } });
     setMessages('en', { pause: 'Hold' });
     setMessages('ar', { cloud: { play: 'عيّن' } });
-    const given = /** @type {[string, object][]} */ ([
+    const refusedMessages = /** @type {[string, object][]} */ ([
       ['fr', { banana: { robots: 'x' } }],
       ['fr', { banana: { alphaIsSilent: 'silence' } }],
       ['fr', { banana: { settings: { alphas: { effects: 'x' } } } }],
       ['de_AT', { play: 'Los' }],
     ]);
-    return given.map(([lang, messages]) => {
+    return refusedMessages.map(([lang, messages]) => {
       try {
         setMessages(lang, messages);
       } catch (error) {
@@ -122,7 +122,7 @@ test('a page may replace words and add languages; a message of another shape is 
       }
     });
   });
-  expect(complaints).toEqual([
+  expect(errors).toEqual([
     expect.stringMatching(/^TypeError: messages: fr\.banana\.robots is a string; allowed is one of title, /),
     'TypeError: messages: fr.banana.alphaIsSilent is a string; allowed is a function of 4 values.',
     'TypeError: messages: fr.banana.settings.alphas.effects is a string; allowed is a group.',
@@ -142,10 +142,10 @@ test('a page may replace words and add languages; a message of another shape is 
 test('a page from right to left has the same picture, and nothing beside its figure @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   const canvas = widget.locator('canvas.plane');
-  const before = await pictureOf(canvas);
+  const pictureBefore = await pictureOf(canvas);
   await page.evaluate(() => void (document.documentElement.dir = 'rtl'));
   await widget.evaluate((element) => /** @type {any} */ (element).renderer.requestFrame());
-  expect(await pictureOf(canvas)).toBe(before);
+  expect(await pictureOf(canvas)).toBe(pictureBefore);
   expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
   const slider = widget.locator('.slider input[type=range]').first();
   const value = Number(await slider.inputValue());
@@ -160,11 +160,11 @@ test('signs stand left of their numbers on a page from right to left, also among
     const widget = page.locator(figure);
     await untilReady(widget);
     await unfold(widget);
-    const found = await widget.evaluate(({ shadowRoot }, selector) => {
+    const signsAndSides = await widget.evaluate(({ shadowRoot }, selector) => {
       const range = new Range();
-      const edges = (/** @type {Text} */ text, /** @type {number} */ at) => {
-        range.setStart(text, at);
-        range.setEnd(text, at + 1);
+      const boxOfCharacter = (/** @type {Text} */ text, /** @type {number} */ index) => {
+        range.setStart(text, index);
+        range.setEnd(text, index + 1);
         return range.getBoundingClientRect();
       };
       return [.../** @type {ShadowRoot} */ (shadowRoot).querySelectorAll(selector)].flatMap((element) => {
@@ -172,14 +172,14 @@ test('signs stand left of their numbers on a page from right to left, also among
         const signs = [];
         while (walker.nextNode()) {
           const text = /** @type {Text} */ (walker.currentNode);
-          const at = text.data.search(/\u2212\d/);
-          if (at >= 0 && text.parentElement?.checkVisibility()) signs.push([text.data, edges(text, at).right <= edges(text, at + 1).left + 0.5]);
+          const index = text.data.search(/\u2212\d/);
+          if (index >= 0 && text.parentElement?.checkVisibility()) signs.push([text.data, boxOfCharacter(text, index).right <= boxOfCharacter(text, index + 1).left + 0.5]);
         }
         return signs;
       });
     }, values);
-    expect(found.length).toBeGreaterThan(1);
-    expect(found.filter(([, isRight]) => !isRight)).toEqual([]);
+    expect(signsAndSides.length).toBeGreaterThan(1);
+    expect(signsAndSides.filter(([, isRight]) => !isRight)).toEqual([]);
     const directionOf = (/** @type {string} */ selector) => widget.locator(selector).evaluate((element) => getComputedStyle(element).direction);
     expect(await directionOf('.machine')).toBe(direction);
     expect(await directionOf('[slot=caption]')).toBe('rtl');
@@ -202,20 +202,20 @@ test('a page translator that replaces every text freezes none @nightly', async (
   }
   await translated.evaluate(({ shadowRoot }) => {
     const walker = document.createTreeWalker(/** @type {ShadowRoot} */ (shadowRoot), NodeFilter.SHOW_TEXT);
-    const found = /** @type {Text[]} */ ([]);
-    while (walker.nextNode()) found.push(/** @type {Text} */ (walker.currentNode));
-    for (const text of found) {
+    const textNodes = /** @type {Text[]} */ ([]);
+    while (walker.nextNode()) textNodes.push(/** @type {Text} */ (walker.currentNode));
+    for (const text of textNodes) {
       const font = document.createElement('font');
       font.append(text.data);
       text.replaceWith(font);
     }
   });
   for (const value of values) {
-    const before = await texts();
+    const textsBefore = await texts();
     for (const widget of [translated, other]) await widget.locator(`#${slider}`).fill(String(value));
     for (const widget of [translated, other]) await untilSettled(widget);
-    const [one, two] = await texts();
-    expect(two).not.toBe(before[1]);
-    expect(one).toBe(two);
+    const [translatedText, otherText] = await texts();
+    expect(otherText).not.toBe(textsBefore[1]);
+    expect(translatedText).toBe(otherText);
   }
 });

@@ -5,7 +5,7 @@ import { STILL, boxOf, centreOf, frames, mount, showPage, stateOf, test, testEac
 test.use({ ...STILL, viewport: { width: 1920, height: 1080 } });
 
 /** @param {import('@playwright/test').Locator} widget */
-const fits = (widget) => widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight && element.scrollWidth <= element.clientWidth);
+const fitsItsSurface = (widget) => widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight && element.scrollWidth <= element.clientWidth);
 
 test('the button fills the screen, C shows the controls, and Escape leaves', async ({ page }) => {
   await showPage(page, '<div style="height: 300px"></div><banana-machine></banana-machine><div style="height: 3000px"></div>');
@@ -44,7 +44,7 @@ test('without full screen the attribute fills the window, and the button leaves'
   const widget = await mount(page, 'banana-machine');
   // Slides are scaled by a transform, to which fixed boxes would be relative.
   await page.evaluate(() => (document.body.style.transform = 'scale(0.5)'));
-  const before = await boxOf(widget);
+  const boxBefore = await boxOf(widget);
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
   await expect.poll(() => boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
   // A handle stays under the pointer at any font size.
@@ -60,36 +60,36 @@ test('without full screen the attribute fills the window, and the button leaves'
   await page.mouse.up();
   await widget.getByRole('button', { name: 'Esc Exit' }).click();
   await expect(widget).not.toHaveAttribute('presentation');
-  await expect.poll(() => boxOf(widget)).toEqual(before);
+  await expect.poll(() => boxOf(widget)).toEqual(boxBefore);
 });
 
 test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a button', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Present' }).press('Enter');
   await expect(widget.getByRole('button', { name: 'C Controls' })).toBeFocused();
-  const words = await widget.evaluate((element) => /** @type {any} */ (element).definition.attributes.preset.words);
+  const presetNames = await widget.evaluate((element) => /** @type {any} */ (element).definition.attributes.preset.words);
   for (const i of [1, 2, 0]) {
     await widget.evaluate((element) => void Object.assign(element, { morph: 0.5 }));
     await page.keyboard.press(String(i + 1));
-    await expect(widget).toHaveAttribute('preset', words[i]);
+    await expect(widget).toHaveAttribute('preset', presetNames[i]);
     await expect(widget).toHaveAttribute('morph', '0');
   }
   // No preset has this key.
   await page.keyboard.press('9');
-  await expect(widget).toHaveAttribute('preset', words[0]);
+  await expect(widget).toHaveAttribute('preset', presetNames[0]);
 });
 
 test('the key 0 brings back the state in which the presentation began', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
   await widget.evaluate((element) => void Object.assign(element, { preset: 'hard', omega: 0.7 }));
-  const prepared = await stateOf(widget);
+  const preparedState = await stateOf(widget);
   await widget.getByRole('button', { name: 'Present' }).click();
   // While a slider has the focus, digits select presets of the presentation.
   await page.keyboard.press('c');
   await widget.locator('#v').press('ArrowUp');
-  expect(await stateOf(widget)).not.toEqual(prepared);
+  expect(await stateOf(widget)).not.toEqual(preparedState);
   await page.keyboard.press('0');
-  expect(await stateOf(widget)).toEqual(prepared);
+  expect(await stateOf(widget)).toEqual(preparedState);
   await expect(widget.getByRole('status').filter({ hasText: 'ω = 0.70 rad/s' })).toHaveCount(1);
 });
 
@@ -118,19 +118,19 @@ test('the browser ends the presentation by a key of its own @nightly', async ({ 
 testEach('a presented figure has large pictures and legible letters, with and without controls', async (page, name) => {
   const widget = await mount(page, name);
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
-  const sizes = () => widget.locator('canvas, .readouts dt').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
-  const onPage = await sizes();
+  const fontSizes = () => widget.locator('canvas, .readouts dt').evaluateAll((all) => all.map((each) => parseFloat(getComputedStyle(each).fontSize)));
+  const sizesOnPage = await fontSizes();
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
   await frames(page);
-  expect(await fits(widget)).toBe(true);
+  expect(await fitsItsSurface(widget)).toBe(true);
   const pictures = await Promise.all((await widget.locator('.stage canvas').all()).map(boxOf));
   for (const { height } of pictures) expect(height).toBeGreaterThan(1080 * 0.5);
-  for (const [i, size] of (await sizes()).entries()) expect(size / onPage[i]).toBeCloseTo(1.5, 5);
+  for (const [i, size] of (await fontSizes()).entries()) expect(size / sizesOnPage[i]).toBeCloseTo(1.5, 5);
   await page.keyboard.press('c');
   await expect(widget.locator('.folds')).toBeInViewport({ ratio: 0.99 });
   await frames(page);
-  expect(await fits(widget)).toBe(true);
+  expect(await fitsItsSurface(widget)).toBe(true);
   const bottom = Math.max(...(await Promise.all((await widget.locator('.presenting button').all()).map(boxOf))).map(({ y, height }) => y + height));
   for (const picture of await widget.locator('.stage canvas').all()) {
     const { y, height } = await boxOf(picture);

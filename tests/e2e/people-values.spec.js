@@ -17,7 +17,7 @@ async function widgetOf(page, name) {
 }
 
 /** @param {Locator} widget @param {string} key */
-const help = (widget, key) => widget.locator(`#${key}-effect`);
+const helpOf = (widget, key) => widget.locator(`#${key}-effect`);
 
 test('a digit on a slider leads into its value, Enter back, and the value may lie beyond the slider', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
@@ -32,29 +32,29 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   // The thumb is at the end of the slider.
   await expect(slider).toHaveValue('0.2');
   await expect(slider).toHaveAttribute('aria-valuetext', '0.400');
-  await expect(help(widget, 'alpha1')).toHaveText('Ends at 0.200; type values beyond.');
-  await expect(help(widget, 'alpha1')).toBeVisible();
+  await expect(helpOf(widget, 'alpha1')).toHaveText('Ends at 0.200; type values beyond.');
+  await expect(helpOf(widget, 'alpha1')).toBeVisible();
   // An arrow key on the slider starts from the end of the slider, not from the typed value beyond it.
   await page.keyboard.press('ArrowLeft');
   expect(await property(widget, 'alpha1')).toBeLessThan(0.2);
   // Values beyond the end of the slider can be typed.
   await page.keyboard.press('End');
-  await expect(help(widget, 'alpha1')).toHaveText('Ends at 0.200; type values beyond.');
+  await expect(helpOf(widget, 'alpha1')).toHaveText('Ends at 0.200; type values beyond.');
   // The minimum of this slider is the minimum of the setting.
   await page.keyboard.press('Home');
-  await expect(help(widget, 'alpha1')).not.toContainText('The slider ends');
+  await expect(helpOf(widget, 'alpha1')).not.toContainText('The slider ends');
 });
 
 test('a value is typed with its unit, a true minus and few more decimals, and Escape takes it back', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
   const field = valueField(widget, 'v');
-  await expect(help(widget, 'v')).toHaveText('How far along the arc; below zero the robot backs up.');
+  await expect(helpOf(widget, 'v')).toHaveText('How far along the arc; below zero the robot backs up.');
   await field.click();
   await page.keyboard.type('\u22122.125 m/s');
   await page.keyboard.press('Tab');
   expect(await property(widget, 'v')).toBe(-2.125);
   await expect(field).toHaveValue('\u22122.125 m/s');
-  await expect(help(widget, 'v')).toHaveText('Ends at \u22121.50 m/s; type values beyond.');
+  await expect(helpOf(widget, 'v')).toHaveText('Ends at \u22121.50 m/s; type values beyond.');
   await field.click();
   await page.keyboard.type('7');
   await page.keyboard.press('Escape');
@@ -77,18 +77,18 @@ test('a value that is refused is reported with the allowed range, and the last g
     ['omega', '', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000 (got "").'],
     ['samples', '2.5', 'N must be a whole number between 1 and 10\u202f000\u202f000 (got 2.5).'],
   ]) {
-    const before = await property(widget, key);
+    const valueBefore = await property(widget, key);
     const field = valueField(widget, key);
-    const shown = await field.inputValue();
+    const shownText = await field.inputValue();
     await field.click();
     await field.fill(text);
     await page.keyboard.press('Enter');
     await expect(widget.locator('[role=alert]')).toHaveText(complaint);
-    await expect(help(widget, key)).toBeVisible();
+    await expect(helpOf(widget, key)).toBeVisible();
     await expect(field).toBeFocused();
-    await expect(field).toHaveValue(shown);
+    await expect(field).toHaveValue(shownText);
     await expect(field).toHaveAttribute('aria-describedby', `${key}-effect`);
-    expect(await property(widget, key)).toBe(before);
+    expect(await property(widget, key)).toBe(valueBefore);
     expect(await takeEvents(page)).toEqual([]);
     if (key === 'samples') await expectAccessible(page, undefined, 'banana-machine');
     // The message disappears when the text changes.
@@ -107,17 +107,17 @@ test('a value that is refused is reported with the allowed range, and the last g
 test('a number that no sample has is refused and kept until it is right or left @nightly', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
   const field = widget.locator('#robot');
-  const said = widget.locator('.marked [role=alert]');
+  const errorMessage = widget.locator('.marked [role=alert]');
   const samples = await property(widget, 'samples');
   for (const text of ['2.5', String(samples + 1)]) {
     await field.fill('7');
     await field.fill(text);
-    await expect(said).toHaveText(`Robot must be a whole number between 1 and ${printedCount(samples)} (got ${text}).`);
+    await expect(errorMessage).toHaveText(`Robot must be a whole number between 1 and ${printedCount(samples)} (got ${text}).`);
     await expect(field).toHaveValue(text);
     expect(await property(widget, 'marked')).toBe(6);
     await field.blur();
     await expect(field).toHaveValue('7');
-    await expect(said).toHaveCount(0);
+    await expect(errorMessage).toHaveCount(0);
   }
   await field.fill(String(samples));
   expect(await property(widget, 'marked')).toBe(samples - 1);
@@ -148,13 +148,13 @@ for (const name of TWO_NAMES) {
 test('a change by the page leaves what is being typed @nightly', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
   const field = valueField(widget, 'alpha1');
-  const set = (/** @type {number} */ value) => widget.evaluate(async (element, value) => {
+  const setAlpha1 = (/** @type {number} */ value) => widget.evaluate(async (element, value) => {
     /** @type {any} */ (element).alpha1 = value;
     await /** @type {import('lit').LitElement} */ (element).updateComplete;
   }, value);
   await field.focus();
   await page.keyboard.type('0.1');
-  await set(0.15);
+  await setAlpha1(0.15);
   await frames(page);
   await expect(field).toHaveValue('0.1');
   await page.keyboard.type('2');
@@ -163,7 +163,7 @@ test('a change by the page leaves what is being typed @nightly', async ({ page }
   // Escape leads back to the slider, with the current value.
   await field.focus();
   await page.keyboard.type('9');
-  await set(0.17);
+  await setAlpha1(0.17);
   await frames(page);
   await page.keyboard.press('Escape');
   await expect(field).toHaveValue('0.170');
@@ -187,5 +187,5 @@ test('German has a decimal comma, and takes a point too', async ({ page }) => {
   await page.keyboard.type('20.000');
   await page.keyboard.press('Enter');
   expect(await property(widget, 'samples')).toBe(20_000);
-  await expect(help(widget, 'alpha1')).toContainText('Endet bei 0,200');
+  await expect(helpOf(widget, 'alpha1')).toContainText('Endet bei 0,200');
 });

@@ -1,5 +1,5 @@
 import { spawnSync } from 'node:child_process';
-import { expect, test as anyway } from '@playwright/test';
+import { expect, test as testWithWarnings } from '@playwright/test';
 import { recordingOf, transform } from '../mcap.js';
 import { caption, choose, chooseRecording, example, openCalibrator, recordingWith, rows, rowsOf, stats, tablesOf } from './calibrator-support.js';
 import { STILL, stateOf, takeEvents, test, unfold, untilSettled } from './support.js';
@@ -10,7 +10,7 @@ import { STILL, stateOf, takeEvents, test, unfold, untilSettled } from './suppor
  */
 
 test.use(STILL);
-anyway.use(STILL);
+testWithWarnings.use(STILL);
 
 test('a refusal and long work are shown one above the other', async ({ page }) => {
   const widget = await openCalibrator(page);
@@ -21,11 +21,11 @@ test('a refusal and long work are shown one above the other', async ({ page }) =
   });
   const boxes = widget.locator('.notice > div');
   await expect(boxes).toHaveCount(2);
-  const [work, sentence] = await boxes.evaluateAll((each) => each.map((box) => box.getBoundingClientRect()));
-  expect(sentence.bottom).toBeLessThanOrEqual(work.top);
+  const [progressBox, messageBox] = await boxes.evaluateAll((each) => each.map((box) => box.getBoundingClientRect()));
+  expect(messageBox.bottom).toBeLessThanOrEqual(progressBox.top);
 });
 
-test('two tables of the reader’s own take the place of the simulated log, and leave it again', async ({ page }) => {
+test('two tables of a reader replace the simulated log, and a button brings it back', async ({ page }) => {
   const widget = await openCalibrator(page);
   const tables = await tablesOf(widget);
   await choose(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
@@ -44,7 +44,7 @@ test('two tables of the reader’s own take the place of the simulated log, and 
   await expect(hint).toBeVisible();
   await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
   await expect(caption(widget)).toHaveText(/of the simulated log/);
-  // A file alone waits for the other one.
+  // A single file is not used until the other file is given too.
   const alert = widget.getByRole('alert');
   await choose(widget, { 'odom.csv': tables.odometry });
   await expect(alert).toHaveText(/^odom\.csv: it has the odometry only, .*; give the reference too\. Drop or choose the other file too,/);
@@ -58,7 +58,7 @@ test('results are those of the command line, to the last bit, and a recording wh
   await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
   await expect(caption(widget)).toHaveText(/odometry\.csv, reference\.csv[.,]/);
   await untilSettled(widget);
-  const shown = await widget.evaluate((element) => {
+  const figureResults = await widget.evaluate((element) => {
     const { machine: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
     return JSON.stringify({ ...stats, legs }, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value));
   });
@@ -66,9 +66,9 @@ test('results are those of the command line, to the last bit, and a recording wh
   const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...files, '--json'], {
     encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28,
   });
-  const { date, options, logs, start, ...printed } = JSON.parse(stdout);
+  const { date, options, logs, start, ...cliResults } = JSON.parse(stdout);
   expect([options, logs.length, start, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 } }, 2, 9, 'string']);
-  expect(JSON.parse(shown)).toEqual(printed);
+  expect(JSON.parse(figureResults)).toEqual(cliResults);
 
   await chooseRecording(widget, 'run.mcap', await recordingWith(['/mocap/pose', '/vicon/pose']));
   await expect(widget.getByRole('alert')).toHaveText(/^run\.mcap: it is not clear what the reference is: .*\/vicon\/pose \(PoseStamped\)\.$/);
@@ -76,47 +76,47 @@ test('results are those of the command line, to the last bit, and a recording wh
   await expect(caption(widget)).toHaveText(/of run\.mcap, \/odom, \/mocap\/pose[.,]/);
   await untilSettled(widget);
   const { alphas } = await stats(widget);
-  // Conversion to quaternions rounds the headings.
-  for (const [i, alpha] of printed.alphas.entries()) expect(Number(alphas[i]) / alpha).toBeCloseTo(1, 9);
+  // The recording has quaternions, whose conversion rounds the headings.
+  for (const [i, alpha] of cliResults.alphas.entries()) expect(Number(alphas[i]) / alpha).toBeCloseTo(1, 9);
 });
 
-test('of files with poses and commands the velocity model takes the commands, and the others the poses @nightly', async ({ page }) => {
+test('with the velocity model the commands of a file are used, with other models its poses @nightly', async ({ page }) => {
   const widget = await openCalibrator(page, 'model="velocity"');
   await unfold(widget);
-  const keys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
-  const model = async (/** @type {string} */ name, /** @type {string} */ key) => {
+  const odometryKeys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
+  const selectModel = async (/** @type {string} */ name, /** @type {string} */ key) => {
     await widget.getByRole('radio', { name }).check();
-    await expect.poll(keys).toContain(key);
+    await expect.poll(odometryKeys).toContain(key);
     await untilSettled(widget);
   };
   // The command of a row is driven until the next row.
-  const driven = rowsOf('odometry');
-  const commands = driven.map(([t, x, y, yaw], i) => {
-    const [next, toX, toY, to] = driven[i + 1] ?? [t + 1, x, y, yaw];
+  const odometryRows = rowsOf('odometry');
+  const commands = odometryRows.map(([t, x, y, yaw], i) => {
+    const [next, toX, toY, to] = odometryRows[i + 1] ?? [t + 1, x, y, yaw];
     return [t, x, y, yaw, Math.hypot(toX - x, toY - y) / (next - t), Math.atan2(Math.sin(to - yaw), Math.cos(to - yaw)) / (next - t)].join(',');
   });
   await choose(widget, { 'odom.csv': ['t,x,y,yaw,v,omega', ...commands].join('\n'), 'truth.csv': example('reference') });
-  await expect.poll(keys).toContain('omega');
+  await expect.poll(odometryKeys).toContain('omega');
   await untilSettled(widget);
   expect((await stats(widget)).alphas).toHaveLength(6);
-  await model('Table 5.6', 'theta');
-  await model('velocity', 'omega');
+  await selectModel('Table 5.6', 'theta');
+  await selectModel('velocity', 'omega');
   // The recording has the commands in a separate topic.
   const topic = widget.getByLabel('Odometry', { exact: true });
   await chooseRecording(widget, 'run.mcap', await recordingWith(['/mocap/pose'], true));
-  await expect.poll(keys).toContain('omega');
+  await expect.poll(odometryKeys).toContain('omega');
   await expect(topic).toHaveValue('/cmd_vel');
-  await model('Table 5.6', 'theta');
+  await selectModel('Table 5.6', 'theta');
   await expect(topic).toHaveValue('/odom');
-  await model('velocity', 'omega');
+  await selectModel('velocity', 'omega');
 });
 
-test('of transforms the reader chooses among the chains that the recording has @nightly', async ({ page }) => {
+test('a reader chooses among the transforms of a recording @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
     rowsOf(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, parent, child, x, y, yaw)] } }));
-  const all = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link'), ...messages('reference', 'mocap', 'robot')];
-  await chooseRecording(widget, 'tf.mcap', await recordingOf(all.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 }));
+  const messagesOfAll = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link'), ...messages('reference', 'mocap', 'robot')];
+  await chooseRecording(widget, 'tf.mcap', await recordingOf(messagesOfAll.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 }));
   await expect(caption(widget)).toHaveText(/of tf\.mcap, \/tf: .+, \/tf: mocap → robot[.,]/);
   await expect(widget.getByLabel('Odometry', { exact: true }).locator(':checked')).toHaveText('/tf: odom → base_footprint');
   const reference = widget.getByLabel('Reference', { exact: true });
@@ -126,14 +126,14 @@ test('of transforms the reader chooses among the chains that the recording has @
   await expect(caption(widget)).toHaveText(/of tf\.mcap, .*\/tf: map → base_link[.,]/);
 });
 
-test('of several drives all files are read at once, and files whose names do not say so are given a role @nightly', async ({ page }) => {
+test('files of several drives are read together, and a reader assigns roles that their names do not tell @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const halves = (/** @type {'odometry' | 'reference'} */ name) => {
-    const [header, ...all] = example(name).trim().split('\n');
-    const middle = Number(all.at(-1)?.split(',')[0]) / 2;
-    return [false, true].map((isLate) => [header, ...all.filter((line) => Number(line.split(',')[0]) > middle === isLate)].join('\n'));
+  const halvesOf = (/** @type {'odometry' | 'reference'} */ name) => {
+    const [header, ...lines] = example(name).trim().split('\n');
+    const middle = Number(lines.at(-1)?.split(',')[0]) / 2;
+    return [false, true].map((isLate) => [header, ...lines.filter((line) => Number(line.split(',')[0]) > middle === isLate)].join('\n'));
   };
-  const [[a, c], [b, d]] = [halves('odometry'), halves('reference')];
+  const [[a, c], [b, d]] = [halvesOf('odometry'), halvesOf('reference')];
   await choose(widget, { 'a.csv': a, 'b.csv': b, 'c.csv': c, 'd.csv': d });
   await expect(widget.getByRole('alert')).toHaveText(/^a\.csv: its name does not say whether it is odometry or reference;/);
   await expect(widget.getByLabel('a.csv')).toBeFocused();
@@ -144,12 +144,12 @@ test('of several drives all files are read at once, and files whose names do not
 
 test('names and units of columns that a table does not state are asked for, and the answer holds for that file', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const inMillimetres = rowsOf('odometry').map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
+  const rowsInMillimetres = rowsOf('odometry').map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
   const alert = widget.getByRole('alert');
   await choose(widget, { 'notes.txt': 'hello', 'empty.csv': '' });
   await expect(alert).toHaveText(/^notes\.txt: it does not look like a log,/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: empty\.csv: there is nothing in it/]);
-  await choose(widget, { 'odom.csv': inMillimetres.join('\n'), 'truth.csv': example('reference') });
+  await choose(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'truth.csv': example('reference') });
   await expect(alert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv' }).getByLabel('time', { exact: true })).toBeFocused();
   await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');
@@ -163,13 +163,13 @@ test('the files of a dropped folder are one recording, and others are not used',
   const camera = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));
   const recordings = [await recordingWith(['/mocap/pose']), camera].map((bytes) => bytes.toString('base64'));
   await widget.locator('section.machine').evaluate(async (section, all) => {
-    const [content, other] = await Promise.all(all.map(async (base64) => (await fetch(`data:;base64,${base64}`)).arrayBuffer()));
-    const text = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
+    const [bytes, cameraBytes] = await Promise.all(all.map(async (base64) => (await fetch(`data:;base64,${base64}`)).arrayBuffer()));
+    const metadata = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
     const journal = new File([new Uint8Array([0x37, 0x7f, 0x06, 0x82])], 'run_0.db3-wal');
-    const entries = [new File([content], 'run_0.mcap'), new File([text], 'metadata.yaml'), new File([other], 'camera.mcap'), journal].map((file) =>
+    const entries = [new File([bytes], 'run_0.mcap'), new File([metadata], 'metadata.yaml'), new File([cameraBytes], 'camera.mcap'), journal].map((file) =>
       ({ name: file.name, isDirectory: false, fullPath: `/run/${file.name}`, file: (/** @type {(file: File) => void} */ take) => take(file) }));
-    const rest = [entries, []];
-    const entry = { isDirectory: true, createReader: () => ({ readEntries: (/** @type {(some: unknown) => void} */ take) => take(rest.shift()) }) };
+    const remainingEntries = [entries, []];
+    const entry = { isDirectory: true, createReader: () => ({ readEntries: (/** @type {(some: unknown) => void} */ take) => take(remainingEntries.shift()) }) };
     const dataTransfer = { types: ['Files'], items: [{ kind: 'file', webkitGetAsEntry: () => entry, getAsFile: () => null }] };
     section.dispatchEvent(Object.defineProperty(new Event('drop'), 'dataTransfer', { value: dataTransfer }));
   }, recordings);
@@ -182,13 +182,13 @@ test('a log without enough legs is refused, and the present log keeps its place 
   await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
   await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
   await untilSettled(widget);
-  const before = await caption(widget).innerText();
+  const captionBefore = await caption(widget).innerText();
   const { alphas } = await stats(widget);
-  const still = 't,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n';
-  await choose(widget, { 'a.csv': still, 'b.csv': still });
+  const standingLog = 't,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n';
+  await choose(widget, { 'a.csv': standingLog, 'b.csv': standingLog });
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time.');
   await untilSettled(widget);
-  expect(await caption(widget).innerText()).toBe(before);
+  expect(await caption(widget).innerText()).toBe(captionBefore);
   expect((await stats(widget)).alphas).toEqual(alphas);
   await expect(widget.locator('.drop-zone .present')).toContainText('odometry.csv, reference.csv');
 });
@@ -205,9 +205,9 @@ const chooseLong = (widget) => widget.evaluate((element) => {
     items.add(new File([['t,x,y,yaw', ...Array.from({ length: 90_000 }, (_, i) => row(i, shake))].join('\n')], name));
   }
   input.files = files;
-  const began = performance.now();
+  const startTime = performance.now();
   input.dispatchEvent(new Event('change'));
-  return began;
+  return startTime;
 });
 
 test('a log is read and fitted in a worker, and the page stays free', async ({ page }) => {
@@ -220,31 +220,31 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   });
   // The worker starts while the reader chooses files.
   await Promise.all([page.waitForEvent('worker'), page.waitForEvent('filechooser'), widget.getByText('choose files').click()]);
-  const began = await chooseLong(widget);
+  const startTime = await chooseLong(widget);
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/, { timeout: 20_000 });
   expect(page.workers().map((worker) => new URL(worker.url()).pathname)).toEqual(['/chunks/log-worker.js']);
-  const { longest, shifts } = await page.evaluate((since) => {
+  const { longestTaskShare, layoutShifts } = await page.evaluate((since) => {
     const all = /** @type {(PerformanceEntry & { value?: number, hadRecentInput?: boolean })[]} */ (Reflect.get(window, 'entries')).filter(({ startTime }) => startTime > since);
     const tasks = all.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
-    return { longest: Math.max(0, ...tasks) / (performance.now() - since), shifts: all.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
-  }, began);
-  // In the page's thread, reading a log would be one task that takes a third of the time.
-  expect(longest).toBeLessThan(0.2);
-  // From 0.1 on the Web Vitals say that a layout is not stable.
-  expect(shifts.reduce((sum, shift) => sum + shift, 0)).toBeLessThan(0.1);
+    return { longestTaskShare: Math.max(0, ...tasks) / (performance.now() - since), layoutShifts: all.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
+  }, startTime);
+  // On the main thread, reading a log would be one task that takes a third of the time.
+  expect(longestTaskShare).toBeLessThan(0.2);
+  // The Web Vitals call a layout unstable from 0.1 on.
+  expect(layoutShifts.reduce((sum, shift) => sum + shift, 0)).toBeLessThan(0.1);
   // A changed setting starts another fit; the previous result is shown meanwhile.
   const { alphas } = await stats(widget);
-  const changed = await widget.evaluate((element) => {
+  const resultsWhileFitting = await widget.evaluate((element) => {
     const figure = /** @type {any} */ (element);
     figure.distance = 0.5;
     return { distance: figure.distance, alphas: figure.machine.stats.alphas };
   });
-  expect(changed).toEqual({ distance: 0.5, alphas });
+  expect(resultsWhileFitting).toEqual({ distance: 0.5, alphas });
   await untilSettled(widget);
   expect((await stats(widget)).alphas).not.toEqual(alphas);
 });
 
-anyway('where the page’s policy forbids workers, a log is read all the same @nightly', async ({ page }) => {
+testWithWarnings('where the page’s policy forbids workers, a log is read all the same @nightly', async ({ page }) => {
   await page.route('**/bare.html', (route) => route.fulfill({
     contentType: 'text/html',
     headers: { 'content-security-policy': "worker-src 'none'" },
@@ -260,58 +260,58 @@ anyway('where the page’s policy forbids workers, a log is read all the same @n
 
 test('reading a log can be stopped, and everything is as it was', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const before = await stateOf(widget);
+  const stateBefore = await stateOf(widget);
   await chooseLong(widget);
   await widget.locator('.drop-zone').getByRole('button', { name: 'Stop' }).click();
   await expect(widget.getByRole('alert')).toHaveText('Stopped: everything is as it was.');
   await expect(widget.locator('.drop-zone progress')).toHaveCount(0);
-  expect(await stateOf(widget)).toEqual(before);
+  expect(await stateOf(widget)).toEqual(stateBefore);
   await expect(caption(widget)).toHaveText(/of the simulated log/);
   await expect.poll(() => page.workers().length).toBe(0);
 });
 
 test('a log that a page gives is fitted, and is in no state; one that is refused leaves the present one', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const before = await stateOf(widget);
-  const opened = await caption(widget).innerText();
-  const refused = await widget.evaluate(async (element) => {
+  const stateBefore = await stateOf(widget);
+  const captionBefore = await caption(widget).innerText();
+  const refusals = await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement} */ (element);
     const { legs } = figure.machine;
     const t = Array.from({ length: legs.count }, (_, leg) => leg);
     const column = (/** @type {Float64Array} */ poses, /** @type {number} */ at) => t.map((leg) => poses[6 * leg + at]);
     const poses = (/** @type {Float64Array} */ all) => ({ t, x: column(all, 0), y: column(all, 1), theta: column(all, 2) });
-    const given = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
-    const error = () => new Promise((resolve) => {
+    const log1 = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
+    const nextError = () => new Promise((resolve) => {
       figure.addEventListener('error', (event) => {
         event.preventDefault();
         resolve(/** @type {ErrorEvent} */ (event).message);
       }, { once: true });
     });
-    figure.log = given;
+    figure.log = log1;
     await new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
     const errors = [];
-    for (const log of [{ ...given, odometry: { ...given.odometry, t: t.with(3, 1) } }, 5]) {
-      const refusal = error();
+    for (const log of [{ ...log1, odometry: { ...log1.odometry, t: t.with(3, 1) } }, 5]) {
+      const refusal = nextError();
       Object.assign(figure, { log });
       errors.push(await refusal);
     }
     return errors;
   });
-  expect(refused).toEqual([expect.stringMatching(/^odometry: sample 3 is not later than the one before/), 'log is 5; allowed is an object with keys from name, odometry, reference']);
+  expect(refusals).toEqual([expect.stringMatching(/^odometry: sample 3 is not later than the one before/), 'log is 5; allowed is an object with keys from name, odometry, reference']);
   expect(await widget.evaluate((element) => {
     const { log, machine: { count } } = /** @type {AlphaCalibratorElement} */ (element);
     return [log?.name, count > 100];
   })).toEqual(['of the page', true]);
-  expect(await stateOf(widget)).toEqual(before);
+  expect(await stateOf(widget)).toEqual(stateBefore);
   await widget.evaluate((element) => void Object.assign(element, { log: null }));
-  await expect(caption(widget)).toHaveText(opened);
+  await expect(caption(widget)).toHaveText(captionBefore);
 });
 
 test('a log without legs says so @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
-    const still = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
-    /** @type {AlphaCalibratorElement} */ (element).log = { odometry: still, reference: still };
+    const standing = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
+    /** @type {AlphaCalibratorElement} */ (element).log = { odometry: standing, reference: standing };
   });
   await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.count)).toBe(0);
   await untilSettled(widget);

@@ -6,7 +6,7 @@ import { STILL, boxOf, frames, pixelsOf, stateOf, test, unfold, untilSettled } f
 
 test.use(STILL);
 
-test('opens with the simulated log, said to be one, with its true α’s', async ({ page }) => {
+test('opens with the simulated log, labelled as simulated, with its true α’s', async ({ page }) => {
   const widget = await openCalibrator(page);
   await expect(caption(widget)).toHaveText(/^✓ Trust\s+All 14 checks passed\. \d+ legs of the simulated log, \d outliers\.$/);
   await expect(widget.locator('.to-do')).toHaveText(/^Use the recommended α’s with legs of this length\. First multiply the odometry’s distances by 1\.0\d\d and turns by 0\.9\d\d: the α’s are those of the corrected robot\.$/);
@@ -41,7 +41,7 @@ test('the meaning of each α stands beside it, apart from the numbers, also on a
     await page.setViewportSize({ width, height: 900 });
     await page.evaluate((em) => void (document.body.style.letterSpacing = `${em}em`), spacing);
     await frames(page);
-    const told = await rows(widget).evaluateAll((all) => all.map((row) => {
+    const areApart = await rows(widget).evaluateAll((all) => all.map((row) => {
       const boxOf = (/** @type {string} */ selector) => {
         const text = new Range();
         text.selectNodeContents(/** @type {Element} */ (row.querySelector(selector)));
@@ -50,12 +50,12 @@ test('the meaning of each α stands beside it, apart from the numbers, also on a
       const [name, ...numbers] = ['.of', '.fitted-value', '.between', '.recommended'].map(boxOf);
       return numbers.every(({ left, top }) => name.right <= left || name.bottom <= top + 2);
     }));
-    expect(told, `${width} px, ${spacing} em`).toEqual([true, true, true, true]);
+    expect(areApart, `${width} px, ${spacing} em`).toEqual([true, true, true, true]);
     // Rows of 32 px have the name in one line.
     if (spacing === 0 && width !== 920) for (const row of await rows(widget).all()) expect((await boxOf(row)).height, `${width} px`).toBeLessThan(34);
     expect(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${spacing} em`).toBeLessThanOrEqual(width);
   }
-  // Labels of the axis are apart, where it is at its narrowest.
+  // Labels of the axis do not overlap where the axis is narrowest.
   await page.setViewportSize({ width: 640, height: 900 });
   await page.evaluate(() => void (document.body.style.letterSpacing = '0.1em'));
   const boxes = await Promise.all((await widget.locator('.scale > span').filter({ visible: true }).all()).map(boxOf));
@@ -66,15 +66,15 @@ test('the meaning of each α stands beside it, apart from the numbers, also on a
 test('outliers are ringed, and decide the fit where they are not set aside', async ({ page }) => {
   const widget = await openCalibrator(page);
   await unfold(widget);
-  const before = await stats(widget);
-  const rings = await pixelsOf(widget.locator('canvas.plane'), 'ink');
+  const statsBefore = await stats(widget);
+  const ringPixels = await pixelsOf(widget.locator('canvas.plane'), 'ink');
   await widget.getByRole('checkbox', { name: 'outlier', exact: true }).uncheck();
-  expect(await pixelsOf(widget.locator('canvas.plane'), 'ink')).toBeLessThan(rings - 40);
+  expect(await pixelsOf(widget.locator('canvas.plane'), 'ink')).toBeLessThan(ringPixels - 40);
   await widget.getByRole('radio', { name: 'fit as noise' }).check();
   await untilSettled(widget);
-  const after = await stats(widget);
+  const statsAfter = await stats(widget);
   // Numbers from the text of the page.
-  const growth = [1, 2].map((alpha) => Math.round(Number(after.alphas[alpha]) / Number(before.alphas[alpha])));
+  const growth = [1, 2].map((alpha) => Math.round(Number(statsAfter.alphas[alpha]) / Number(statsBefore.alphas[alpha])));
   expect(growth).toEqual([9, 15]);
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toMatch(/becomes nine times and .* fifteen times as large, and two checks fail/);
   await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(2 of 14 failed\)\. \d+ legs of the simulated log\.$/);
@@ -83,14 +83,14 @@ test('outliers are ringed, and decide the fit where they are not set aside', asy
 test('a systematic error that is not corrected is named in the advice', async ({ page }) => {
   const widget = await openCalibrator(page);
   await unfold(widget);
-  const before = await stats(widget);
+  const statsBefore = await stats(widget);
   await widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck();
   await untilSettled(widget);
-  const after = await stats(widget);
-  expect(after.systematicErrors.mountYaw.corrected).toBe(false);
-  expect(after.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
+  const statsAfter = await stats(widget);
+  expect(statsAfter.systematicErrors.mountYaw.corrected).toBe(false);
+  expect(statsAfter.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
   // Numbers from the text of the page.
-  const [from, to] = [before, after].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
+  const [from, to] = [statsBefore, statsAfter].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${from} to ${to}&nbsp;rad`);
   await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 14 failed\)\.\s+\d+ legs /);
   await expect(widget.locator('.to-do')).toHaveText(/^Not corrected: mount yaw \(rad\) 0\.070 ± 0\.00\d \(see More controls\)\. Errors of neighbouring legs /);
@@ -101,12 +101,12 @@ test('every check has its value, the values that pass, and what to do where it f
   const widget = await openCalibrator(page, 'outliers="keep" lang="de"');
   await unfold(widget);
   const { diagnostics: { checks } } = await stats(widget);
-  const told = section(widget, 'Prüfungen').locator('tbody tr');
-  await expect(told).toHaveCount(checks.length);
+  const table = section(widget, 'Prüfungen').locator('tbody tr');
+  await expect(table).toHaveCount(checks.length);
   expect(checks.filter(({ passed }) => !passed).length).toBeGreaterThan(1);
-  for (const [i, { passed }] of checks.entries()) await expect(told.nth(i)).toContainText(passed ? '✓ bestanden' : '✕ nicht bestanden');
-  await expect(told.filter({ hasText: 'Korrelation benachbarter Etappen' })).toContainText('Fehler benachbarter Etappen sind korreliert');
-  await expect(told.filter({ hasText: 'Anzahl der Etappen' })).toContainText('≥ 100');
+  for (const [i, { passed }] of checks.entries()) await expect(table.nth(i)).toContainText(passed ? '✓ bestanden' : '✕ nicht bestanden');
+  await expect(table.filter({ hasText: 'Korrelation benachbarter Etappen' })).toContainText('Fehler benachbarter Etappen sind korreliert');
+  await expect(table.filter({ hasText: 'Anzahl der Etappen' })).toContainText('≥ 100');
 });
 
 test('a leg is chosen in the picture, by its slider, and from one large residual to the next', async ({ page }) => {
@@ -122,15 +122,15 @@ test('a leg is chosen in the picture, by its slider, and from one large residual
   await widget.locator('#leg').press('ArrowRight');
   expect(await stateOf(widget)).toMatchObject({ leg: worst[1] + 1 });
   const canvas = widget.locator('canvas.plane');
-  const at = await widget.evaluate((element) => {
+  const midpoint = await widget.evaluate((element) => {
     const { pictures: [{ view }], machine } = /** @type {any} */ (element);
     const { reference } = machine.legs;
     const middle = [0, 1].map((axis) => (reference[6 * 40 + axis] + reference[6 * 40 + 3 + axis]) / 2);
     return { x: view.toPixelX(middle[0]), y: view.toPixelY(middle[1]), leg: machine.nearest(middle[0], middle[1], 1) };
   });
-  await canvas.click({ position: { x: at.x, y: at.y } });
-  expect(await stateOf(widget)).toMatchObject({ leg: at.leg });
-  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', new RegExp(`^Leg ${at.leg + 1} `));
+  await canvas.click({ position: { x: midpoint.x, y: midpoint.y } });
+  expect(await stateOf(widget)).toMatchObject({ leg: midpoint.leg });
+  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', new RegExp(`^Leg ${midpoint.leg + 1} `));
 });
 
 test('an export as a picture has the key, the α’s with their intervals, and the verdict @nightly', async ({ page }) => {
@@ -138,12 +138,12 @@ test('an export as a picture has the key, the α’s with their intervals, and t
   await unfold(widget);
   await widget.getByRole('checkbox', { name: 'mount yaw (rad)' }).uncheck();
   await untilSettled(widget);
-  const texts = await rows(widget).evaluateAll((all) => all.map((row) => {
+  const alphaTexts = await rows(widget).evaluateAll((all) => all.map((row) => {
     const [of, value, between, recommended] = ['.of', '.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim());
     return `${of}: ${value}, ${between}, recommended ${recommended}`;
   }));
-  const said = ((await caption(widget).textContent()) ?? '').replace(/^\s*✓?!?\s*/, '').replace(/\s+/g, ' ').trim();
-  const drawn = await widget.evaluate(async (element) => {
+  const captionText = ((await caption(widget).textContent()) ?? '').replace(/^\s*✓?!?\s*/, '').replace(/\s+/g, ' ').trim();
+  const exported = await widget.evaluate(async (element) => {
     const figure = /** @type {any} */ (element);
     const { documentElement: root } = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml');
     const all = (/** @type {string} */ selector) => [...root.querySelectorAll(selector)];
@@ -155,16 +155,16 @@ test('an export as a picture has the key, the α’s with their intervals, and t
       described: root.querySelector('desc')?.textContent ?? '',
     };
   });
-  const written = drawn.texts.join(' ');
-  texts.forEach((text, i) => {
-    expect(written).toContain(`α${'₁₂₃₄'[i]} ${text}`);
-    expect(drawn.described).toContain(text);
+  const exportedText = exported.texts.join(' ');
+  alphaTexts.forEach((text, i) => {
+    expect(exportedText).toContain(`α${'₁₂₃₄'[i]} ${text}`);
+    expect(exported.described).toContain(text);
   });
-  expect(written.replaceAll(/(Trust|Caution)\./g, '$1')).toContain(said);
-  for (const name of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001', 'odometry', 'outlier']) expect(drawn.texts).toContain(name);
-  expect(written).toMatch(/Systematic errors not corrected \(absorbed by the α’s\): mount yaw \(rad\) −?0\.\d{3} ± 0\.\d{3}\./);
-  expect(drawn.size[0] / drawn.size[1]).toBeCloseTo(720 / 560, 1);
-  drawn.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * drawn.size[i])).toBeLessThanOrEqual(1));
+  expect(exportedText.replaceAll(/(Trust|Caution)\./g, '$1')).toContain(captionText);
+  for (const name of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001', 'odometry', 'outlier']) expect(exported.texts).toContain(name);
+  expect(exportedText).toMatch(/Systematic errors not corrected \(absorbed by the α’s\): mount yaw \(rad\) −?0\.\d{3} ± 0\.\d{3}\./);
+  expect(exported.size[0] / exported.size[1]).toBeCloseTo(720 / 560, 1);
+  exported.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * exported.size[i])).toBeLessThanOrEqual(1));
 });
 
 test('the lines for Nav2 have the numbers of the table, and are copied by the button beside the α’s', async ({ page, context }) => {
@@ -172,11 +172,11 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await unfold(widget);
   const yaml = await widget.locator('textarea.yaml').inputValue();
-  const told = await rows(widget).evaluateAll((all) => all.map((row) => ['.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim() ?? '')));
-  expect(told).toHaveLength(4);
-  told.forEach(([fitted, between, recommended], i) => expect(yaml).toContain(`    alpha${i + 1}: ${recommended}  # fitted ${fitted}, 95 % ${between.replace(' – ', ' to ')}\n`));
-  const copy = widget.getByRole('button', { name: 'Copy for Nav2' });
-  await copy.click();
+  const tableCells = await rows(widget).evaluateAll((all) => all.map((row) => ['.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim() ?? '')));
+  expect(tableCells).toHaveLength(4);
+  tableCells.forEach(([fitted, between, recommended], i) => expect(yaml).toContain(`    alpha${i + 1}: ${recommended}  # fitted ${fitted}, 95 % ${between.replace(' – ', ' to ')}\n`));
+  const copyButton = widget.getByRole('button', { name: 'Copy for Nav2' });
+  await copyButton.click();
   await expect(widget.locator('.fitted output')).toHaveText('Copied.');
   expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(yaml);
   await widget.getByRole('radio', { name: 'velocity' }).check();
@@ -184,7 +184,7 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
   await expect(widget.locator('textarea.yaml')).toHaveCount(0);
   await widget.getByRole('button', { name: 'Fit for Nav2' }).click();
   await untilSettled(widget);
-  await copy.click();
+  await copyButton.click();
   await expect(widget.locator('.fitted output')).toHaveText('Copied.');
   expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(yaml);
 });
@@ -192,36 +192,36 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
 test('legs of a time, and how well the reference is known, are set by their sliders', async ({ page }) => {
   const widget = await openCalibrator(page, 'rule="nav2"');
   await unfold(widget);
-  const before = await stats(widget);
-  const time = widget.locator('.slider:has(#duration)');
-  await expect(time.locator('.typed')).toHaveValue('—');
-  await time.locator('.typed').fill('0.8');
-  await time.locator('.typed').press('Enter');
+  const statsBefore = await stats(widget);
+  const durationSlider = widget.locator('.slider:has(#duration)');
+  await expect(durationSlider.locator('.typed')).toHaveValue('—');
+  await durationSlider.locator('.typed').fill('0.8');
+  await durationSlider.locator('.typed').press('Enter');
   await untilSettled(widget);
   expect(await stateOf(widget)).toMatchObject({ duration: 0.8, distance: 0.25, angle: 0.2 });
   await expect(widget.locator('.slider.off:is(:has(#distance), :has(#angle))')).toHaveCount(2);
   await expect(widget.locator('textarea.yaml')).toHaveValue(/# \d+ legs of 0\.8 s of the simulated log/);
   await expect(widget.locator('textarea.yaml')).not.toHaveValue(/update_min/);
-  await time.locator('#duration').fill('0');
+  await durationSlider.locator('#duration').fill('0');
   await untilSettled(widget);
-  expect((await stats(widget)).alphas).toEqual(before.alphas);
-  // Noise of the reference is not noise of the wheels.
+  expect((await stats(widget)).alphas).toEqual(statsBefore.alphas);
+  // Stated noise of the reference lowers the estimated noise of the wheels.
   await expect(widget.locator('.slider:has(#positionStd) .typed')).toHaveValue('estimated');
   await widget.getByRole('slider', { name: /reference position σ/ }).fill('0.004');
   await widget.getByRole('slider', { name: /reference yaw σ/ }).fill('0.003');
   await untilSettled(widget);
   expect(await stateOf(widget)).toMatchObject({ positionStd: 0.004, yawStd: 0.003, duration: 0 });
-  expect(Number((await stats(widget)).alphas[3])).toBeLessThan(0.9 * Number(before.alphas[3]));
+  expect(Number((await stats(widget)).alphas[3])).toBeLessThan(0.9 * Number(statsBefore.alphas[3]));
 });
 
-test('of an α that a log does not determine it says why, and what to add', async ({ page }) => {
+test('for an α that a log does not determine, the table says why, and what to add', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
     const count = 2000;
     const t = Float64Array.from({ length: count }, (_, i) => i / 20);
-    const none = new Float64Array(count);
-    const straight = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
-    Object.assign(element, { log: { odometry: { t, x: straight(0), y: none, theta: none }, reference: { t, x: straight(0.002), y: none, theta: none } } });
+    const zeros = new Float64Array(count);
+    const xWithNoise = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
+    Object.assign(element, { log: { odometry: { t, x: xWithNoise(0), y: zeros, theta: zeros }, reference: { t, x: xWithNoise(0.002), y: zeros, theta: zeros } } });
   });
   await untilSettled(widget);
   await expect(rows(widget).nth(0)).toHaveText(/not determined: too little rotation in this log; add ~50 in-place rotations/);

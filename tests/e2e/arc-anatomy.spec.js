@@ -10,7 +10,7 @@ import { STILL, centreOf, frames, mount, numberIn, pictureOf, pixelsOf, playSlid
 test.use(STILL);
 
 /** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
-const open = (page, attributes) => mount(page, 'arc-anatomy', { attributes });
+const openArcAnatomy = (page, attributes) => mount(page, 'arc-anatomy', { attributes });
 
 /** @param {Locator} widget */
 async function resultsOf(widget) {
@@ -21,17 +21,17 @@ async function resultsOf(widget) {
   });
 }
 
-const body = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot, where it is found', exact: true });
-const turn = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot, where it is found' });
-const picture = (/** @type {Locator} */ widget) => widget.locator('canvas.plane');
-const verdict = (/** @type {Locator} */ widget) => widget.locator('.verdict');
+const bodyHandle = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot, where it is found', exact: true });
+const headingHandle = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot, where it is found' });
+const canvasOf = (/** @type {Locator} */ widget) => widget.locator('canvas.plane');
+const verdictOf = (/** @type {Locator} */ widget) => widget.locator('.verdict');
 
 test('opens off the arc, and says which factor is the worst', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openArcAnatomy(page);
   const { config, stats } = await resultsOf(widget);
   expect(config).toMatchObject({ start: { x: 0, y: 0, theta: 0 }, next: { x: 1.1, y: 0.5, theta: 1.1 }, command: { v: 1, omega: 0.5, dt: 1 } });
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'true');
-  await expect(verdict(widget)).toContainText('The last turn γ̂ fits worst: 2.2 standard deviations off');
+  await expect(verdictOf(widget)).toContainText('The last turn γ̂ fits worst: 2.2 standard deviations off');
   await expect(widget.locator('.headline')).toHaveText(`${(100 * stats.share).toFixed(1)}\u202f% as likely as the best pose`);
   const rows = widget.locator('.factors li');
   await expect(rows).toHaveCount(3);
@@ -46,66 +46,66 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   expect(numberIn(await readout(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
   // The pointer must not be on an entry of the legend, which would highlight its line.
   await page.mouse.move(0, 0);
-  for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelsOf(picture(widget), role), role).toBeGreaterThan(role === 'accent' ? 10 : 20);
+  for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelsOf(canvasOf(widget), role), role).toBeGreaterThan(role === 'accent' ? 10 : 20);
 });
 
 test('the robot is dragged and turned by its handles, under the pointer', async ({ page }) => {
-  const widget = await open(page);
-  const from = await centreOf(body(widget));
+  const widget = await openArcAnatomy(page);
+  const from = await centreOf(bodyHandle(widget));
   await page.mouse.move(from.x + 4, from.y + 3);
   await page.mouse.down();
   await page.mouse.move(from.x - 56, from.y + 33, { steps: 5 });
   await frames(page);
-  const at = await centreOf(body(widget));
-  expect(Math.abs(at.x - from.x + 60)).toBeLessThan(1);
-  expect(Math.abs(at.y - from.y - 30)).toBeLessThan(1);
+  const bodyCentre = await centreOf(bodyHandle(widget));
+  expect(Math.abs(bodyCentre.x - from.x + 60)).toBeLessThan(1);
+  expect(Math.abs(bodyCentre.y - from.y - 30)).toBeLessThan(1);
   await page.mouse.up();
-  const moved = await resultsOf(widget);
-  expect(moved.config.next.x).toBeLessThan(1.1);
-  expect(moved.config.next.y).toBeLessThan(0.5);
-  expect(moved.config.next.theta).toBe(1.1);
+  const afterMove = await resultsOf(widget);
+  expect(afterMove.config.next.x).toBeLessThan(1.1);
+  expect(afterMove.config.next.y).toBeLessThan(0.5);
+  expect(afterMove.config.next.theta).toBe(1.1);
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'false');
 
-  const [centre, ahead] = [await centreOf(body(widget)), await centreOf(turn(widget))];
+  const [centre, ahead] = [await centreOf(bodyHandle(widget)), await centreOf(headingHandle(widget))];
   await page.mouse.move(ahead.x, ahead.y);
   await page.mouse.down();
   await page.mouse.move(centre.x + 80, centre.y, { steps: 5 });
   await page.mouse.up();
-  const turned = await resultsOf(widget);
-  expect(Math.abs(turned.config.next.theta)).toBeLessThan(1 / 80);
-  expect(turned.stats.driven).toEqual(moved.stats.driven);
-  expect(turned.stats.lastTurn).not.toBe(moved.stats.lastTurn);
+  const afterTurn = await resultsOf(widget);
+  expect(Math.abs(afterTurn.config.next.theta)).toBeLessThan(1 / 80);
+  expect(afterTurn.stats.driven).toEqual(afterMove.stats.driven);
+  expect(afterTurn.stats.lastTurn).not.toBe(afterMove.stats.lastTurn);
   await expect(widget.locator('p[role=status]').last()).toContainText('fits worst');
 });
 
 test('the robot moves and turns by keyboard, and stops where the floor ends', async ({ page }) => {
-  const widget = await open(page, 'nextx="3.98"');
-  await body(widget).press('ArrowUp');
-  await body(widget).press('[');
+  const widget = await openArcAnatomy(page, 'nextx="3.98"');
+  await bodyHandle(widget).press('ArrowUp');
+  await bodyHandle(widget).press('[');
   expect((await resultsOf(widget)).config.next).toEqual({ x: 3.98, y: 0.55, theta: 1.1 + Math.PI / 36 });
-  await body(widget).press('ArrowRight');
+  await bodyHandle(widget).press('ArrowRight');
   expect((await resultsOf(widget)).config.next.x).toBe(4);
-  await expect(body(widget)).toHaveAttribute('aria-valuetext', /Limit reached$/);
+  await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', /Limit reached$/);
 });
 
 test('the start moves and turns, the commanded arc with it, and the robot stays where it is found', async ({ page }) => {
-  const widget = await open(page);
-  const [start, ahead] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
-  const before = await resultsOf(widget);
+  const widget = await openArcAnatomy(page);
+  const [start, headingAtStart] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
+  const resultsBefore = await resultsOf(widget);
   await start.press('ArrowRight');
   await start.press('ArrowDown');
-  const moved = await resultsOf(widget);
-  expect(moved.config.start).toEqual({ x: 0.05, y: -0.05, theta: 0 });
-  expect(moved.config.next).toEqual(before.config.next);
-  const [endX, endY, endTheta] = before.stats.commanded.end;
-  for (const [i, value] of [endX + 0.05, endY - 0.05, endTheta].entries()) expect(moved.stats.commanded.end[i]).toBeCloseTo(value, 12);
+  const afterMove = await resultsOf(widget);
+  expect(afterMove.config.start).toEqual({ x: 0.05, y: -0.05, theta: 0 });
+  expect(afterMove.config.next).toEqual(resultsBefore.config.next);
+  const [endX, endY, endTheta] = resultsBefore.stats.commanded.end;
+  for (const [i, value] of [endX + 0.05, endY - 0.05, endTheta].entries()) expect(afterMove.stats.commanded.end[i]).toBeCloseTo(value, 12);
   await expect(widget).toHaveAttribute('startx', '0.05');
-  await ahead.press('ArrowLeft');
+  await headingAtStart.press('ArrowLeft');
   expect((await resultsOf(widget)).config.start.theta).toBe(Math.PI / 36);
 });
 
 test('a centre out of sight is pointed to, with its distance @nightly', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openArcAnatomy(page);
   const svg = () => widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG());
   expect(await svg()).not.toContain('>centre ');
   await widget.evaluate((element) => void Object.assign(element, { omega: 0.025, nextY: 0.012 }));
@@ -118,35 +118,35 @@ test('a centre out of sight is pointed to, with its distance @nightly', async ({
 });
 
 test('as printed, a right turn loses p and the verdict says why, and a left turn does not', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openArcAnatomy(page);
   await unfold(widget);
-  const printed = widget.getByRole('checkbox', { name: 'radius without sign, as printed' });
+  const printedCheckbox = widget.getByRole('checkbox', { name: 'radius without sign, as printed' });
   await widget.getByRole('button', { name: 'Right turn' }).click();
-  const before = await pictureOf(picture(widget));
-  await printed.check();
-  await expect(verdict(widget)).toContainText('the radius has no sign');
-  expect(await pictureOf(picture(widget))).not.toBe(before);
+  const pictureBefore = await pictureOf(canvasOf(widget));
+  await printedCheckbox.check();
+  await expect(verdictOf(widget)).toContainText('the radius has no sign');
+  expect(await pictureOf(canvasOf(widget))).not.toBe(pictureBefore);
   await widget.getByRole('button', { name: 'Left turn' }).click();
-  await printed.check();
-  await expect(verdict(widget)).toContainText('fits worst');
+  await printedCheckbox.check();
+  await expect(verdictOf(widget)).toContainText('fits worst');
 });
 
 test('each line of the table highlights its construction, and tells its value', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openArcAnatomy(page);
   await unfold(widget);
-  const [back, on] = ['Previous line', 'Next line'].map((name) => widget.getByTitle(name));
+  const [previousButton, nextButton] = ['Previous line', 'Next line'].map((name) => widget.getByTitle(name));
   const sentence = widget.locator('.stepper p');
-  await expect(back).toBeDisabled();
+  await expect(previousButton).toBeDisabled();
   const { lines } = (await resultsOf(widget)).table;
-  const pictures = [await pictureOf(picture(widget))];
+  const pictures = [await pictureOf(canvasOf(widget))];
   for (const [i, value] of lines.entries()) {
-    await on.click();
+    await nextButton.click();
     await expect(sentence).toHaveText(new RegExp(`^${i + 1}\\. `));
     const text = (await sentence.textContent()) ?? '';
     expect(numberIn(/= ([−\d.]+)(?: \S+)?$/.exec(text)?.[1] ?? '')).toBeCloseTo(value, 2);
-    pictures.push(await pictureOf(picture(widget)));
+    pictures.push(await pictureOf(canvasOf(widget)));
   }
-  await expect(on).toBeDisabled();
+  await expect(nextButton).toBeDisabled();
   // The last row is the product that the bars are factors of.
   await expect(widget.locator('.factors')).toHaveClass(/lit/);
   // x* and y* are the coordinates of the centre.
@@ -156,12 +156,12 @@ test('each line of the table highlights its construction, and tells its value', 
 });
 
 test('heat maps of p and of the density are drawn below the arcs, with the contours of both', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openArcAnatomy(page);
   await unfold(widget);
-  const pictures = [await pictureOf(picture(widget))];
+  const pictures = [await pictureOf(canvasOf(widget))];
   for (const name of ['p', 'density']) {
     await widget.getByRole('radio', { name, exact: true }).check();
-    pictures.push(await pictureOf(picture(widget)));
+    pictures.push(await pictureOf(canvasOf(widget)));
   }
   expect(new Set(pictures).size).toBe(3);
   await expect(widget).toHaveAttribute('map', 'density');
@@ -169,8 +169,8 @@ test('heat maps of p and of the density are drawn below the arcs, with the conto
 });
 
 test('entries of the legend are the toggles of the lines', async ({ page }) => {
-  const widget = await open(page);
-  expect(await pixelsOf(picture(widget), 'posterior')).toBe(0);
+  const widget = await openArcAnatomy(page);
+  expect(await pixelsOf(canvasOf(widget), 'posterior')).toBe(0);
   // A toggle with the pointer or the focus on it highlights its line.
   const toggle = async (/** @type {string} */ name) => {
     await widget.getByRole('checkbox', { name }).click();
@@ -179,29 +179,29 @@ test('entries of the legend are the toggles of the lines', async ({ page }) => {
     await frames(page);
   };
   await toggle('constant twist');
-  expect(await pixelsOf(picture(widget), 'posterior')).toBeGreaterThan(20);
+  expect(await pixelsOf(canvasOf(widget), 'posterior')).toBeGreaterThan(20);
   for (const [name, role] of /** @type {const} */ ([['commanded arc', 'prior'], ['the one arc to the robot', 'prediction'], ['last turn', 'accent'], ['constant twist', 'posterior']])) {
-    const before = await pixelsOf(picture(widget), role);
+    const pixelsBefore = await pixelsOf(canvasOf(widget), role);
     await toggle(name);
-    expect(await pixelsOf(picture(widget), role), name).toBeLessThan(before);
+    expect(await pixelsOf(canvasOf(widget), role), name).toBeLessThan(pixelsBefore);
   }
   await expect(widget).toHaveAttribute('overlays', 'chord');
 });
 
 test('a robot is drawn on each arc at the time that is chosen @nightly', async ({ page }) => {
-  const widget = await open(page);
-  const whole = await pictureOf(picture(widget));
+  const widget = await openArcAnatomy(page);
+  const pictureAtEnd = await pictureOf(canvasOf(widget));
   const slider = widget.getByRole('slider', { name: 'time along the arc' });
   await expect(widget.getByRole('button', { name: 'Play' })).toHaveCount(0);
   await slider.fill('40');
   await expect(slider).toHaveAttribute('aria-valuetext', '0.40 of 1.00 s');
-  expect(await pictureOf(picture(widget))).not.toBe(whole);
+  expect(await pictureOf(canvasOf(widget))).not.toBe(pictureAtEnd);
   await slider.fill('100');
-  expect(await pictureOf(picture(widget))).toBe(whole);
+  expect(await pictureOf(canvasOf(widget))).toBe(pictureAtEnd);
 });
 
 test('the factors are exported as CSV', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openArcAnatomy(page);
   const { stats } = await resultsOf(widget);
   const [settings, columns, ...rows] = (await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toCSV())).trim().split('\n');
   expect(JSON.parse(settings.slice(2))).toMatchObject({ element: 'arc-anatomy', next: { x: 1.1, y: 0.5, theta: 1.1 } });
@@ -212,7 +212,7 @@ test('the factors are exported as CSV', async ({ page }) => {
 });
 
 test('exercise 1 is plotted: three forms, the crossover and the chapter’s threshold', async ({ page }) => {
-  const widget = await open(page);
+  const widget = await openArcAnatomy(page);
   await unfold(widget);
   const plot = widget.locator('.plot');
   await expect(plot.locator('path.curve')).toHaveCount(3);
@@ -220,8 +220,8 @@ test('exercise 1 is plotted: three forms, the crossover and the chapter’s thre
 });
 
 test('without noise it says so, and draws no map @nightly', async ({ page }) => {
-  const widget = await open(page, 'map="density" alpha5="0" alpha6="0"');
-  await expect(verdict(widget)).toHaveText('The last turn γ̂ has zero variance but a non-zero residual, so p = 0.');
+  const widget = await openArcAnatomy(page, 'map="density" alpha5="0" alpha6="0"');
+  await expect(verdictOf(widget)).toHaveText('The last turn γ̂ has zero variance but a non-zero residual, so p = 0.');
   await unfold(widget);
   await expect(readout(widget, 'density')).toHaveText('none: a variance is 0');
   await expect(widget.locator('.lines li')).toHaveCount(9);
@@ -229,7 +229,7 @@ test('without noise it says so, and draws no map @nightly', async ({ page }) => 
 
 test('the robot goes along the arcs by itself for readers who like motion', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
-  const widget = await open(page);
+  const widget = await openArcAnatomy(page);
   const { values, label } = await playSlider(widget, 'underway', 3);
   expect(label).toBe('Pause');
   expect(values[0]).toBe(0);

@@ -2,20 +2,20 @@ import { expect } from '@playwright/test';
 import axe from 'axe-core';
 
 /**
- * Expects that axe finds nothing to complain of on a page.
+ * Expects that axe finds no accessibility violation on a page.
  *
  * @param {import('@playwright/test').Page} page
  * @param {string} [when]
  * @param {string} [where] a selector
  */
 export async function expectAccessible(page, when, where = ':root') {
-  // Its wrapper for Playwright also checks frames, which takes twice as long. The pages have no frames.
+  // The Playwright wrapper of axe also checks frames, which takes twice as long. These pages have no frames.
   if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(axe.source);
   const violations = await page.evaluate(async (selector) => {
     const values = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
     const { run } = /** @type {typeof axe} */ (Reflect.get(globalThis, 'axe'));
-    const found = await run(selector, { runOnly: { type: 'tag', values }, resultTypes: ['violations'] });
-    return found.violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]);
+    const results = await run(selector, { runOnly: { type: 'tag', values }, resultTypes: ['violations'] });
+    return results.violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]);
   }, where);
   expect(violations, when).toEqual([]);
 }

@@ -8,14 +8,14 @@ test.use(STILL);
 
 const OPENING_ALPHAS = [0.002, 0.002, 0.1, 0.1, 0.002, 0.002];
 
-/** Steps in which a cloud grows. */
-const BATCHES = 150;
+/** Number of steps in which a cloud grows. */
+const GROWTH_STEPS = 150;
 
 /** @param {Locator} widget */
-const sentence = (widget) => widget.locator('p[part=caption]');
+const captionOf = (widget) => widget.locator('p[part=caption]');
 
 /** Returns the three numbers that are printed for the marked robot. @param {Locator} widget */
-async function markedNumbers(widget) {
+async function printedNumbersOfMarked(widget) {
   const text = (await widget.locator('.marked output').textContent()) ?? '';
   const printed = [...text.matchAll(/= (\S+)/g)].map(([, number]) => numberIn(number));
   expect(printed).toHaveLength(3);
@@ -28,17 +28,17 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   const widget = await openBanana(page);
   const play = widget.locator('.cloud').getByRole('button', { name: 'Draw samples' });
   await expect(play).toBeVisible();
-  const [paused, first] = [await bananaReadings(widget), await posesOf(widget)];
-  expect(paused.shown).toBeGreaterThan(0);
-  expect(paused.shown).toBeLessThan(paused.config.samples);
+  const [pausedReadings, firstPoses] = [await bananaReadings(widget), await posesOf(widget)];
+  expect(pausedReadings.shown).toBeGreaterThan(0);
+  expect(pausedReadings.shown).toBeLessThan(pausedReadings.config.samples);
   await frames(page);
-  expect((await bananaReadings(widget)).shown).toBe(paused.shown);
+  expect((await bananaReadings(widget)).shown).toBe(pausedReadings.shown);
 
   await play.click();
-  await expect.poll(async () => (await bananaReadings(widget)).shown, { timeout: 20_000 }).toBe(paused.config.samples);
+  await expect.poll(async () => (await bananaReadings(widget)).shown, { timeout: 20_000 }).toBe(pausedReadings.config.samples);
   await expect(play).toBeVisible();
   // The robots of the paused cloud are the first robots of the complete one.
-  expect((await posesOf(widget)).slice(0, first.length)).toEqual(first);
+  expect((await posesOf(widget)).slice(0, firstPoses.length)).toEqual(firstPoses);
 });
 
 test('opens with the whole cloud of the opening command, and shows the numbers of the machine', async ({ page }) => {
@@ -47,18 +47,18 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   expect(config).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
   expect(robots).toBe(config.samples);
   expect(Math.abs(table.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
-  const shown = async (/** @type {string | RegExp} */ name) => (await readout(widget, name).textContent()) ?? '';
-  const [skew, error] = (await shown('cross-track skew')).split(' ± ').map(numberIn);
+  const readoutText = async (/** @type {string | RegExp} */ name) => (await readout(widget, name).textContent()) ?? '';
+  const [skew, skewError] = (await readoutText('cross-track skew')).split(' ± ').map(numberIn);
   expect(skew).toBeCloseTo(stats.crossTrackSkew, 3);
-  expect(error).toBeCloseTo(stats.crossTrackSkewError, 3);
+  expect(skewError).toBeCloseTo(stats.crossTrackSkewError, 3);
   await expect(readoutDetail(widget, 'cross-track skew')).toHaveText('exactly 0.000');
-  expect(numberIn(await shown('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
-  expect(numberIn(await shown('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
-  expect((await shown('robots shown')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
-  const [gain, gainError] = (await shown('gain in fit')).split(' ± ').map(numberIn);
+  expect(numberIn(await readoutText('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
+  expect(numberIn(await readoutText('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
+  expect((await readoutText('robots shown')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
+  const [gain, gainError] = (await readoutText('gain in fit')).split(' ± ').map(numberIn);
   expect(gain).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
-  expect(await shown('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
+  expect(await readoutText('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
   const shares = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
   await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${shares.join(', outline ')}`);
   await expect(readoutDetail(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
@@ -73,13 +73,13 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
 
 test('Clear empties the cloud, Step adds a batch of the same robots', async ({ page }) => {
   const widget = await openBanana(page, 'samples="3000"');
-  const [whole, poses] = [await bananaReadings(widget), await posesOf(widget)];
+  const [wholeCloud, poses] = [await bananaReadings(widget), await posesOf(widget)];
   await widget.getByRole('button', { name: 'Clear' }).click();
   expect((await bananaReadings(widget)).shown).toBe(0);
   await expect(readout(widget, 'cross-track skew')).toHaveText('—');
   await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
 
-  const batch = Math.ceil(whole.config.samples / BATCHES);
+  const batch = Math.ceil(wholeCloud.config.samples / GROWTH_STEPS);
   for (const shown of [batch, 2 * batch]) {
     await widget.getByRole('button', { name: 'Step' }).click();
     expect((await bananaReadings(widget)).shown).toBe(shown);
@@ -91,7 +91,7 @@ test('each overlay has a toggle', async ({ page }) => {
   const widget = await openUnfoldedBanana(page, 'preset="gentle"');
   const plane = widget.locator('canvas.plane');
   const twist = widget.locator('canvas.twist');
-  const first = await pictureOf(plane);
+  const firstPicture = await pictureOf(plane);
   for (const [label, role] of [
     ['commanded arc', 'prior'],
     ['Gaussian in (x, y)', 'prediction'],
@@ -100,18 +100,18 @@ test('each overlay has a toggle', async ({ page }) => {
     ['Gaussian in ξ', 'posterior'],
   ]) {
     const box = widget.getByRole('checkbox', { name: label });
-    const shown = await box.isChecked();
-    const before = await pixelsOf(plane, role);
-    await box.setChecked(!shown);
+    const isShown = await box.isChecked();
+    const pixelsBefore = await pixelsOf(plane, role);
+    await box.setChecked(!isShown);
     // Pointing at an entry highlights its line.
     await page.mouse.move(0, 0);
-    const change = (await pixelsOf(plane, role)) - before;
-    expect(shown ? -change : change, label).toBeGreaterThan(30);
+    const change = (await pixelsOf(plane, role)) - pixelsBefore;
+    expect(isShown ? -change : change, label).toBeGreaterThan(30);
     if (role === 'posterior') expect(await pixelsOf(twist, role)).toBe(0);
-    await box.setChecked(shown);
+    await box.setChecked(isShown);
     await page.mouse.move(0, 0);
   }
-  expect(await pictureOf(plane)).toBe(first);
+  expect(await pictureOf(plane)).toBe(firstPicture);
 });
 
 test('a robot pointed at in one view is marked in both, with what it executed', async ({ page }) => {
@@ -119,57 +119,57 @@ test('a robot pointed at in one view is marked in both, with what it executed', 
   const plane = widget.locator('canvas.plane');
   const twist = widget.locator('canvas.twist');
   const field = widget.getByRole('spinbutton', { name: 'Robot' });
-  const marks = async () => [await pixelsOf(plane, 'accent'), await pixelsOf(twist, 'accent')];
-  expect(await marks()).toEqual([0, 0]);
+  const markPixels = async () => [await pixelsOf(plane, 'accent'), await pixelsOf(twist, 'accent')];
+  expect(await markPixels()).toEqual([0, 0]);
 
-  const executed = async () => {
+  const checkedIndex = async () => {
     const index = Number(await field.inputValue()) - 1;
     const { vHat, omegaHat, gammaHat } = await widget.evaluate((element, i) => /** @type {BananaMachineElement} */ (element).machine.inspect(i), index);
-    const printed = await markedNumbers(widget);
+    const printed = await printedNumbersOfMarked(widget);
     for (const [i, value] of [vHat, omegaHat, gammaHat].entries()) expect(printed[i]).toBeCloseTo(value, 3);
     return index;
   };
 
   const handle = await centreOf(widget.locator('.handle'));
   await page.mouse.move(handle.x + 30, handle.y + 20);
-  for (const count of await marks()) expect(count).toBeGreaterThan(20);
-  const inPlane = await executed();
+  for (const count of await markPixels()) expect(count).toBeGreaterThan(20);
+  const indexInPlane = await checkedIndex();
 
   await twist.scrollIntoViewIfNeeded();
   const { x, y, width, height } = await boxOf(twist);
   await page.mouse.move(x + width * 0.45, y + height * 0.45);
-  for (const count of await marks()) expect(count).toBeGreaterThan(20);
-  expect(await executed()).not.toBe(inPlane);
+  for (const count of await markPixels()) expect(count).toBeGreaterThan(20);
+  expect(await checkedIndex()).not.toBe(indexInPlane);
 
   await field.fill('');
-  expect(await marks()).toEqual([0, 0]);
+  expect(await markPixels()).toEqual([0, 0]);
 });
 
 test('the sentence says what holds exactly for the model, and what the robots show', async ({ page }) => {
   const widget = await openUnfoldedBanana(page, 'preset="gentle"');
-  const press = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
-  await expect(sentence(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.4\d\d\s±\s0\.01\d, where any Gaussian in \(x, y\) has 0\.$/);
+  const pressPreset = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
+  await expect(captionOf(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.4\d\d\s±\s0\.01\d, where any Gaussian in \(x, y\) has 0\.$/);
   await widget.locator('#omega').fill('-0.5');
-  await expect(sentence(widget)).toHaveText(/tail to the left/);
+  await expect(captionOf(widget)).toHaveText(/tail to the left/);
 
-  // Symmetric: the skew is exactly 0 for any number of robots, and the ellipse has twice the area.
-  await press('Banana');
+  // This cloud is symmetric: the skew is exactly 0 for any number of robots, and the ellipse has twice the area.
+  await pressPreset('Banana');
   await frames(page);
   const { table } = await bananaReadings(widget);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
-  // The sentence has the number of the readout.
+  // The caption contains the number of the readout.
   const [ratio] = (await readout(widget, 'area covered').innerText()).split(' ');
-  await expect(sentence(widget)).toHaveText(
+  await expect(captionOf(widget)).toHaveText(
     new RegExp(`^The cloud is bent: its ellipse covers ${ratio} times the area of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
   );
-  // Nearly symmetric, but as strongly bent.
+  // This cloud is nearly symmetric, but as strongly bent.
   await widget.locator('#omega').fill('0.02');
-  await expect(sentence(widget)).toHaveText(/^The cloud is bent: its ellipse covers .* Both sides are nearly alike: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\.$/);
+  await expect(captionOf(widget)).toHaveText(/^The cloud is bent: its ellipse covers .* Both sides are nearly alike: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\.$/);
   await widget.locator('#omega').fill('0');
-  // Little noise in the turn: the cloud is not bent.
+  // With little noise of the turn the cloud is not bent.
   for (const id of ['alpha3', 'alpha4']) await widget.locator(`#${id}`).fill('0.001');
-  await expect(sentence(widget)).toHaveText(/^Both sides are alike: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
+  await expect(captionOf(widget)).toHaveText(/^Both sides are alike: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
 });
 
 test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nightly', async ({ page }) => {
@@ -178,17 +178,17 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nig
   const { table, config } = await bananaReadings(widget);
   const [, a2] = config.alphas;
   const deviation = Math.sqrt(config.alphas[0] * 0.06 ** 2 + a2 * 1.5 ** 2);
-  await expect(sentence(widget)).toContainText(`v̂ is 0.06 ± ${deviation.toFixed(2)} m/s`);
-  await expect(sentence(widget)).toContainText('ahead of the start and behind it');
+  await expect(captionOf(widget)).toContainText(`v̂ is 0.06 ± ${deviation.toFixed(2)} m/s`);
+  await expect(captionOf(widget)).toContainText('ahead of the start and behind it');
   expect(Math.abs(table.exact.crossTrackSkew)).toBeGreaterThan(0.01);
-  const behind = (await posesOf(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
-  expect(behind / config.samples).toBeGreaterThan(0.3);
+  const behindCount = (await posesOf(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
+  expect(behindCount / config.samples).toBeGreaterThan(0.3);
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
   await widget.locator('#samples').fill('3');
-  const { stats, table: few } = await bananaReadings(widget);
+  const { stats, table: tableOfFew } = await bananaReadings(widget);
   expect(Math.abs(stats.crossTrackSkew)).toBeLessThan(2 * stats.crossTrackSkewError);
-  await expect(sentence(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(few.exact.crossTrackSkew).toFixed(3)}\\.$`));
+  await expect(captionOf(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(tableOfFew.exact.crossTrackSkew).toFixed(3)}\\.$`));
 });
 
 test('a cloud that turns a full circle has no exponential coordinates, and says so @nightly', async ({ page }) => {
@@ -199,11 +199,11 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   await expect(readoutDetail(widget, 'area covered')).toHaveText(/inside: ellipse [\d.]+\u202f%, outline —$/);
   for (const name of ['area covered', 'gain in fit', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
   await expect(readout(widget, 'cross-track skew')).not.toHaveText('—');
-  const measured = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();
-  await expect(measured).toHaveText('—');
+  const measuredCell = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();
+  await expect(measuredCell).toHaveText('—');
   await setSliders(widget, { omega: 0.5, dt: 1 });
   await expect(widget.locator('.note')).toHaveCount(0);
-  await expect(measured).not.toHaveText('—');
+  await expect(measuredCell).not.toHaveText('—');
 });
 
 test('the odometry model shows its reading, the hinge noises of a marked robot, and backs up as one likes', async ({ page }) => {
@@ -212,20 +212,20 @@ test('the odometry model shows its reading, the hinge noises of a marked robot, 
   await widget.getByLabel('odometry').check();
   await widget.getByRole('spinbutton', { name: 'Robot' }).fill('5');
   await frames(page);
-  const noises = await widget.evaluate((element) => {
+  const expectedNoises = await widget.evaluate((element) => {
     const { machine } = /** @type {BananaMachineElement} */ (element);
     const { legs } = machine.inspect(4);
     if (!legs) throw new Error('Odometry drives legs.');
     const { rot1, trans, rot2 } = machine.reading;
     return [rot1 - legs.rot1, trans - legs.trans, rot2 - legs.rot2];
   });
-  const printed = await markedNumbers(widget);
-  noises.forEach((noise, i) => expect(printed[i]).toBeCloseTo(noise, 3));
+  const printed = await printedNumbersOfMarked(widget);
+  expectedNoises.forEach((noise, i) => expect(printed[i]).toBeCloseTo(noise, 3));
 
   await widget.locator('#v').fill('-1');
-  await expect(sentence(widget)).toContainText('two half turns');
+  await expect(captionOf(widget)).toContainText('two half turns');
   await widget.getByLabel('Reverse without half-turn noise').check();
-  await expect(sentence(widget)).not.toContainText('two half turns');
+  await expect(captionOf(widget)).not.toContainText('two half turns');
 });
 
 test('captions and notes depend on the model and its noise', async ({ page }) => {

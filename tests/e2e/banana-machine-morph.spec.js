@@ -3,7 +3,7 @@ import { FRESH, STILL, bananaReadings, boxOf, centreOf, openBanana, pictureOf, p
 
 test.use(STILL);
 
-const calloutsOf = (/** @type {import('@playwright/test').Locator} */ widget) => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
+const calloutCountOf = (/** @type {import('@playwright/test').Locator} */ widget) => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
 
 test('one slider carries the floor to exponential coordinates and back, and callouts are on the floor alone', async ({ page }) => {
   const widget = await openBanana(page);
@@ -16,7 +16,7 @@ test('one slider carries the floor to exponential coordinates and back, and call
     expect(/** @type {any} */ (await stateOf(widget)).morph).toBe(Number(morph));
     await expect(widget).toHaveAttribute('morph', morph);
     await expect(widget.locator('.panel-title').first()).toContainText(title);
-    expect(await calloutsOf(widget)).toBe(morph === '0' ? 2 : 0);
+    expect(await calloutCountOf(widget)).toBe(morph === '0' ? 2 : 0);
   }
   expect(new Set(pictures).size).toBe(3);
   expect(pictures[3]).toBe(pictures[0]);
@@ -62,32 +62,32 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   const widget = await openBanana(page);
   const pin = widget.getByRole('button', { name: 'Pin' });
   const area = widget.locator('.readouts div').filter({ hasText: 'area covered' });
-  const before = await readout(widget, 'area covered').innerText();
+  const areaBefore = await readout(widget, 'area covered').innerText();
   await pin.click();
   await expect(pin).toHaveAttribute('aria-pressed', 'true');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
-  await expect(area).toContainText(`pinned: ${before}`);
-  const outside = await widget.evaluate((element) => {
+  await expect(area).toContainText(`pinned: ${areaBefore}`);
+  const coordinatesOutside = await widget.evaluate((element) => {
     const { scene, pictures } = /** @type {any} */ (element);
     const { xMin, xMax, yMin, yMax } = pictures[0].view.extent;
     return scene.pinnedAt(0).filter((/** @type {number} */ at, /** @type {number} */ i) => (i % 2 ? at < yMin || at > yMax : at < xMin || at > xMax));
   });
-  expect(outside).toEqual([]);
+  expect(coordinatesOutside).toEqual([]);
   const state = await stateOf(widget);
   expect(state.pinned).toMatchObject({ command: { v: 1 }, samples: 50_000 });
-  const withGhost = await pictureOf(widget.locator('canvas.plane'));
+  const pictureWithPin = await pictureOf(widget.locator('canvas.plane'));
   await pin.click();
   await expect(area).not.toContainText('pinned');
-  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(withGhost);
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureWithPin);
   await pin.click();
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(pin).toHaveAttribute('aria-pressed', 'false');
   const restore = (/** @type {object} */ to) => widget.evaluate((element, given) => void (/** @type {any} */ (element).setState(given)), to);
   await restore(state);
-  await expect(area).toContainText(`pinned: ${before}`);
-  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(withGhost);
+  await expect(area).toContainText(`pinned: ${areaBefore}`);
+  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureWithPin);
   await expect(restore({ ...state, pinned: { ...state.pinned, samples: 0 } })).rejects.toThrow('state.pinned.samples is 0; allowed is');
-  await expect(area).toContainText(`pinned: ${before}`);
+  await expect(area).toContainText(`pinned: ${areaBefore}`);
 });
 
 test('the title of the floor agrees with the fit of the ellipse', async ({ page }) => {
@@ -106,7 +106,7 @@ test('the title of the floor agrees with the fit of the ellipse', async ({ page 
   ])) {
     await widget.evaluate((element, settings) => void Object.assign(element, settings), settings);
     await expect(title).toHaveText(`On the floor: ${fit}`);
-    expect(await calloutsOf(widget)).toBe(gaps);
+    expect(await calloutCountOf(widget)).toBe(gaps);
   }
 });
 
@@ -114,11 +114,11 @@ test('an outline that the morph cannot carry is struck through in the legend, wh
   const widget = await openBanana(page, 'preset="pivot"');
   const legend = widget.locator('.legend').first();
   await expect(legend).not.toContainText('on the floor alone');
-  const before = await boxOf(legend);
+  const legendBox = await boxOf(legend);
   await widget.getByRole('slider', { name: 'From the floor' }).fill('0.5');
   await expect(legend.getByRole('checkbox', { name: /^Gaussian in \(x, y\), 2σ.*around the start, on the floor alone/ })).toBeVisible();
   await expect(legend.getByText('Gaussian in (x, y), 2σ')).toHaveCSS('text-decoration-line', 'line-through');
-  expect(await boxOf(legend)).toEqual(before);
+  expect(await boxOf(legend)).toEqual(legendBox);
 });
 
 test('the buttons that play have the names of what they play @nightly', async ({ page }) => {
@@ -130,14 +130,14 @@ test('the buttons that play have the names of what they play @nightly', async ({
 
 test('callouts are hidden while the cloud is dragged under them @nightly', async ({ page }) => {
   const widget = await openBanana(page);
-  const callouts = () => calloutsOf(widget);
+  const calloutCount = () => calloutCountOf(widget);
   const { x, y } = await centreOf(widget.locator('.handle'));
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x - 10, y);
-  await expect.poll(callouts).toBe(0);
+  await expect.poll(calloutCount).toBe(0);
   await page.mouse.up();
-  await expect.poll(callouts).toBeGreaterThan(0);
+  await expect.poll(calloutCount).toBeGreaterThan(0);
 });
 
 test('a narrow figure has one picture, which shows both ends', async ({ page }) => {
@@ -145,9 +145,9 @@ test('a narrow figure has one picture, which shows both ends', async ({ page }) 
   const widget = await openBanana(page);
   await expect(widget.locator('canvas.twist')).toBeHidden();
   const plane = widget.locator('canvas.plane');
-  const floor = await pictureOf(plane);
+  const floorPicture = await pictureOf(plane);
   await widget.getByRole('slider', { name: 'From the floor' }).fill('1');
-  expect(await pictureOf(plane)).not.toBe(floor);
+  expect(await pictureOf(plane)).not.toBe(floorPicture);
 });
 
 test.describe('at first sight', () => {
@@ -155,15 +155,15 @@ test.describe('at first sight', () => {
 
   test('robots drive once a session, until a key or the pointer is pressed', FRESH, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
-    const driving = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
+    const drivingRobots = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
     await showPage(page, '<banana-machine></banana-machine>');
     await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.driving?.robots > 0);
     await page.keyboard.press('Shift');
-    expect(await driving()).toBeUndefined();
+    expect(await drivingRobots()).toBeUndefined();
     await expect.poll(async () => (await bananaReadings(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
     await page.reload();
     await untilReady(page.locator('banana-machine'));
-    expect(await driving()).toBeUndefined();
+    expect(await drivingRobots()).toBeUndefined();
   });
 
   test('robots do not drive for a figure that a page has set @nightly', FRESH, async ({ page }) => {

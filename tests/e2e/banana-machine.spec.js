@@ -4,14 +4,14 @@ import { STILL, bananaReadings, centreOf, dragSlider, frames, openBanana, openUn
 test.use(STILL);
 
 /** Attribute for a bend, where every α has an effect. */
-const GENTLE = 'preset="gentle"';
+const GENTLE_PRESET = 'preset="gentle"';
 
 test('a drag keeps the scale, and the view zooms out after it', async ({ page }) => {
   const widget = await openBanana(page, 'preset="banana"');
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
-  const extent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
+  const viewExtent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
   const from = await centreOf(handle);
-  const before = await extent();
+  const extentBefore = await viewExtent();
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
   for (const [dx, dy] of [[-40, 60], [-90, 120]]) {
@@ -19,22 +19,22 @@ test('a drag keeps the scale, and the view zooms out after it', async ({ page })
     await frames(page);
     const { x, y } = await centreOf(handle);
     expect(Math.hypot(x - from.x - dx, y - from.y - dy)).toBeLessThan(2);
-    expect(await extent()).toEqual(before);
+    expect(await viewExtent()).toEqual(extentBefore);
   }
   await page.mouse.up();
-  await expect.poll(extent).not.toEqual(before);
+  await expect.poll(viewExtent).not.toEqual(extentBefore);
   await frames(page);
-  const after = await extent();
-  expect(after.xMin).toBeLessThanOrEqual(before.xMin);
-  expect(after.yMin).toBeLessThanOrEqual(before.yMin);
-  expect(after.xMax).toBeGreaterThanOrEqual(before.xMax);
-  expect(after.yMax).toBeGreaterThanOrEqual(before.yMax);
+  const extentAfter = await viewExtent();
+  expect(extentAfter.xMin).toBeLessThanOrEqual(extentBefore.xMin);
+  expect(extentAfter.yMin).toBeLessThanOrEqual(extentBefore.yMin);
+  expect(extentAfter.xMax).toBeGreaterThanOrEqual(extentBefore.xMax);
+  expect(extentAfter.yMax).toBeGreaterThanOrEqual(extentBefore.yMax);
   // A small cloud does not zoom in, but a preset does.
   await dragSlider(widget.locator('#dt'), 0.05);
   await frames(page);
-  expect(await extent()).toEqual(after);
+  expect(await viewExtent()).toEqual(extentAfter);
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
-  await expect.poll(async () => (await extent()).xMax - (await extent()).xMin).toBeLessThan(after.xMax - after.xMin);
+  await expect.poll(async () => (await viewExtent()).xMax - (await viewExtent()).xMin).toBeLessThan(extentAfter.xMax - extentAfter.xMin);
 });
 
 test('Home and End move the end of the arc to the ends of v, and no key scrolls the page', async ({ page }) => {
@@ -56,33 +56,33 @@ test('the handle does not leap to another arc with the same end @nightly', async
   // For these turns, beyond half a circle and in reverse, the shortest arc to the end is another one.
   for (const command of [{ v: 1, omega: 1.8, dt: 2.5 }, { v: -1, omega: 0.4, dt: 1 }]) {
     await setSliders(widget, command);
-    const before = await bananaReadings(widget);
+    const readingsBefore = await bananaReadings(widget);
     await handle.press('ArrowUp');
-    const after = await bananaReadings(widget);
-    expect(after.end[0]).toBeCloseTo(before.end[0], 9);
-    expect(after.end[1]).toBeCloseTo(before.end[1] + 0.02, 9);
-    expect(Math.abs(after.config.command.v - command.v)).toBeLessThan(0.2);
-    expect(Math.abs(after.config.command.omega - command.omega)).toBeLessThan(0.2);
+    const readingsAfter = await bananaReadings(widget);
+    expect(readingsAfter.end[0]).toBeCloseTo(readingsBefore.end[0], 9);
+    expect(readingsAfter.end[1]).toBeCloseTo(readingsBefore.end[1] + 0.02, 9);
+    expect(Math.abs(readingsAfter.config.command.v - command.v)).toBeLessThan(0.2);
+    expect(Math.abs(readingsAfter.config.command.omega - command.omega)).toBeLessThan(0.2);
   }
 });
 
 test('the ring says where the sliders end, to the eye and to the ear', async ({ page }) => {
   const widget = await openBanana(page);
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
-  const hint = () => handle.evaluate((element) => getComputedStyle(element, '::before').content);
+  const hintText = () => handle.evaluate((element) => getComputedStyle(element, '::before').content);
   await widget.evaluate((element) => void Object.assign(element, { v: 1.49, omega: 0 }));
   await handle.press('ArrowLeft');
   await expect(handle).toHaveAttribute('aria-valuetext', /m\/s, ω = −?0\.00 rad\/s$/);
-  expect(await hint()).toBe('none');
+  expect(await hintText()).toBe('none');
   for (let i = 0; i < 3; i++) await handle.press('ArrowRight');
   await expect(handle).toHaveAttribute('aria-valuetext', /^v = 1\.50 m\/s, .* rad\/s\. The sliders end here$/);
-  expect(await hint()).toBe('"The sliders end here"');
+  expect(await hintText()).toBe('"The sliders end here"');
   await handle.blur();
-  expect(await hint()).toBe('none');
+  expect(await hintText()).toBe('none');
 });
 
 test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page, GENTLE);
+  const widget = await openUnfoldedBanana(page, GENTLE_PRESET);
   const marker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
   await marker.focus();
   await marker.press('ArrowRight');
@@ -98,21 +98,21 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
 
 test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   // All samples are in the first block, so that no later one changes the statistics.
-  const widget = await openUnfoldedBanana(page, `${GENTLE} samples="20000"`);
-  const before = await bananaReadings(widget);
-  const picture = await pictureOf(widget.locator('canvas.plane'));
+  const widget = await openUnfoldedBanana(page, `${GENTLE_PRESET} samples="20000"`);
+  const readingsBefore = await bananaReadings(widget);
+  const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
   const skew = await readout(widget, 'cross-track skew').textContent();
   await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
   await untilSettled(widget);
-  const after = await bananaReadings(widget);
-  const alpha = after.config.alphas[3];
+  const readingsAfter = await bananaReadings(widget);
+  const alpha = readingsAfter.config.alphas[3];
   expect(alpha).toBeGreaterThan(0.16);
-  expect(after.config).toEqual({ ...before.config, alphas: before.config.alphas.with(3, alpha) });
-  expect(after.shown).toBe(before.shown);
-  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(picture);
+  expect(readingsAfter.config).toEqual({ ...readingsBefore.config, alphas: readingsBefore.config.alphas.with(3, alpha) });
+  expect(readingsAfter.shown).toBe(readingsBefore.shown);
+  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
   expect(await readout(widget, 'cross-track skew').textContent()).not.toBe(skew);
   // Several inputs between two frames cause one change of the statistics.
-  const told = await widget.evaluate(async (element) => {
+  const changeCount = await widget.evaluate(async (element) => {
     let count = 0;
     element.addEventListener('stats', () => count++);
     const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#alpha1'));
@@ -123,22 +123,22 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
     await /** @type {{ settled: Promise<void> }} */ (/** @type {unknown} */ (element)).settled;
     return count;
   });
-  expect(told).toBe(1);
+  expect(changeCount).toBe(1);
   expect((await bananaReadings(widget)).config.alphas[0]).toBe(0.09);
 });
 
 test('Isolate leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page, GENTLE);
-  const before = await bananaReadings(widget);
+  const widget = await openUnfoldedBanana(page, GENTLE_PRESET);
+  const readingsBefore = await bananaReadings(widget);
   await widget.getByLabel('Isolate one').check();
-  expect((await bananaReadings(widget)).config).toEqual({ ...before.config, isolate: 4 });
+  expect((await bananaReadings(widget)).config).toEqual({ ...readingsBefore.config, isolate: 4 });
   await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(5);
   await widget.getByRole('radio', { name: 'Only α₁' }).check();
   expect((await bananaReadings(widget)).config.isolate).toBe(1);
   // Moving the slider of another α selects that α.
   await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
   const { config } = await bananaReadings(widget);
-  expect(config).toMatchObject({ isolate: 3, alphas: before.config.alphas.with(2, 0.06) });
+  expect(config).toMatchObject({ isolate: 3, alphas: readingsBefore.config.alphas.with(2, 0.06) });
   await widget.getByLabel('Isolate one').uncheck();
   expect((await bananaReadings(widget)).config.isolate).toBeNull();
   await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(0);
@@ -146,50 +146,50 @@ test('Isolate leaves one α in effect, shows the others as off, and lets go agai
 
 test('no slider moves under the finger when there is something to note', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  const widget = await openUnfoldedBanana(page, GENTLE);
+  const widget = await openUnfoldedBanana(page, GENTLE_PRESET);
   const slider = widget.locator('#omega');
   const note = widget.locator('.note');
-  const place = async () => {
+  const sliderTop = async () => {
     await frames(page);
     return slider.evaluate((element) => element.getBoundingClientRect().top + scrollY);
   };
-  const before = await place();
+  const topBefore = await sliderTop();
   await widget.getByLabel('Isolate one').check();
   await expect(note).toContainText('they lie on a line');
-  expect(Math.abs((await place()) - before)).toBeLessThan(0.5);
+  expect(Math.abs((await sliderTop()) - topBefore)).toBeLessThan(0.5);
   await slider.fill('0');
   await expect(note).toContainText('no noise at all');
-  expect(Math.abs((await place()) - before)).toBeLessThan(0.5);
+  expect(Math.abs((await sliderTop()) - topBefore)).toBeLessThan(0.5);
 });
 
 test('no slider moves while the noise that bends the cloud is dragged, or outlines are pinned', async ({ page }) => {
   for (const width of [375, 700, 1280]) {
     await page.setViewportSize({ width, height: 900 });
     const widget = await openBanana(page);
-    const place = async () => {
+    const sliderTop = async () => {
       await untilSettled(widget);
       return widget.locator('#v').evaluate((element) => element.getBoundingClientRect().top + scrollY);
     };
-    const before = await place();
+    const topBefore = await sliderTop();
     for (const alpha of ['0.05', '0.02', '0', '0.2']) {
       await widget.locator('#alpha3').fill(alpha);
-      expect.soft(Math.abs((await place()) - before), `${width} px, ${alpha}`).toBeLessThan(1.5);
+      expect.soft(Math.abs((await sliderTop()) - topBefore), `${width} px, ${alpha}`).toBeLessThan(1.5);
     }
     await widget.getByRole('button', { name: 'Pin' }).click();
-    expect.soft(Math.abs((await place()) - before), `${width} px, pinned`).toBeLessThan(1.5);
+    expect.soft(Math.abs((await sliderTop()) - topBefore), `${width} px, pinned`).toBeLessThan(1.5);
   }
 });
 
 test('a slider stays in its place when a text above it becomes shorter', async ({ page }) => {
   await page.setViewportSize({ width: 700, height: 900 });
   const widget = await openUnfoldedBanana(page);
-  const height = () => widget.locator('.readouts').first().evaluate((element) => element.getBoundingClientRect().height);
+  const readoutsHeight = () => widget.locator('.readouts').first().evaluate((element) => element.getBoundingClientRect().height);
   await frames(page);
-  const before = await height();
+  const heightBefore = await readoutsHeight();
   await widget.locator('#v').fill('0');
   await expect(widget.locator('.readouts').first()).toContainText('—');
   await frames(page);
-  expect(await height()).toBe(before);
+  expect(await readoutsHeight()).toBe(heightBefore);
   await page.setViewportSize({ width: 740, height: 900 });
-  await expect.poll(height).toBeLessThan(before);
+  await expect.poll(readoutsHeight).toBeLessThan(heightBefore);
 });

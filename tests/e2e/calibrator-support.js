@@ -15,7 +15,7 @@ import { mount, untilSettled } from './support.js';
  * @typedef {HTMLElement & { machine: Machine, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any, service: { isBusy: boolean } }} AlphaCalibratorElement
  */
 
-/** Opens a page with the figure, with its log fitted. @param {Page} page @param {string} [attributes] */
+/** Opens a page with the figure, and waits until its log is fitted. @param {Page} page @param {string} [attributes] */
 export async function openCalibrator(page, attributes) {
   const widget = await mount(page, 'alpha-calibrator', {
     attributes, script: ['motion-widgets', 'de'].map((name) => `<script type="module" src="/${name}.js"></script>`).join(''),
@@ -63,7 +63,7 @@ export async function recordingWith(topics, hasCommands = false) {
   const reference = topics.flatMap((topic) => rowsOf('reference').map(([t, x, y, yaw]) => ({
     topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
   })));
-  const wheels = rowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
-  const commands = hasCommands ? wheels.map(({ t }) => ({ topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', t, message: twistOf(0.3, 0) })) : [];
-  return recordingOf([...wheels, ...commands, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+  const odometryMessages = rowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
+  const commands = hasCommands ? odometryMessages.map(({ t }) => ({ topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', t, message: twistOf(0.3, 0) })) : [];
+  return recordingOf([...odometryMessages, ...commands, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
 }

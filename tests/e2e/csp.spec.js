@@ -1,17 +1,17 @@
-// Elements under the strictest Content-Security-Policy that allows them, and under one that does not.
+// Elements with the strictest Content-Security-Policy that allows them, and with policies that do not allow them.
 
 import { fileURLToPath } from 'node:url';
-import { expect, test as anyway } from '@playwright/test';
+import { expect, test as testWithWarnings } from '@playwright/test';
 import { serve } from '../../scripts/serve.mjs';
 import { frames, test, unfold, untilReady } from './support.js';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
-const STRICT = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'";
+const STRICT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'";
 
 /** @type {Awaited<ReturnType<typeof serve>> | undefined} */
 let server;
 
-for (const { afterEach } of [test, anyway]) {
+for (const { afterEach } of [test, testWithWarnings]) {
   afterEach(() => {
     server?.close();
     server = undefined;
@@ -19,12 +19,12 @@ for (const { afterEach } of [test, anyway]) {
 }
 
 /**
- * Opens a page of dist/ served with a policy, and keeps what the policy forbids.
+ * Opens a page of dist/ that is served with a policy, and records violations of the policy.
  *
  * @param {import('@playwright/test').Page} page
  * @param {string} policy
  * @param {string} path
- * @returns {Promise<() => Promise<string[]>>} the violations so far
+ * @returns {Promise<() => Promise<string[]>>} function that returns the violations so far
  */
 async function openUnder(page, policy, path) {
   server = await serve(DIST, { port: 0, headers: { 'content-security-policy': policy } });
@@ -40,7 +40,7 @@ async function openUnder(page, policy, path) {
 }
 
 test('a figure asks for nothing that a strict policy forbids', async ({ page, figure }) => {
-  const violations = await openUnder(page, STRICT, `embed.html?widget=${figure}`);
+  const violations = await openUnder(page, STRICT_POLICY, `embed.html?widget=${figure}`);
   const widget = page.locator(figure);
   await untilReady(widget);
   await unfold(widget);
@@ -50,37 +50,37 @@ test('a figure asks for nothing that a strict policy forbids', async ({ page, fi
 });
 
 /** Policy of a page that names the Trusted Types policies which may be made. @param {string} names */
-const trusting = (names) => `${STRICT}; require-trusted-types-for 'script'; trusted-types ${names}`;
+const policyTrusting = (names) => `${STRICT_POLICY}; require-trusted-types-for 'script'; trusted-types ${names}`;
 
 test('a figure has a Trusted Types policy of its own beside that of the page\'s Lit', async ({ page, figure }) => {
   // A copy of Lit that the page loads before the figures makes this policy.
   await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ text) => text }));
-  const violations = await openUnder(page, trusting('lit-html motion-widgets'), `embed.html?widget=${figure}`);
+  const violations = await openUnder(page, policyTrusting('lit-html motion-widgets'), `embed.html?widget=${figure}`);
   await untilReady(page.locator(figure));
   await unfold(page.locator(figure));
   expect(await violations()).toEqual([]);
 });
 
-// These tests expect the browser's own messages in the console.
-anyway('a Trusted Types policy that is named as that of Lit is enough @nightly', async ({ page }) => {
-  await openUnder(page, trusting('lit-html'), 'embed.html?widget=banana-machine');
+// The tests below expect messages of the browser in the console.
+testWithWarnings('a Trusted Types policy that is named as that of Lit is enough @nightly', async ({ page }) => {
+  await openUnder(page, policyTrusting('lit-html'), 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine canvas').first()).toBeVisible();
 });
 
-anyway('where no Trusted Types policy may be made, a sentence names the one that is missing @nightly', async ({ page }) => {
-  const warned = page.waitForEvent('console', (message) => message.type() === 'warning' && message.text().includes('lacks'));
-  await openUnder(page, trusting("'none'"), 'embed.html?widget=banana-machine');
+testWithWarnings('where no Trusted Types policy may be made, a sentence names the one that is missing @nightly', async ({ page }) => {
+  const warning = page.waitForEvent('console', (message) => message.type() === 'warning' && message.text().includes('lacks'));
+  await openUnder(page, policyTrusting("'none'"), 'embed.html?widget=banana-machine');
   const sentence = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
   await expect(page.locator('banana-machine')).toHaveText(`This interactive figure cannot run here. ${sentence}`);
-  expect((await warned).text()).toContain(sentence);
+  expect((await warning).text()).toContain(sentence);
 });
 
-anyway('where WebAssembly is forbidden, a sentence names the directive that is missing', async ({ page }) => {
+testWithWarnings('where WebAssembly is forbidden, a sentence names the directive that is missing', async ({ page }) => {
   await openUnder(page, "script-src 'self'", 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine').getByRole('alert')).toContainText("lacks 'wasm-unsafe-eval'");
 });
 
-anyway('where there is no WebAssembly, a sentence says that it cannot run, in the colours of the page', async ({ page }) => {
+testWithWarnings('where there is no WebAssembly, a sentence says that it cannot run, in the colours of the page', async ({ page }) => {
   const errors = /** @type {Error[]} */ ([]);
   page.on('pageerror', (error) => errors.push(error));
   await page.addInitScript(() => void Reflect.deleteProperty(globalThis, 'WebAssembly'));
@@ -91,12 +91,12 @@ anyway('where there is no WebAssembly, a sentence says that it cannot run, in th
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
   expect(errors).toEqual([]);
   const colours = await widget.evaluate(async (element) => {
-    // The same for a figure that is not visible yet.
-    const other = /** @type {HTMLElement} */ (element.cloneNode());
-    other.style.marginTop = '5000px';
-    document.body.append(other);
-    await Reflect.get(other, 'updateComplete');
-    return [element, other].map(({ shadowRoot }) => {
+    // A figure that is not visible yet has the same colours.
+    const farFigure = /** @type {HTMLElement} */ (element.cloneNode());
+    farFigure.style.marginTop = '5000px';
+    document.body.append(farFigure);
+    await Reflect.get(farFigure, 'updateComplete');
+    return [element, farFigure].map(({ shadowRoot }) => {
       const style = /** @type {HTMLElement | undefined} */ (shadowRoot?.querySelector('.surface'))?.style;
       return [style?.colorScheme, style?.getPropertyValue('--ground')];
     });
@@ -104,25 +104,25 @@ anyway('where there is no WebAssembly, a sentence says that it cannot run, in th
   expect(colours).toEqual(Array(2).fill(['dark', 'rgb(17,34,51)']));
 });
 
-anyway('where the module in a file of its own is forbidden, the embedded one is used, and a warning names the directive @nightly', async ({ page }) => {
+testWithWarnings('where the module in a file of its own is forbidden, the embedded one is used, and a warning names the directive @nightly', async ({ page }) => {
   const html = '<script type="module" src="./external.js"></script><banana-machine></banana-machine>';
   await page.route('**/external.html', (route) =>
-    route.fulfill({ contentType: 'text/html', headers: { 'content-security-policy': STRICT }, body: html }),
+    route.fulfill({ contentType: 'text/html', headers: { 'content-security-policy': STRICT_POLICY }, body: html }),
   );
-  const warned = page.waitForEvent('console', (message) => message.type() === 'warning');
-  await openUnder(page, STRICT, 'external.html');
+  const warning = page.waitForEvent('console', (message) => message.type() === 'warning');
+  await openUnder(page, STRICT_POLICY, 'external.html');
   await expect(page.locator('banana-machine canvas').first()).toBeVisible();
-  expect((await warned).text()).toMatch(/\.wasm cannot be fetched .*connect-src/);
+  expect((await warning).text()).toMatch(/\.wasm cannot be fetched .*connect-src/);
 });
 
-anyway('where WebAssembly may be compiled and not run, as in WebKit, so does one @nightly', async ({ page }) => {
+testWithWarnings('where WebAssembly may be compiled and not run, as in WebKit, so does one @nightly', async ({ page }) => {
   await page.addInitScript(() => {
-    const refuse = () => {
+    const throwCompileError = () => {
       throw new WebAssembly.CompileError("Refused to create a WebAssembly object because 'unsafe-eval' or 'wasm-unsafe-eval' is not allowed");
     };
-    Object.assign(WebAssembly, { instantiate: async () => refuse(), Instance: refuse });
+    Object.assign(WebAssembly, { instantiate: async () => throwCompileError(), Instance: throwCompileError });
   });
-  await openUnder(page, STRICT, 'embed.html?widget=banana-machine');
+  await openUnder(page, STRICT_POLICY, 'embed.html?widget=banana-machine');
   const sentence = page.locator('banana-machine').getByRole('alert');
   await expect(sentence).toContainText("lacks 'wasm-unsafe-eval'");
   await expect(sentence).not.toContainText('Refused');

@@ -17,31 +17,31 @@ async function openReckoning(page, attributes) {
 }
 
 /** @param {Locator} widget */
-const config = (widget) => widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.config);
-const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
+const configOf = (widget) => widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.config);
+const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
 const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.plot');
 
 /**
- * Returns the steps that are off by more than 5 %, by component.
+ * Returns for each component the steps whose prediction is off by more than 5 %, as text.
  *
  * @param {Locator} widget
  * @param {number} [recursion] index of its column
  */
-async function missed(widget, recursion = 0) {
+async function missedSteps(widget, recursion = 0) {
   await unfold(widget);
   return Promise.all([0, 2, 4].map((row) => widget.locator('.folds tbody tr').nth(row).locator('td').nth(recursion).textContent()));
 }
 
 test('opens with the chapter’s 6 % along the track, and says that the lateral variance misses more before', async ({ page }) => {
   const widget = await openReckoning(page);
-  expect(await config(widget)).toMatchObject({
+  expect(await configOf(widget)).toMatchObject({
     command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], compounding: 'chapter', samples: 50_000,
   });
-  await expect(caption(widget)).toHaveText(
+  await expect(captionOf(widget)).toHaveText(
     'At the end the predicted along-track variance is off by −6.1\u202f%. Before, the lateral variance is off more: 0.00 (step 1), 0.44 (step 2), 0.77 (step 5) of the measured.',
   );
   await expect(readout(widget, 'predicted along-track variance')).toHaveText('0.94');
-  expect(await missed(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
+  expect(await missedSteps(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
   await expect(widget.getByRole('row', { name: 'along, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 20: along 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);
   for (const [canvas, role] of [['plane', 'prior'], ['plane', 'posterior'], ['twist', 'posterior'], ['twist', 'truth']]) {
@@ -52,16 +52,16 @@ test('opens with the chapter’s 6 % along the track, and says that the lateral 
 test('the line of the chart walks along the path, from the keyboard too, and drives nobody', async ({ page }) => {
   const widget = await openReckoning(page);
   const slider = widget.getByRole('slider', { name: 'selected step', exact: true });
-  const before = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured);
-  const pictures = () => Promise.all(['plane', 'twist'].map((name) => pictureOf(widget.locator(`canvas.${name}`))));
-  const [plane, twist] = await pictures();
+  const measuredBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured);
+  const twoPictures = () => Promise.all(['plane', 'twist'].map((name) => pictureOf(widget.locator(`canvas.${name}`))));
+  const [plane, twist] = await twoPictures();
   await slider.press('ArrowLeft');
   await frames(page);
-  expect((await config(widget)).step).toBe(19);
-  const [planeBefore, twistBefore] = await pictures();
+  expect((await configOf(widget)).step).toBe(19);
+  const [planeBefore, twistBefore] = await twoPictures();
   expect(planeBefore).not.toBe(plane);
   expect(twistBefore).not.toBe(twist);
-  expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured)).toEqual(before);
+  expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured)).toEqual(measuredBefore);
   await expect(slider).toHaveAttribute('aria-valuetext', 'step 19');
   await slider.press('Home');
   await frames(page);
@@ -69,7 +69,7 @@ test('the line of the chart walks along the path, from the keyboard too, and dri
   await expect(plotOf(widget)).toContainText('step 1');
   await dragSlider(slider, 0.5);
   await frames(page);
-  expect((await config(widget)).step).toBe(10);
+  expect((await configOf(widget)).step).toBe(10);
 });
 
 test('with J_r, and to fourth order, every component is right', async ({ page }) => {
@@ -77,10 +77,10 @@ test('with J_r, and to fourth order, every component is right', async ({ page })
   for (const [i, name] of ['with Jᵣ, the turn during a step', 'fourth order'].entries()) {
     await widget.getByRole('radio', { name }).check();
     await frames(page);
-    expect(await missed(widget, i + 1)).toEqual(['never', 'never', 'never']);
-    await expect(caption(widget)).toHaveText('Within 5 % of what 50\u202f000 robots do, in every component at every step.');
+    expect(await missedSteps(widget, i + 1)).toEqual(['never', 'never', 'never']);
+    await expect(captionOf(widget)).toHaveText('Within 5 % of what 50\u202f000 robots do, in every component at every step.');
   }
-  expect((await config(widget)).compounding).toBe('fourth-order');
+  expect((await configOf(widget)).compounding).toBe('fourth-order');
 });
 
 test('entries of the legends hide curves and outlines', async ({ page }) => {
@@ -102,41 +102,41 @@ test('presets are paths, and tell which one it is', async ({ page }) => {
   await expect(button('The chapter’s 20 steps')).toHaveAttribute('aria-pressed', 'true');
   await button('Heading σ doubled').click();
   await untilSettled(widget);
-  expect((await config(widget)).alphas).toEqual([0.02, 0.02, 0.08, 0.08, 0.02, 0.02]);
-  expect((await missed(widget))[0]).toBe('steps 9–20');
+  expect((await configOf(widget)).alphas).toEqual([0.02, 0.02, 0.08, 0.08, 0.02, 0.02]);
+  expect((await missedSteps(widget))[0]).toBe('steps 9–20');
   await expect(widget).toHaveAttribute('preset', 'doubled');
   await button('Same path, 200 steps').click();
   await untilSettled(widget);
-  expect(await config(widget)).toMatchObject({ steps: 200, command: { dt: 0.02 } });
-  expect((await missed(widget))[0]).toBe('never');
+  expect(await configOf(widget)).toMatchObject({ steps: 200, command: { dt: 0.02 } });
+  expect((await missedSteps(widget))[0]).toBe('never');
   await widget.locator('#headingNoise').press('ArrowRight');
   await untilSettled(widget);
-  expect((await config(widget)).alphas).toEqual([0.02, 0.02, 0.025, 0.025, 0.00625, 0.00625]);
+  expect((await configOf(widget)).alphas).toEqual([0.02, 0.02, 0.025, 0.025, 0.00625, 0.00625]);
   await expect(widget).not.toHaveAttribute('preset');
 });
 
 test('more steps are shorter ones of the same path, seen from the same place', async ({ page }) => {
   const widget = await openReckoning(page, 'step="10" samples="1000"');
-  const end = (/** @type {Locator} */ of) => of.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).machine.commanded.slice(-2)]);
-  const [x, y] = await end(widget);
+  const endOf = (/** @type {Locator} */ figure) => figure.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).machine.commanded.slice(-2)]);
+  const [x, y] = await endOf(widget);
   await dragSlider(widget.locator('#steps'), 0.5);
   await untilSettled(widget);
-  const { steps, step, command } = await config(widget);
+  const { steps, step, command } = await configOf(widget);
   expect(steps).toBeGreaterThan(80);
   expect(Math.abs(steps * command.dt - 4)).toBeLessThan(1e-12);
   expect(Math.abs(step / steps - 0.5)).toBeLessThan(0.02);
-  const [atX, atY] = await end(widget);
-  expect(Math.hypot(atX - x, atY - y)).toBeLessThan(1e-12);
+  const [endX, endY] = await endOf(widget);
+  expect(Math.hypot(endX - x, endY - y)).toBeLessThan(1e-12);
 });
 
-test('too few robots tell nothing, and none at all say so @nightly', async ({ page }) => {
+test('with too few robots nothing is known, and without robots the caption says so @nightly', async ({ page }) => {
   const widget = await openReckoning(page, 'samples="1000"');
-  await expect(caption(widget)).toHaveText('Too few robots to tell 5 %: the bands are wider than that.');
-  expect(await missed(widget)).toEqual(['too few', 'too few', 'too few']);
+  await expect(captionOf(widget)).toHaveText('Too few robots to tell 5 %: the bands are wider than that.');
+  expect(await missedSteps(widget)).toEqual(['too few', 'too few', 'too few']);
   await widget.getByRole('button', { name: 'Clear' }).click();
   await frames(page);
-  await expect(caption(widget)).toHaveText('No robots yet.');
-  expect(await missed(widget)).toEqual(['—', '—', '—']);
+  await expect(captionOf(widget)).toHaveText('No robots yet.');
+  expect(await missedSteps(widget)).toEqual(['—', '—', '—']);
   await widget.getByRole('button', { name: 'Step', exact: true }).click();
   await frames(page);
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.shown)).toBe(7);
@@ -144,25 +144,25 @@ test('too few robots tell nothing, and none at all say so @nightly', async ({ pa
 
 test('no noise has no ratio, and a fourth order without a covariance neither @nightly', async ({ page }) => {
   const widget = await openReckoning(page, 'samples="500" alpha1="0" alpha2="0" alpha3="0" alpha4="0" alpha5="0" alpha6="0"');
-  await expect(caption(widget)).toHaveText(/^No noise:/);
+  await expect(captionOf(widget)).toHaveText(/^No noise:/);
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /along —/);
-  const wild = await widget.evaluate((element) => {
+  const covariance = await widget.evaluate((element) => {
     Object.assign(element, { headingNoise: 60, compounding: 'fourth-order', step: 20 });
     return /** @type {DeadReckoningElement} */ (element).machine.stats.predicted['fourth-order'];
   });
-  expect(wild).toBeNull();
+  expect(covariance).toBeNull();
   await untilSettled(widget);
-  await expect(caption(widget)).toHaveText(/has left no covariance/);
+  await expect(captionOf(widget)).toHaveText(/has left no covariance/);
 });
 
 test('a robot that is pointed at shows its way', async ({ page }) => {
   const widget = await openReckoning(page, 'step="20"');
   await unfold(widget);
   const canvas = widget.locator('canvas.plane');
-  const before = await pixelsOf(canvas, 'accent');
+  const pixelsBefore = await pixelsOf(canvas, 'accent');
   await widget.getByRole('spinbutton', { name: 'Robot' }).fill('40000');
   await frames(page);
-  expect(await pixelsOf(canvas, 'accent')).toBeGreaterThan(before + 100);
+  expect(await pixelsOf(canvas, 'accent')).toBeGreaterThan(pixelsBefore + 100);
   const end = await widget.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).machine.rollout(39_999)].slice(-3));
   await expect(widget.locator('.marked output')).toContainText(`x ${end[0].toFixed(3)} m`);
 });
@@ -175,9 +175,9 @@ test('CSV has a row a step', async ({ page }) => {
   });
   const lines = text.trimEnd().split('\n');
   const [, columns, ...rows] = lines;
-  const names = columns.split(',');
+  const columnNames = columns.split(',');
   expect(rows).toHaveLength(20);
-  const value = (/** @type {number} */ row, /** @type {string} */ name) => Number(rows[row].split(',')[names.indexOf(name)]);
+  const value = (/** @type {number} */ row, /** @type {string} */ name) => Number(rows[row].split(',')[columnNames.indexOf(name)]);
   expect(value(0, 'step')).toBe(1);
   expect(value(4, 'measured_lateral_m2')).toBe(measured[13]);
   expect(value(19, 'first_order_heading_rad2')).toBe(predicted[59]);
@@ -196,7 +196,7 @@ test('variances of a straight drive cross where the formula says', async ({ page
 
 test('a million robots answer with a block at once, and the others follow', async ({ page }) => {
   const widget = await openReckoning(page);
-  const [first, all] = await widget.evaluate(async (element) => {
+  const [countInFirstBlock, finalCount] = await widget.evaluate(async (element) => {
     const figure = /** @type {any} */ (element);
     await figure.settled;
     Object.assign(figure, { samples: 1_000_000 });
@@ -204,6 +204,6 @@ test('a million robots answer with a block at once, and the others follow', asyn
     await figure.settled;
     return [n, figure.stats.n];
   });
-  expect(first).toBeLessThan(1_000_000);
-  expect(all).toBe(1_000_000);
+  expect(countInFirstBlock).toBeLessThan(1_000_000);
+  expect(finalCount).toBe(1_000_000);
 });

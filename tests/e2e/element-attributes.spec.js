@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { SEEDS, anyOf } from './any-state.js';
+import { SEEDS, randomStates } from './any-state.js';
 import { ALL_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
 import { STILL, assign, frames, mount, property, showPage, takeEvents, test, testEach, unfold, untilReady } from './support.js';
 
@@ -50,24 +50,24 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
   await untilReady(banana);
   await unfold(banana);
-  const attributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
+  const attributesOf = (/** @type {import('@playwright/test').Locator} */ widget) =>
     widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
-  expect(await attributes(banana)).toEqual({ preset: 'hard', seed: '3' });
+  expect(await attributesOf(banana)).toEqual({ preset: 'hard', seed: '3' });
   // The preset applied to these attributes too.
   const alphas = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
   await banana.locator('#v').fill('0.5');
   await frames(page);
-  expect(await attributes(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphas });
+  expect(await attributesOf(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphas });
   await banana.getByRole('button', { name: 'Pivot' }).click();
   await frames(page);
-  expect(await attributes(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphas });
+  expect(await attributesOf(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphas });
   await banana.getByLabel('Isolate one').check();
   await banana.getByRole('checkbox', { name: 'linearized' }).check();
   await frames(page);
-  expect(await attributes(banana)).toMatchObject({ isolate: '4', overlays: 'command ellipse exponential linearized' });
+  expect(await attributesOf(banana)).toMatchObject({ isolate: '4', overlays: 'command ellipse exponential linearized' });
   await banana.getByLabel('Isolate one').uncheck();
   await frames(page);
-  expect(await attributes(banana)).not.toHaveProperty('isolate');
+  expect(await attributesOf(banana)).not.toHaveProperty('isolate');
 
   await squeeze.scrollIntoViewIfNeeded();
   await untilReady(squeeze);
@@ -75,7 +75,7 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
   await squeeze.getByLabel('Check samples against the map').uncheck();
   await frames(page);
-  expect(await attributes(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
+  expect(await attributesOf(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
 });
 
 test('boolean attributes may be empty or "true", and lists may have any space @nightly', async ({ page }) => {
@@ -97,7 +97,7 @@ test('boolean attributes may be empty or "true", and lists may have any space @n
 test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   const { slider, values: [first, second] } = FIGURE_FACTS[figure];
-  const opening = await property(widget, slider);
+  const defaultValue = await property(widget, slider);
   await widget.locator(`#${slider}`).fill(String(first));
   await expect(widget).toHaveAttribute(slider, String(first));
   expect(await property(widget, slider)).toBe(first);
@@ -108,7 +108,7 @@ test('attributes follow the controls of a figure, and lead back to the default w
   expect((await takeEvents(page, ['error'])).map(({ message }) => message).join()).toMatch(/ is "fast"; allowed is a (whole )?number/);
   expect(await property(widget, slider)).toBe(second);
   await widget.evaluate((element, key) => element.removeAttribute(key), slider);
-  expect(await property(widget, slider)).toBe(opening);
+  expect(await property(widget, slider)).toBe(defaultValue);
 });
 
 test('attributes that are refused are reported in the words of the core, and the last good value stays', async ({ page }) => {
@@ -120,8 +120,8 @@ test('attributes that are refused are reported in the words of the core, and the
     'samples is 0; allowed is a whole number from 1 to 10000000',
     'overlays[1] is "stars"; allowed is "command" or "ellipse" or "exponential" or "linearized" or "additive"',
   ]);
-  const values = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));
-  expect(await values()).toEqual([1, 0.7, 'velocity', 50000]);
+  const propertyValues = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));
+  expect(await propertyValues()).toEqual([1, 0.7, 'velocity', 50000]);
   // A blank attribute is neither a number nor zero.
   await widget.evaluate((element) => element.setAttribute('omega', ' '));
   expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
@@ -129,7 +129,7 @@ test('attributes that are refused are reported in the words of the core, and the
   await widget.evaluate((element) => element.setAttribute('dt', '3'));
   expect(await property(widget, 'dt')).toBe(3);
   await widget.getByRole('button', { name: 'Pivot' }).click();
-  expect(await values()).toEqual([0.06, 1.5, 'velocity', 50000]);
+  expect(await propertyValues()).toEqual([0.06, 1.5, 'velocity', 50000]);
 });
 
 test('elements in the table of doc/embedding/figures.md have the attributes that it shows', async ({ page, figure }) => {
@@ -147,7 +147,7 @@ test('elements in the table of doc/embedding/figures.md have the attributes that
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
-/** Values for the parts of a state that attributes cannot set, or that one attribute sets together. */
+/** Values of state fields that no attribute can set, or that one attribute sets together. */
 const WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
 
 testEach('code to embed opens the settings of a state, with its attributes in any order', async (page, name, isFull) => {
@@ -155,26 +155,26 @@ testEach('code to embed opens the settings of a state, with its attributes in an
   const widget = page.locator(name).first();
   await untilReady(widget);
   for (const seed of isFull ? SEEDS : SEEDS.slice(0, 2)) {
-    const state = { ...anyOf(seed)[name], ...Reflect.get(WITHOUT_ATTRIBUTES, name) };
+    const state = { ...randomStates(seed)[name], ...Reflect.get(WITHOUT_ATTRIBUTES, name) };
     const [original, ...copies] = await widget.evaluate(async (element, given) => {
       /** @type {any} */ (element).setState(given);
       const template = document.createElement('div');
       template.innerHTML = /** @type {AnyElement} */ (element).embedCode().split('\n')[1];
       const [embedded] = template.children;
-      const again = document.createElement(element.localName);
-      for (const { name, value } of [...embedded.attributes].reverse()) again.setAttribute(name, value);
-      const boxes = [embedded, again].map((copy) => {
+      const reordered = document.createElement(element.localName);
+      for (const { name, value } of [...embedded.attributes].reverse()) reordered.setAttribute(name, value);
+      const boxes = [embedded, reordered].map((copy) => {
         const box = document.createElement('div');
         box.style.cssText = 'position: fixed; inset: 0';
         box.append(copy);
         return box;
       });
-      const loaded = [embedded, again].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
+      const loaded = [embedded, reordered].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
       element.before(...boxes);
       await Promise.all(loaded);
       // A log is fitted in the frames after the state.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
-      const configs = [element, embedded, again].map((each) => /** @type {AnyElement} */ (each).machine.config);
+      const configs = [element, embedded, reordered].map((each) => /** @type {AnyElement} */ (each).machine.config);
       for (const box of boxes) box.remove();
       return configs;
     }, /** @type {any} */ (state));
@@ -185,7 +185,7 @@ testEach('code to embed opens the settings of a state, with its attributes in an
 
 test('a list that is written as text is taken up, and other text is reported', async ({ page }) => {
   await showPage(page, '');
-  const refused = await page.evaluate(async () => {
+  const errorMessage = await page.evaluate(async () => {
     const box = document.createElement('div');
     document.body.prepend(box);
     /** @type {Promise<string>} */
@@ -193,22 +193,22 @@ test('a list that is written as text is taken up, and other text is reported', a
     box.innerHTML = '<banana-machine alphas="0.1,0.2,0.1,0.1,0,0" command="[object Object]"></banana-machine><arc-anatomy alphas="[0.1, 0.2, 0.1, 0.1, 0, 0]"></arc-anatomy>';
     return message;
   });
-  expect(refused).toMatch(/^command is "\[object Object\]"; allowed is an object/);
+  expect(errorMessage).toMatch(/^command is "\[object Object\]"; allowed is an object/);
   for (const name of ['banana-machine', 'arc-anatomy']) await expect(page.locator(name)).toHaveJSProperty('alphas', [0.1, 0.2, 0.1, 0.1, 0, 0]);
 });
 
 test('properties that were set before the element was defined are taken up, in any order', async ({ page }) => {
   await showPage(page, '', { script: '' });
-  const told = await page.evaluate(async () => {
+  const propertyValues = await page.evaluate(async () => {
     const map = { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] };
-    const given = /** @type {[string, Record<string, unknown>, string[]][]} */ ([
+    const cases = /** @type {[string, Record<string, unknown>, string[]][]} */ ([
       ['banana-machine', { v: 3, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0], overlays: ['ellipse'], theme: 'dark' }, ['v', 'alphas', 'overlays', 'theme']],
       ['banana-machine', { omega: 0.7, preset: 'hard', alpha2: 0.3, alphas: [0.1, 0.1, 0.1, 0.1], model: 'odometry' }, ['omega', 'v', 'dt', 'alphas']],
       ['banana-machine', { marked: 60_000, samples: 70_000 }, ['marked', 'samples']],
       ['dead-reckoning', { step: 30, steps: 40 }, ['step', 'steps']],
       ['map-squeeze', { marked: 3, start: { x: 3, y: 1, theta: 0 }, map }, ['marked', 'start']],
     ]);
-    const figures = given.flatMap(([tag, values]) => [Object.entries(values), Object.entries(values).reverse()].map((entries) =>
+    const figures = cases.flatMap(([tag, values]) => [Object.entries(values), Object.entries(values).reverse()].map((entries) =>
       Object.assign(document.createElement(tag), Object.fromEntries(entries))));
     const loaded = figures.map((figure) => new Promise((resolve) => figure.addEventListener('load', resolve)));
     await import(/** @type {any} */ ('/motion-widgets.js'));
@@ -219,11 +219,11 @@ test('properties that were set before the element was defined are taken up, in a
       return box;
     }));
     await Promise.all(loaded);
-    const names = given.flatMap(([, , asked]) => [asked, asked]);
+    const names = cases.flatMap(([, , checkedNames]) => [checkedNames, checkedNames]);
     return figures.map((figure, i) => names[i].map((name) => Reflect.get(figure, name)));
   });
   const twice = (/** @type {unknown[]} */ values) => [values, values];
-  expect(told).toEqual([
+  expect(propertyValues).toEqual([
     ...twice([3, [0.1, 0.1, 0.1, 0.1, 0, 0], ['ellipse'], 'dark']),
     ...twice([0.7, 1, 1.4, [0.1, 0.3, 0.1, 0.1]]),
     ...twice([60_000, 70_000]),
@@ -235,25 +235,25 @@ test('properties that were set before the element was defined are taken up, in a
 
 test('properties that are null or undefined are the defaults @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure);
-  const [opening, ...again] = await widget.evaluate((element, state) => {
+  const [defaults, ...valuesAfterNull] = await widget.evaluate((element, state) => {
     const figure = /** @type {any} */ (element);
     const names = Object.keys(state).filter((key) => key in figure && !['playing', 'map'].includes(key));
     const values = () => Object.fromEntries(names.map((key) => [key, figure[key]]));
-    const told = [values()];
-    for (const none of [null, undefined]) {
+    const valueLists = [values()];
+    for (const emptyValue of [null, undefined]) {
       figure.setState(state);
-      for (const key of names) figure[key] = none;
-      told.push(values());
+      for (const key of names) figure[key] = emptyValue;
+      valueLists.push(values());
     }
-    return told;
-  }, /** @type {any} */ (anyOf(1)[figure]));
-  for (const each of again) expect(each).toEqual(opening);
+    return valueLists;
+  }, /** @type {any} */ (randomStates(1)[figure]));
+  for (const each of valuesAfterNull) expect(each).toEqual(defaults);
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
 test('properties that are assigned their own value change nothing @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure);
-  await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (anyOf(2)[figure]));
+  await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (randomStates(2)[figure]));
   await takeEvents(page, ['stats']);
   const count = await widget.evaluate((element, keys) => {
     const figure = /** @type {any} */ (element);
@@ -261,7 +261,7 @@ test('properties that are assigned their own value change nothing @nightly', asy
     for (const key of names) figure[key] = structuredClone(figure[key]);
     for (const { name, value } of [...element.attributes]) element.setAttribute(name, value);
     return names.length;
-  }, Object.keys(anyOf(2)[figure]));
+  }, Object.keys(randomStates(2)[figure]));
   expect(count).toBeGreaterThan(6);
   expect(await takeEvents(page, ['stats', 'error', 'input', 'change'])).toEqual([]);
 });
@@ -282,9 +282,9 @@ test('properties take effect at once and reflect; those out of range are reporte
     [banana, 'marked', 50000, 'RangeError: marked is 50000; allowed is a whole number from 0 to 49999'],
     [squeeze, 'map', { bounds: [0, 0, 1], walls: [] }, 'RangeError: map.bounds has length 3; allowed is an array of 4 numbers'],
   ])) {
-    const before = await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()));
+    const stateBefore = await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()));
     expect(await assign(widget, name, value)).toBe(message);
-    expect(await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()))).toBe(before);
+    expect(await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()))).toBe(stateBefore);
   }
   expect(await assign(banana, 'model', 'odometry')).toBe('');
   expect(await property(banana, 'alpha5')).toBe(null);
@@ -293,20 +293,20 @@ test('properties take effect at once and reflect; those out of range are reporte
 
 test('properties that are refused fire an error event that does not bubble, and warn in the console if nobody listens', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
-  const told = await widget.evaluate((element) => {
-    const at = /** @type {string[]} */ ([]);
-    for (const target of [window, document, document.body]) target.addEventListener('error', () => at.push('above'));
-    element.addEventListener('error', (event) => at.push(/** @type {ErrorEvent} */ (event).message));
+  const messages = await widget.evaluate((element) => {
+    const messages = /** @type {string[]} */ ([]);
+    for (const target of [window, document, document.body]) target.addEventListener('error', () => messages.push('above'));
+    element.addEventListener('error', (event) => messages.push(/** @type {ErrorEvent} */ (event).message));
     Object.assign(element, { omega: NaN });
-    return at;
+    return messages;
   });
-  expect(told).toEqual(['command.omega is NaN; allowed is a number from -1000000 to 1000000']);
+  expect(messages).toEqual(['command.omega is NaN; allowed is a number from -1000000 to 1000000']);
   // On a page without listeners, the error is printed as a warning.
   const other = await page.context().newPage();
   await other.goto('/embed.html?widget=banana-machine');
-  const unheard = other.waitForEvent('console', (message) => message.type() === 'warning');
+  const warning = other.waitForEvent('console', (message) => message.type() === 'warning');
   await other.locator('banana-machine').evaluate((element) => Object.assign(element, { theme: 'sepia' }));
-  const message = await unheard;
+  const message = await warning;
   expect(message.text()).toContain('theme is "sepia"; allowed is "auto" or "light" or "dark"');
   expect(await message.args()[1].evaluate((element) => element.localName)).toBe('banana-machine');
   await other.close();

@@ -6,10 +6,10 @@ import { FRESH, STILL, boxOf, frames, showPage, test, untilReady } from './suppo
 test.use(STILL);
 
 /** Preferred width of a figure in CSS pixels: see `preferredWidth`. */
-const LIKED = 44 * 16;
+const PREFERRED_WIDTH = 44 * 16;
 
 /** Boxes whose width depends on their content, an X. @type {Record<string, string>} */
-const BOXES = {
+const BOXES_BY_NAME = {
   block: 'X',
   'flex with auto margins': '<div style="display: flex"><X style="margin: auto"></X></div>',
   'flex row': '<div style="display: flex"><X></X></div>',
@@ -28,7 +28,7 @@ const BOXES = {
 };
 
 test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', FRESH, async ({ page, figure }) => {
-  const cases = Object.entries(BOXES).map(([box, html]) => {
+  const cases = Object.entries(BOXES_BY_NAME).map(([box, html]) => {
     const whole = html === 'X' ? '<X></X>' : html;
     return `<section data-box="${box}" style="display: flow-root">${whole.replace('<X', `<${figure}`).replace('</X>', `</${figure}>`)}</section>`;
   });
@@ -39,7 +39,7 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
     const widths = await page.locator(figure).evaluateAll((all) =>
       all.map((each) => [/** @type {HTMLElement} */ (each.closest('section')).dataset.box ?? '', each.getBoundingClientRect().width]));
     expect(widths).toHaveLength(cases.length);
-    return widths.filter(([, each]) => Number(each) > width + 0.5 || Number(each) < Math.min(LIKED, width) - 0.5);
+    return widths.filter(([, each]) => Number(each) > width + 0.5 || Number(each) < Math.min(PREFERRED_WIDTH, width) - 0.5);
   };
   for (const script of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
     await showPage(page, cases.join(''), { head, script });
@@ -62,8 +62,8 @@ const boxesOf = (page, name, em) =>
     em,
   );
 
-test('a figure is in proportion to the letters around it, whatever the font size of the root', async ({ page, figure }) => {
-  const looks = [];
+test('a figure is in proportion to the text around it, whatever the font size of the root', async ({ page, figure }) => {
+  const layouts = [];
   for (const [root, em] of [['100%', 16], ['62.5%', 24]]) {
     await page.setViewportSize({ width: 1400, height: 2400 });
     await showPage(page, `<div style="width: 43.75em"><${figure}></${figure}></div>`, {
@@ -72,14 +72,14 @@ test('a figure is in proportion to the letters around it, whatever the font size
     await untilReady(page.locator(figure));
     await expect(page.locator(figure).locator('.folds')).toBeVisible();
     await frames(page);
-    looks.push({ root, em, boxes: await boxesOf(page, figure, Number(em)) });
+    layouts.push({ root, em, boxes: await boxesOf(page, figure, Number(em)) });
   }
-  const [first, ...others] = looks;
+  const [first, ...others] = layouts;
   for (const { root, em, boxes } of others) {
     expect(boxes.map(({ part }) => part)).toEqual(first.boxes.map(({ part }) => part));
-    // Browsers round letters to pixels.
-    const off = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - first.boxes[i].numbers[k]) > 0.25));
-    expect(off, `${em} px, root ${root}`).toEqual([]);
+    // Browsers round the widths of letters to pixels.
+    const differing = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - first.boxes[i].numbers[k]) > 0.25));
+    expect(differing, `${em} px, root ${root}`).toEqual([]);
   }
 });
 

@@ -8,43 +8,43 @@ import { STILL, assign, boxOf, centreOf, dragSlider, frames, mount, showPage, st
 test.use(STILL);
 
 /** @param {{ name: string }[]} events */
-const names = (events) => events.map(({ name }) => name);
+const namesOf = (events) => events.map(({ name }) => name);
 
 test('a drag fires input at each step and one change at its end, composed, with the value', async ({ page }) => {
   await showPage(page, '<div id="host"></div>');
   await page.evaluate(() => {
     const root = /** @type {Element} */ (document.querySelector('#host')).attachShadow({ mode: 'open' });
     root.innerHTML = '<banana-machine></banana-machine>';
-    const all = /** @type {unknown[]} */ ([]);
-    Object.assign(window, { all });
+    const recorded = /** @type {unknown[]} */ ([]);
+    Object.assign(window, { all: recorded });
     for (const name of ['input', 'change', 'load', 'stats']) {
       document.addEventListener(name, (event) => {
         const [origin] = event.composedPath();
-        all.push([name, /** @type {Element} */ (origin).localName, Reflect.get(origin, 'v'), event.bubbles, event.composed]);
+        recorded.push([name, /** @type {Element} */ (origin).localName, Reflect.get(origin, 'v'), event.bubbles, event.composed]);
       });
     }
   });
   const widget = page.locator('banana-machine');
   await untilReady(widget);
-  const take = () => page.evaluate(() => /** @type {unknown[][]} */ (Reflect.get(window, 'all')).splice(0));
-  const opening = await take();
+  const takeRecorded = () => page.evaluate(() => /** @type {unknown[][]} */ (Reflect.get(window, 'all')).splice(0));
+  const opening = await takeRecorded();
   expect(opening.map(([name]) => name).sort()).toEqual(['load', 'stats']);
   await dragSlider(widget.locator('#v'), 0.75);
   await frames(page);
-  const all = await take();
+  const recorded = await takeRecorded();
   // One listener gets all events, each from the element itself and not from native controls inside it.
-  for (const [, origin, , bubbles, composed] of [...opening, ...all]) expect([origin, bubbles, composed]).toEqual(['banana-machine', true, true]);
-  const gestures = all.filter(([name]) => name !== 'stats');
+  for (const [, origin, , bubbles, composed] of [...opening, ...recorded]) expect([origin, bubbles, composed]).toEqual(['banana-machine', true, true]);
+  const gestures = recorded.filter(([name]) => name !== 'stats');
   expect(gestures.length).toBeGreaterThan(3);
   expect(gestures.map(([name]) => name)).toEqual([...Array(gestures.length - 1).fill('input'), 'change']);
   const values = gestures.map(([, , v]) => v);
   expect(values.at(-1)).toBe(Number(await widget.locator('#v').inputValue()));
   expect(new Set(values).size).toBeGreaterThan(2);
-  expect(all.some(([name]) => name === 'stats')).toBe(true);
+  expect(recorded.some(([name]) => name === 'stats')).toBe(true);
 });
 
 /** Actions of a reader other than dragging, with all folds open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
-const ACTS = {
+const READER_ACTIONS = {
   'banana-machine': [
     ['preset', (widget) => widget.getByRole('button', { name: 'Hard arc' }).click()],
     ['radio', (widget) => widget.getByLabel('triangular').check()],
@@ -133,27 +133,27 @@ testEach('a frame after an input event calls the core at most six times, and a r
     Object.assign(element, { calls });
     const { prototype } = /** @type {import('./support.js').AnyElement} */ (element).machine.constructor;
     for (const [key, { get, value }] of Object.entries(Object.getOwnPropertyDescriptors(prototype))) {
-      const counted = (/** @type {Function} */ member) => /** @this {unknown} */ function (/** @type {any[]} */ ...given) {
+      const countingCalls = (/** @type {Function} */ member) => /** @this {unknown} */ function (/** @type {any[]} */ ...given) {
         /** @type {string[]} */ (calls.at(-1)).push(key);
         return member.apply(this, given);
       };
-      if (get) Object.defineProperty(prototype, key, { get: counted(get) });
-      else if (!['constructor', '__destroy_into_raw'].includes(key)) Object.defineProperty(prototype, key, { value: counted(value) });
+      if (get) Object.defineProperty(prototype, key, { get: countingCalls(get) });
+      else if (!['constructor', '__destroy_into_raw'].includes(key)) Object.defineProperty(prototype, key, { value: countingCalls(value) });
     }
-    const next = () => {
+    const startNextFrame = () => {
       calls.push([]);
-      requestAnimationFrame(next);
+      requestAnimationFrame(startNextFrame);
     };
-    next();
+    startNextFrame();
   });
-  // Methods of the machine that were called, as one list for each frame.
-  const asked = async () => {
+  // Returns the methods of the machine that were called, as one list for each frame.
+  const callsPerFrame = async () => {
     await untilSettled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'calls')).splice(0, Infinity, []));
   };
   const slider = widget.locator(`#${FIGURE_FACTS[name].slider}`);
   await slider.scrollIntoViewIfNeeded();
-  await asked();
+  await callsPerFrame();
   const { x, y, width, height } = await boxOf(slider);
   const share = await slider.evaluate((input) => {
     const { value, min, max } = /** @type {HTMLInputElement} */ (input);
@@ -162,21 +162,21 @@ testEach('a frame after an input event calls the core at most six times, and a r
   await page.mouse.move(x + share * width, y + height / 2);
   await page.mouse.down();
   await page.mouse.move(x + (share < 0.5 ? share + 0.1 : share - 0.1) * width, y + height / 2, { steps: 3 });
-  const counts = await asked();
+  const counts = await callsPerFrame();
   expect(Math.max(...counts.map(({ length }) => length)), `${name}: ${JSON.stringify(counts)}`).toBeLessThanOrEqual(6);
   expect(counts.flat(), name).toContain('read');
   await page.mouse.up();
   // Map Squeeze times its samplers while nothing moves.
-  expect((await asked()).flat().filter((key) => !['picture', 'surface', 'trial'].includes(key)), name).toEqual([]);
+  expect((await callsPerFrame()).flat().filter((key) => !['picture', 'surface', 'trial'].includes(key)), name).toEqual([]);
 });
 
 testEach('each control of a figure fires one input and one change', async (page, name) => {
   const widget = await mount(page, name);
   await unfold(widget);
   await takeEvents(page);
-  for (const [act, go] of ACTS[name]) {
-    await go(widget);
-    expect.soft(names(await takeEvents(page, ['input', 'change', 'error'])), act).toEqual(['input', 'change']);
+  for (const [actionName, runAction] of READER_ACTIONS[name]) {
+    await runAction(widget);
+    expect.soft(namesOf(await takeEvents(page, ['input', 'change', 'error'])), actionName).toEqual(['input', 'change']);
   }
 });
 
@@ -187,13 +187,13 @@ test('a handle that is dragged fires input at each step and one change', async (
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 40, y - 20, { steps: 4 });
-  expect(names(await takeEvents(page))).toEqual(Array(4).fill('input'));
+  expect(namesOf(await takeEvents(page))).toEqual(Array(4).fill('input'));
   await page.mouse.up();
-  expect(names(await takeEvents(page))).toEqual(['change']);
+  expect(namesOf(await takeEvents(page))).toEqual(['change']);
   // A handle is taken and released without a change.
   await page.mouse.down();
   await page.mouse.up();
-  expect(names(await takeEvents(page))).toEqual([]);
+  expect(namesOf(await takeEvents(page))).toEqual([]);
 });
 
 test('changes by the page fire stats alone, also out of sight', async ({ page, figure }) => {
@@ -203,20 +203,20 @@ test('changes by the page fire stats alone, also out of sight', async ({ page, f
   await takeEvents(page);
   await page.evaluate(() => scrollTo(0, 4000));
   await takeEvents(page, ['stats']);
-  const before = await stateOf(widget);
+  const stateBefore = await stateOf(widget);
   const [key, value] = FIGURE_FACTS[figure].other;
-  for (const to of [value, null]) {
-    expect(await assign(widget, key, to)).toBe('');
-    expect(names(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(to)).toEqual(['stats']);
+  for (const newValue of [value, null]) {
+    expect(await assign(widget, key, newValue)).toBe('');
+    expect(namesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(newValue)).toEqual(['stats']);
   }
-  expect(await stateOf(widget)).toEqual(before);
-  await widget.evaluate((element, [attribute, to]) => element.setAttribute(attribute, String(to)), FIGURE_FACTS[figure].other);
-  expect(names(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
-  const other = await stateOf(widget);
-  expect(other).not.toEqual(before);
-  await widget.evaluate((element, state) => Reflect.get(element, 'setState').call(element, state), before);
-  expect(names(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
-  expect(await stateOf(widget)).toEqual(before);
+  expect(await stateOf(widget)).toEqual(stateBefore);
+  await widget.evaluate((element, [attribute, newValue]) => element.setAttribute(attribute, String(newValue)), FIGURE_FACTS[figure].other);
+  expect(namesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
+  const changedState = await stateOf(widget);
+  expect(changedState).not.toEqual(stateBefore);
+  await widget.evaluate((element, state) => Reflect.get(element, 'setState').call(element, state), stateBefore);
+  expect(namesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
+  expect(await stateOf(widget)).toEqual(stateBefore);
 });
 
 test('events report changes alone, whatever is drawn and asked', async ({ page, figure }) => {
@@ -236,11 +236,11 @@ test('events report changes alone, whatever is drawn and asked', async ({ page, 
 });
 
 test('an arrow key or a space that a control used goes no further; any other key does', async ({ page }) => {
-  const parts = {
+  const selectorsByFigure = {
     'arc-anatomy': ['.handle.body.start', '#omega', 'input[type=radio] >> nth=0'],
     'banana-machine': ['#chart-omega', '.to-present'],
   };
-  for (const [name, selectors] of Object.entries(parts)) {
+  for (const [name, selectors] of Object.entries(selectorsByFigure)) {
     const widget = await mount(page, name);
     await unfold(widget);
     await page.evaluate(() => {
@@ -250,10 +250,10 @@ test('an arrow key or a space that a control used goes no further; any other key
     });
     for (const selector of selectors) {
       await widget.locator(selector).focus();
-      const used = selector === '.to-present' ? ['Space'] : ['ArrowRight', 'ArrowLeft'];
-      for (const key of [...used, 's', '/', 'Escape']) await page.keyboard.press(key);
-      const passed = await page.evaluate(() => /** @type {string[]} */ (Reflect.get(window, 'keys')).splice(0));
-      expect(passed, selector).toEqual(['s', '/', 'Escape']);
+      const usedKeys = selector === '.to-present' ? ['Space'] : ['ArrowRight', 'ArrowLeft'];
+      for (const key of [...usedKeys, 's', '/', 'Escape']) await page.keyboard.press(key);
+      const passedKeys = await page.evaluate(() => /** @type {string[]} */ (Reflect.get(window, 'keys')).splice(0));
+      expect(passedKeys, selector).toEqual(['s', '/', 'Escape']);
     }
   }
 });

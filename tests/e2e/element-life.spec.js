@@ -9,7 +9,7 @@ import { FRESH, STILL, assign, boxOf, centreOf, frames, mount, pictureOf, proper
 test.use(STILL);
 
 /** Counts requested frames and compiled modules from the start of a page. @param {Page} page */
-async function count(page) {
+async function countFramesAndModules(page) {
   await page.addInitScript(() => {
     const counts = { frames: 0, compiled: 0, instances: 0 };
     Object.assign(window, { counts, quietFrame: requestAnimationFrame.bind(window) });
@@ -28,33 +28,33 @@ async function count(page) {
 }
 
 /** Returns the counts. @param {Page} page @returns {Promise<{ frames: number, compiled: number, instances: number }>} */
-const counted = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
+const countsOf = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
 
-/** Waits for six frames that the count leaves out. @param {Page} page */
-const pass = (page) =>
+/** Waits for six frames that are not counted. @param {Page} page */
+const waitForSixFrames = (page) =>
   page.evaluate(async () => {
     for (let i = 0; i < 6; i++) await new Promise(Reflect.get(window, 'quietFrame'));
   });
 
 test('figures far from the window fetch and compute nothing, and one module serves all', FRESH, async ({ page }) => {
   /** @type {string[]} */
-  const fetched = [];
-  page.on('request', (request) => fetched.push(new URL(request.url()).pathname));
-  await count(page);
+  const fetchedPaths = [];
+  page.on('request', (request) => fetchedPaths.push(new URL(request.url()).pathname));
+  await countFramesAndModules(page);
   await showPage(page, `<div style="height: 5000px"></div>${TWO_NAMES.map((name) => `<${name}></${name}>`).join('')}`, {
     script: '<script type="module" src="/external.js"></script>',
   });
   // Polling is avoided, because it requests frames.
   await page.evaluate((tags) => Promise.all(tags.map((tag) => customElements.whenDefined(tag))).then(() => true), [...TWO_NAMES]);
-  await pass(page);
-  expect(await counted(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
-  expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual([]);
+  await waitForSixFrames(page);
+  expect(await countsOf(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
+  expect(fetchedPaths.filter((path) => path.endsWith('.wasm'))).toEqual([]);
   for (const name of TWO_NAMES) {
     await page.locator(name).scrollIntoViewIfNeeded();
     await untilReady(page.locator(name));
   }
-  expect(await counted(page)).toMatchObject({ compiled: 1, instances: TWO_NAMES.length });
-  expect(fetched.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
+  expect(await countsOf(page)).toMatchObject({ compiled: 1, instances: TWO_NAMES.length });
+  expect(fetchedPaths.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
 });
 
 test('a page with one figure fetches the module of that figure @nightly', async ({ page }) => {
@@ -76,28 +76,28 @@ test('figures within six hundred pixels of the window start, and others do not',
 
 test('a cloud that is out of sight asks for no frames, and goes on growing where it was @nightly', async ({ page, cloud }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
-  await count(page);
+  await countFramesAndModules(page);
   await showPage(page, `<${cloud}></${cloud}><div style="height: 6000px"></div>`);
   const widget = page.locator(cloud);
   await untilReady(widget);
-  const shown = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown);
+  const shownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown);
   const samples = Number(await property(widget, 'samples'));
   await widget.evaluate(async (element) => {
-    const moved = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
+    const changed = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
-    await moved;
+    await changed;
     scrollTo(0, 6000);
-    // Wait for an observer of our own: the figure's observer reports in the same frame.
+    // Waits for an observer of this test. The observer of the figure reports in the same frame.
     await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));
   });
   expect(await property(widget, 'playing')).toBe(true);
-  await pass(page);
-  const before = [(await counted(page)).frames, await shown()];
-  expect(before[1]).toBeLessThan(samples);
-  await pass(page);
-  expect([(await counted(page)).frames, await shown()]).toEqual(before);
+  await waitForSixFrames(page);
+  const countsBefore = [(await countsOf(page)).frames, await shownCount()];
+  expect(countsBefore[1]).toBeLessThan(samples);
+  await waitForSixFrames(page);
+  expect([(await countsOf(page)).frames, await shownCount()]).toEqual(countsBefore);
   await page.evaluate(() => scrollTo(0, 0));
-  await expect.poll(shown, { timeout: 20_000 }).toBe(samples);
+  await expect.poll(shownCount, { timeout: 20_000 }).toBe(samples);
 });
 
 test('settled waits for the figure and all of its samples, in sight and far from the window', async ({ page, cloud }) => {
@@ -117,31 +117,31 @@ test('a cloud that is half grown stays so over a move and over a removal @nightl
   await showPage(page, `<div id="a"><${cloud}></${cloud}></div><div id="b"></div>`);
   const widget = page.locator(cloud);
   await untilReady(widget);
-  // With this seed every robot stays in the picture, so that the view does not open.
+  // With this seed every robot is inside the view, so that the view does not zoom out.
   await assign(widget, 'seed', 11);
   await unfold(widget);
-  const press = (/** @type {string} */ button) => widget.locator('.cloud').getByRole('button', { name: button, exact: true }).click();
-  await press('Clear');
-  for (let i = 0; i < 5; i++) await press('Step');
-  const before = await stateOf(widget);
-  expect(/** @type {any} */ (before).shown).toBeGreaterThan(0);
-  expect(/** @type {any} */ (before).shown).toBeLessThan(/** @type {any} */ (before).samples);
+  const pressButton = (/** @type {string} */ button) => widget.locator('.cloud').getByRole('button', { name: button, exact: true }).click();
+  await pressButton('Clear');
+  for (let i = 0; i < 5; i++) await pressButton('Step');
+  const stateBefore = await stateOf(widget);
+  expect(/** @type {any} */ (stateBefore).shown).toBeGreaterThan(0);
+  expect(/** @type {any} */ (stateBefore).shown).toBeLessThan(/** @type {any} */ (stateBefore).samples);
   const picture = await pictureOf(widget.locator('canvas.plane'));
-  const kept = await widget.evaluate((element) => {
+  const isSameMachine = await widget.evaluate((element) => {
     const { machine } = /** @type {AnyElement} */ (element);
     document.querySelector('#b')?.append(element);
     return machine === /** @type {AnyElement} */ (element).machine;
   });
-  expect(kept).toBe(true);
+  expect(isSameMachine).toBe(true);
   await frames(page);
-  expect(await stateOf(widget)).toEqual(before);
+  expect(await stateOf(widget)).toEqual(stateBefore);
   await widget.evaluate(async (element) => {
     element.remove();
     await new Promise(requestAnimationFrame);
     document.querySelector('#a')?.append(element);
   });
   await untilReady(widget);
-  expect(await stateOf(widget)).toEqual(before);
+  expect(await stateOf(widget)).toEqual(stateBefore);
   await expect.poll(() => pictureOf(widget.locator('canvas.plane'))).toBe(picture);
 });
 
@@ -153,25 +153,25 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   const folds = widget.locator('details');
   await expect.poll(() => folds.count()).toBeGreaterThan(1);
   await unfold(widget);
-  const open = () => folds.evaluateAll((all) => all.map((each) => /** @type {HTMLDetailsElement} */ (each).open));
-  const before = await open();
+  const openFolds = () => folds.evaluateAll((all) => all.map((each) => /** @type {HTMLDetailsElement} */ (each).open));
+  const openBefore = await openFolds();
   const field = folds.nth(fold.at).locator(fold.field);
   await field.fill(fold.value);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await frames(page);
-  expect(await open()).toEqual(before);
+  expect(await openFolds()).toEqual(openBefore);
   const height = (await boxOf(widget)).height;
   const heights = await widget.evaluate(async (element) => {
     element.remove();
     await new Promise(requestAnimationFrame);
-    const again = new Promise((resolve) => element.addEventListener('load', resolve));
+    const loadedAgain = new Promise((resolve) => element.addEventListener('load', resolve));
     document.querySelector('#a')?.append(element);
     const heights = [element.getBoundingClientRect().height];
-    await again;
+    await loadedAgain;
     return [...heights, element.getBoundingClientRect().height];
   });
   await untilReady(widget);
-  expect(await open()).toEqual(before);
+  expect(await openFolds()).toEqual(openBefore);
   await expect(field).toHaveValue(fold.value);
   await expect(folds.nth(fold.at).locator('.folded')).not.toBeEmpty();
   // The height of the figure does not change meanwhile.
@@ -181,7 +181,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
 test('a figure keeps what the reader did in the moment before it was removed @nightly', async ({ page, figure }) => {
   const { slider, at, values: [value] } = FIGURE_FACTS[figure];
   const widget = await mount(page, figure);
-  const kept = await widget.evaluate(async (element, [id, to]) => {
+  const stateAfter = await widget.evaluate(async (element, [id, to]) => {
     const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${id}`));
     slider.value = String(to);
     slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
@@ -189,7 +189,7 @@ test('a figure keeps what the reader did in the moment before it was removed @ni
     await new Promise(requestAnimationFrame);
     return /** @type {AnyElement} */ (element).getState();
   }, /** @type {const} */ ([slider, value]));
-  expect(kept).toHaveProperty(at, value);
+  expect(stateAfter).toHaveProperty(at, value);
 });
 
 test('a figure that is moved while a handle is held lets go of it, and fits its picture @nightly', async ({ page, handled }) => {
@@ -197,15 +197,15 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
   const widget = page.locator(handled);
   await untilReady(widget);
   const handle = widget.locator('.handle').first();
-  const before = await stateOf(widget);
+  const stateBefore = await stateOf(widget);
   const { x, y } = await centreOf(handle);
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 30, y + 20, { steps: 3 });
   await frames(page);
   await expect(handle).toHaveClass(/held/);
-  const dragged = await stateOf(widget);
-  expect(dragged).not.toEqual(before);
+  const stateAfterDrag = await stateOf(widget);
+  expect(stateAfterDrag).not.toEqual(stateBefore);
   await takeEvents(page);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await frames(page);
@@ -213,24 +213,24 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
   expect((await takeEvents(page)).map(({ name }) => name)).toEqual(['change']);
   await page.mouse.move(700, 300);
   await frames(page);
-  expect(await stateOf(widget)).toEqual(dragged);
+  expect(await stateOf(widget)).toEqual(stateAfterDrag);
   await page.mouse.up();
 });
 
 test('a canvas that has got its context back is drawn again', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   const canvas = widget.locator('canvas.plane');
-  const before = await pictureOf(canvas);
-  const blank = await canvas.evaluate((element) => {
+  const pictureBefore = await pictureOf(canvas);
+  const blankPicture = await canvas.evaluate((element) => {
     const canvas = /** @type {HTMLCanvasElement} */ (element);
     // A browser that restores a lost context leaves the canvas blank and fires this event.
     canvas.getContext('2d')?.reset();
-    const blank = canvas.toDataURL();
+    const blankPicture = canvas.toDataURL();
     canvas.dispatchEvent(new Event('contextrestored'));
-    return blank;
+    return blankPicture;
   });
-  expect(blank).not.toBe(before);
-  expect(await pictureOf(canvas)).toBe(before);
+  expect(blankPicture).not.toBe(pictureBefore);
+  expect(await pictureOf(canvas)).toBe(pictureBefore);
 });
 
 test('a figure that comes back is drawn on the screen again, even if it was removed during print', async ({ page, figure }) => {
@@ -269,12 +269,12 @@ test('a figure that was removed and comes back has no more observers, and does n
   const widget = page.locator('map-squeeze');
   await untilReady(widget);
   const counts = () => page.evaluate(() => ({ ...Reflect.get(window, 'counts') }));
-  const before = await counts();
+  const countsBefore = await counts();
   for (const y of [3500, 0]) {
     await page.evaluate((top) => scrollTo(0, top), y);
     await frames(page);
   }
-  expect(await counts()).toEqual(before);
+  expect(await counts()).toEqual(countsBefore);
   await widget.evaluate(async (element) => {
     const { body } = document;
     element.remove();
@@ -282,7 +282,7 @@ test('a figure that was removed and comes back has no more observers, and does n
     body.prepend(element);
   });
   await untilReady(widget);
-  expect((await counts()).observers).toBe(before.observers);
+  expect((await counts()).observers).toBe(countsBefore.observers);
 });
 
 test('a figure that was not displayed shows what was set meanwhile @nightly', async ({ page, figure }) => {
@@ -290,14 +290,14 @@ test('a figure that was not displayed shows what was set meanwhile @nightly', as
   const widget = page.locator(figure);
   await untilReady(widget);
   const canvas = widget.locator('canvas.plane');
-  const before = await pictureOf(canvas);
-  const display = (/** @type {string} */ value) => page.locator('#box').evaluate((box, to) => void (/** @type {HTMLElement} */ (box).style.display = to), value);
-  await display('none');
+  const pictureBefore = await pictureOf(canvas);
+  const setDisplay = (/** @type {string} */ value) => page.locator('#box').evaluate((box, to) => void (/** @type {HTMLElement} */ (box).style.display = to), value);
+  await setDisplay('none');
   await frames(page);
   await assign(widget, ...FIGURE_FACTS[figure].other);
   await frames(page);
-  await display('block');
-  await expect.poll(() => pictureOf(canvas)).not.toBe(before);
+  await setDisplay('block');
+  await expect.poll(() => pictureOf(canvas)).not.toBe(pictureBefore);
   await expect(widget).toHaveAttribute(FIGURE_FACTS[figure].other[0].replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`), String(FIGURE_FACTS[figure].other[1]));
 });
 
@@ -314,16 +314,16 @@ test('a page that comes back from the back-forward cache is alive @nightly', asy
   const banana = page.locator('banana-machine');
   await banana.scrollIntoViewIfNeeded();
   await assign(banana, 'omega', 1.25);
-  const shown = async () => [await pictureOf(banana.locator('canvas.plane')), ...(await Promise.all(ALL_NAMES.map((name) => stateOf(page.locator(name)))))];
-  const before = await shown();
+  const pictureAndStates = async () => [await pictureOf(banana.locator('canvas.plane')), ...(await Promise.all(ALL_NAMES.map((name) => stateOf(page.locator(name)))))];
+  const shownBefore = await pictureAndStates();
   await page.evaluate(() => addEventListener('pageshow', ({ persisted }) => void Object.assign(window, { persisted })));
   await page.goto('/embed.html?widget=map-squeeze');
   await page.goBack({ waitUntil: 'commit' });
   await expect.poll(() => page.evaluate(() => Reflect.get(window, 'persisted'))).toBe(true);
   await frames(page);
-  expect(await shown()).toEqual(before);
+  expect(await pictureAndStates()).toEqual(shownBefore);
   await banana.locator('#v').fill('0.4');
-  await expect.poll(async () => (await shown())[0]).not.toBe(before[0]);
+  await expect.poll(async () => (await pictureAndStates())[0]).not.toBe(shownBefore[0]);
   await browser.close();
 });
 
@@ -335,7 +335,7 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
   const session = await page.context().newCDPSession(page);
   await session.send('HeapProfiler.enable');
   /** Mounts a figure of each kind after the other, and removes it when it is drawn. @param {number} rounds */
-  const mounted = async (rounds) => {
+  const mountAndRemove = async (rounds) => {
     for (let round = 0; round < rounds; round++) {
       for (const name of ALL_NAMES) {
         await page.evaluate(async ([tag, few]) => {
@@ -350,7 +350,7 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
     }
   };
   /** Counts living objects of some classes after a garbage collection. */
-  const living = async () => {
+  const countObjects = async () => {
     await session.send('HeapProfiler.collectGarbage');
     /** @type {Record<string, number>} */
     const counts = {};
@@ -366,12 +366,12 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
     counts.nodes = (await session.send('Memory.getDOMCounters')).nodes;
     return counts;
   };
-  await mounted(2);
+  await mountAndRemove(2);
   // The engine may keep the latest object of a class for a while.
-  await expect.poll(async () => (await living()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
-  const before = await living();
-  await mounted(20);
-  await expect.poll(async () => (await living()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
-  const after = await living();
-  for (const [name, count] of Object.entries(after)) expect.soft(count - before[name], name).toBeLessThanOrEqual(2);
+  await expect.poll(async () => (await countObjects()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
+  const objectsBefore = await countObjects();
+  await mountAndRemove(20);
+  await expect.poll(async () => (await countObjects()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
+  const objectsAfter = await countObjects();
+  for (const [name, count] of Object.entries(objectsAfter)) expect.soft(count - objectsBefore[name], name).toBeLessThanOrEqual(2);
 });

@@ -17,7 +17,7 @@ test('a preset sets every setting but samples and seed, and is marked while all 
 
 test('Start over brings back the settings, the seed and the lines as the figure opened', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { attributes: 'preset="hard" samples="2000" seed="5" overlays="ellipse"' });
-  const opened = await stateOf(widget);
+  const openingState = await stateOf(widget);
   await unfold(widget);
   await widget.locator('#alpha4').fill('0.15');
   await widget.getByRole('button', { name: 'Pivot' }).click();
@@ -25,9 +25,9 @@ test('Start over brings back the settings, the seed and the lines as the figure 
   await widget.getByRole('checkbox', { name: 'Gaussian in ξ' }).check();
   await widget.getByRole('button', { name: 'Clear' }).click();
   await frames(page);
-  expect(await stateOf(widget)).not.toEqual(opened);
+  expect(await stateOf(widget)).not.toEqual(openingState);
   await widget.getByRole('button', { name: 'Start over' }).click();
-  await expect.poll(() => stateOf(widget)).toEqual(opened);
+  await expect.poll(() => stateOf(widget)).toEqual(openingState);
 });
 
 test('a seed is typed, and one that is none is refused by a sentence', async ({ page, cloud }) => {

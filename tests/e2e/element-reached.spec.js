@@ -6,12 +6,12 @@ import { STILL, frames, property, showPage, test, untilReady } from './support.j
 test.use(STILL);
 
 /**
- * Opens a page with a figure far below the window, between a link and a button, that no observer starts.
+ * Opens a page with a figure far below the window, between a link and a button. Observers are disabled, so that they do not start it.
  *
  * @param {Page} page
  * @param {string} name
  */
-async function showFar(page, name) {
+async function showFarBelow(page, name) {
   await page.addInitScript(() => {
     window.IntersectionObserver = /** @type {any} */ (
       class {
@@ -31,35 +31,35 @@ async function showFar(page, name) {
   return widget;
 }
 
-for (const [way, origin, key] of /** @type {const} */ ([['above', '#before', 'Tab'], ['below', '#after', 'Shift+Tab']])) {
-  test(`a figure that Tab reaches from ${way} before it has started has the focus where it would be`, async ({ page, figure }) => {
-    const widget = await showFar(page, figure);
-    const stop = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
+for (const [direction, origin, key] of /** @type {const} */ ([['above', '#before', 'Tab'], ['below', '#after', 'Shift+Tab']])) {
+  test(`a figure that Tab reaches from ${direction} before it has started has the focus where it would be`, async ({ page, figure }) => {
+    const widget = await showFarBelow(page, figure);
+    const focusedElement = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
     await page.locator(origin).focus();
     await page.keyboard.press(key);
     await untilReady(widget);
-    const reached = await stop();
+    const firstFocused = await focusedElement();
     await page.locator(origin).focus();
     await page.keyboard.press(key);
-    expect(reached).toBe(await stop());
-    expect(reached).toBeTruthy();
+    expect(firstFocused).toBe(await focusedElement());
+    expect(firstFocused).toBeTruthy();
   });
 }
 
 test('a figure that starts when the reader has gone on leaves the focus where it is @nightly', async ({ page, figure }) => {
-  let arrive = () => {};
-  const arrived = new Promise((resolve) => (arrive = () => resolve(undefined)));
+  let allowModule = () => {};
+  const moduleIsAllowed = new Promise((resolve) => (allowModule = () => resolve(undefined)));
   await page.route('**/*.wasm', async (route) => {
-    await arrived;
+    await moduleIsAllowed;
     await route.continue();
   });
-  const widget = await showFar(page, figure);
-  const asked = page.waitForRequest(/\.wasm$/);
+  const widget = await showFarBelow(page, figure);
+  const moduleRequest = page.waitForRequest(/\.wasm$/);
   await page.locator('#before').focus();
   await page.keyboard.press('Tab');
-  await asked;
+  await moduleRequest;
   await page.keyboard.press('Tab');
-  arrive();
+  allowModule();
   await untilReady(widget);
   await frames(page);
   await expect(page.locator('#after')).toBeFocused();

@@ -14,13 +14,13 @@ const linkOf = (widget) => widget.evaluate((element) => /** @type {AnyElement} *
 /** @param {Locator} widget @returns {Promise<string>} fragment of its link */
 const fragmentOf = async (widget) => new URL(await linkOf(widget)).hash;
 
-const THREE = `<banana-machine share></banana-machine>
+const THREE_FIGURES = `<banana-machine share></banana-machine>
   <h2 id="what-to-try" style="margin-top: 3000px">What to try</h2>
   <banana-machine share id="second one"></banana-machine>
   <banana-machine></banana-machine>`;
 
 test('two widgets and an anchor share the fragment, and the link shows what was there', FRESH, async ({ page, context }) => {
-  await showPage(page, THREE, { fragment: '#what-to-try&theme=a%20b' });
+  await showPage(page, THREE_FIGURES, { fragment: '#what-to-try&theme=a%20b' });
   // The browser finds the anchor although the fragment has further parts.
   await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(1000);
   const [first, second, third] = [0, 1, 2].map((i) => page.locator('banana-machine').nth(i));
@@ -38,26 +38,26 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   await expect.poll(hash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+&banana-machine:second%20one=[\w-]+$/);
   await third.scrollIntoViewIfNeeded();
   await untilReady(third);
-  const before = await hash();
+  const hashBefore = await hash();
   await third.getByRole('button', { name: 'Straight' }).click();
   await frames(page);
-  expect(await hash()).toBe(before);
+  expect(await hash()).toBe(hashBefore);
   expect(await page.evaluate(() => history.length)).toBe(entries);
 
   const link = await linkOf(first);
-  expect(new URL(link).hash).toBe(before);
-  const other = await context.newPage();
-  await showPage(other, THREE, { fragment: new URL(link).hash });
-  const [one, two, three] = [0, 1, 2].map((i) => other.locator('banana-machine').nth(i));
-  for (const [copy, original] of [[one, first], [two, second]]) {
+  expect(new URL(link).hash).toBe(hashBefore);
+  const newPage = await context.newPage();
+  await showPage(newPage, THREE_FIGURES, { fragment: new URL(link).hash });
+  const [copy1, copy2, copy3] = [0, 1, 2].map((i) => newPage.locator('banana-machine').nth(i));
+  for (const [copy, original] of [[copy1, first], [copy2, second]]) {
     await copy.scrollIntoViewIfNeeded();
     await untilReady(copy);
     expect(await stateOf(copy)).toEqual(await stateOf(original));
   }
-  await three.scrollIntoViewIfNeeded();
-  await untilReady(three);
-  expect(/** @type {any} */ (await stateOf(three)).command).toEqual({ v: 1, omega: 0, dt: 2 });
-  expect(await takeEvents(other, ['error', 'input', 'change'])).toEqual([]);
+  await copy3.scrollIntoViewIfNeeded();
+  await untilReady(copy3);
+  expect(/** @type {any} */ (await stateOf(copy3)).command).toEqual({ v: 1, omega: 0, dt: 2 });
+  expect(await takeEvents(newPage, ['error', 'input', 'change'])).toEqual([]);
 });
 
 test('figures in shadow roots, closed ones too, have parts of their own in the fragment @nightly', FRESH, async ({ page }) => {
@@ -86,36 +86,36 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   const gap = '<p style="margin: 2000px 0">Between</p>';
   const body = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
   await showPage(page, body);
-  const figure = (/** @type {import('@playwright/test').Page} */ of, /** @type {number} */ i) => of.locator('banana-machine').nth(i);
+  const figureOf = (/** @type {import('@playwright/test').Page} */ of, /** @type {number} */ i) => of.locator('banana-machine').nth(i);
   const tops = (/** @type {import('@playwright/test').Page} */ of) =>
     of.locator('banana-machine').evaluateAll((all) => all.map((each) => Math.round(each.getBoundingClientRect().top)));
   /** @type {string[]} */
   const links = [];
   for (const i of [0, 1]) {
-    await figure(page, i).scrollIntoViewIfNeeded();
-    await untilReady(figure(page, i));
+    await figureOf(page, i).scrollIntoViewIfNeeded();
+    await untilReady(figureOf(page, i));
     // The address contains the state of this figure when the link to the next one is copied.
-    links.push(await fragmentOf(figure(page, i)));
+    links.push(await fragmentOf(figureOf(page, i)));
     await page.evaluate((hash) => history.replaceState(null, '', hash), links[i]);
   }
   expect(links[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
   // A figure that is in the address already gets no second part.
-  expect(await fragmentOf(figure(page, 1))).toBe(links[1]);
+  expect(await fragmentOf(figureOf(page, 1))).toBe(links[1]);
   for (const [i, fragment] of links.entries()) {
-    const other = await context.newPage();
-    await showPage(other, body, { fragment });
-    await untilReady(figure(other, i));
-    await expect.poll(async () => (await tops(other))[i]).toBeCloseTo(0);
+    const newPage = await context.newPage();
+    await showPage(newPage, body, { fragment });
+    await untilReady(figureOf(newPage, i));
+    await expect.poll(async () => (await tops(newPage))[i]).toBeCloseTo(0);
     // Elements that are added or moved later do not scroll the page.
-    const moved = await other.evaluate(async () => {
+    const scrollAfterMove = await newPage.evaluate(async () => {
       scrollTo(0, 100);
       document.body.append(document.createElement('banana-machine'));
       document.body.append(/** @type {Element} */ (document.querySelector('banana-machine')));
       await new Promise((resolve) => setTimeout(resolve));
       return scrollY;
     });
-    expect(moved).toBe(100);
-    await other.close();
+    expect(scrollAfterMove).toBe(100);
+    await newPage.close();
   }
   // A link that is followed on the page.
   await page.evaluate(() => scrollTo(0, 0));
@@ -134,14 +134,14 @@ test('an anchor that is not there, or that the reader has left, scrolls nothing 
   expect(await page.evaluate(() => scrollY)).toBe(0);
   await page.evaluate(() => (location.hash = '#low'));
   await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(1000);
-  const scrolled = await page.evaluate(async () => {
+  const scrollAfterLoad = await page.evaluate(async () => {
     scrollTo(0, 0);
     const figure = document.createElement('banana-machine');
     document.body.prepend(figure);
     await new Promise((resolve) => figure.addEventListener('load', resolve));
     return scrollY;
   });
-  expect(scrolled).toBe(0);
+  expect(scrollAfterLoad).toBe(0);
 });
 
 test('a link that is broken is reported, and the figure opens as its attributes say', async ({ page }) => {
@@ -161,9 +161,9 @@ test('a page with a base of its own keeps its address @nightly', async ({ page }
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await expect.poll(address).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
   // A later state replaces the earlier one.
-  const former = await address();
+  const formerAddress = await address();
   await widget.getByRole('button', { name: 'Open corridor' }).click();
-  await expect.poll(address).not.toBe(former);
+  await expect.poll(address).not.toBe(formerAddress);
   expect(await address()).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
 });
 
@@ -176,21 +176,21 @@ test('a figure without share leaves the address alone, and opens its part of a l
   expect(await page.evaluate(() => location.hash)).toBe('#elsewhere');
   const link = await linkOf(widget);
   expect(link.split('#')[0]).toBe(page.url().split('#')[0]);
-  const other = await context.newPage();
-  await showPage(other, `<${figure}></${figure}>`, { fragment: new URL(link).hash });
-  await untilReady(other.locator(figure));
-  const opened = await stateOf(other.locator(figure));
-  expect(opened).toEqual(await stateOf(widget));
+  const newPage = await context.newPage();
+  await showPage(newPage, `<${figure}></${figure}>`, { fragment: new URL(link).hash });
+  await untilReady(newPage.locator(figure));
+  const openedState = await stateOf(newPage.locator(figure));
+  expect(openedState).toEqual(await stateOf(widget));
   // From then on the address follows the figure, and "back" leaves the page.
-  const entries = await other.evaluate(() => history.length);
-  await other.locator(figure).locator(`#${slider}`).fill(String(values[1]));
-  await expect.poll(async () => (await other.evaluate(() => location.hash)) === (await fragmentOf(other.locator(figure)))).toBe(true);
-  expect(other.url()).not.toBe(link);
-  expect(await other.evaluate(() => history.length)).toBe(entries);
-  const changed = await stateOf(other.locator(figure));
-  await other.reload();
-  await untilReady(other.locator(figure));
-  expect(await stateOf(other.locator(figure))).toEqual(changed);
+  const entries = await newPage.evaluate(() => history.length);
+  await newPage.locator(figure).locator(`#${slider}`).fill(String(values[1]));
+  await expect.poll(async () => (await newPage.evaluate(() => location.hash)) === (await fragmentOf(newPage.locator(figure)))).toBe(true);
+  expect(newPage.url()).not.toBe(link);
+  expect(await newPage.evaluate(() => history.length)).toBe(entries);
+  const changedState = await stateOf(newPage.locator(figure));
+  await newPage.reload();
+  await untilReady(newPage.locator(figure));
+  expect(await stateOf(newPage.locator(figure))).toEqual(changedState);
 });
 
 test('a figure with share keeps its state in the address, and follows it', async ({ page, figure }) => {
@@ -201,11 +201,11 @@ test('a figure with share keeps its state in the address, and follows it', async
   const hash = () => page.evaluate(() => location.hash);
   await widget.locator(`#${slider}`).fill(String(values[0]));
   await expect.poll(hash).toMatch(new RegExp(`^#${figure}\\.1=[\\w-]+$`));
-  const [former, state] = [await hash(), await stateOf(widget)];
+  const [formerHash, state] = [await hash(), await stateOf(widget)];
   await widget.getByRole('button', { name: button, exact: true }).click();
-  await expect.poll(hash).not.toBe(former);
+  await expect.poll(hash).not.toBe(formerHash);
   expect(await stateOf(widget)).not.toEqual(state);
-  await page.evaluate((fragment) => (location.hash = fragment), former);
+  await page.evaluate((fragment) => (location.hash = fragment), formerHash);
   await expect.poll(() => stateOf(widget)).toEqual(state);
   // An anchor without a state changes nothing.
   await page.evaluate(() => (location.hash = '#end'));
@@ -227,9 +227,9 @@ test('copies a link, and the code to embed with the address of the script', asyn
   await expect(widget.getByText('Copied.')).toBeVisible();
   expect(await clipboard()).toBe(await linkOf(widget));
   await widget.getByText('Numbers and data').click();
-  const embed = widget.getByRole('button', { name: 'Copy embed code' });
-  await expect(embed).toHaveAttribute('title', 'HTML that shows the figure as it is now on a page of your own');
-  await embed.click();
+  const embedButton = widget.getByRole('button', { name: 'Copy embed code' });
+  await expect(embedButton).toHaveAttribute('title', 'HTML that shows the figure as it is now on a page of your own');
+  await embedButton.click();
   await expect.poll(clipboard).toContain('<banana-machine preset="pivot"></banana-machine>');
   const origin = new URL(page.url()).origin;
   expect(await clipboard()).toContain(`<script type="module" src="${origin}/motion-widgets.js"></script>`);
@@ -285,7 +285,7 @@ test('a frame shows the figure of its address, and sends its height', async ({ p
   await expect(widget.locator('.folds')).toBeVisible();
   expect(await property(widget, slider)).toBe(value);
   await expect.poll(async () => {
-    const [height, told] = [await widget.evaluate(() => document.body.getBoundingClientRect().height), await page.evaluate(() => Reflect.get(window, 'heights').at(-1))];
-    return Math.abs(height - told);
+    const [height, reportedHeight] = [await widget.evaluate(() => document.body.getBoundingClientRect().height), await page.evaluate(() => Reflect.get(window, 'heights').at(-1))];
+    return Math.abs(height - reportedHeight);
   }).toBeLessThanOrEqual(1);
 });

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { SEEDS, anyOf } from './any-state.js';
+import { SEEDS, randomStates } from './any-state.js';
 import { STILL, frames, mount, showPage, stateOf, takeEvents, test, testEach, unfold, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
@@ -8,11 +8,11 @@ test.use(STILL);
 
 testEach('random states go in and come out, and a second element in the same state is equal', async (page, name, isFull) => {
   await showPage(page, `<${name} id="one"></${name}><div style="position: fixed; inset: 0 0 auto"><${name} id="two"></${name}></div>`);
-  const [one, two] = ['#one', '#two'].map((id) => page.locator(id));
-  await untilReady(one);
-  await untilReady(two);
+  const [firstWidget, secondWidget] = ['#one', '#two'].map((id) => page.locator(id));
+  await untilReady(firstWidget);
+  await untilReady(secondWidget);
   for (const seed of isFull ? SEEDS : SEEDS.slice(0, 2)) {
-    const state = anyOf(seed)[name];
+    const state = randomStates(seed)[name];
     const [first, second] = await page.evaluate(async (given) => {
       const elements = ['one', 'two'].map((id) => /** @type {AnyElement} */ (/** @type {unknown} */ (document.getElementById(id))));
       elements[0].setState(given);
@@ -36,11 +36,11 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
     ['dead-reckoning', { steps: 1, step: 2 }, 'RangeError: step is 2; allowed is'],
   ]);
-  for (const name of new Set(cases.map(([of]) => of))) {
+  for (const name of new Set(cases.map(([caseName]) => caseName))) {
     const widget = await mount(page, name);
-    const before = await stateOf(widget);
-    for (const [, change, message] of cases.filter(([of]) => of === name)) {
-      const [thrown, after] = await widget.evaluate((element, part) => {
+    const stateBefore = await stateOf(widget);
+    for (const [, change, message] of cases.filter(([caseName]) => caseName === name)) {
+      const [thrownError, stateAfter] = await widget.evaluate((element, part) => {
         const widget = /** @type {AnyElement} */ (element);
         try {
           widget.setState({ widget: element.localName, version: 1, ...part });
@@ -49,8 +49,8 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
           return [String(error), widget.getState()];
         }
       }, change);
-      expect(thrown).toContain(message);
-      expect(after).toEqual(before);
+      expect(thrownError).toContain(message);
+      expect(stateAfter).toEqual(stateBefore);
     }
   }
 });
@@ -62,14 +62,14 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   await widget.getByLabel('odometry').check();
   // The slider that bends the cloud is another one in each model.
   await widget.locator('.single #alpha2').fill('0.07');
-  const before = /** @type {any} */ (await stateOf(widget));
-  expect(before.alphas.velocity[0]).toBe(0.15);
-  expect(before.alphas.odometry[1]).toBe(0.07);
+  const stateBefore = /** @type {any} */ (await stateOf(widget));
+  expect(stateBefore.alphas.velocity[0]).toBe(0.15);
+  expect(stateBefore.alphas.odometry[1]).toBe(0.07);
   await widget.evaluate((element) => /** @type {AnyElement} */ (element).setState({ widget: 'banana-machine', version: 1, model: 'velocity', samples: 500 }));
-  expect(await stateOf(widget)).toEqual({ ...before, model: 'velocity', samples: 500, shown: 500 });
+  expect(await stateOf(widget)).toEqual({ ...stateBefore, model: 'velocity', samples: 500, shown: 500 });
   expect(await widget.evaluate((element) => /** @type {AnyElement} */ (element).alphas[0])).toBe(0.15);
   // The state survives a removal too.
-  const after = await stateOf(widget);
+  const stateAfter = await stateOf(widget);
   await widget.evaluate(async (element) => {
     const parent = /** @type {Element} */ (element.parentElement);
     element.remove();
@@ -77,7 +77,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
     parent.append(element);
   });
   await untilReady(widget);
-  expect(await stateOf(widget)).toEqual(after);
+  expect(await stateOf(widget)).toEqual(stateAfter);
 });
 
 test('a property set right after a state holds, however long the state takes @nightly', async ({ page }) => {

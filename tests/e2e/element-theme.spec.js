@@ -6,7 +6,7 @@ import { STILL, frames, mount, pixelsOf, showPage, test, unfold, untilReady } fr
 test.use(STILL);
 
 /** Background and text colours of themes of books and documentation sites, as computed by a browser: the extremes among eighteen. */
-const THEMES = {
+const THEME_COLORS = {
   'mdBook, light': ['#ffffff', '#000000'],
   'mdBook, rust': ['#e1e1db', '#262625'],
   'mdBook, coal': ['#131516', '#98a3ad'],
@@ -19,7 +19,7 @@ const THEMES = {
 };
 
 /** Minimum contrast with the background of text, lines and dots. */
-const CONTRAST = { ink: 4.5, muted: 4.5, prior: 4.5, prediction: 4.5, posterior: 4.5, accent: 4.5, cloud: 3, truth: 3 };
+const MIN_CONTRAST = { ink: 4.5, muted: 4.5, prior: 4.5, prediction: 4.5, posterior: 4.5, accent: 4.5, cloud: 3, truth: 3 };
 
 /**
  * Returns the colours of a figure's roles on its surface.
@@ -67,9 +67,9 @@ const surfaceOf = (widget) =>
   });
 
 /** @param {Locator} widget */
-const lookOf = async (widget) => ((await coloursOf(widget, ['paper']))[0][0] > 128 ? 'light' : 'dark');
+const schemeOf = async (widget) => ((await coloursOf(widget, ['paper']))[0][0] > 128 ? 'light' : 'dark');
 
-const SETTINGS = /** @type {[string, string, (scheme: 'light' | 'dark') => string][]} */ ([
+const SCHEME_SOURCES = /** @type {[string, string, (scheme: 'light' | 'dark') => string][]} */ ([
   ['the inherited color-scheme', '<style>body { color: #333 }</style>', (scheme) => `document.body.style.colorScheme = '${scheme}'`],
   [
     'colours that a page switches',
@@ -79,13 +79,13 @@ const SETTINGS = /** @type {[string, string, (scheme: 'light' | 'dark') => strin
   ['its theme attribute', '<style>:root { color-scheme: light }</style>', (scheme) => `document.querySelector('#it').theme = '${scheme}'`],
 ]);
 
-for (const [what, head, to] of SETTINGS) {
-  test(`a figure follows ${what}`, async ({ page, figure }) => {
+for (const [source, head, scriptFor] of SCHEME_SOURCES) {
+  test(`a figure follows ${source}`, async ({ page, figure }) => {
     const widget = await mount(page, figure, { attributes: 'id="it"', head });
-    expect(await lookOf(widget)).toBe('light');
+    expect(await schemeOf(widget)).toBe('light');
     for (const scheme of /** @type {const} */ (['dark', 'light'])) {
-      await page.evaluate(to(scheme));
-      await expect.poll(() => lookOf(widget)).toBe(scheme);
+      await page.evaluate(scriptFor(scheme));
+      await expect.poll(() => schemeOf(widget)).toBe(scheme);
       // The canvas has the colours of the current theme.
       await expect.poll(() => pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
     }
@@ -95,21 +95,21 @@ for (const [what, head, to] of SETTINGS) {
 test('a figure follows the system where the page does', async ({ page, figure }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
   const widget = await mount(page, figure, { head: '<style>:root { color-scheme: light dark }</style>' });
-  expect(await lookOf(widget)).toBe('dark');
+  expect(await schemeOf(widget)).toBe('dark');
   await page.emulateMedia({ colorScheme: 'light' });
-  await expect.poll(() => lookOf(widget)).toBe('light');
+  await expect.poll(() => schemeOf(widget)).toBe('light');
 });
 
 test('a figure on the ground of any theme has its ink and letters, and enough contrast', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { head: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
   const { backgroundColor, fontFamily, fontSize } = await surfaceOf(widget);
   expect({ backgroundColor, fontFamily, fontSize }).toEqual({ backgroundColor: 'rgba(0, 0, 0, 0)', fontFamily: '"DejaVu Sans", sans-serif', fontSize: '17px' });
-  for (const [theme, [ground, text]] of Object.entries(THEMES)) {
+  for (const [theme, [ground, text]] of Object.entries(THEME_COLORS)) {
     await page.evaluate(([background, color]) => Object.assign(document.body.style, { background, color }), [ground, text]);
     await expect.poll(async () => (await coloursOf(widget, ['paper', 'ink'])).map(hex), theme).toEqual([ground, text]);
-    const [paper, ...colours] = await coloursOf(widget, ['paper', ...Object.keys(CONTRAST)]);
-    for (const [i, [role, least]] of Object.entries(CONTRAST).entries()) {
-      expect.soft(contrast(colours[i], paper), `${role} on ${theme}`).toBeGreaterThanOrEqual(least);
+    const [paper, ...colours] = await coloursOf(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
+    for (const [i, [role, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
+      expect.soft(contrast(colours[i], paper), `${role} on ${theme}`).toBeGreaterThanOrEqual(minContrast);
     }
   }
   expect(await pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
@@ -158,16 +158,16 @@ const BLACK_ON_DARK = /** @type {[string, Parameters<import('@playwright/test').
   ['black text in a dark scheme', { colorScheme: 'dark' }, ':root { color-scheme: light dark } body { color: #000 }'],
 ]);
 
-for (const [what, media, style] of BLACK_ON_DARK) {
-  test(`a figure on a page with ${what} is legible`, async ({ page, figure }) => {
+for (const [situation, media, style] of BLACK_ON_DARK) {
+  test(`a figure on a page with ${situation} is legible`, async ({ page, figure }) => {
     await page.emulateMedia(media);
     const widget = await mount(page, figure, { attributes: 'theme="auto"', head: `<style>${style}</style>` });
-    const theme = (/** @type {string} */ name) => widget.evaluate((element, to) => element.setAttribute('theme', to), name);
+    const setTheme = (/** @type {string} */ name) => widget.evaluate((element, to) => element.setAttribute('theme', to), name);
     for (const name of media?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
-      await theme(name);
-      const [paper, ...colours] = await coloursOf(widget, ['paper', ...Object.keys(CONTRAST)]);
-      for (const [i, [role, least]] of Object.entries(CONTRAST).entries()) {
-        expect.soft(contrast(colours[i], paper), `${role} in ${name}`).toBeGreaterThanOrEqual(least);
+      await setTheme(name);
+      const [paper, ...colours] = await coloursOf(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
+      for (const [i, [role, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
+        expect.soft(contrast(colours[i], paper), `${role} in ${name}`).toBeGreaterThanOrEqual(minContrast);
       }
     }
     expect(await pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
@@ -178,16 +178,16 @@ test('a theme other than that of the page gives a figure its own paper and ink @
   const style = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
   const widget = await mount(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${style}</style><link rel="stylesheet" href="/motion-widgets.css">` });
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
-  // The other colours of the page do not fit that background either.
-  const ofPage = ['#112233', '#445566'];
-  for (const colour of (await coloursOf(widget, ['muted', 'rule'])).map(hex)) expect(ofPage).not.toContain(colour);
+  // The page's colours for muted text and rules do not fit that background, and are not used.
+  const pageColors = ['#112233', '#445566'];
+  for (const colour of (await coloursOf(widget, ['muted', 'rule'])).map(hex)) expect(pageColors).not.toContain(colour);
   await widget.evaluate((element) => element.setAttribute('theme', 'light'));
   await expect.poll(() => surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
-  expect((await coloursOf(widget, ['muted', 'rule'])).map(hex)).toEqual(ofPage);
+  expect((await coloursOf(widget, ['muted', 'rule'])).map(hex)).toEqual(pageColors);
 });
 
 /** Custom properties of themes for muted text, hairlines and the height of the header, which the stylesheet uses. */
-const NAMES_OF_THEMES = {
+const THEME_PROPERTIES = {
   Docusaurus: ['--ifm-color-emphasis-700', '--ifm-color-emphasis-300', '--ifm-navbar-height'],
   VitePress: ['--vp-c-text-2', '--vp-c-border', '--vp-nav-height'],
   Starlight: ['--sl-color-gray-3', '--sl-color-hairline-light', '--sl-nav-height'],
@@ -197,7 +197,7 @@ const NAMES_OF_THEMES = {
 
 test('the stylesheet adopts muted text, hairlines and header height of a theme, and --motion- properties override them', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
-  const look = async () => [
+  const adoptedStyle = async () => [
     ...(await coloursOf(widget, ['muted', 'rule'])).map(hex),
     await widget.locator('.surface').evaluate((element) => {
       const probe = Object.assign(document.createElement('span'), { style: 'position: absolute; height: var(--top)' });
@@ -207,18 +207,18 @@ test('the stylesheet adopts muted text, hairlines and header height of a theme, 
       return height;
     }),
   ];
-  const say = (/** @type {string} */ style) => page.evaluate((text) => void (document.documentElement.style.cssText = text), style);
-  for (const [theme, [muted, rule, height]] of Object.entries(NAMES_OF_THEMES)) {
-    await say(`${muted}: #112233; ${rule}: #445566; ${height}: 60px`);
-    expect.soft(await look(), theme).toEqual(['#112233', '#445566', 60]);
+  const setStyle = (/** @type {string} */ style) => page.evaluate((text) => void (document.documentElement.style.cssText = text), style);
+  for (const [theme, [muted, rule, height]] of Object.entries(THEME_PROPERTIES)) {
+    await setStyle(`${muted}: #112233; ${rule}: #445566; ${height}: 60px`);
+    expect.soft(await adoptedStyle(), theme).toEqual(['#112233', '#445566', 60]);
   }
-  await say('--ifm-navbar-height: 60px; --motion-muted: #010203; --motion-rule: #040506; --motion-sticky-top: 7px');
-  expect(await look()).toEqual(['#010203', '#040506', 7]);
+  await setStyle('--ifm-navbar-height: 60px; --motion-muted: #010203; --motion-rule: #040506; --motion-sticky-top: 7px');
+  expect(await adoptedStyle()).toEqual(['#010203', '#040506', 7]);
 });
 
 test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figure }) => {
   const widget = await mount(page, figure, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
-  // Light text on a dark background: the dark palette.
+  // Light text on a dark background gets the dark palette.
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
   expect(await widget.locator('.slider .effect').first().evaluate((element) => getComputedStyle(element).backgroundColor)).toBe('rgb(16, 32, 48)');
 });

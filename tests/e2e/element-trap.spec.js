@@ -7,19 +7,19 @@ import { STILL, frames, mount, pictureOf, showPage, stateOf, takeEvents, test, u
 
 test.use(STILL);
 
-/** Makes the next call into the core trap, and has a slider cause that call. @param {Locator} widget @param {string} slider */
-function trap(widget, slider) {
+/** Makes the next call into the core crash, and causes that call by an event of a slider. @param {Locator} widget @param {string} slider */
+function trapNextCall(widget, slider) {
   return widget.evaluate((element, id) => {
     const { machine, shadowRoot } = /** @type {AnyElement} */ (element);
     Object.assign(window, { trapped: machine });
-    // Address outside of the memory.
+    // This address is outside of the core's memory.
     machine.__wbg_ptr = 0x7ffffff0;
     shadowRoot?.querySelector(`#${id}`)?.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
   }, slider);
 }
 
 /** @param {Locator} widget */
-const restarted = (widget) =>
+const expectRestarted = (widget) =>
   expect.poll(() => widget.evaluate((element) => {
     const { machine } = /** @type {AnyElement} */ (element);
     return machine !== undefined && machine !== Reflect.get(window, 'trapped');
@@ -35,24 +35,24 @@ test('a core that traps is restarted with the same state and picture, and no oth
   await untilReady(neighbour);
   await widget.locator(`#${slider}`).fill(String(values[0]));
   await frames(page);
-  const [before, picture] = [await stateOf(widget), await pictureOf(widget.locator('canvas.plane'))];
+  const [stateBefore, pictureBefore] = [await stateOf(widget), await pictureOf(widget.locator('canvas.plane'))];
   await neighbour.evaluate((element) => void Object.assign(window, { neighbour: /** @type {AnyElement} */ (element).machine }));
   await takeEvents(page);
-  await trap(widget, slider);
-  await restarted(widget);
+  await trapNextCall(widget, slider);
+  await expectRestarted(widget);
   const errors = await takeEvents(page, ['error', 'load']);
   expect(errors.map(({ name, target }) => [name, target])).toEqual([['error', figure]]);
   expect(errors[0].message).toMatch(/memory access out of bounds|unreachable/);
-  expect(await stateOf(widget)).toEqual(before);
-  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(picture);
+  expect(await stateOf(widget)).toEqual(stateBefore);
+  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
   expect(await neighbour.evaluate((element) => /** @type {AnyElement} */ (element).machine === Reflect.get(window, 'neighbour'))).toBe(true);
   // The figure works again.
   await widget.locator(`#${slider}`).fill(String(values[1]));
   await expect(widget).toHaveAttribute(slider, String(values[1]));
   // After the next picture, the figure recovers from another trap too.
   await frames(page);
-  await trap(widget, slider);
-  await restarted(widget);
+  await trapNextCall(widget, slider);
+  await expectRestarted(widget);
   expect(await takeEvents(page, ['error', 'load'])).toHaveLength(1);
 });
 
@@ -64,7 +64,7 @@ test('a core that traps twice without a picture between ends in a sentence @nigh
     const { createMachine } = widget;
     widget.createMachine = (/** @type {unknown[]} */ ...given) => Object.assign(createMachine.apply(widget, given), { __wbg_ptr: 0x7ffffff0 });
   });
-  await trap(widget, 'v');
+  await trapNextCall(widget, 'v');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
   expect(await takeEvents(page, ['error'])).toHaveLength(2);
   await frames(page);

@@ -14,13 +14,13 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureFor } from './figures
  * @typedef {import('../../www/types.d.ts').Motion} Motion
  * @typedef {import('./figures.js').Name} Name
  * @typedef {import('../../www/types.d.ts').WidgetElement<any, any> & { machine: any, motion: any }} AnyElement
- * @typedef {{ name: string, target: string, message: string, path: number, value: unknown }} Heard
+ * @typedef {{ name: string, target: string, message: string, path: number, value: unknown }} FiredEvent
  * @typedef {HTMLElement & { machine: BananaMachine, motion: Motion }} BananaMachineElement
  */
 
 /**
- * Names of elements that a test's title chooses, for claims about all figures, all clouds and all handles; and whether the session has
- * seen what a figure shows at first sight.
+ * Fixtures: names of the elements on which a test about all figures, all clouds or all handles runs (its title decides), and whether the
+ * session has seen the introduction that a figure shows on the first visit.
  *
  * @typedef {{ figure: Name, cloud: Name, handled: Name, introduced: boolean }} Chosen
  */
@@ -40,21 +40,21 @@ export const test = base.extend({
   page: async ({ page, introduced }, use) => {
     if (introduced) await page.addInitScript(skipIntroduction);
     /** @type {string[]} */
-    const complaints = [];
+    const consoleMessages = [];
     page.on('console', (message) => {
-      if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+      if (['error', 'warning'].includes(message.type())) consoleMessages.push(message.text());
     });
-    page.on('pageerror', (error) => complaints.push(String(error)));
+    page.on('pageerror', (error) => consoleMessages.push(String(error)));
     await use(page);
-    expect(complaints).toEqual([]);
+    expect(consoleMessages).toEqual([]);
   },
 });
 
 /**
- * Declares the test of a claim about all figures. By day it is tested with one figure, which the title chooses, and at night with each.
+ * Declares a test about all figures. The daily tests run it with one figure, which depends on the title, and nightly tests with each.
  *
  * @param {string} title
- * @param {(page: Page, name: Name, isFull: boolean) => Promise<void>} claim is tested in full at night
+ * @param {(page: Page, name: Name, isFull: boolean) => Promise<void>} claim body of the test; `isFull` is true in nightly tests
  * @param {{ tag?: string }} [details]
  */
 export function testEach(title, claim, details = {}) {
@@ -72,14 +72,14 @@ function skipIntroduction() {
   try {
     sessionStorage.setItem('motion-widgets.introduced', 'yes');
   } catch {
-    // A page without storage shows no introduction.
+    // On a page without storage a figure shows no introduction.
   }
 }
 
-/** Tag of tests of a first visit or of the history. They get a new page, see playwright.config.js. */
+/** Tag of tests of a first visit or of the browser history. They get a new page, see playwright.config.js. */
 export const FRESH = { tag: '@fresh' };
 
-/** Options of tests of a complete cloud. With reduced motion it is complete at once. */
+/** Options of tests that need a complete cloud. With reduced motion a cloud is complete at once. */
 export const STILL = { contextOptions: { reducedMotion: /** @type {const} */ ('reduce') } };
 
 /**
@@ -91,17 +91,17 @@ export const STILL = { contextOptions: { reducedMotion: /** @type {const} */ ('r
  */
 export async function showPage(page, body, { head = '', fragment = '', script = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
   await page.addInitScript(() => {
-    const heard = /** @type {Heard[]} */ ([]);
-    Object.assign(window, { heard });
+    const firedEvents = /** @type {FiredEvent[]} */ ([]);
+    Object.assign(window, { heard: firedEvents });
     for (const name of ['load', 'input', 'change', 'stats', 'error']) {
       document.addEventListener(name, (event) => {
         const target = /** @type {Element} */ (event.target);
         if (!(target instanceof Element) || !target.localName.includes('-')) return;
         const { message = '' } = /** @type {ErrorEvent} */ (event);
-        // Listens to errors, so that the figure prints no warning.
+        // With a listener that handles errors, the figure prints no warning.
         event.preventDefault();
         const value = /** @type {AnyElement} */ (target).v;
-        heard.push({ name, target: target.localName, message, path: event.composedPath().length, value });
+        firedEvents.push({ name, target: target.localName, message, path: event.composedPath().length, value });
         // Errors do not bubble.
       }, { capture: name === 'error' });
     }
@@ -115,7 +115,7 @@ export async function showPage(page, body, { head = '', fragment = '', script = 
   await page.goto(`/bare.html${fragment}`);
 }
 
-/** Waits until an element has its machine, and a picture where it is in sight. @param {Locator} widget */
+/** Waits until an element has its machine, and has drawn its picture if it is visible. @param {Locator} widget */
 export async function untilReady(widget) {
   await widget.evaluate(async (element) => {
     while (Reflect.get(element, 'machine') === undefined) await new Promise(requestAnimationFrame);
@@ -143,12 +143,12 @@ export async function mount(page, name, { attributes = '', ...options } = {}) {
  *
  * @param {Page} page
  * @param {string[]} [names]
- * @returns {Promise<Heard[]>}
+ * @returns {Promise<FiredEvent[]>}
  */
 export async function takeEvents(page, names = ['load', 'input', 'change', 'error']) {
   await frames(page);
-  const all = /** @type {Heard[]} */ (await page.evaluate(() => Reflect.get(window, 'heard').splice(0)));
-  return all.filter(({ name }) => names.includes(name));
+  const events = /** @type {FiredEvent[]} */ (await page.evaluate(() => Reflect.get(window, 'heard').splice(0)));
+  return events.filter(({ name }) => names.includes(name));
 }
 
 /** Returns a property of a figure. @param {Locator} widget @param {string} name */
@@ -164,29 +164,29 @@ export function property(widget, name) {
  */
 export function assign(widget, name, value) {
   return widget.evaluate(
-    (element, [key, to]) => {
-      let refused = '';
-      const listen = (/** @type {Event} */ event) => void (refused = String(/** @type {ErrorEvent} */ (event).error));
+    (element, [key, newValue]) => {
+      let errorText = '';
+      const listen = (/** @type {Event} */ event) => void (errorText = String(/** @type {ErrorEvent} */ (event).error));
       element.addEventListener('error', listen);
-      Reflect.set(element, /** @type {string} */ (key), to);
+      Reflect.set(element, /** @type {string} */ (key), newValue);
       element.removeEventListener('error', listen);
-      return refused;
+      return errorText;
     },
     [name, value],
   );
 }
 
 /**
- * Plays a slider by its button, inside of the page, where no step is missed.
+ * Plays a slider by its button. The code runs in the page, where it misses no step.
  *
  * @param {Locator} widget
  * @param {string} key of the setting in a state, and class of its group
- * @param {number} [most] steps until it is paused
+ * @param {number} [maxSteps] steps until it is paused
  * @returns {Promise<{ values: number[], label: string }>} value at each step, and the label of the button at the first
  */
-export function playSlider(widget, key, most = Infinity) {
+export function playSlider(widget, key, maxSteps = Infinity) {
   return widget.evaluate(
-    (element, [key, most]) =>
+    (element, [key, maxSteps]) =>
       new Promise((resolve) => {
         const figure = /** @type {AnyElement} */ (element);
         const button = /** @type {HTMLButtonElement} */ (figure.shadowRoot?.querySelector(`.${key} button`));
@@ -198,7 +198,7 @@ export function playSlider(widget, key, most = Infinity) {
             await /** @type {any} */ (figure).updateComplete;
             label = button.innerText;
           }
-          if (values.length === most) button.click();
+          if (values.length === maxSteps) button.click();
         };
         figure.addEventListener('input', listen);
         figure.addEventListener('change', () => {
@@ -207,7 +207,7 @@ export function playSlider(widget, key, most = Infinity) {
         }, { once: true });
         button.click();
       }),
-    /** @type {const} */ ([key, most]),
+    /** @type {const} */ ([key, maxSteps]),
   );
 }
 
@@ -222,7 +222,7 @@ export async function openBanana(page, attributes = '') {
 }
 
 /**
- * Pauses the cloud of a page's first figure of a kind after one step of growth. A test from outside of the page might be too late.
+ * Pauses the first figure with this name after one step of its cloud's growth. The code runs in the page, because a test could be too late.
  *
  * @param {Page} page that is opened after this
  * @param {string} name of the widget
@@ -256,7 +256,7 @@ export async function untilUnfolded(widget) {
   await frames(widget.page());
 }
 
-/** The field of a slider's value. @param {Locator} widget @param {string} key of the setting */
+/** Returns the text field of a slider's value. @param {Locator} widget @param {string} key of the setting */
 export function valueField(widget, key) {
   return widget.locator(`.slider:has(#${key}) .typed`);
 }
@@ -293,7 +293,7 @@ export async function setSliders(widget, values) {
  * Drags a slider's thumb with the mouse.
  *
  * @param {Locator} slider
- * @param {number} to where the thumb is let go, as a share of the range
+ * @param {number} to position at which the thumb is released, as a fraction of the range
  */
 export async function dragSlider(slider, to) {
   const page = slider.page();
@@ -304,11 +304,11 @@ export async function dragSlider(slider, to) {
     return (Number(value) - Number(min)) / (Number(max) - Number(min));
   });
   // The centre of the thumb moves over the width of the input minus the width of the thumb.
-  const at = (/** @type {number} */ share) => x + height * 0.3 + share * (width - height * 0.6);
-  await page.mouse.move(at(from), y + height / 2);
+  const pixelAt = (/** @type {number} */ share) => x + height * 0.3 + share * (width - height * 0.6);
+  await page.mouse.move(pixelAt(from), y + height / 2);
   await page.mouse.down();
-  await page.mouse.move(at((from + to) / 2), y + height / 2, { steps: 4 });
-  await page.mouse.move(at(to), y + height / 2, { steps: 4 });
+  await page.mouse.move(pixelAt((from + to) / 2), y + height / 2, { steps: 4 });
+  await page.mouse.move(pixelAt(to), y + height / 2, { steps: 4 });
   await page.mouse.up();
 }
 
@@ -341,26 +341,26 @@ export async function pixelsOf(canvas, role) {
   await frames(canvas.page());
   return canvas.evaluate((element, name) => {
     const target = /** @type {HTMLCanvasElement} */ (element);
-    const probe = document.createElement('span');
-    // In forced colours too, the roles keep their hues.
-    probe.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
-    target.after(probe);
-    const copy = document.createElement('canvas');
-    copy.width = target.width;
-    copy.height = target.height;
-    const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext('2d', { willReadFrequently: true }));
-    // Colours in any notation.
-    context.fillStyle = getComputedStyle(probe).color;
-    probe.remove();
+    const colorProbe = document.createElement('span');
+    // In forced colours the roles keep their hues too.
+    colorProbe.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
+    target.after(colorProbe);
+    const pixelCopy = document.createElement('canvas');
+    pixelCopy.width = target.width;
+    pixelCopy.height = target.height;
+    const context = /** @type {CanvasRenderingContext2D} */ (pixelCopy.getContext('2d', { willReadFrequently: true }));
+    // The canvas converts colours of any notation to numbers.
+    context.fillStyle = getComputedStyle(colorProbe).color;
+    colorProbe.remove();
     context.fillRect(0, 0, 1, 1);
-    const wanted = context.getImageData(0, 0, 1, 1).data.slice(0, 3);
+    const roleColor = context.getImageData(0, 0, 1, 1).data.slice(0, 3);
     context.clearRect(0, 0, 1, 1);
     context.drawImage(target, 0, 0);
-    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    const { data } = context.getImageData(0, 0, pixelCopy.width, pixelCopy.height);
     let count = 0;
     for (let i = 0; i < data.length; i += 4) {
-      const off = Math.max(...[...wanted].map((channel, k) => Math.abs(channel - data[i + k])));
-      if (data[i + 3] > 250 && off < 8) count++;
+      const difference = Math.max(...[...roleColor].map((channel, k) => Math.abs(channel - data[i + k])));
+      if (data[i + 3] > 250 && difference < 8) count++;
     }
     return count;
   }, role);
@@ -377,7 +377,7 @@ export function readoutDetail(widget, name) {
 }
 
 /**
- * The page, with its widget running and everything open that is folded away.
+ * Opens a page with a running Banana Machine, with all disclosures open.
  *
  * @param {Page} page
  * @param {string} [attributes]
@@ -391,7 +391,7 @@ export async function openUnfoldedBanana(page, attributes = '') {
   return widget;
 }
 
-/** @param {number} count @returns {string} as the widget prints it, rounded */
+/** Formats a number as widgets do, rounded and with separators. @param {number} count @returns {string} */
 export const printedCount = (count) => String(Math.round(count)).replace(/\B(?=(\d{3})+$)/g, '\u202f');
 
 /** Returns a number that a widget prints. @param {string | null} text */
@@ -401,7 +401,7 @@ export function numberIn(text) {
   return Number(mantissa) * 10 ** Number(exponent);
 }
 
-/** Waits until all is calculated and shown. @param {Locator} widget */
+/** Waits until a figure has computed and drawn everything. @param {Locator} widget */
 export async function untilSettled(widget) {
   await widget.evaluate((element) => /** @type {AnyElement} */ (element).settled);
   await frames(widget.page());

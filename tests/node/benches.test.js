@@ -12,12 +12,12 @@ test('baseline has the statistics and the picture of the core', async () => {
 
 test('comparison finds a core with another skew', async () => {
   const motion = await (await freshModule()).load();
-  class Off extends motion.BananaMachine {
+  class MachineWithOtherSkew extends motion.BananaMachine {
     get stats() {
       const stats = super.stats;
       return { ...stats, crossTrackSkew: stats.crossTrackSkew * 1.1 };
     }
   }
-  const wrong = differences(/** @type {any} */ ({ BananaMachine: Off }), 2000);
-  assert.deepEqual([...new Set(wrong.map((text) => text.split(':')[0]))], ['crossTrackSkew']);
+  const messages = differences(/** @type {any} */ ({ BananaMachine: MachineWithOtherSkew }), 2000);
+  assert.deepEqual([...new Set(messages.map((text) => text.split(':')[0]))], ['crossTrackSkew']);
 });

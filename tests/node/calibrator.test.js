@@ -24,7 +24,7 @@ test('a number in the format of files is printed as on screen', () => {
   assert.deepEqual(['0.050', '1.0e-7', '≤ 2.3e-13'].map(localized), ['0.050', '1.0·10⁻⁷', '≤ 2.3·10⁻¹³']);
 });
 
-test('numbers of files: as many digits as the interval has a meaning in, with an exponent where they are tiny', () => {
+test('numbers in files have the digits that the interval makes meaningful, and tiny ones an exponent', () => {
   for (const [value, interval, text, range] of /** @type {[number, [number, number], string, string][]} */ ([
     [0.0123, [0.01, 0.015], '0.0123', '0.0100 to 0.0150'],
     [2.34e-13, [1.8e-13, 2.9e-13], '2.3e-13', '1.8e-13 to 2.9e-13'],
@@ -43,7 +43,7 @@ test('an α that rounds to 0 is an upper bound, and not 0', () => {
 });
 
 /** Returns the result of a calibration of two α's. @param {object} [change] replaces fields @returns {any} */
-const calibration = (change) => ({
+const calibrationOf = (change) => ({
   alphas: [0.03, 0.008],
   intervals: [[0.024, 0.036], [0.007, 0.0091]],
   recommended: { inflation: 2 },
@@ -55,9 +55,9 @@ const calibration = (change) => ({
   ...change,
 });
 
-/** Lines for Nav2 without their indentation. @param {object} [change] of the calibration @param {object} [other] options */
+/** Returns the lines for Nav2 without indentation. @param {object} [change] of the calibration @param {object} [other] options */
 const linesOf = (change, other) =>
-  nav2Lines({ calibration: calibration(change), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...other }, en.nav2)
+  nav2Lines({ calibration: calibrationOf(change), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...other }, en.nav2)
     .map((line) => line.trim());
 
 test('lines for Nav2 have the recommended α’s, and the fitted ones in comments', () => {
@@ -84,14 +84,14 @@ test('lines for Nav2 have no α that means nothing, and none at all where none i
 });
 
 test('lines for Nav2 warn of failed checks, of another rule, and of a localizer as reference', () => {
-  const { diagnostics } = calibration();
+  const { diagnostics } = calibrationOf();
   const checks = ['tails-normal', 'outliers-few'].map((name) => ({ name, passed: false, message: 'Drive on.' }));
   assert.ok(linesOf({ diagnostics: { ...diagnostics, checks } }).includes('# failed checks: tails-normal, outliers-few'));
-  for (const [warning, other] of /** @type {[string, object][]} */ ([
+  for (const [warning, options] of /** @type {[string, object][]} */ ([
     [en.nav2.otherRule, { rule: 'thrun' }],
     [en.nav2.localizer, { warnings: ['localizer'] }],
   ])) {
-    assert.ok(linesOf({}, other).includes(`# ${warning}`));
+    assert.ok(linesOf({}, options).includes(`# ${warning}`));
     assert.ok(!linesOf().includes(`# ${warning}`));
   }
 });
@@ -99,13 +99,13 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
 test('legs of the simulated log are those that the settings open with', () => {
   const config = Object.fromEntries(settings['alpha-calibrator'].map((each) => [each.key, each.default]));
   assert.deepEqual(SIMULATED_LEGS, { distance: config.distance, angle: config.angle });
-  const holds = (/** @type {object} */ change) => truthApplies(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...change } }));
-  assert.deepEqual([holds({}), holds({ distance: 0.3 }), holds({ angle: 0.3 }), holds({ duration: 1 }), holds({ rule: 'nav2' })], [true, false, false, false, false]);
+  const hasTruth = (/** @type {object} */ change) => truthApplies(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...change } }));
+  assert.deepEqual([hasTruth({}), hasTruth({ distance: 0.3 }), hasTruth({ angle: 0.3 }), hasTruth({ duration: 1 }), hasTruth({ rule: 'nav2' })], [true, false, false, false, false]);
 });
 
 test('the picture of the path has room for the odometry, as far as the reference keeps half of it', () => {
-  const corners = (/** @type {number[]} */ ...odometry) => cornersOf([0, 0, 0, 10, 4, 0], odometry);
-  assert.deepEqual(corners(), [0, 0, 10, 4]);
-  assert.deepEqual(corners(5, -2, 12, 3), [0, -2, 12, 4]);
-  assert.deepEqual(corners(-40, -50, 60, 70), [-5, -5, 15, 9]);
+  const cornersWith = (/** @type {number[]} */ ...odometry) => cornersOf([0, 0, 0, 10, 4, 0], odometry);
+  assert.deepEqual(cornersWith(), [0, 0, 10, 4]);
+  assert.deepEqual(cornersWith(5, -2, 12, 3), [0, -2, 12, 4]);
+  assert.deepEqual(cornersWith(-40, -50, 60, 70), [-5, -5, 15, 9]);
 });

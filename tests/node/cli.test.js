@@ -21,7 +21,7 @@ import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../m
 
 const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
 const example = (/** @type {string} */ name) => fileURLToPath(new URL(`../../examples/calibration/${name}.csv`, import.meta.url));
-const FILES = ['--odometry', example('odometry'), '--reference', example('reference')];
+const ARGS = ['--odometry', example('odometry'), '--reference', example('reference')];
 
 /** @type {string} */
 let folder;
@@ -29,7 +29,7 @@ before(() => (folder = mkdtempSync(join(tmpdir(), 'motion-cli-'))));
 after(() => rmSync(folder, { recursive: true, force: true }));
 
 /** @param {string} name @param {string | Uint8Array} contents */
-function file(name, contents) {
+function fileWith(name, contents) {
   const path = join(folder, name);
   writeFileSync(path, contents);
   return path;
@@ -42,7 +42,7 @@ async function outputOf(args, core = load) {
   return { code, out, err };
 }
 
-/** Returns what the core is called with, with logs in arrays. @param {string[]} args @returns {Promise<any>} */
+/** Returns the options with which the core is called, with logs in arrays. @param {string[]} args @returns {Promise<any>} */
 async function callOf(args) {
   /** @type {any} */
   let call;
@@ -52,42 +52,42 @@ async function callOf(args) {
 }
 
 test('options reach the core', async () => {
-  const { odometry: own, reference, ...fit } = await callOf(FILES);
+  const { odometry, reference, ...fit } = await callOf(ARGS);
   assert.deepEqual(fit, { legs: { distance: 0.25, angle: 0.2 } });
-  for (const log of [...own, ...reference]) assert.deepEqual(Object.keys(log), ['t', 'x', 'y', 'theta', 'breaks']);
-  const all = '--model omnidirectional --rule omni --update-min-d 0.5 --update-min-a 0.3 --outliers keep --reference-position-std 0.001 --reference-yaw-std 2e-3';
-  const stated = await callOf([...FILES, ...all.split(' ')]);
-  assert.deepEqual({ ...stated, odometry: [], reference: [] }, { odometry: [], reference: [], model: 'omnidirectional', rule: 'omni', legs: { distance: 0.5, angle: 0.3 }, outliers: 'keep', positionStd: 0.001, yawStd: 0.002 });
-  assert.deepEqual((await callOf([...FILES, '--duration=0.5'])).legs, { duration: 0.5 });
-  assert.equal((await callOf([...FILES, '--rule', 'omni'])).model, 'omnidirectional');
+  for (const log of [...odometry, ...reference]) assert.deepEqual(Object.keys(log), ['t', 'x', 'y', 'theta', 'breaks']);
+  const optionsText = '--model omnidirectional --rule omni --update-min-d 0.5 --update-min-a 0.3 --outliers keep --reference-position-std 0.001 --reference-yaw-std 2e-3';
+  const call = await callOf([...ARGS, ...optionsText.split(' ')]);
+  assert.deepEqual({ ...call, odometry: [], reference: [] }, { odometry: [], reference: [], model: 'omnidirectional', rule: 'omni', legs: { distance: 0.5, angle: 0.3 }, outliers: 'keep', positionStd: 0.001, yawStd: 0.002 });
+  assert.deepEqual((await callOf([...ARGS, '--duration=0.5'])).legs, { duration: 0.5 });
+  assert.equal((await callOf([...ARGS, '--rule', 'omni'])).model, 'omnidirectional');
 });
 
 test('files without an option are recordings, paired where each is one table', async () => {
-  const [own, reference] = [example('odometry'), example('reference')];
-  const moved = (/** @type {string} */ name, /** @type {string} */ from) => file(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
-  const stated = await callOf(FILES);
-  assert.deepEqual(await callOf([reference, own]), stated);
-  assert.deepEqual(await callOf([reference, '--recording', own]), stated);
-  const [second, truth] = [moved('odom2.csv', own), moved('truth2.csv', reference)];
-  const { odometry: drives, reference: measured } = await callOf([truth, own, '--odometry', second, '--reference', reference]);
+  const [odometryPath, referencePath] = [example('odometry'), example('reference')];
+  const later = (/** @type {string} */ name, /** @type {string} */ from) => fileWith(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
+  const expectedCall = await callOf(ARGS);
+  assert.deepEqual(await callOf([referencePath, odometryPath]), expectedCall);
+  assert.deepEqual(await callOf([referencePath, '--recording', odometryPath]), expectedCall);
+  const [odometry2, truth2] = [later('odom2.csv', odometryPath), later('truth2.csv', referencePath)];
+  const { odometry: drives, reference: measured } = await callOf([truth2, odometryPath, '--odometry', odometry2, '--reference', referencePath]);
   for (const logs of [drives, measured]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.floor(t[0] / 1000)), [0, 1]);
 });
 
 test('systematic errors are corrected or left in by name, all of them or single ones', async () => {
-  const correctOf = async (/** @type {string} */ args) => (await callOf([...FILES, ...args.split(' ')])).correct;
+  const correctOf = async (/** @type {string} */ args) => (await callOf([...ARGS, ...args.split(' ')])).correct;
   assert.deepEqual(await correctOf('--no-correct mountYaw,leverArm --correct turnScale'), { mountYaw: false, leverArm: false, turnScale: true });
-  const none = { clockOffset: false, mountYaw: false, leverArm: false, distanceScale: false, turnScale: false };
-  assert.deepEqual(await correctOf('--no-correct all'), none);
-  assert.deepEqual(await correctOf('--correct clockOffset --no-correct all'), { ...none, clockOffset: true });
+  const noCorrection = { clockOffset: false, mountYaw: false, leverArm: false, distanceScale: false, turnScale: false };
+  assert.deepEqual(await correctOf('--no-correct all'), noCorrection);
+  assert.deepEqual(await correctOf('--correct clockOffset --no-correct all'), { ...noCorrection, clockOffset: true });
 });
 
 test('several drives reach the core together, with times after one start', async () => {
   const drives = ['2', '3'].flatMap((digit) => ['odometry', 'reference'].flatMap((role) => {
     const rows = Array.from({ length: 40 }, (_, i) => `${digit}00.${10 + i},${role === 'odometry' ? i / 10 : i / 9},0,0`);
-    return [`--${role}`, file(`${role}${digit}.csv`, ['t,x,y,yaw', ...rows].join('\n'))];
+    return [`--${role}`, fileWith(`${role}${digit}.csv`, ['t,x,y,yaw', ...rows].join('\n'))];
   }));
-  const { odometry: own, reference } = await callOf(drives);
-  for (const logs of [own, reference]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.round(t[0])), [0, 100]);
+  const { odometry: odometryLogs, reference } = await callOf(drives);
+  for (const logs of [odometryLogs, reference]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.round(t[0])), [0, 100]);
   const { err } = await outputOf(drives.slice(0, 6));
   assert.equal(err, 'there are 2 logs of odometry and 1 of the reference; give one of each for a drive.\n');
 });
@@ -105,29 +105,29 @@ test('a recording has both logs, by topics and frames that are clear or named', 
       { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, 'odom', 'base_link', i, 1, 0), transform(t, 'map', 'base_link', 1.01 * i, 2, 0)] } },
     ];
   }).flat();
-  const recorded = async (/** @type {string} */ name, /** @type {string[]} */ ...topics) =>
-    ['--recording', file(name, await recordingOf(messages.filter(({ topic }) => topics.includes(topic)), { compression: 'zstd' }))];
+  const recordingOptions = async (/** @type {string} */ name, /** @type {string[]} */ ...topics) =>
+    ['--recording', fileWith(name, await recordingOf(messages.filter(({ topic }) => topics.includes(topic)), { compression: 'zstd' }))];
   const numbersOf = async (/** @type {string[]} */ ...args) => {
     const call = await callOf(args);
     return [call.odometry[0].y?.[3], call.odometry[0].omega?.[3], call.reference[0].y[3]];
   };
-  const all = await recorded('run.mcap', '/odom', '/mocap', '/other', '/cmd_vel');
-  assert.deepEqual(await numbersOf(...all), [1, undefined, 2]);
-  assert.deepEqual(await numbersOf(...all, '--odometry-topic', '/mocap', '--reference-topic', '/odom'), [2, undefined, 1]);
-  assert.deepEqual(await numbersOf(...all, '--model', 'velocity'), [undefined, 2, 2]);
-  const frames = await recorded('tf.mcap', '/tf');
-  assert.deepEqual(await numbersOf(...frames, '--odometry-frames', 'odom,base_link', '--reference-frames', 'map,base_link'), [1, undefined, 2]);
+  const withAllTopics = await recordingOptions('run.mcap', '/odom', '/mocap', '/other', '/cmd_vel');
+  assert.deepEqual(await numbersOf(...withAllTopics), [1, undefined, 2]);
+  assert.deepEqual(await numbersOf(...withAllTopics, '--odometry-topic', '/mocap', '--reference-topic', '/odom'), [2, undefined, 1]);
+  assert.deepEqual(await numbersOf(...withAllTopics, '--model', 'velocity'), [undefined, 2, 2]);
+  const withFrames = await recordingOptions('tf.mcap', '/tf');
+  assert.deepEqual(await numbersOf(...withFrames, '--odometry-frames', 'odom,base_link', '--reference-frames', 'map,base_link'), [1, undefined, 2]);
   for (const [args, sentence] of /** @type {const} */ ([
     [
-      await recorded('unclear.mcap', '/odom', '/other', '/third'),
+      await recordingOptions('unclear.mcap', '/odom', '/other', '/third'),
       'unclear.mcap: it is not clear what the reference is: /odom (Odometry), /other (PoseStamped), /third (PoseStamped). Choose with --reference-topic, as in --reference-topic /other.\n',
     ],
-    [await recorded('alone.mcap', '/odom'), 'alone.mcap: it has the odometry only, /odom (Odometry); give the reference too. Name both, with --odometry FILE and --reference FILE.\n'],
+    [await recordingOptions('alone.mcap', '/odom'), 'alone.mcap: it has the odometry only, /odom (Odometry); give the reference too. Name both, with --odometry FILE and --reference FILE.\n'],
   ])) assert.equal((await outputOf(args)).err, sentence);
 });
 
 test('bad input has the exit code 2 and a sentence', async () => {
-  const straight = file('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
+  const straightLog = fileWith('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
   for (const [args, start] of /** @type {[string[], string][]} */ ([
     [[example('odometry')], 'odometry.csv: it has the odometry only, t, x, y, yaw; give the reference too. Name both, '],
     [['a.csv', 'b.csv', '--time-unit', 'ms,s'], '--time-unit ms,s has two units; give the files with --odometry and --reference.'],
@@ -140,33 +140,33 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous."],
     [['--columns', '-,t,x,y,yaw'], "Option '--columns' argument is ambiguous. Did you forget to specify the option argument for '--columns'? To specify an option argument starting with a dash use '--columns=-XYZ'."],
     [
-      [file('two.csv', ['t,x,y,yaw,b_x,b_y,b_yaw', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 39},0,0`)].join('\n'))],
+      [fileWith('two.csv', ['t,x,y,yaw,b_x,b_y,b_yaw', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 39},0,0`)].join('\n'))],
       "two.csv: it is not clear what the odometry is: t, x, y, yaw (t, x, y, yaw), b_ (b_x, b_y, b_yaw). Choose with --odometry-topic, as in --odometry-topic 't, x, y, yaw'.\n",
     ],
     [['--json'], 'no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.'],
     [['--odometry', example('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
     [
-      [example('odometry'), file('lidar_odom.csv', readFileSync(example('reference')))],
+      [example('odometry'), fileWith('lidar_odom.csv', readFileSync(example('reference')))],
       'odometry.csv: there are 2 logs of odometry and 0 of the reference; give one of each for a drive. Choose with --odometry and --reference.\n',
     ],
-    [[...FILES, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
-    [[...FILES, '--json', '--yaml'], '--json excludes --yaml: give one or the other.'],
-    [[...FILES, '--update-min-d', '0,25'], '--update-min-d must be a number with a decimal point, 0.25 (got “0,25”).'],
-    [[...FILES, '--update-min-a', 'wide'], '--update-min-a must be a number (got “wide”).'],
-    [[...FILES, '--duration', '1', '--update-min-a', '1'], '--duration excludes --update-min-d and --update-min-a: give one or the other.'],
-    [[...FILES, '--no-correct', 'yaw'], '--no-correct must be all, or names of clockOffset, mountYaw, leverArm, distanceScale, turnScale (got “yaw”).'],
-    [[...FILES, '--reference-frames', 'map'], '--reference-frames must be a parent and a child frame, as in map,base_link (got “map”).'],
-    [[...FILES, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns, or two of these for odometry and reference (got “min”).'],
-    [[...FILES, '--reference-frames', 'map,base_link'], 'reference.csv: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
-    [[...FILES, '--odometry-topic', '/odom'], 'odometry.csv, topic /odom: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
-    [['--odometry', FILES[1], '--reference', FILES[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
+    [[...ARGS, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
+    [[...ARGS, '--json', '--yaml'], '--json excludes --yaml: give one or the other.'],
+    [[...ARGS, '--update-min-d', '0,25'], '--update-min-d must be a number with a decimal point, 0.25 (got “0,25”).'],
+    [[...ARGS, '--update-min-a', 'wide'], '--update-min-a must be a number (got “wide”).'],
+    [[...ARGS, '--duration', '1', '--update-min-a', '1'], '--duration excludes --update-min-d and --update-min-a: give one or the other.'],
+    [[...ARGS, '--no-correct', 'yaw'], '--no-correct must be all, or names of clockOffset, mountYaw, leverArm, distanceScale, turnScale (got “yaw”).'],
+    [[...ARGS, '--reference-frames', 'map'], '--reference-frames must be a parent and a child frame, as in map,base_link (got “map”).'],
+    [[...ARGS, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns, or two of these for odometry and reference (got “min”).'],
+    [[...ARGS, '--reference-frames', 'map,base_link'], 'reference.csv: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
+    [[...ARGS, '--odometry-topic', '/odom'], 'odometry.csv, topic /odom: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
+    [['--odometry', ARGS[1], '--reference', ARGS[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
     [[example('odometry'), `./${relative('.', example('odometry'))}`], '“./examples/calibration/odometry.csv” is given twice; give two independent measurements of one drive, odometry and reference.'],
-    [[...FILES.slice(0, 2), '--reference', join(folder, 'no.csv')], `${join(folder, 'no.csv')}: there is no such file or folder.`],
-    [[...FILES, '--plot', join(folder, 'no', 'plot.svg')], '--plot '],
+    [[...ARGS.slice(0, 2), '--reference', join(folder, 'no.csv')], `${join(folder, 'no.csv')}: there is no such file or folder.`],
+    [[...ARGS, '--plot', join(folder, 'no', 'plot.svg')], '--plot '],
     // Errors of the core, by the names of options and files.
-    [[...FILES, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
-    [[...FILES, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
-    [[...FILES.slice(0, 2), '--reference', straight], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
+    [[...ARGS, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
+    [[...ARGS, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
+    [[...ARGS.slice(0, 2), '--reference', straightLog], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
   ])) {
     const { code, out, err } = await outputOf(args);
     assert.deepEqual([code, out.replaceAll(/^(Odometry|Reference): .*\n( {2}.*\n)*/gm, '')], [2, ''], err);
@@ -174,14 +174,14 @@ test('bad input has the exit code 2 and a sentence', async () => {
   }
 });
 
-test('a shell gets help, errors, and a pipe that is closed', () => {
+test('a shell gets help and errors, and may close the pipe', () => {
   const shell = (/** @type {string[]} */ ...args) => spawnSync(process.execPath, [CLI, ...args], { encoding: 'utf8' });
   for (const help of [shell(), shell('calibrate', '--help')]) assert.deepEqual([help.status, help.stdout, help.stderr], [0, HELP, '']);
-  const refused = shell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
-  assert.deepEqual([refused.status, refused.stdout, refused.stderr], [2, '', 'no.csv: there is no such file or folder.\n']);
+  const refusal = shell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
+  assert.deepEqual([refusal.status, refusal.stdout, refusal.stderr], [2, '', 'no.csv: there is no such file or folder.\n']);
   assert.match(shell('calibrat').stderr, /^the command must be calibrate or inspect \(got “calibrat”\), as in npx motion-widgets inspect run\.bag; --help has examples\.$/m);
-  const closed = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...FILES, '--json'], { encoding: 'utf8' });
-  assert.deepEqual([closed.stdout, closed.stderr], ['{', '']);
+  const outputOfClosedPipe = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...ARGS, '--json'], { encoding: 'utf8' });
+  assert.deepEqual([outputOfClosedPipe.stdout, outputOfClosedPipe.stderr], ['{', '']);
 });
 
 test('a recording of the example has the truth in its intervals, and its JSON the keys of doc/calibration.md', async () => {
@@ -194,20 +194,20 @@ test('a recording of the example has the truth in its intervals, and its JSON th
       messages.push({ topic, type, t, message });
     }
   }
-  const path = file('example.mcap', await recordingOf(messages.sort((a, b) => a.t - b.t), { compression: 'zstd', chunkSize: 100_000 }));
+  const path = fileWith('example.mcap', await recordingOf(messages.sort((a, b) => a.t - b.t), { compression: 'zstd', chunkSize: 100_000 }));
   const { status, stdout, stderr } = spawnSync(process.execPath, [CLI, 'calibrate', '--recording', path, '--json'], { encoding: 'utf8' });
   assert.equal(status, 0, stderr);
   const result = JSON.parse(stdout);
-  const within = (/** @type {number} */ value, /** @type {[number, number]} */ [low, high]) => assert.ok(low <= value && value <= high, `${value}: ${low} to ${high}`);
-  for (const [i, alpha] of TRUE_MODEL.alphas.entries()) within(alpha, result.intervals[i]);
-  for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) within(TRUE_MODEL[name], result.systematicErrors[name].interval);
+  const assertInside = (/** @type {number} */ value, /** @type {[number, number]} */ [low, high]) => assert.ok(low <= value && value <= high, `${value}: ${low} to ${high}`);
+  for (const [i, alpha] of TRUE_MODEL.alphas.entries()) assertInside(alpha, result.intervals[i]);
+  for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) assertInside(TRUE_MODEL[name], result.systematicErrors[name].interval);
   assert.deepEqual([result.diagnostics.verdict, result.start, result.date.length], ['consistent', 9, 10]);
   const [, section] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
   assert.deepEqual(Object.keys(result).filter((key) => !section.includes(`\`${key}\``)), []);
 });
 
 test('the report of the example, from the verdict to the lines for Nav2', async () => {
-  const { code, out } = await outputOf([...FILES, '--rule', 'nav2', '--reference-yaw-std', '0']);
+  const { code, out } = await outputOf([...ARGS, '--rule', 'nav2', '--reference-yaw-std', '0']);
   assert.equal(code, 0);
   const parts = [
     /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, /, /^ {2}columns: t, x, y, yaw\n {2}units: time in s, /m, /^Consistent: all checks passed\. Use the recommended α’s with legs of this length\.$/m,
@@ -217,26 +217,26 @@ test('the report of the example, from the verdict to the lines for Nav2', async 
     /^correlation of neighbouring legs +0\.0/m, /^enough-legs +\d+ +≥ 100 +ok$/m, /^tails-normal +\S+ +1 to 3\.5 +ok$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s after the start$/m,
     /^of 1 m +\d+ +\d\S* % +\d\.\d+$/m, /^# nav2_params\.yaml\namcl:$/m, /2026-01-02$/m, /^ {4}alpha1: 0\.\d+ {2}# fitted 0\.\d+, 95 % /m, /^ {4}update_min_a: 0\.2$/m,
   ];
-  const places = parts.map((part) => out.search(part));
-  assert.deepEqual(places.filter((place, i) => place < 0 || place < places[i - 1]).map((place) => places.indexOf(place)), [], out);
+  const positions = parts.map((part) => out.search(part));
+  assert.deepEqual(positions.filter((place, i) => place < 0 || place < positions[i - 1]).map((place) => positions.indexOf(place)), [], out);
 });
 
 test('doc/calibration.md shows the report of the example', async () => {
-  const [, shown] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\s*```\n/s) ?? [];
-  const { out } = await outputOf(FILES);
-  assert.equal(shown.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), out.trimEnd());
+  const [, report] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\s*```\n/s) ?? [];
+  const { out } = await outputOf(ARGS);
+  assert.equal(report.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), out.trimEnd());
 });
 
 test('units are stated for both logs, or for each', async () => {
   const [header, ...rows] = readFileSync(example('odometry'), 'utf8').trim().split('\n');
-  const scaledBy = (/** @type {number} */ scale) => file(`scaled-${scale}.csv`, [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [scale, scale, scale, 180 / Math.PI][i]).join(','))].join('\n'));
+  const scaledBy = (/** @type {number} */ scale) => fileWith(`scaled-${scale}.csv`, [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [scale, scale, scale, 180 / Math.PI][i]).join(','))].join('\n'));
   const scaled = scaledBy(1000);
   const units = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
-  const [plain, stated] = [await callOf(FILES), await callOf(['--odometry', scaled, ...FILES.slice(2), ...units])];
+  const [plain, stated] = [await callOf(ARGS), await callOf(['--odometry', scaled, ...ARGS.slice(2), ...units])];
   assert.deepEqual(stated.reference, plain.reference);
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(stated.odometry[0][name][999] - plain.odometry[0][name][999]) < 1e-9, name);
-  const wrong = await outputOf(['--odometry', scaledBy(1), ...FILES.slice(2), '--angle-unit', 'rad']);
-  assert.match(wrong.err, /^scaled-1\.csv: its headings are in degrees and were read as radians; .* Choose with --angle-unit, as in --angle-unit deg; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\./);
+  const refusal = await outputOf(['--odometry', scaledBy(1), ...ARGS.slice(2), '--angle-unit', 'rad']);
+  assert.match(refusal.err, /^scaled-1\.csv: its headings are in degrees and were read as radians; .* Choose with --angle-unit, as in --angle-unit deg; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\./);
 });
 
 test('a folder gives its logs, and other files are skipped', async () => {
@@ -256,40 +256,40 @@ test('a folder gives its logs, and other files are skipped', async () => {
 });
 
 test('a journal beside a recording is named', async () => {
-  file('odometry.db3-wal', Buffer.from('377f0682', 'hex'));
-  const { code, err } = await outputOf(['--odometry', file('odometry.db3', readFileSync(example('odometry'))), ...FILES.slice(2)]);
+  fileWith('odometry.db3-wal', Buffer.from('377f0682', 'hex'));
+  const { code, err } = await outputOf(['--odometry', fileWith('odometry.db3', readFileSync(example('odometry'))), ...ARGS.slice(2)]);
   assert.deepEqual([code, err.split(' it is')[0]], [0, 'skipped: odometry.db3-wal:']);
 });
 
 /** Writes the reference of another drive: the path of the example from its end to its start. */
-const backwards = () => {
+const writtenReversedReference = () => {
   const [header, ...rows] = readFileSync(example('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
-  return file('other.csv', [header, ...rows.map(([t], i) => [t, ...rows[rows.length - 1 - i].slice(1)])].join('\n'));
+  return fileWith('other.csv', [header, ...rows.map(([t], i) => [t, ...rows[rows.length - 1 - i].slice(1)])].join('\n'));
 };
 
 test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async () => {
-  const { code, out, err } = await outputOf([...FILES, '--yaml', '--rule', 'nav2']);
+  const { code, out, err } = await outputOf([...ARGS, '--yaml', '--rule', 'nav2']);
   assert.equal(code, 0);
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
   assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: .*\nFirst multiply the odometry’s distances by .*\n$/m);
-  assert.match((await outputOf([...FILES, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
-  const swapped = await outputOf(['--odometry', example('reference'), '--reference', example('odometry'), '--yaml']);
-  assert.match(swapped.err, /^Warning: .* Are the two swapped\?$/m);
-  const other = backwards();
-  const refused = await outputOf([...FILES.slice(0, 3), other, '--yaml']);
-  assert.deepEqual([refused.code, refused.out], [3, '']);
-  assert.match(refused.err, /^No lines for nav2_params\.yaml: the log is unusable\.$/m);
+  assert.match((await outputOf([...ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
+  const swappedOutput = await outputOf(['--odometry', example('reference'), '--reference', example('odometry'), '--yaml']);
+  assert.match(swappedOutput.err, /^Warning: .* Are the two swapped\?$/m);
+  const reversedPath = writtenReversedReference();
+  const refusal = await outputOf([...ARGS.slice(0, 3), reversedPath, '--yaml']);
+  assert.deepEqual([refusal.code, refusal.out], [3, '']);
+  assert.match(refusal.err, /^No lines for nav2_params\.yaml: the log is unusable\.$/m);
 });
 
 test('--plot writes a panel for each drive, with both paths aligned, and the ends of legs at the times of the reference', async () => {
   const path = join(folder, 'plot.svg');
-  assert.equal((await outputOf([...FILES, '--plot', path])).code, 0);
+  assert.equal((await outputOf([...ARGS, '--plot', path])).code, 0);
   assert.match(readFileSync(path, 'utf8'), /^<svg xmlns=/);
-  /** Drive of ten seconds along x, which the odometry has along y, half a second early. @returns {any} */
+  /** Returns a drive of ten seconds along x. The odometry has it along y, and half a second earlier. @returns {any} */
   const drive = (/** @type {number} */ start) => {
-    const way = Float64Array.from({ length: 101 }, (_, i) => i / 10);
-    const log = (/** @type {string} */ role, /** @type {number} */ late, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${role}${start}.csv`, data: { t: way.map((t) => start + t + late), x, y, theta: way, breaks: [] } });
-    return { odometry: log('odom', 0, way.map(() => 7), way), reference: log('truth', 0.5, way, way.map(() => 2)) };
+    const positions = Float64Array.from({ length: 101 }, (_, i) => i / 10);
+    const log = (/** @type {string} */ role, /** @type {number} */ delay, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${role}${start}.csv`, data: { t: positions.map((t) => start + t + delay), x, y, theta: positions, breaks: [] } });
+    return { odometry: log('odom', 0, positions.map(() => 7), positions), reference: log('truth', 0.5, positions, positions.map(() => 2)) };
   };
   const legs = { count: 3, times: [1, 3, 4, 6, 21, 23], outliers: [0, 1, 0] };
   const svg = drivesSvg([drive(0), drive(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
@@ -297,7 +297,7 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
   assert.deepEqual(panels.map((panel) => panel.split('<')[0]), ['odom0.csv and truth0.csv: 2 legs, 1 outlier', 'odom20.csv and truth20.csv: 1 legs, 0 outliers']);
   for (const panel of panels) {
     for (const part of [/>x \(m\)</, />y \(m\)</, />odometry, aligned</]) assert.match(panel, part);
-    // Pixels of marks of the axis, and of the ends of paths.
+    // The pixels of two axis marks are compared with those of the ends of paths.
     const [left, right] = ['0', '10'].map((mark) => Number(RegExp(`d="M([\\d.]+) [^>]*><text [^>]*>${mark}<`).exec(panel)?.[1]));
     const paths = Array.from(panel.matchAll(/d="M([\d.]+) [^"]*L([\d.]+) [^"]*" stroke="([^"]*)" stroke-width="1.5"/g), ([, from, to, color]) => ({ ends: [Number(from), Number(to)], color }));
     assert.deepEqual(paths.map(({ ends }) => ends), [[left, right], [left, right]]);
@@ -308,12 +308,12 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
 
 test('a terminal gets colours', async () => {
   let out = '';
-  await run(['calibrate', ...FILES], { load, print: (text) => (out += text), complain: assert.fail, isColored: true });
+  await run(['calibrate', ...ARGS], { load, print: (text) => (out += text), complain: assert.fail, isColored: true });
   assert.ok(out.includes('\n\x1b[32mConsistent\x1b[0m: '), out);
 });
 
 test('inspect lists what is in a file, and the command to go on with', async () => {
-  const inspected = async (/** @type {string[]} */ args, expected = 0) => {
+  const inspectionOf = async (/** @type {string[]} */ args, expected = 0) => {
     let out = '';
     assert.equal(await run(['inspect', ...args], { load, print: (text) => (out += text), complain: assert.fail }), expected);
     return out.replaceAll(folder, 'DIR');
@@ -329,32 +329,32 @@ test('inspect lists what is in a file, and the command to go on with', async () 
       { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, 'map', 'base_link', i, 2, 0)] } },
     ];
   }).flat();
-  const listed = await inspected([file('run.mcap', await recordingOf(messages, { compression: 'zstd' }))]);
+  const inspectedRecording = await inspectionOf([fileWith('run.mcap', await recordingOf(messages, { compression: 'zstd' }))]);
   for (const line of [
     /^run\.mcap: MCAP recording$/m, /^ {2}\/chatter +std_msgs\/msg\/String +40$/m, /^ {2}\/odom +nav_msgs\/msg\/Odometry +40 +20\.0 Hz +odometry$/m,
     /^ {2}\/vicon\/robot 1 +geometry_msgs\/msg\/PoseStamped +40 +20\.0 Hz +reference$/m,
     /^ {2}\/tf \(map → base_link\) +tf2_msgs\/msg\/TFMessage +40 +20\.0 Hz +reference \(a localizer\)$/m, /^ {2}\/tf \(map → base_link\): 40 of 40 rows, 1\.9 s at 20\.0 Hz, 39\.0 m driven$/m, /^run\.mcap, topic \/lost: 0 of 40 rows can be used/m,
     /^ {2}npx motion-widgets calibrate DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
-  ]) assert.match(listed, line);
-  for (const [role, other] of [['odometry', 'reference'], ['reference', 'odometry']]) {
-    assert.match(await inspected([example(role)]), new RegExp(`; give the ${other} too\\.\\n\\n {2}npx motion-widgets calibrate --${role} \\S+ --${other} FILE --rule nav2$`, 'm'));
+  ]) assert.match(inspectedRecording, line);
+  for (const [role, otherRole] of [['odometry', 'reference'], ['reference', 'odometry']]) {
+    assert.match(await inspectionOf([example(role)]), new RegExp(`; give the ${otherRole} too\\.\\n\\n {2}npx motion-widgets calibrate --${role} \\S+ --${otherRole} FILE --rule nav2$`, 'm'));
   }
-  const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => file(`${name}.csv`, readFileSync(example(from))));
-  const byOrder = 'b.csv is taken as the odometry and a.csv as the reference, by their order: neither name says which is which.\n';
-  assert.ok((await inspected([a, b])).endsWith(`\n${byOrder}\n  npx motion-widgets calibrate --odometry DIR/b.csv --reference DIR/a.csv --rule nav2\n`));
-  assert.equal((await outputOf([a, b, '--json'])).err, byOrder);
-  const millimetres = file('mm.csv', readFileSync(example('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
-  assert.match(await inspected([millimetres], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
-  assert.match(await inspected([millimetres, '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry DIR\/mm\.csv --reference FILE --length-unit mm --rule nav2$/m);
-  const positions = file('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
-  const { recordings: [{ series }], ...contents } = JSON.parse(await inspected([positions, '--json'], 2));
+  const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => fileWith(`${name}.csv`, readFileSync(example(from))));
+  const orderWarning = 'b.csv is taken as the odometry and a.csv as the reference, by their order: neither name says which is which.\n';
+  assert.ok((await inspectionOf([a, b])).endsWith(`\n${orderWarning}\n  npx motion-widgets calibrate --odometry DIR/b.csv --reference DIR/a.csv --rule nav2\n`));
+  assert.equal((await outputOf([a, b, '--json'])).err, orderWarning);
+  const inMillimetres = fileWith('mm.csv', readFileSync(example('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
+  assert.match(await inspectionOf([inMillimetres], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
+  assert.match(await inspectionOf([inMillimetres, '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry DIR\/mm\.csv --reference FILE --length-unit mm --rule nav2$/m);
+  const positionsOnly = fileWith('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
+  const { recordings: [{ series }], ...contents } = JSON.parse(await inspectionOf([positionsOnly, '--json'], 2));
   assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
   assert.deepEqual([contents.missing.split(';')[0], contents.command], ['positions.csv: gt_ (gt_x, gt_y) are positions without a heading', undefined]);
 });
 
 test('an unusable log has a sentence and no lines for Nav2', async () => {
-  const other = backwards();
-  const { code, out } = await outputOf([...FILES.slice(0, 3), other]);
+  const reversedPath = writtenReversedReference();
+  const { code, out } = await outputOf([...ARGS.slice(0, 3), reversedPath]);
   assert.equal(code, 3);
   for (const line of [
     /^Unusable: no α’s are recommended from this log\. The reference is not an independent measurement of this drive\. /m, /^reference-matches +\S+ +0\.0005 to 0\.7 +FAILED$/m,
@@ -366,42 +366,42 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
 test('the report, the lines for Nav2 and the figure’s verdict agree whether the reference is a localizer’s', async () => {
   useLanguageOf(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }) }));
   for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
-    const args = [...FILES.slice(0, 3), file(`${name}.csv`, readFileSync(example('reference')))];
+    const args = [...ARGS.slice(0, 3), fileWith(`${name}.csv`, readFileSync(example('reference')))];
     const [{ out }, { out: json }] = [await outputOf(args), await outputOf([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(json);
     const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
-    const found = [new RegExp(`^Consistent: .*\\n${en.nav2.localizer}\\n`, 'm').test(out), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
-    assert.deepEqual(found, [isLocalizer, isLocalizer, isLocalizer], name);
+    const isNoted = [new RegExp(`^Consistent: .*\\n${en.nav2.localizer}\\n`, 'm').test(out), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
+    assert.deepEqual(isNoted, [isLocalizer, isLocalizer, isLocalizer], name);
   }
 });
 
 test('the report says what failed, what is lost, and what to drive', async () => {
-  const { odometry: own, reference, ...options } = await callOf(FILES);
-  const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: own, reference });
+  const { odometry: odometryLogs, reference, ...options } = await callOf(ARGS);
+  const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
-  const printed = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, begins: [10, 1000], date: '' });
+  const reportWith = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, begins: [10, 1000], date: '' });
   const checks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
-  const failed = printed({ diagnostics: { ...diagnostics, verdict: 'questionable', checks } });
-  assert.match(failed, /^\nQuestionable: one check failed \(enough-legs\)\. .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);
-  assert.match(printed({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nUnusable: .* It does not identify any α: /);
-  const uncovered = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
-  assert.match(printed({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: uncovered } }), /^\nUnusable: .* Find the cause\.\n/);
+  const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks } });
+  assert.match(reportOfFailure, /^\nQuestionable: one check failed \(enough-legs\)\. .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);
+  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nUnusable: .* It does not identify any α: /);
+  const boundedInflation = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
+  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: boundedInflation } }), /^\nUnusable: .* Find the cause\.\n/);
   const twoOutliers = { count: 3, times: [12, 13, 14, 15, 1005, 1006], outliers: [1, 0, 1] };
-  assert.match(printed({ legs: twoOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
-  assert.match(printed({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 of a standing robot$/m);
-  assert.match(printed({ persistence: { ...persistence, length: 0.987 } }), /^correlation of neighbouring legs .*errors persist over 0\.99 m$/m);
-  assert.match(printed({ systematicErrors: { ...systematicErrors, turnScale: { value: 0.9, interval: [0.88, 0.92], constant: false, corrected: false } } }), /^turn scale .*not corrected, not a constant$/m);
-  assert.match(printed({ systematicErrors: { ...systematicErrors, mountYaw: { value: null, interval: null, constant: true, corrected: false } } }), /^mount yaw +not identifiable$/m);
-  const unknown = { alphas: [0.1, null, 0.1, null], notIdentifiable: [null, 'collinear', null, 'collinear'] };
-  assert.match(printed(unknown), /^alpha2 +not identifiable .*\n(.*\n)*alpha2 and alpha4 not identifiable: rotation and translation are collinear in this log; add /m);
-  assert.match(printed({ ...unknown, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^alpha2 not identifiable: .*; add ~50 legs in tight bends$/m);
-  assert.match(printed({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^alpha1 +≤ 0\.0012 +0\.0000 to 0\.0012 +≤ 0\.0015 /m);
-  assert.match(printed({}, { model: 'velocity' }), /^No lines for nav2_params\.yaml: Nav2 has no velocity model\.$/m);
+  assert.match(reportWith({ legs: twoOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
+  assert.match(reportWith({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 of a standing robot$/m);
+  assert.match(reportWith({ persistence: { ...persistence, length: 0.987 } }), /^correlation of neighbouring legs .*errors persist over 0\.99 m$/m);
+  assert.match(reportWith({ systematicErrors: { ...systematicErrors, turnScale: { value: 0.9, interval: [0.88, 0.92], constant: false, corrected: false } } }), /^turn scale .*not corrected, not a constant$/m);
+  assert.match(reportWith({ systematicErrors: { ...systematicErrors, mountYaw: { value: null, interval: null, constant: true, corrected: false } } }), /^mount yaw +not identifiable$/m);
+  const notIdentified = { alphas: [0.1, null, 0.1, null], notIdentifiable: [null, 'collinear', null, 'collinear'] };
+  assert.match(reportWith(notIdentified), /^alpha2 +not identifiable .*\n(.*\n)*alpha2 and alpha4 not identifiable: rotation and translation are collinear in this log; add /m);
+  assert.match(reportWith({ ...notIdentified, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^alpha2 not identifiable: .*; add ~50 legs in tight bends$/m);
+  assert.match(reportWith({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^alpha1 +≤ 0\.0012 +0\.0000 to 0\.0012 +≤ 0\.0015 /m);
+  assert.match(reportWith({}, { model: 'velocity' }), /^No lines for nav2_params\.yaml: Nav2 has no velocity model\.$/m);
   for (const reason of calibrationWords()) assert.ok(reason in en.alphas.lacking, reason);
 });
 
 /** Reasons for which an α is not identifiable, as the core declares them. */
 function calibrationWords() {
-  const [, declared] = readFileSync(new URL('../../dist/machines.d.ts', import.meta.url), 'utf8').match(/notIdentifiable: \('(.*)' \| null\)\[\];/) ?? [];
-  return declared.split("' | '");
+  const [, declaredWords] = readFileSync(new URL('../../dist/machines.d.ts', import.meta.url), 'utf8').match(/notIdentifiable: \('(.*)' \| null\)\[\];/) ?? [];
+  return declaredWords.split("' | '");
 }

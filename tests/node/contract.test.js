@@ -1,33 +1,33 @@
-// Contract of dist/core.js in Node: how it loads, and which names it exports. tests/web tests what the exports return.
+// Interface of dist/core.js in Node: how it is loaded, and which names it exports. The results of the exports are tested in tests/web.
 
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import { MAX_VALUE } from '../../www/logs/rows.ts';
 import { settings } from '../../www/settings.js';
-import { freshModule, near } from './support.js';
+import { freshModule, assertNear } from './support.js';
 
 test('importing and loading touch neither the DOM nor the network, and load gives one module', async () => {
   /** @type {string[]} */
-  const touched = [];
+  const accessedNames = [];
   const names = ['document', 'window', 'customElements', 'fetch', 'XMLHttpRequest', 'WebSocket'];
-  const before = names.map((name) => Object.getOwnPropertyDescriptor(globalThis, name));
+  const descriptorsBefore = names.map((name) => Object.getOwnPropertyDescriptor(globalThis, name));
   for (const name of names) {
-    Object.defineProperty(globalThis, name, { configurable: true, get: () => void touched.push(name) });
+    Object.defineProperty(globalThis, name, { configurable: true, get: () => void accessedNames.push(name) });
   }
   try {
     const core = await freshModule();
-    assert.deepEqual(touched, []);
+    assert.deepEqual(accessedNames, []);
     const motion = await core.load();
     assert.equal(await core.load(), motion);
   } finally {
     names.forEach((name, i) => {
-      const descriptor = before[i];
+      const descriptor = descriptorsBefore[i];
       if (descriptor) Object.defineProperty(globalThis, name, descriptor);
       else Reflect.deleteProperty(globalThis, name);
     });
   }
-  assert.deepEqual(touched, []);
+  assert.deepEqual(accessedNames, []);
 });
 
 test('load takes bytes, a compiled module, or an address, and fails with a sentence', async () => {
@@ -82,15 +82,15 @@ test('a machine opens with the settings that www/settings.js declares', async ()
   for (const [tag, declared] of Object.entries(settings)) {
     const Machine = motion[tag.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase())];
     const fields = (/** @type {string} */ group) => declared.filter((each) => each.in === group).map(({ key, field = key, default: value }) => [field, value]);
-    const own = declared.filter((each) => !each.in && !each.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fields(key)) : value]);
-    assert.deepEqual(new Machine().config, Object.fromEntries(own), tag);
+    const ownSettings = declared.filter((each) => !each.in && !each.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fields(key)) : value]);
+    assert.deepEqual(new Machine().config, Object.fromEntries(ownSettings), tag);
   }
 });
 
 test('a machine computes, refuses by class and message, and is freed', async () => {
   const { BananaMachine, invertArc } = await (await freshModule()).load();
   const machine = new BananaMachine({ command: { v: 1, omega: 0.5, dt: 1 }, alphas: [0.02, 0.02, 0.02, 0.02, 0, 0], samples: 100 });
-  near(machine.table.exact.crossTrackSkew, -0.30056, 5.1e-6);
+  assertNear(machine.table.exact.crossTrackSkew, -0.30056, 5.1e-6);
   assert.throws(() => machine.configure({ samples: 0 }), { name: 'RangeError', message: /^samples is 0; allowed is a whole number / });
   assert.throws(() => invertArc({ x: 0, y: 0 }), { name: 'TypeError', message: 'start.theta is undefined; allowed is a number' });
   assert.equal(machine.stats.n, 100);
@@ -104,6 +104,6 @@ test('calibrate takes all coordinates that readers of logs take, and no larger o
   const reference = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] };
   const odometry = (/** @type {number} */ x) => ({ ...reference, x: [0, x] });
   assert.throws(() => calibrate({ odometry: odometry(MAX_VALUE), reference }), { message: /^the log has \d legs/ });
-  const refused = { message: /^odometry\.x\[1\] is 2000000000; allowed / };
-  assert.throws(() => calibrate({ odometry: odometry(2 * MAX_VALUE), reference }), refused);
+  const refusal = { message: /^odometry\.x\[1\] is 2000000000; allowed / };
+  assert.throws(() => calibrate({ odometry: odometry(2 * MAX_VALUE), reference }), refusal);
 });

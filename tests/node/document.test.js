@@ -1,5 +1,5 @@
-// Documents: their links and lengths, and that they have the limits of the pages, the presets, the true parameters of the example log
-// and names of tests that exist.
+// Documents: their links and lengths, and numbers and names in them: limits of the pages, presets, true parameters of the example log,
+// and names of files and commands.
 
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
@@ -10,7 +10,7 @@ import { LEG_LIMIT, TRUE_MODEL } from '../../scripts/example-log.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { presets } from '../../www/settings.js';
 
-const read = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
+const textOf = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
 
 /** Files and names of constants, with the sentence of the document that contains the value. @type {[string, string, RegExp][]} */
 const LIMITS = [
@@ -22,32 +22,32 @@ const LIMITS = [
 ];
 
 test('doc/model.md and doc/statistics.md have the limits of the pages', () => {
-  const documents = `${read('doc/model.md')}${read('doc/statistics.md')}`.replace(/\s+/g, ' ');
+  const documents = `${textOf('doc/model.md')}${textOf('doc/statistics.md')}`.replace(/\s+/g, ' ');
   for (const [file, name, sentence] of LIMITS) {
-    const [, set] = read(file).match(new RegExp(`const ${name} = ([\\d._]+);`)) ?? [];
-    assert.ok(set, `${name} of ${file}`);
-    assert.equal(documents.match(sentence)?.[1], set, `${name} of ${file}`);
+    const [, limit] = textOf(file).match(new RegExp(`const ${name} = ([\\d._]+);`)) ?? [];
+    assert.ok(limit, `${name} of ${file}`);
+    assert.equal(documents.match(sentence)?.[1], limit, `${name} of ${file}`);
   }
 });
 
 test('README.md has the presets of each figure', () => {
-  const listed = read('README.md').replace(/\s+/g, ' ');
+  const readme = textOf('README.md').replace(/\s+/g, ' ');
   for (const [tag, all] of Object.entries(presets)) {
-    if (all.length > 0) assert.ok(listed.includes(`\`${tag}\` ${all.map(({ name }) => name).join(', ')}`), tag);
+    if (all.length > 0) assert.ok(readme.includes(`\`${tag}\` ${all.map(({ name }) => name).join(', ')}`), tag);
   }
 });
 
 test('README of the example log has its true parameters', () => {
-  const readme = read('examples/calibration/README.md');
+  const readme = textOf('examples/calibration/README.md');
   const { alphas, mountYaw, clockOffset, distanceScale } = TRUE_MODEL;
-  for (const said of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEG_LIMIT.distance} m`, `${LEG_LIMIT.angle} rad`]) {
-    assert.ok(readme.includes(said), said);
+  for (const statement of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEG_LIMIT.distance} m`, `${LEG_LIMIT.angle} rad`]) {
+    assert.ok(readme.includes(statement), statement);
   }
 });
 
 test('doc/reliability.md names files and commands that are there', () => {
-  const document = read('doc/reliability.md');
-  const { scripts } = JSON.parse(read('package.json'));
+  const document = textOf('doc/reliability.md');
+  const { scripts } = JSON.parse(textOf('package.json'));
   const commands = [...document.matchAll(/`npm run ([\w:]+)/g)].map(([, name]) => name);
   assert.ok(commands.length >= 4, commands.join(', '));
   for (const name of commands) assert.ok(Object.hasOwn(scripts, name), name);
@@ -58,7 +58,7 @@ test('doc/reliability.md names files and commands that are there', () => {
 
 /** Text of each document without its listings. */
 const DOCUMENTS = new Map(['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))]
-  .map((path) => [path, read(path).replaceAll(/^```.*?^```/gms, '')]));
+  .map((path) => [path, textOf(path).replaceAll(/^```.*?^```/gms, '')]));
 
 /** Returns the anchors of headings, as GitHub makes them. */
 const anchorsOf = (/** @type {string} */ text, level = '#+') =>
@@ -79,13 +79,13 @@ test('links of the documents lead to files and headings that exist', () => {
 });
 
 test('documents are short, and long ones have a table of contents', () => {
-  const index = linksOf(DOCUMENTS.get('doc/README.md') ?? '').map(({ path }) => join('doc', path));
+  const linkedDocuments = linksOf(DOCUMENTS.get('doc/README.md') ?? '').map(({ path }) => join('doc', path));
   for (const [document, text] of DOCUMENTS) {
-    const lines = read(document).trimEnd().split('\n').length;
+    const lines = textOf(document).trimEnd().split('\n').length;
     assert.ok(lines <= (document === 'README.md' ? 150 : 350), `${document} has ${lines} lines`);
-    if (document.startsWith('doc/') && document !== 'doc/README.md') assert.ok(index.includes(document), `${document} is not in doc/README.md`);
+    if (document.startsWith('doc/') && document !== 'doc/README.md') assert.ok(linkedDocuments.includes(document), `${document} is not in doc/README.md`);
     const headings = anchorsOf(text, '##');
-    const contents = linksOf(text).filter(({ path }) => path === '').map(({ anchor }) => anchor);
-    if (headings.length > 6) assert.deepEqual(headings.filter((heading) => !contents.includes(heading)), [], `contents of ${document}`);
+    const linked = linksOf(text).filter(({ path }) => path === '').map(({ anchor }) => anchor);
+    if (headings.length > 6) assert.deepEqual(headings.filter((heading) => !linked.includes(heading)), [], `contents of ${document}`);
   }
 });

@@ -10,18 +10,18 @@ import { mutantOf } from '../fuzz/mutate.js';
 import { targets } from '../fuzz/targets.js';
 import { generator } from '../random.js';
 
-/** Mutations of each target. The nightly job sets more, and another seed. */
-const INPUTS = Number(process.env.FUZZ_INPUTS ?? 400);
+/** Number of mutations for each target. The nightly job sets a larger number and another seed. */
+const INPUT_COUNT = Number(process.env.FUZZ_INPUTS ?? 400);
 const SEED = Number(process.env.FUZZ_SEED ?? 1);
 
-/** Limits of one input in seconds of processor time, and of all inputs in bytes. */
+/** Maximum processor time of one input, s, and maximum memory growth of all inputs, bytes. */
 const [MAX_SECONDS, MAX_BYTES] = [1, 256 * 2 ** 20];
 
-/** Inputs between two turns of the event loop, which releases inflated data. */
-const BATCH = 100;
+/** Number of inputs between two turns of the event loop, in which inflated data is released. */
+const INPUTS_PER_TURN = 100;
 
 /** Inputs of a target that fuzzing found: hexadecimal, one a line. @param {string} target */
-function kept(target) {
+function foundInputs(target) {
   const file = new URL(`../fuzz/corpus/${target}.txt`, import.meta.url);
   const lines = existsSync(file) ? readFileSync(file, 'latin1').split('\n').slice(0, -1) : [];
   return lines.map((line) => Buffer.from(line, 'hex'));
@@ -30,29 +30,29 @@ function kept(target) {
 for (const [name, { corpus, run }] of Object.entries(targets)) {
   test(`${name}: every input gives a result or a sentence`, async () => {
     const random = generator(SEED);
-    const seeds = [...corpus, ...kept(name)];
+    const allInputs = [...corpus, ...foundInputs(name)];
     /** @param {Buffer<ArrayBuffer>} bytes */
     const check = async (bytes) => {
       const start = process.cpuUsage();
       try {
-        const taken = await run(bytes);
+        const acceptedCount = await run(bytes);
         const { user, system } = process.cpuUsage(start);
         assert.ok(user + system < 1e6 * MAX_SECONDS, `${user + system} µs`);
-        return taken;
+        return acceptedCount;
       } catch (error) {
         throw new Error(`${name} fails on ${bytes.toString('hex')}`, { cause: error });
       }
     };
-    for (const bytes of seeds) await check(Buffer.from(bytes));
-    const before = process.resourceUsage().maxRSS;
-    let taken = 0;
-    for (let i = 0; i < INPUTS; i++) {
-      // Found inputs are mostly refused: half of the mutations start from valid ones.
-      if (await check(mutantOf(random() < 0.5 ? corpus : seeds, random))) taken += 1;
-      if (i % BATCH === 0) await turn();
+    for (const bytes of allInputs) await check(Buffer.from(bytes));
+    const memoryBefore = process.resourceUsage().maxRSS;
+    let acceptedCount = 0;
+    for (let i = 0; i < INPUT_COUNT; i++) {
+      // Inputs that fuzzing found are mostly refused. Half of the mutations therefore start from valid inputs.
+      if (await check(mutantOf(random() < 0.5 ? corpus : allInputs, random))) acceptedCount += 1;
+      if (i % INPUTS_PER_TURN === 0) await turn();
     }
-    assert.ok(taken > 0 && taken < INPUTS, `${taken} of ${INPUTS} are taken`);
-    const grown = 1024 * (process.resourceUsage().maxRSS - before);
-    assert.ok(grown < MAX_BYTES, `${grown} bytes`);
+    assert.ok(acceptedCount > 0 && acceptedCount < INPUT_COUNT, `${acceptedCount} of ${INPUT_COUNT} are taken`);
+    const memoryGrowth = 1024 * (process.resourceUsage().maxRSS - memoryBefore);
+    assert.ok(memoryGrowth < MAX_BYTES, `${memoryGrowth} bytes`);
   });
 }

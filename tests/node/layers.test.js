@@ -8,7 +8,7 @@ import { build } from 'esbuild';
 import { settings } from '../../www/settings.js';
 
 /** Layers from top to bottom: a file imports from its own layer and from lower ones. */
-const FLOORS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages'];
+const LAYERS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages'];
 
 const { metafile } = await build({
   entryPoints: ['www/motion-widgets.ts', 'www/external.ts', 'www/de.ts', 'www/embed.ts', 'www/anywidget.ts'],
@@ -21,59 +21,59 @@ const { metafile } = await build({
   loader: { '.wasm': 'empty' },
 });
 
-/** @type {[string, string][]} importer and imported, of those in www/ */
+/** @type {[string, string][]} importing and imported file of each import within www/ */
 const imports = Object.entries(metafile.inputs).flatMap(([importer, { imports }]) =>
   imports.filter(({ path }) => importer.startsWith('www/') && path.startsWith('www/')).map(({ path }) => /** @type {[string, string]} */ ([importer, path])),
 );
 
 test('all scripts of the page are looked at', () => {
   assert.ok(imports.length > 150, `${imports.length} imports`);
-  for (const floor of FLOORS) assert.ok(imports.some(([, imported]) => imported.startsWith(floor)), floor);
+  for (const layer of LAYERS) assert.ok(imports.some(([, imported]) => imported.startsWith(layer)), layer);
 });
 
 test('no import runs in a circle', () => {
   /** @type {Map<string, 'open' | 'done'>} */
-  const seen = new Map();
-  /** @param {string} file @param {string[]} way */
-  const visit = (file, way) => {
-    assert.notEqual(seen.get(file), 'open', [...way, file].join(' → '));
-    if (seen.has(file)) return;
-    seen.set(file, 'open');
-    for (const [importer, imported] of imports) if (importer === file) visit(imported, [...way, file]);
-    seen.set(file, 'done');
+  const visitStates = new Map();
+  /** @param {string} file @param {string[]} pathToFile */
+  const visitFile = (file, pathToFile) => {
+    assert.notEqual(visitStates.get(file), 'open', [...pathToFile, file].join(' → '));
+    if (visitStates.has(file)) return;
+    visitStates.set(file, 'open');
+    for (const [importer, imported] of imports) if (importer === file) visitFile(imported, [...pathToFile, file]);
+    visitStates.set(file, 'done');
   };
-  for (const [importer] of imports) visit(importer, []);
+  for (const [importer] of imports) visitFile(importer, []);
 });
 
 test('no import runs up, and none from one widget to another', () => {
-  const floorOf = (/** @type {string} */ path) => FLOORS.findIndex((floor) => path.startsWith(`${floor}/`));
+  const layerOf = (/** @type {string} */ path) => LAYERS.findIndex((floor) => path.startsWith(`${floor}/`));
   for (const [importer, imported] of imports) {
-    const [from, to] = [floorOf(importer), floorOf(imported)];
+    const [from, to] = [layerOf(importer), layerOf(imported)];
     if (from >= 0 && to >= 0) assert.ok(from <= to, `${importer} imports ${imported}`);
-    const [widget, other] = [importer, imported].map((path) => path.match(/^www\/widgets\/([^/]+)\//)?.[1]);
-    if (widget && other) assert.ok(widget === other || other === 'shared', `${importer} imports ${imported}`);
+    const [widget, otherWidget] = [importer, imported].map((path) => path.match(/^www\/widgets\/([^/]+)\//)?.[1]);
+    if (widget && otherWidget) assert.ok(widget === otherWidget || otherWidget === 'shared', `${importer} imports ${imported}`);
   }
 });
 
 test('readers of logs import neither the page nor Node, but the core', () => {
-  const read = Object.entries(metafile.inputs).filter(([path]) => path.startsWith('www/logs/'));
-  assert.ok(read.length > 5, `${read.length} files`);
-  for (const [path, { imports }] of read) {
+  const readerFiles = Object.entries(metafile.inputs).filter(([path]) => path.startsWith('www/logs/'));
+  assert.ok(readerFiles.length > 5, `${readerFiles.length} files`);
+  for (const [path, { imports }] of readerFiles) {
     for (const each of imports) assert.match(each.path, /^(www\/logs\/|node_modules\/|www\/core\.ts$)/, `${path} imports ${each.path}`);
   }
 });
 
 test('only core.ts touches the generated glue', () => {
-  const glue = Object.entries(metafile.inputs).filter(([, { imports }]) => imports.some(({ path }) => /^build\/motion/.test(path)));
-  assert.deepEqual(glue.map(([path]) => [dirname(path), path]), [['www', 'www/core.ts']]);
+  const importers = Object.entries(metafile.inputs).filter(([, { imports }]) => imports.some(({ path }) => /^build\/motion/.test(path)));
+  assert.deepEqual(importers.map(([path]) => [dirname(path), path]), [['www', 'www/core.ts']]);
 });
 
 test('a widget is one class above the base, which is one above Lit', () => {
   const files = new Set(imports.flat());
-  const chains = [...files].flatMap((file) =>
+  const classes = [...files].flatMap((file) =>
     [...readFileSync(new URL(`../../${file}`, import.meta.url), 'utf8').matchAll(/\bclass (\w+)(?:<.+>)? extends (\w+)/g)].map(([, name, base]) => ({ file, name, base })),
   );
-  const elements = chains.filter(({ base }) => /Element$/.test(base));
+  const elements = classes.filter(({ base }) => /Element$/.test(base));
   assert.deepEqual(
     elements.filter(({ base }) => base !== 'FigureElement').map(({ file, name, base }) => [file, name, base]),
     [['www/figure/figure.ts', 'FigureElement', 'LitElement']],

@@ -1,4 +1,4 @@
-// Drives: guesses of odometry and reference, pairs of logs, checks between two logs, and their summaries.
+// Drives: guesses which logs are odometry and reference, pairing of logs, checks of two logs, and their summaries.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -12,15 +12,15 @@ import { refusalOf, sentenceOf } from './log-support.js';
 
 /** @import { Recording } from '../../www/logs/log.ts' */
 
-const TYPES = /** @type {const} */ ({
+const TYPE_AND_KIND = /** @type {const} */ ({
   odometry: ['nav_msgs/msg/Odometry', 'poses'], pose: ['geometry_msgs/msg/PoseStamped', 'poses'], point: ['geometry_msgs/msg/PointStamped', 'positions'],
   twist: ['geometry_msgs/msg/Twist', 'commands'], tf: ['tf2_msgs/msg/TFMessage', 'transforms'], text: ['std_msgs/msg/String', null], columns: ['t, x, y, yaw', 'poses'],
 });
 
 /**
- * Recording with series that are never read.
+ * Returns a recording with series that are never read.
  *
- * @param {Record<string, keyof typeof TYPES>} series types by name
+ * @param {Record<string, keyof typeof TYPE_AND_KIND>} series types by name
  * @param {Partial<Recording>} [more]
  * @param {string[]} [frames] of transforms, as "odom base_link"
  * @returns {Recording}
@@ -29,7 +29,7 @@ const recording = (series, more, frames = []) => ({
   name: 'run.mcap',
   format: 'mcap',
   series: Object.entries(series).map(([name, of]) => {
-    const [type, kind] = TYPES[of];
+    const [type, kind] = TYPE_AND_KIND[of];
     return { name, type, kind, count: 9, ...(kind === 'transforms' && { frames: frames.map((each) => ({ parent: each.split(' ')[0], child: each.split(' ')[1] })) }) };
   }),
   read: () => Promise.reject(new Error('not read')),
@@ -37,13 +37,13 @@ const recording = (series, more, frames = []) => ({
 });
 
 /** @param {{ series: string, frames?: { parent: string, child: string } }} choice */
-const printed = ({ series, frames }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
+const choiceText = ({ series, frames }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
 
-/** Plans drives, as a promise of which refusals are taken. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
-const planned = async (recordings, wishes) => planDrives(recordings, wishes);
+/** Plans drives. A refusal rejects the promise. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
+const plannedDrives = async (recordings, wishes) => planDrives(recordings, wishes);
 
 /** Cases with one answer: the series of a recording, the expected odometry and reference, the frames in /tf, the user's options. @type {[Parameters<typeof recording>[0], string, string, string[]?, any?][]} */
-const CLEAR = [
+const CLEAR_CASES = [
   [{ '/odom': 'odometry', '/vrpn_client_node/robot/pose': 'pose', '/amcl_pose': 'pose', '/cmd_vel': 'twist' }, '/odom', '/vrpn_client_node/robot/pose'],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose', '/cmd_vel': 'twist' }, '/cmd_vel', '/vicon/robot', [], { kind: 'commands' }],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose' }, '/odom', '/vicon/robot', [], { kind: 'commands' }],
@@ -58,9 +58,9 @@ const CLEAR = [
 ];
 
 test('odometry and reference are guessed by types, names and frames', () => {
-  for (const [series, odometry, reference, frames, wishes] of CLEAR) {
+  for (const [series, odometry, reference, frames, wishes] of CLEAR_CASES) {
     const [drive] = planDrives([recording(series, {}, frames)], wishes).drives;
-    assert.deepEqual([printed(drive.odometry.choice), printed(drive.reference.choice)], [odometry, reference]);
+    assert.deepEqual([choiceText(drive.odometry.choice), choiceText(drive.reference.choice)], [odometry, reference]);
   }
 });
 
@@ -75,7 +75,7 @@ test('groups of columns are guessed as topics are, and may be named without a se
   }
 });
 
-test('what is not clear is asked', async () => {
+test('a question is asked where a role is not clear', async () => {
   for (const [series, sentence, what, role, choices, frames, wishes] of /** @type {[Parameters<typeof recording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
@@ -93,7 +93,7 @@ test('what is not clear is asked', async () => {
     [{ '/odom': 'odometry', '/mocap': 'pose' }, '/odom is the odometry itself; ', 'series', 'reference', ['/mocap'], [], { reference: { series: '/odom' } }],
     [{ '/tf': 'tf' }, 'odom → base is the odometry itself; ', 'series', 'reference', [], ['odom base', 'mocap robot'], { reference: { frames: { parent: 'odom', child: 'base' } } }],
   ])) {
-    const { message, ask } = await refusalOf(planned([recording(series, {}, frames)], wishes));
+    const { message, ask } = await refusalOf(plannedDrives([recording(series, {}, frames)], wishes));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${sentence}`), message);
     assert.deepEqual([ask?.what, ask?.role], [what, role], message);
     if (choices) assert.deepEqual(ask?.choices, choices);
@@ -101,34 +101,34 @@ test('what is not clear is asked', async () => {
 });
 
 test('several recordings are drives of their own, or give one log each', async () => {
-  const both = recording({ '/odom': 'odometry', '/mocap': 'pose' });
-  assert.equal(planDrives([both, both]).drives.length, 2);
+  const withBothLogs = recording({ '/odom': 'odometry', '/mocap': 'pose' });
+  assert.equal(planDrives([withBothLogs, withBothLogs]).drives.length, 2);
   const { unpaired } = planDrives([recording({ '/mocap': 'pose' }), recording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
   assert.deepEqual([unpaired.odometry[0].choice.series, unpaired.reference[0].choice.series], ['/odom', '/mocap']);
-  const { drives, unpaired: { odometry: [ofBag] } } = planDrives([both, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
-  assert.deepEqual([drives.length, ofBag.choice.series], [0, '/odom']);
+  const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([withBothLogs, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
+  assert.deepEqual([drives.length, unpairedOdometry.choice.series], [0, '/odom']);
   // A recording without any log is left out, unless it was given as one.
   const camera = recording({ '/image': 'text' }, { name: 'camera.mcap' });
-  const { drives: [drive], unused } = planDrives([camera, both]);
-  assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [both, ['camera.mcap: the topics are /image (String); exp']]);
-  assert.match(await sentenceOf(planned([both, camera], { roles: new Map([[camera, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
-  const tables = async (/** @type {string[]} */ ...names) => {
+  const { drives: [drive], unused } = planDrives([camera, withBothLogs]);
+  assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [withBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
+  assert.match(await sentenceOf(plannedDrives([withBothLogs, camera], { roles: new Map([[camera, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
+  const unpairedNames = async (/** @type {string[]} */ ...names) => {
     const plan = planDrives(names.map((name) => recording({ '': 'columns' }, { name, format: 'csv' })));
     return [plan.unpaired.odometry, plan.unpaired.reference].map((parts) => parts.map(({ recording: { name } }) => name));
   };
-  assert.deepEqual(await tables('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
-  assert.deepEqual(await tables('a.csv', 'b.csv'), [['a.csv'], ['b.csv']]);
-  assert.deepEqual(await tables('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
-  assert.match(await sentenceOf(tables('a.csv', 'b.csv', 'c.csv', 'd.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
-  assert.match(await sentenceOf(tables('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: there are 2 logs of odometry and 1 of the reference; /);
-  // Logs of which one role is ambiguous.
-  const bodies = recording({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
-  const own = recording({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
-  const { ask } = await refusalOf(planned([own, bodies]));
+  assert.deepEqual(await unpairedNames('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
+  assert.deepEqual(await unpairedNames('a.csv', 'b.csv'), [['a.csv'], ['b.csv']]);
+  assert.deepEqual(await unpairedNames('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
+  assert.match(await sentenceOf(unpairedNames('a.csv', 'b.csv', 'c.csv', 'd.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
+  assert.match(await sentenceOf(unpairedNames('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: there are 2 logs of odometry and 1 of the reference; /);
+  // A log may be ambiguous in one role only.
+  const twoBodies = recording({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
+  const odometryTable = recording({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
+  const { ask } = await refusalOf(plannedDrives([odometryTable, twoBodies]));
   assert.deepEqual([ask?.what, ask?.role, ask?.choices], ['series', 'reference', ['Robot', 'Cart']]);
-  assert.equal(planDrives([own, bodies], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
-  const unclear = recording({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
-  assert.match(await sentenceOf(planned([unclear, unclear])), /^run\.mcap: it is not clear what the reference is: /);
+  assert.equal(planDrives([odometryTable, twoBodies], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
+  const ambiguous = recording({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
+  assert.match(await sentenceOf(plannedDrives([ambiguous, ambiguous])), /^run\.mcap: it is not clear what the reference is: /);
 });
 
 /** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
@@ -138,96 +138,96 @@ const drivesOf = async (files, wishes) => readDrives(planDrives(await openRecord
 const table = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count }, (_, i) => row(i).join(','))].join('\n');
 
 /** Poses along x at 20 Hz. @param {(i: number) => number} x @param {number} [start] */
-const along = (x, start = 0) => table(400, (i) => [start + i / 20, x(i), 0, 0]);
+const straight = (x, start = 0) => table(400, (i) => [start + i / 20, x(i), 0, 0]);
 
 test('logs of several drives are paired by their times, their names, or their order', async () => {
-  const pairs = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, along((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
-  assert.deepEqual(await pairs({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
-  assert.deepEqual(await pairs({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth2.csv': 0, 'truth1.csv': 0 }), [['odom1.csv', 'truth1.csv'], ['odom2.csv', 'truth2.csv']]);
-  assert.deepEqual(await pairs({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
+  const pairedNames = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, straight((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
+  assert.deepEqual(await pairedNames({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
+  assert.deepEqual(await pairedNames({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth2.csv': 0, 'truth1.csv': 0 }), [['odom1.csv', 'truth1.csv'], ['odom2.csv', 'truth2.csv']]);
+  assert.deepEqual(await pairedNames({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
 });
 
 test('two logs without a sign of their roles get them by their order, which a plan says', async () => {
-  const planOf = async (/** @type {string[]} */ ...names) => planDrives(await openRecordings(names.map((name, k) => new File([along((i) => (i * (10 + k)) / 1000)], name))));
+  const planOf = async (/** @type {string[]} */ ...names) => planDrives(await openRecordings(names.map((name, k) => new File([straight((i) => (i * (10 + k)) / 1000)], name))));
   const { isByOrder, unpaired } = await planOf('a.csv', 'b.csv');
   assert.deepEqual([isByOrder, unpaired.odometry[0].recording.name, unpaired.reference[0].recording.name], [true, 'a.csv', 'b.csv']);
   assert.equal((await planOf('a.csv', 'odom.csv')).isByOrder, false);
 });
 
 test('two logs get one start, and none in common is noted', async () => {
-  const own = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0';
-  const [both] = await drivesOf({ 'odom.csv': own, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });
-  assert.equal(both.odometry.start, 1_700_000_000);
-  assert.deepEqual([[...both.odometry.data.t], [...both.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
-  const [other] = await drivesOf({ 'odom.csv': own, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
-  assert.deepEqual([other.odometry.start, [...other.odometry.data.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
-  assert.match(summarySentences(other.reference, english.found).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
-  assert.equal(summarySentences(other.reference, german.found).length, summarySentences(both.reference, german.found).length + 1);
+  const odometryText = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0';
+  const [overlapping] = await drivesOf({ 'odom.csv': odometryText, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });
+  assert.equal(overlapping.odometry.start, 1_700_000_000);
+  assert.deepEqual([[...overlapping.odometry.data.t], [...overlapping.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
+  const [disjoint] = await drivesOf({ 'odom.csv': odometryText, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
+  assert.deepEqual([disjoint.odometry.start, [...disjoint.odometry.data.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
+  assert.match(summarySentences(disjoint.reference, english.found).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
+  assert.equal(summarySentences(disjoint.reference, german.found).length, summarySentences(overlapping.reference, german.found).length + 1);
 });
 
 test('names of a localizer, and swapped ones, are noted', async () => {
-  const notes = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
-    const recordings = await openRecordings([odometry, reference].map((name, k) => new File([along((i) => (i * (k + 1)) / 100)], name)));
+  const noteNames = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
+    const recordings = await openRecordings([odometry, reference].map((name, k) => new File([straight((i) => (i * (k + 1)) / 100)], name)));
     const [drive] = await readDrives(planDrives(recordings, { roles: new Map([[recordings[0], 'odometry'], [recordings[1], 'reference']]) }));
     return drive.reference.summary.notes.map(({ name }) => name);
   };
-  assert.deepEqual(await notes('truth.csv', 'wheels.csv'), ['swapped']);
-  assert.deepEqual(await notes('odom.csv', 'amcl_pose.csv'), ['localizer']);
-  const [{ odometry, reference }] = await drivesOf({ 'odom.csv': along((i) => i / 90), 'truth.csv': along((i) => i / 80) });
-  const noted = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
-  assert.deepEqual([noted('mocap'), noted('map')], [[], [{ name: 'localizer', values: [] }]]);
-  for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await notes(one, other), [], one);
+  assert.deepEqual(await noteNames('truth.csv', 'wheels.csv'), ['swapped']);
+  assert.deepEqual(await noteNames('odom.csv', 'amcl_pose.csv'), ['localizer']);
+  const [{ odometry, reference }] = await drivesOf({ 'odom.csv': straight((i) => i / 90), 'truth.csv': straight((i) => i / 80) });
+  const notesWithFrame = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
+  assert.deepEqual([notesWithFrame('mocap'), notesWithFrame('map')], [[], [{ name: 'localizer', values: [] }]]);
+  for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await noteNames(one, other), [], one);
 });
 
 test('one path given as both logs is refused, in another frame and in other files too', async () => {
-  const curve = (/** @type {number} */ i, dx = 0, turn = 0) => {
+  const curveRow = (/** @type {number} */ i, dx = 0, turn = 0) => {
     const [x, y] = [Math.sin(i / 50), 1 - Math.cos(i / 50)];
     return [i / 20, dx + x * Math.cos(turn) - y * Math.sin(turn), x * Math.sin(turn) + y * Math.cos(turn), i / 50 + turn];
   };
-  const same = await sentenceOf(drivesOf({ 'odom.csv': table(400, (i) => curve(i)), 'truth.csv': table(400, (i) => curve(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
-  assert.equal(same, 'truth.csv: it has the same motion as odom.csv; give two independent measurements of one drive.');
-  const spiral = (/** @type {number} */ i, scale = 1) => [i / 20, scale * i * 0.08 * Math.cos(i / 50), scale * i * 0.08 * Math.sin(i / 50), 0];
-  const rounded = (/** @type {number} */ scale) => ({ 'odom.csv': table(400, (i) => spiral(i)), 'truth.csv': table(400, (i) => spiral(i, scale).map((value) => Number(value.toFixed(2)))) });
-  assert.equal(await sentenceOf(drivesOf(rounded(1))), same);
-  assert.equal((await drivesOf(rounded(1.001))).length, 1);
+  const refusalText = await sentenceOf(drivesOf({ 'odom.csv': table(400, (i) => curveRow(i)), 'truth.csv': table(400, (i) => curveRow(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
+  assert.equal(refusalText, 'truth.csv: it has the same motion as odom.csv; give two independent measurements of one drive.');
+  const spiralRow = (/** @type {number} */ i, scale = 1) => [i / 20, scale * i * 0.08 * Math.cos(i / 50), scale * i * 0.08 * Math.sin(i / 50), 0];
+  const roundedFiles = (/** @type {number} */ scale) => ({ 'odom.csv': table(400, (i) => spiralRow(i)), 'truth.csv': table(400, (i) => spiralRow(i, scale).map((value) => Number(value.toFixed(2)))) });
+  assert.equal(await sentenceOf(drivesOf(roundedFiles(1))), refusalText);
+  assert.equal((await drivesOf(roundedFiles(1.001))).length, 1);
   const commands = ['t,x,y,yaw,v,omega', ...Array.from({ length: 99 }, (_, i) => `${i / 20},${i / 40},0,0,0.5,0`)].join('\n');
   const [one, other] = await openRecordings([new File([commands], 'log.csv'), new File([commands], 'log.csv')]);
   assert.match(await sentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /^log\.csv: it is given twice;/);
   assert.equal(
-    await sentenceOf(drivesOf({ 'odom1.csv': table(400, (i) => curve(i)), 'odom2.csv': table(400, (i) => curve(i)), 'truth1.csv': along((i) => i / 90), 'truth2.csv': along((i) => i / 80) })),
+    await sentenceOf(drivesOf({ 'odom1.csv': table(400, (i) => curveRow(i)), 'odom2.csv': table(400, (i) => curveRow(i)), 'truth1.csv': straight((i) => i / 90), 'truth2.csv': straight((i) => i / 80) })),
     'odom2.csv: it is the drive of odom1.csv; give each drive once.',
   );
-  // A difference of a millimetre is enough.
-  assert.equal((await drivesOf({ 'odom.csv': table(400, (i) => curve(i)), 'truth.csv': table(400, (i) => curve(i).with(1, curve(i)[1] + (i % 7) / 1000)) })).length, 1);
+  // Differences of a millimetre make two paths different.
+  assert.equal((await drivesOf({ 'odom.csv': table(400, (i) => curveRow(i)), 'truth.csv': table(400, (i) => curveRow(i).with(1, curveRow(i)[1] + (i % 7) / 1000)) })).length, 1);
 });
 
 test('a frozen reference is left out while the odometry moves on, and kept while it stands', async () => {
-  const driven = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
-  const odometry = along(driven);
-  const seen = (/** @type {number} */ i) => 1.01 * driven(i);
-  const pair = async (/** @type {string} */ reference, own = odometry) => (await drivesOf({ 'odom.csv': own, 'truth.csv': reference }))[0].reference;
-  assert.deepEqual([(await pair(along(seen))).summary.dropped, (await pair(along(seen))).summary.used], [{}, 400]);
-  const lost = along((i) => seen(i >= 200 && i < 300 ? 200 : i));
-  const { data, summary } = await pair(lost);
+  const odometryX = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
+  const odometry = straight(odometryX);
+  const seenX = (/** @type {number} */ i) => 1.01 * odometryX(i);
+  const referenceOf = async (/** @type {string} */ reference, own = odometry) => (await drivesOf({ 'odom.csv': own, 'truth.csv': reference }))[0].reference;
+  assert.deepEqual([(await referenceOf(straight(seenX))).summary.dropped, (await referenceOf(straight(seenX))).summary.used], [{}, 400]);
+  const frozenTable = straight((i) => seenX(i >= 200 && i < 300 ? 200 : i));
+  const { data, summary } = await referenceOf(frozenTable);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [301, [201], 301, { held: { count: 99, first: 0 } }]);
-  assert.equal(await sentenceOf(pair(along(() => 7))), 'truth.csv: its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.');
+  assert.equal(await sentenceOf(referenceOf(straight(() => 7))), 'truth.csv: its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // A pause of two seconds, or one in which the odometry moves by five centimetres, does not count as lost.
-  const stands = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
-    const own = (/** @type {number} */ i) => (speed * i) / 20;
-    return (await pair(along((i) => 1.01 * own(i >= 200 && i <= 200 + 20 * seconds ? 200 : i)), along(own))).summary.dropped.held?.count;
+  const droppedDuring = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
+    const xOf = (/** @type {number} */ i) => (speed * i) / 20;
+    return (await referenceOf(straight((i) => 1.01 * xOf(i >= 200 && i <= 200 + 20 * seconds ? 200 : i)), straight(xOf))).summary.dropped.held?.count;
   };
-  assert.deepEqual([await stands(2, 0.4), await stands(2.2, 0.4), await stands(7, 0.0095), await stands(7, 0.0105)], [undefined, 44, undefined, 140]);
-  // Speeds, too, show that the robot moves.
+  assert.deepEqual([await droppedDuring(2, 0.4), await droppedDuring(2.2, 0.4), await droppedDuring(7, 0.0095), await droppedDuring(7, 0.0105)], [undefined, 44, undefined, 140]);
+  // Speeds of a log of commands also show that the robot moves.
   const commands = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
-  assert.equal((await pair(lost, commands)).summary.dropped.held?.count, 99);
+  assert.equal((await referenceOf(frozenTable, commands)).summary.dropped.held?.count, 99);
 });
 
 test('a log that does not follow the other one names the correction that makes it follow', async () => {
   const headings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
   const path = [[0, 0]];
   for (const [i, heading] of headings.entries()) path.push([path[i][0] + Math.cos(heading) / 40, path[i][1] + Math.sin(heading) / 40]);
-  const driven = (/** @type {(row: number[]) => number[]} */ change) => table(1200, (i) => change([i / 20, ...path[i], headings[i]]).map((value) => Number(value.toFixed(6))));
-  const noisy = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
+  const tableOf = (/** @type {(row: number[]) => number[]} */ change) => table(1200, (i) => change([i / 20, ...path[i], headings[i]]).map((value) => Number(value.toFixed(6))));
+  const withNoise = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
   const degree = Math.PI / 180;
   for (const [change, sentence, what] of /** @type {[(row: number[]) => number[], RegExp, string?][]} */ ([
     [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored relative to its heading and to /],
@@ -238,20 +238,20 @@ test('a log that does not follow the other one names the correction that makes i
     [([t, x, y, yaw]) => [t, x, y, yaw * degree], /its headings are in radians and were read as degrees;/, 'angleUnit'],
     [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /: multiplied by 0\.098, its lengths match those of odom\.csv;/, 'lengthUnit'],
   ])) {
-    const wrong = await refusalOf(drivesOf({ 'odom.csv': driven((row) => row), 'truth.csv': driven((row) => change(noisy(row))) }));
-    assert.match(wrong.message, sentence);
-    assert.match(wrong.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
-    assert.equal(wrong.ask?.what, what);
+    const refusal = await refusalOf(drivesOf({ 'odom.csv': tableOf((row) => row), 'truth.csv': tableOf((row) => change(withNoise(row))) }));
+    assert.match(refusal.message, sentence);
+    assert.match(refusal.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
+    assert.equal(refusal.ask?.what, what);
   }
   // A reference that is mounted backwards is not taken for a mirrored axis, even if the robot hardly turns.
-  const back = await drivesOf({ 'odom.csv': table(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': table(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
-  assert.equal(back.length, 1);
-  assert.match(await sentenceOf(drivesOf({ 'odom.csv': driven(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': driven(noisy) })), /^odom\.csv: its y axis is mirrored/);
+  const backwardMounted = await drivesOf({ 'odom.csv': table(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': table(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
+  assert.equal(backwardMounted.length, 1);
+  assert.match(await sentenceOf(drivesOf({ 'odom.csv': tableOf(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': tableOf(withNoise) })), /^odom\.csv: its y axis is mirrored/);
 });
 
 test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {
   const rows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
-  const [{ reference }] = await drivesOf({ 'odom.csv': along((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...rows].join('\n') });
+  const [{ reference }] = await drivesOf({ 'odom.csv': straight((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...rows].join('\n') });
   assert.equal(reference.summary.distance.toFixed(1), '2.0');
   assert.deepEqual(summarySentences(reference, english.found), [
     '199 of 200 rows, 12.9 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m, yaw in degrees (by name)',

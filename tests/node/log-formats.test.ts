@@ -1,5 +1,5 @@
-// One drive in all formats of recordings, written by their own libraries (tests/reference/logs/generate.py). Further inputs would give a
-// wrong result without an error if a check were missing.
+// One drive in all formats of recordings, each written by the library of the format (tests/reference/logs/generate.py). Other inputs test
+// checks without which a wrong result would be given instead of an error.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -34,38 +34,38 @@ async function open(...sources: Source[]): Promise<Recording> {
   return recordings[0];
 }
 
-const sentences = (log: Log) => summarySentences(log, english.found).join('. ');
+const summaryText = (log: Log) => summarySentences(log, english.found).join('. ');
 
 /** Odometry and reference of the drive, from its tables. */
 const tables = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => fileOf(bytesOf(name), name)))).map((table) => table.read([{ series: '' }]));
-const [[wheels], [truth]] = await Promise.all(tables);
+const [[odometryLog], [referenceLog]] = await Promise.all(tables);
 const BOTH: Choice[] = [{ series: '/odom' }, { series: '/truth' }];
 
-const bag = (name: string) => [fileOf(bytesOf(name), name)];
+const file = (name: string) => [fileOf(bytesOf(name), name)];
 
 /** Metadata of a recording in two files. */
-const SPLIT = 'rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: [split0.mcap, split1.mcap]\n';
-const split = (...parts: number[]) => [
+const SPLIT_METADATA = 'rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: [split0.mcap, split1.mcap]\n';
+const splitFiles = (...parts: number[]) => [
   ...parts.map((part) => fileOf(bytesOf(`split${part}-split${part}.mcap`), `split${part}.mcap`, `drive/split${part}.mcap`)),
-  fileOf(SPLIT, 'metadata.yaml', 'drive/metadata.yaml'),
+  fileOf(SPLIT_METADATA, 'metadata.yaml', 'drive/metadata.yaml'),
 ];
 
-const FORMS: Record<string, Source[]> = {
-  'none.bag': bag('none.bag'), 'bz2.bag': bag('bz2.bag'), 'lz4.bag': bag('lz4.bag'),
-  'none.mcap': bag('none.mcap'), 'lz4.mcap': bag('lz4.mcap'), 'zstd.mcap': bag('zstd.mcap'), 'unindexed.mcap': bag('unindexed.mcap'),
-  'unchunked.mcap': bag('unchunked.mcap'), 'ros1-support.mcap': bag('ros1-support.mcap'), 'ros2-support.mcap': bag('ros2-support.mcap'),
-  'a compressed database alone': bag('sqlite-file-sqlite-file.db3.zstd'),
+const RECORDINGS: Record<string, Source[]> = {
+  'none.bag': file('none.bag'), 'bz2.bag': file('bz2.bag'), 'lz4.bag': file('lz4.bag'),
+  'none.mcap': file('none.mcap'), 'lz4.mcap': file('lz4.mcap'), 'zstd.mcap': file('zstd.mcap'), 'unindexed.mcap': file('unindexed.mcap'),
+  'unchunked.mcap': file('unchunked.mcap'), 'ros1-support.mcap': file('ros1-support.mcap'), 'ros2-support.mcap': file('ros2-support.mcap'),
+  'a compressed database alone': file('sqlite-file-sqlite-file.db3.zstd'),
   sqlite: folderOf('sqlite'), 'sqlite-messages': folderOf('sqlite-messages'), 'sqlite-file': folderOf('sqlite-file'),
   'mcap-messages': folderOf('mcap-messages'), 'mcap-file': folderOf('mcap-file'),
-  'split files': split(0, 1), 'split files in another order': split(1, 0),
+  'split files': splitFiles(0, 1), 'split files in another order': splitFiles(1, 0),
 };
 
-for (const [name, sources] of Object.entries(FORMS)) {
+for (const [name, sources] of Object.entries(RECORDINGS)) {
   test(`${name} has the rows of the tables to the last bit`, async () => {
     const recording = await open(...sources);
     assert.deepEqual(recording.series.map(({ name: topic, kind, count }) => [topic, kind, count]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
     const logs = await recording.read(BOTH);
-    for (const [i, table] of [wheels, truth].entries()) {
+    for (const [i, table] of [odometryLog, referenceLog].entries()) {
       assert.deepEqual([logs[i].start, logs[i].data], [table.start, table.data]);
       assert.deepEqual([logs[i].summary.dropped, logs[i].summary.notes, logs[i].summary.clock], [{}, [], 'header.stamp']);
     }
@@ -74,8 +74,8 @@ for (const [name, sources] of Object.entries(FORMS)) {
 
 /** Returns the rows of the drive that a log has, and compares their poses. Headings may differ by the error. */
 function rowsOf({ start, data }: Log, error = 0): number[] {
-  const [read, all] = [data, wheels.data] as Poses[];
-  const rows = Array.from(read.t, (t) => Math.round(20 * (start - wheels.start + t - all.t[0])));
+  const [read, all] = [data, odometryLog.data] as Poses[];
+  const rows = Array.from(read.t, (t) => Math.round(20 * (start - odometryLog.start + t - all.t[0])));
   for (const field of ['x', 'y'] as const) assert.deepEqual([...read[field]], rows.map((row) => all[field][row]));
   for (const [i, row] of rows.entries()) assert.ok(Math.abs(read.theta[i] - all.theta[row]) <= error, `${read.theta[i]}, not ${all.theta[row]}`);
   return rows;
@@ -91,102 +91,102 @@ for (const name of ['types.bag', 'types.mcap']) {
     // Pose2D has a heading. Those of quaternions are rounded to steps of 1e-12.
     for (const log of poses) assert.deepEqual(rowsOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), range(0, 40), log.name);
     // The same formulas as in generate.py.
-    const coarse = (value: number) => Math.round(4096 * value) / 4096;
-    const commands = [range(0, 40).map((i) => coarse(0.5 + 0.2 * Math.sin(i / 9))), range(0, 40).map((i) => coarse(0.8 * Math.sin(i / 23)))];
+    const rounded = (value: number) => Math.round(4096 * value) / 4096;
+    const commands = [range(0, 40).map((i) => rounded(0.5 + 0.2 * Math.sin(i / 9))), range(0, 40).map((i) => rounded(0.8 * Math.sin(i / 23)))];
     const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
-    for (const { data, name: its } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], commands, its);
+    for (const { data, name: topic } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], commands, topic);
     assert.equal(logs[0].summary.clock, 'log time');
     // Joints only turn. A base that is fixed to the moving frame is a candidate too.
-    const { frames: ends } = recording.series.find(({ name: its }) => its === '/tf') as Recording['series'][number];
+    const { frames: ends } = recording.series.find(({ name: topic }) => topic === '/tf') as Recording['series'][number];
     assert.deepEqual(ends?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);
   });
 }
 
 test('files that are missing are noted, and the rest is read', async () => {
-  const [odometry] = await (await open(...split(1))).read(BOTH);
+  const [odometry] = await (await open(...splitFiles(1))).read(BOTH);
   assert.deepEqual(rowsOf(odometry), range(50, 100));
-  assert.match(sentences(odometry), /the files split0\.mcap of the recording are missing/);
-  assert.match(await sentenceOf(openRecordings(split())), /^drive\/metadata\.yaml: it describes a recording in split0\.mcap, split1\.mcap; give that file too/);
-  assert.match(await sentenceOf(openRecordings([fileOf(SPLIT, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
+  assert.match(summaryText(odometry), /the files split0\.mcap of the recording are missing/);
+  assert.match(await sentenceOf(openRecordings(splitFiles())), /^drive\/metadata\.yaml: it describes a recording in split0\.mcap, split1\.mcap; give that file too/);
+  assert.match(await sentenceOf(openRecordings([fileOf(SPLIT_METADATA, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
 });
 
 /** Reads the odometry of a file. */
-const readFrom = async (bytes: Uint8Array, name: string) => (await (await open(fileOf(bytes, name))).read([{ series: '/odom' }]))[0];
+const odometryOf = async (bytes: Uint8Array, name: string) => (await (await open(fileOf(bytes, name))).read([{ series: '/odom' }]))[0];
 
 /** Reads the odometry of a file in which some bytes are overwritten. */
-const readDamaged = (name: string, at: number) => readFrom(bytesOf(name).fill(0xff, at, at + 40), name);
+const odometryOfDamaged = (name: string, at: number) => odometryOf(bytesOf(name).fill(0xff, at, at + 40), name);
 
-const placesOf = (bytes: Buffer, text: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(text, 'g')), ({ index }) => index);
+const positionsOf = (bytes: Buffer, text: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(text, 'g')), ({ index }) => index);
 
 /** Returns a function that finds a position inside each chunk of a file: 60 bytes after a text in the header of the chunk. */
-const chunks = (field: string) => (bytes: Buffer) => placesOf(bytes, field).map((at) => at + 60);
+const inChunks = (field: string) => (bytes: Buffer) => positionsOf(bytes, field).map((at) => at + 60);
 
 /** Positions in the blocks that have messages of the odometry. In an MCAP file, the text is in chunk indexes too. */
-const BLOCKS: Record<string, (bytes: Buffer) => number[]> = {
-  'bz2.bag': chunks('compression='), 'lz4.bag': chunks('compression='), 'zstd.mcap': chunks('zstd'), 'lz4.mcap': chunks('lz4'),
-  'sqlite-sqlite.db3': (bytes) => [...new Set(placesOf(bytes, 'base_link').map((at) => at - (at % 4096)))],
+const BLOCK_POSITIONS: Record<string, (bytes: Buffer) => number[]> = {
+  'bz2.bag': inChunks('compression='), 'lz4.bag': inChunks('compression='), 'zstd.mcap': inChunks('zstd'), 'lz4.mcap': inChunks('lz4'),
+  'sqlite-sqlite.db3': (bytes) => [...new Set(positionsOf(bytes, 'base_link').map((at) => at - (at % 4096)))],
 };
 
-for (const [name, positionsOf] of Object.entries(BLOCKS)) {
+for (const [name, blockPositions] of Object.entries(BLOCK_POSITIONS)) {
   test(`${name}: a damaged block loses its own rows, and a file that breaks off those from there on`, async () => {
-    const lost: number[] = [];
-    for (const at of positionsOf(bytesOf(name))) {
-      const log = await readDamaged(name, at);
+    const rowsOfBlocks: number[] = [];
+    for (const at of blockPositions(bytesOf(name))) {
+      const log = await odometryOfDamaged(name, at);
       const rows = rowsOf(log);
-      const block = range(0, 100).filter((row) => !rows.includes(row));
-      if (block.length > 0) assert.match(sentences(log), /1 damaged block skipped \(.+\)$/);
-      const cut = readFrom(bytesOf(name).subarray(0, at), name);
-      if (lost.length === 0) await refusalOf(cut);
+      const lostRows = range(0, 100).filter((row) => !rows.includes(row));
+      if (lostRows.length > 0) assert.match(summaryText(log), /1 damaged block skipped \(.+\)$/);
+      const truncatedLog = odometryOf(bytesOf(name).subarray(0, at), name);
+      if (rowsOfBlocks.length === 0) await refusalOf(truncatedLog);
       else {
-        assert.deepEqual(rowsOf(await cut), lost);
-        if (block.length > 0) assert.match(sentences(await cut), /notes: the file is incomplete: it ends in the middle of a row or record$/);
+        assert.deepEqual(rowsOf(await truncatedLog), rowsOfBlocks);
+        if (lostRows.length > 0) assert.match(summaryText(await truncatedLog), /notes: the file is incomplete: it ends in the middle of a row or record$/);
       }
-      assert.ok(block.length < 50);
-      lost.push(...block);
+      assert.ok(lostRows.length < 50);
+      rowsOfBlocks.push(...lostRows);
     }
-    assert.deepEqual(lost, range(0, 100));
+    assert.deepEqual(rowsOfBlocks, range(0, 100));
   });
 }
 
 test('a damaged message is dropped, and a file of damaged headers or compression is refused', async () => {
   const name = 'mcap-messages-mcap-messages.mcap';
-  // Frames of Zstandard, of the odometry and the reference in turns.
-  const log = await readDamaged(name, placesOf(bytesOf(name), '\\(\xb5/\xfd')[6] + 20);
+  // The file has frames of Zstandard, which contain messages of the odometry and the reference in turns.
+  const log = await odometryOfDamaged(name, positionsOf(bytesOf(name), '\\(\xb5/\xfd')[6] + 20);
   assert.deepEqual([rowsOf(log), log.summary.dropped], [[...range(0, 3), ...range(4, 100)], { damaged: { count: 1, first: 4 } }]);
-  const headers = Buffer.from(bytesOf('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
-  assert.match(await sentenceOf(readFrom(headers, 'none.bag')), /none of its messages can be read \(a record has no field topic\); expected/);
-  assert.match(await sentenceOf(readDamaged('sqlite-file-sqlite-file.db3.zstd', 4000)), /none of its messages can be read \(.+\); expected/);
+  const withoutTopics = Buffer.from(bytesOf('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
+  assert.match(await sentenceOf(odometryOf(withoutTopics, 'none.bag')), /none of its messages can be read \(a record has no field topic\); expected/);
+  assert.match(await sentenceOf(odometryOfDamaged('sqlite-file-sqlite-file.db3.zstd', 4000)), /none of its messages can be read \(.+\); expected/);
 });
 
 test('LZ4 frames of another size are refused, and any damage to one with checksums', async () => {
   const bytes = bytesOf('lz4.mcap');
-  // Header of the first chunk: the size of its records, a checksum, the compression, the size of the frame.
+  // The header of the first chunk contains the size of its records, a checksum, the compression, and the size of the frame.
   const at = bytes.indexOf('lz4');
   const [size, length] = [at - 16, at + 3].map((from) => Number(bytes.readBigUInt64LE(from)));
   const frame = bytes.subarray(at + 11, at + 11 + length);
   const records = await unlz4(frame, size);
-  for (const other of [size - 1, size + 1]) await assert.rejects(unlz4(frame, other), RangeError);
-  // The only block and the contents have a checksum each.
+  for (const wrongSize of [size - 1, size + 1]) await assert.rejects(unlz4(frame, wrongSize), RangeError);
+  // Checksums are added for the only block and for the contents.
   const { h32Raw } = await xxhash();
   const checksum = (part: Uint8Array) => Buffer.from(Uint32Array.of(h32Raw(part)).buffer);
   const from = frame[4] & 0x08 ? 15 : 7;
-  const flagged = Buffer.concat([frame.subarray(0, -4), checksum(frame.subarray(from + 4, -4)), frame.subarray(-4), checksum(records)]);
-  flagged[4] |= 0x14;
-  assert.deepEqual(await unlz4(flagged, size), records);
-  for (let i = from + 4; i < flagged.length; i++) {
-    const damaged = Buffer.from(flagged);
+  const checked = Buffer.concat([frame.subarray(0, -4), checksum(frame.subarray(from + 4, -4)), frame.subarray(-4), checksum(records)]);
+  checked[4] |= 0x14;
+  assert.deepEqual(await unlz4(checked, size), records);
+  for (let i = from + 4; i < checked.length; i++) {
+    const damaged = Buffer.from(checked);
     damaged[i] ^= 17;
     await assert.rejects(unlz4(damaged, size), RangeError);
   }
 });
 
 test('formats that are not read are refused with the cure, by their contents', async () => {
-  const starts: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
+  const magicBytes: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
     ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['zip', 'PK\x03\x04'],
     ['gzip', '\x1f\x8b\x08'], ['bzip2', 'BZh9'], ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
   ];
-  for (const [format, start] of starts) assert.equal(await sentenceOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
-  assert.deepEqual(starts.map(([format]) => format).toSorted(), Object.keys(UNSUPPORTED_FORMATS).toSorted());
+  for (const [format, start] of magicBytes) assert.equal(await sentenceOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
+  assert.deepEqual(magicBytes.map(([format]) => format).toSorted(), Object.keys(UNSUPPORTED_FORMATS).toSorted());
 });
 
 test('a recording without one whole message is incomplete, and the tool that repairs it is named', async () => {
@@ -201,30 +201,30 @@ test('a recording without one whole message is incomplete, and the tool that rep
 test('files that are no recording are refused', async () => {
   const database = Uint8Array.from({ length: 4096 }, (_, i) => 'SQLite format 3\0\x10'.charCodeAt(i) || 0);
   assert.match(await sentenceOf(openRecordings([fileOf(database, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
-  assert.match(await sentenceOf(openRecordings([fileOf('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...split()])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
+  assert.match(await sentenceOf(openRecordings([fileOf('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...splitFiles()])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
   const large = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob(['\x28\xb5\x2f\xfd'].map((text) => Buffer.from(text, 'latin1'))) };
   assert.match(await sentenceOf(openRecordings([large])), /^run\.db3: it has more than 1073741824 bytes when it is decompressed; decompress it with “zstd -d”/);
-  const small = await open(...bag('small.db3'));
+  const small = await open(...file('small.db3'));
   assert.match(await sentenceOf(small.read([{ series: '/pose' }])), /^small\.db3, topic \/pose: it has fewer than 2 messages;/);
 });
 
 const TF = 'tf2_msgs/msg/TFMessage';
 const at = (i: number) => 1_700_000_000 + i / 20;
-const tf = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF, t: at(i), message: { transforms } });
+const tfAt = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF, t: at(i), message: { transforms } });
 const count = 40;
 const each = <T>(make: (i: number) => T): T[] => Array.from({ length: count }, (_, i) => make(i));
 const read = async (messages: Message[], ...choices: Choice[]) => (await open(fileOf(await recordingOf(messages), 'run.mcap'))).read(choices);
-const BASE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
-const drive = (i: number) => transform(at(i), 'odom', 'base_footprint', i / 50, 0, 0);
+const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
+const movingTransform = (i: number) => transform(at(i), 'odom', 'base_footprint', i / 50, 0, 0);
 
 test('a transform that never changes is no log', async () => {
-  const messages = each((i) => tf(i, transform(at(i), 'odom', 'base_link', 1, 2, 0), transform(at(i), 'map', 'robot', i / 50, 0, 0)));
-  assert.equal(await sentenceOf(read(messages, BASE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
+  const messages = each((i) => tfAt(i, transform(at(i), 'odom', 'base_link', 1, 2, 0), transform(at(i), 'map', 'robot', i / 50, 0, 0)));
+  assert.equal(await sentenceOf(read(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
 });
 
 test('a constant transform that is published more often than the moving one adds no rows', async () => {
-  const messages = each((i) => [tf(i, drive(i)), ...[0.3, 0.6].map((part) => tf(i + part, transform(at(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
-  const [{ data }] = await read(messages, BASE);
+  const messages = each((i) => [tfAt(i, movingTransform(i)), ...[0.3, 0.6].map((part) => tfAt(i + part, transform(at(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
+  const [{ data }] = await read(messages, BASE_CHOICE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(count).keys()]);
   assert.deepEqual([...(data as Poses).x], each((i) => i / 50 + 0.5));
 });
@@ -236,7 +236,7 @@ const turns = (nodes: string): Message[] => [...nodes].flatMap((node, turn) => e
 }));
 
 test('nodes that publish a topic in turns are refused, and one that is started again is not', async () => {
-  const nodes = await open(...bag('nodes.bag'));
+  const nodes = await open(...file('nodes.bag'));
   assert.match(await sentenceOf(nodes.read(BOTH)), /^nodes\.bag, topic \/odom: several nodes publish it in turns \(\/base, \/simulator\);/);
   assert.equal((await read(turns('abab'), { series: '/odom' }))[0].data.t.length, 4 * count);
   assert.match(await sentenceOf(read(turns('ababa'), { series: '/odom' })), /in turns \(a, b\);/);

@@ -15,7 +15,7 @@ import { readLog, sentenceOf } from './log-support.js';
 
 const START = 1000;
 const COUNT = 120;
-const at = (/** @type {number} */ i) => START + i / 20;
+const time = (/** @type {number} */ i) => START + i / 20;
 const TF = 'tf2_msgs/msg/TFMessage';
 const ODOMETRY = 'nav_msgs/msg/Odometry';
 
@@ -24,10 +24,10 @@ function drive() {
   /** @type {Message[]} */
   const messages = [];
   for (let i = 0; i < COUNT; i++) {
-    // Recorded a little after the stamp.
-    const [t, recorded] = [at(i), at(i) + 0.01];
+    // Messages are recorded a little after their stamps.
+    const [t, recordTime] = [time(i), time(i) + 0.01];
     const [x, y, theta] = [i / 100, i / 200, i / 50];
-    const add = (/** @type {string} */ topic, /** @type {string} */ type, /** @type {any} */ message) => messages.push({ topic, type, t: recorded, message });
+    const add = (/** @type {string} */ topic, /** @type {string} */ type, /** @type {any} */ message) => messages.push({ topic, type, t: recordTime, message });
     if (i === COUNT - 1) add('/tf_static', TF, { transforms: [transform(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
     if (i % 5 === 0) add('/tf', TF, { transforms: [transform(t + 1, 'map', 'odom', 1, 2, Math.PI / 2)] });
     add('/tf', TF, { transforms: [transform(t, 'odom', 'base_footprint', x, y, theta), transform(t, 'base_link', 'wheel', 0, 0, 9 * theta)] });
@@ -40,16 +40,16 @@ function drive() {
 }
 
 /** Messages of odometry along x. @param {number} count @param {(i: number) => any} [message] */
-const wheels = (count, message = (i) => odometry(at(i), i, 0, 0)) => Array.from({ length: count }, (_, i) => ({ topic: '/odom', type: ODOMETRY, t: at(i), message: message(i) }));
+const odomMessages = (count, message = (i) => odometry(time(i), i, 0, 0)) => Array.from({ length: count }, (_, i) => ({ topic: '/odom', type: ODOMETRY, t: time(i), message: message(i) }));
 
-const file = (/** @type {Uint8Array<ArrayBuffer>} */ bytes) => new File([bytes], 'run.mcap');
+const mcapFile = (/** @type {Uint8Array<ArrayBuffer>} */ bytes) => new File([bytes], 'run.mcap');
 
-const close = (/** @type {ArrayLike<number>} */ is, /** @type {(i: number) => number} */ expected) => {
-  for (let i = 0; i < is.length; i++) assert.ok(Math.abs(is[i] - expected(i)) < 1e-9, `${i}: ${is[i]}, not ${expected(i)}`);
+const assertClose = (/** @type {ArrayLike<number>} */ values, /** @type {(i: number) => number} */ expected) => {
+  for (let i = 0; i < values.length; i++) assert.ok(Math.abs(values[i] - expected(i)) < 1e-9, `${i}: ${values[i]}, not ${expected(i)}`);
 };
 
 test('topics are listed, and topics and chains of frames are read in one pass', async () => {
-  const source = file(await recordingOf(drive()));
+  const source = mcapFile(await recordingOf(drive()));
   const [recording] = await openRecordings([source]);
   assert.equal(recording.format, 'mcap');
   assert.deepEqual(
@@ -67,21 +67,21 @@ test('topics are listed, and topics and chains of frames are read in one pass', 
   ]);
   for (const log of logs) assert.deepEqual([log.start, log.data.t.length, log.summary.notes], [START, COUNT, []], log.name);
   assert.deepEqual(await readLog(source, { series: '/odom' }), logs[0]);
-  const [own, driven, chained, drifting] = logs.map(({ data }) => /** @type {any} */ (data));
-  close(own.t, (i) => i / 20);
-  // A type without a stamp has the time of recording.
-  close(driven.t, (i) => i / 20 + 0.01);
-  // From the map over the drift and a static transform, which is recorded last; the base's link is half a metre ahead.
-  close(chained.t, (i) => i / 20);
-  close(chained.x, (i) => 1 - i / 200 - 0.5 * Math.sin(i / 50));
-  close(chained.y, (i) => 2 + i / 100 + 0.5 * Math.cos(i / 50));
-  close(chained.theta, (i) => { const theta = i / 50 + Math.PI / 2; return theta > Math.PI ? theta - 2 * Math.PI : theta; });
-  close(drifting.x, (i) => i / 100);
+  const [odometryData, commandData, mapToBase, odomToFootprint] = logs.map(({ data }) => /** @type {any} */ (data));
+  assertClose(odometryData.t, (i) => i / 20);
+  // Messages of a type without a stamp have the time of recording.
+  assertClose(commandData.t, (i) => i / 20 + 0.01);
+  // The chain has the drifting odom frame and a static transform, which is recorded last. base_link is half a metre ahead.
+  assertClose(mapToBase.t, (i) => i / 20);
+  assertClose(mapToBase.x, (i) => 1 - i / 200 - 0.5 * Math.sin(i / 50));
+  assertClose(mapToBase.y, (i) => 2 + i / 100 + 0.5 * Math.cos(i / 50));
+  assertClose(mapToBase.theta, (i) => { const theta = i / 50 + Math.PI / 2; return theta > Math.PI ? theta - 2 * Math.PI : theta; });
+  assertClose(odomToFootprint.x, (i) => i / 100);
 });
 
 test('an incomplete index is not used', async () => {
   const bytes = await recordingOf(drive());
-  const plain = await readLog(file(bytes), { series: '/odom' });
+  const logWithIndex = await readLog(mcapFile(bytes), { series: '/odom' });
   // The checksum of the summary is cleared, and an index of a chunk gets a code that readers skip.
   const footer = bytes.length - 28;
   bytes.writeUInt32LE(0, footer + 16);
@@ -89,33 +89,33 @@ test('an incomplete index is not used', async () => {
   let record = Number(bytes.readBigUInt64LE(footer));
   while (bytes[record] !== CHUNK_INDEX) record += 9 + Number(bytes.readBigUInt64LE(record + 1));
   bytes[record] = 0x80;
-  assert.deepEqual((await readLog(file(bytes), { series: '/odom' })).data, plain.data);
+  assert.deepEqual((await readLog(mcapFile(bytes), { series: '/odom' })).data, logWithIndex.data);
 });
 
-test('a clock that begins at 0 has stamps; messages without stamps have the times of recording, which is reported', async () => {
-  const rows = async (/** @type {(i: number) => number} */ stamp) => {
-    const messages = wheels(100, (i) => odometry(stamp(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
-    const log = await readLog(file(await recordingOf(messages)), { series: '/odom' });
+test('stamps that begin at 0 are used; messages without stamps have the times of recording, which is reported', async () => {
+  const logWithStamps = async (/** @type {(i: number) => number} */ stamp) => {
+    const messages = odomMessages(100, (i) => odometry(stamp(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
+    const log = await readLog(mcapFile(await recordingOf(messages)), { series: '/odom' });
     return { ...log, sentences: summarySentences(log, english.found).join(' ') };
   };
-  const simulated = await rows((i) => i / 10);
+  const simulated = await logWithStamps((i) => i / 10);
   assert.deepEqual([simulated.start, simulated.summary.rows, simulated.data.t[0], simulated.data.t[99]], [0, 100, 0, 9.9]);
   // Most messages have no stamp.
-  const unstamped = await rows((i) => (i < 49 ? i : 0));
+  const unstamped = await logWithStamps((i) => (i < 49 ? i : 0));
   assert.deepEqual([unstamped.start, unstamped.data.t.length, unstamped.data.t[20]], [1_700_000_000, 100, 1]);
   assert.match(unstamped.sentences, /times: when messages were recorded/);
   // Most messages have the stamp of the first one.
-  assert.equal((await rows(() => 1_700_000_001)).data.t.length, 100);
+  assert.equal((await logWithStamps(() => 1_700_000_001)).data.t.length, 100);
   assert.doesNotMatch(simulated.sentences, /recorded/);
   // A single missing stamp is far from all other times.
-  const missing = await rows((i) => (i === 50 ? 0 : 5 + i / 10));
+  const missing = await logWithStamps((i) => (i === 50 ? 0 : 5 + i / 10));
   assert.deepEqual([missing.data.t.length, missing.summary.dropped.stray?.count], [99, 1]);
-  assert.deepEqual((await rows((i) => 50 - i / 10)).data.t.length, 100);
+  assert.deepEqual((await logWithStamps((i) => 50 - i / 10)).data.t.length, 100);
 });
 
 test('unusable quaternions, numbers and times are left out', async () => {
-  const messages = wheels(20, (i) => odometry(i === 8 ? at(2) : at(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
-  const { data, summary } = await readLog(file(await recordingOf(messages)), { series: '/odom' });
+  const messages = odomMessages(20, (i) => odometry(i === 8 ? time(2) : time(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
+  const { data, summary } = await readLog(mcapFile(await recordingOf(messages)), { series: '/odom' });
   assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8, 11].includes(i)));
   assert.deepEqual(summary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 1, first: 6 }, damaged: { count: 1, first: 12 }, duplicate: { count: 1, first: 9 } });
   assert.deepEqual([...data.breaks], [3, 4, 8]);
@@ -123,10 +123,10 @@ test('unusable quaternions, numbers and times are left out', async () => {
 
 test('messages that were written in any order are read in the order of their times', async () => {
   const random = generator(5);
-  const shuffled = wheels(200).map((message) => ({ message, key: random() })).sort((one, other) => one.key - other.key).map(({ message }) => message);
-  // All in one chunk, or in dozens that overlap.
+  const shuffled = odomMessages(200).map((message) => ({ message, key: random() })).sort((one, other) => one.key - other.key).map(({ message }) => message);
+  // The messages are in one chunk, or in dozens of chunks that overlap in time.
   for (const chunkSize of [1e6, 4096]) {
-    const { data } = await readLog(file(await recordingOf(shuffled, { chunkSize })), { series: '/odom' });
+    const { data } = await readLog(mcapFile(await recordingOf(shuffled, { chunkSize })), { series: '/odom' });
     assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 200 }, (_, i) => i));
   }
 });
@@ -134,7 +134,7 @@ test('messages that were written in any order are read in the order of their tim
 test('topics and frames that cannot be read are refused', async () => {
   const poses = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D or tf2_msgs/TFMessage';
   const commands = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
-  const source = file(await recordingOf(drive()));
+  const source = mcapFile(await recordingOf(drive()));
   for (const [choice, sentence] of /** @type {const} */ ([
     [{ series: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poses}, or ${commands}.`],
     [{ series: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poses}.`],
@@ -145,53 +145,53 @@ test('topics and frames that cannot be read are refused', async () => {
 });
 
 test('a transform that never changes holds from the beginning, and a moving one from its first message', async () => {
-  const messages = (/** @type {(i: number) => number} */ mounted) => Array.from({ length: 60 }, (_, i) => [
+  const messagesWith = (/** @type {(i: number) => number} */ mountX) => Array.from({ length: 60 }, (_, i) => [
     transform(i / 10, 'world', 'marker', i / 20, 0, 0),
-    ...(i % 3 === 0 && i >= 30 ? [transform(i / 10, 'marker', 'base', mounted(i), 0, 0)] : []),
+    ...(i % 3 === 0 && i >= 30 ? [transform(i / 10, 'marker', 'base', mountX(i), 0, 0)] : []),
   ].map((each) => ({ topic: '/tf', type: TF, t: i / 10, message: { transforms: [each] } }))).flat();
-  const read = async (/** @type {(i: number) => number} */ mounted) => {
-    const { start, data, summary } = await readLog(file(await recordingOf(messages(mounted))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
+  const resultWith = async (/** @type {(i: number) => number} */ mountX) => {
+    const { start, data, summary } = await readLog(mcapFile(await recordingOf(messagesWith(mountX))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
   };
-  assert.deepEqual(await read(() => 0.5), [60, 0, 0.5, 60]);
+  assert.deepEqual(await resultWith(() => 0.5), [60, 0, 0.5, 60]);
   // A static transform that is published again with another value does not set the times of the poses.
-  const twice = [0, 3].map((t) => ({ topic: '/tf_static', type: TF, t, message: { transforms: [transform(t, 'base', 'laser', t, 0, 0)] } }));
-  const recalibrated = file(await recordingOf([...messages(() => 0.5), ...twice].sort((one, other) => one.t - other.t)));
+  const staticTransforms = [0, 3].map((t) => ({ topic: '/tf_static', type: TF, t, message: { transforms: [transform(t, 'base', 'laser', t, 0, 0)] } }));
+  const recalibrated = mcapFile(await recordingOf([...messagesWith(() => 0.5), ...staticTransforms].sort((one, other) => one.t - other.t)));
   const { data: { t } } = await readLog(recalibrated, { series: '/tf', frames: { parent: 'world', child: 'laser' } });
   assert.equal(t.length, 60);
   // The pose is known from 3 s on, at the times of the transform to the robot's own frame.
-  assert.deepEqual(await read((i) => i / 100), [10, 3, 1.8, 10]);
+  assert.deepEqual(await resultWith((i) => i / 100), [10, 3, 1.8, 10]);
 });
 
 test('positions without a heading are refused, by their type', async () => {
   const points = Array.from({ length: 20 }, (_, i) => ({
     topic: '/prism', type: 'geometry_msgs/msg/PointStamped', t: i / 10, message: { header: { stamp: stampOf(i / 10), frame_id: 'world' }, point: { x: i / 20, y: 0, z: 0 } },
   }));
-  const [recording] = await openRecordings([file(await recordingOf([...drive().filter(({ topic }) => topic === '/odom'), ...points]))]);
+  const [recording] = await openRecordings([mcapFile(await recordingOf([...drive().filter(({ topic }) => topic === '/odom'), ...points]))]);
   const sentence = /^run\.mcap: \/prism \(PointStamped\) are positions without a heading; give a reference that measures the heading, /;
   assert.match(await sentenceOf((async () => planDrives([recording]))()), sentence);
   assert.match(await sentenceOf(recording.read([{ series: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
 });
 
 test('other recordings are refused', async () => {
-  const read = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = drive()) => sentenceOf(readLog(file(await recordingOf(messages, options)), { series: '/odom' }));
-  assert.equal(await read({ compression: 'odd' }), 'run.mcap, topic /odom: none of its messages can be read (compression by snappy, not by zstd or lz4); expected is an undamaged recording.');
-  assert.equal(await read({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
-  assert.equal(await read({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
-  assert.equal(await read({}, drive().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
-  // Shorter messages that claim to be odometry.
-  const short = wheels(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY }));
-  assert.match(await read({}, short), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
+  const refusal = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = drive()) => sentenceOf(readLog(mcapFile(await recordingOf(messages, options)), { series: '/odom' }));
+  assert.equal(await refusal({ compression: 'odd' }), 'run.mcap, topic /odom: none of its messages can be read (compression by snappy, not by zstd or lz4); expected is an undamaged recording.');
+  assert.equal(await refusal({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
+  assert.equal(await refusal({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
+  assert.equal(await refusal({}, drive().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
+  // These messages claim to be odometry, and are too short.
+  const short = odomMessages(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY }));
+  assert.match(await refusal({}, short), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
 });
 
 test('chunks with another checksum or size than they state are not read', async () => {
-  const reasonOf = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: none of its messages can be read \((.+)\); expected/.exec(await sentenceOf(readLog(file(bytes), { series: '/odom' })))?.[1];
-  const altered = await recordingOf(wheels(20), { chunkSize: 1e6 });
-  altered[altered.length >> 2] ^= 1;
-  assert.equal(await reasonOf(altered), 'the checksum of a chunk is wrong');
+  const reasonOf = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: none of its messages can be read \((.+)\); expected/.exec(await sentenceOf(readLog(mcapFile(bytes), { series: '/odom' })))?.[1];
+  const damagedBytes = await recordingOf(odomMessages(20), { chunkSize: 1e6 });
+  damagedBytes[damagedBytes.length >> 2] ^= 1;
+  assert.equal(await reasonOf(damagedBytes), 'the checksum of a chunk is wrong');
 
-  const bytes = await recordingOf(wheels(20), { compression: 'zstd', index: false, chunks: true, chunkSize: 1e6 });
-  // The name follows the code of the record, its length, two times, the size, a checksum, and the length of the name.
+  const bytes = await recordingOf(odomMessages(20), { compression: 'zstd', index: false, chunks: true, chunkSize: 1e6 });
+  // In a chunk record, the name of the compression follows the record's code and length, two times, size, checksum and the name's length.
   const chunk = bytes.indexOf(Buffer.from('zstd')) - 4 - 4 - 8 - 16 - 9;
   for (const [size, reason] of /** @type {const} */ ([
     [10n ** 12n, 'a chunk of 1000000000000 bytes'],
@@ -203,12 +203,12 @@ test('chunks with another checksum or size than they state are not read', async 
 });
 
 test('a file that is read in pieces has its bytes, one after the other, across pieces and after gaps', async () => {
-  const next = generator(7);
-  const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => next() * 256)));
-  const read = readAhead(new File([bytes], 'run.mcap'));
+  const random = generator(7);
+  const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => random() * 256)));
+  const readRange = readAhead(new File([bytes], 'run.mcap'));
   for (let from = 0; from < bytes.length; ) {
-    const to = Math.min(bytes.length, from + Math.floor(next() ** 8 * 3e7));
-    assert.deepEqual([to, bytes.compare(await read(from, to), 0, to - from, from, to)], [to, 0]);
-    from = next() < 0.05 ? Math.min(bytes.length, to + 3e6) : to;
+    const to = Math.min(bytes.length, from + Math.floor(random() ** 8 * 3e7));
+    assert.deepEqual([to, bytes.compare(await readRange(from, to), 0, to - from, from, to)], [to, 0]);
+    from = random() < 0.05 ? Math.min(bytes.length, to + 3e6) : to;
   }
 });

@@ -1,4 +1,4 @@
-// Logs in text: rows that are dropped, units that are judged, and tables that are refused.
+// Logs as text tables: dropped rows, guessed units, and refused tables.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -8,28 +8,28 @@ import { Rows } from '../../www/logs/rows.ts';
 import { refusalOf, sentenceOf } from './log-support.js';
 
 /** @param {string | Uint8Array<ArrayBuffer>} text @param {import('../../www/logs/log.ts').OpenOptions} [options] @param {string} [series] */
-async function read(text, options, series = '') {
+async function readTable(text, options, series = '') {
   const [recording] = await openRecordings([new File([text], 'run.csv')], options);
   const [log] = await recording.read([{ series }]);
   return { ...log, data: /** @type {any} */ (log.data) };
 }
 
-/** Drive on circles of 1 m at 0.5 m/s with 20 rows a second: time, x, y, heading. */
-const CIRCLES = Array.from({ length: 800 }, (_, i) => [i / 20, Math.sin(i / 40), -Math.cos(i / 40), Math.atan2(Math.sin(i / 40), Math.cos(i / 40))]);
+/** Rows of a drive on a circle with a radius of 1 m, at 0.5 m/s, with 20 rows a second: time, x, y, heading. */
+const CIRCLE = Array.from({ length: 800 }, (_, i) => [i / 20, Math.sin(i / 40), -Math.cos(i / 40), Math.atan2(Math.sin(i / 40), Math.cos(i / 40))]);
 
 /** @param {(row: number[], i: number) => (string | number)[]} [cells] @param {string} [header] */
-const circles = (cells = (row) => row, header = 't,x,y,yaw') => [header, ...CIRCLES.map((row, i) => cells(row, i).join(','))].join('\n');
+const circleTable = (cells = (row) => row, header = 't,x,y,yaw') => [header, ...CIRCLE.map((row, i) => cells(row, i).join(','))].join('\n');
 
 /** Table of a robot that drives straight on, at these times. @param {(number | string)[]} times */
-const straight = (times) => ['t,x,y,yaw', ...times.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
-const steps = (/** @type {number} */ count, from = 0) => Array.from({ length: count }, (_, i) => from + i / 10);
+const straightTable = (times) => ['t,x,y,yaw', ...times.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
+const timesFrom = (/** @type {number} */ count, from = 0) => Array.from({ length: count }, (_, i) => from + i / 10);
 
 test('nanoseconds of the present keep their digits, in every unit', async () => {
   const times = ['1699999999999999999', '1700000000000000001'];
   for (const [unit, digits] of Object.entries({ ns: 0, us: 3, ms: 6, s: 9 })) {
     const [one, other] = times.map((time) => (digits ? `${time.slice(0, -digits)}.${time.slice(-digits)}` : time));
     for (const header of ['t', `t_${unit}`]) {
-      const { data, start, summary } = await read(`${header},x,y,yaw\n${one},0,0,0\n${other},0,0,0`);
+      const { data, start, summary } = await readTable(`${header},x,y,yaw\n${one},0,0,0\n${other},0,0,0`);
       assert.deepEqual([start, summary.units.time], [1_699_999_999, { unit, by: header === 't' ? 'size' : 'name' }]);
       assert.deepEqual([...data.t].map((t) => Math.round(t * 1e9)), [999_999_999, 1_000_000_001]);
     }
@@ -38,69 +38,69 @@ test('nanoseconds of the present keep their digits, in every unit', async () => 
 
 test('numbers are the nearest doubles', async () => {
   const values = ['0.1', '-12345.6789012345', '1e-7', '123456789.012345678', '3.141592653589793238462643', '-0', '.5', '7.', '+4.', '2.2250738585072014e-308'];
-  const { x } = (await read(['t,x,y,yaw', ...values.map((value, i) => `${i},${value},0,0`)].join('\n'), { lengthUnit: 'm' })).data;
+  const { x } = (await readTable(['t,x,y,yaw', ...values.map((value, i) => `${i},${value},0,0`)].join('\n'), { lengthUnit: 'm' })).data;
   assert.deepEqual([...x], values.map(Number));
 });
 
 test('rows that cannot be used are dropped with the first line of each cause, and break the path', async () => {
-  const rows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...steps(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
-  const { data, summary: { dropped, rows: count, notes } } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
-  assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...steps(90, 8), 18], [1, 3, 4, 94]]);
+  const rows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...timesFrom(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
+  const { data, summary: { dropped, rows: count, notes } } = await readTable(`t,x,y,yaw\n${rows.join('\n')}`);
+  assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...timesFrom(90, 8), 18], [1, 3, 4, 94]]);
   assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 3, first: 11 }, text: { count: 1, first: 103 }, duplicate: { count: 1, first: 6 } });
   assert.deepEqual([count, notes], [rows.length, [{ name: 'cutShort', values: [] }]]);
 });
 
 test('late rows are sorted; a time far from all others is dropped', async () => {
-  const times = steps(50);
-  const late = await read(straight([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
-  assert.deepEqual([[...late.data.t], [...late.data.breaks]], [times, []]);
-  assert.deepEqual([late.data.x[20], late.summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
-  const parts = await read(straight([...steps(50, 100), ...steps(50)]));
-  assert.deepEqual([parts.data.t.length, parts.data.t[0], parts.data.x[0]], [100, 0, 1]);
+  const times = timesFrom(50);
+  const shuffled = await readTable(straightTable([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
+  assert.deepEqual([[...shuffled.data.t], [...shuffled.data.breaks]], [times, []]);
+  assert.deepEqual([shuffled.data.x[20], shuffled.summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
+  const swappedParts = await readTable(straightTable([...timesFrom(50, 100), ...timesFrom(50)]));
+  assert.deepEqual([swappedParts.data.t.length, swappedParts.data.t[0], swappedParts.data.x[0]], [100, 0, 1]);
   for (const stray of [1e6, -1e6]) {
-    const { data, summary } = await read(straight(times.with(20, stray)));
+    const { data, summary } = await readTable(straightTable(times.with(20, stray)));
     assert.deepEqual([[...data.t], summary.dropped, [...data.breaks]], [times.toSpliced(20, 1), { stray: { count: 1, first: 22 } }, []]);
   }
 });
 
 test('a log that is out of order everywhere is sorted, and one of two clocks in turns is not taken for it', async () => {
-  const [header, ...rows] = circles().split('\n');
+  const [header, ...rows] = circleTable().split('\n');
   const order = rows.map((_, i) => (i * 301) % rows.length);
-  for (const reach of [8, rows.length]) {
-    const jittered = rows.map((_, i) => i).toSorted((one, other) => one + (order[one] % reach) - other - (order[other] % reach));
-    const { data, summary } = await read([header, ...jittered.map((i) => rows[i])].join('\n'));
-    assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLES.map(([, x]) => x), [], rows.length]);
+  for (const range of [8, rows.length]) {
+    const shuffled = rows.map((_, i) => i).toSorted((one, other) => one + (order[one] % range) - other - (order[other] % range));
+    const { data, summary } = await readTable([header, ...shuffled.map((i) => rows[i])].join('\n'));
+    assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE.map(([, x]) => x), [], rows.length]);
     assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rows.length / 8, JSON.stringify(summary.notes));
   }
-  const alternating = rows.flatMap((row, i) => [row, [CIRCLES[i][0] + 5.02, ...CIRCLES[rows.length - 1 - i].slice(1)].join(',')]);
-  assert.match(await sentenceOf(read([header, ...alternating].join('\n'))), /^run\.csv: /);
+  const twoClocks = rows.flatMap((row, i) => [row, [CIRCLE[i][0] + 5.02, ...CIRCLE[rows.length - 1 - i].slice(1)].join(',')]);
+  assert.match(await sentenceOf(readTable([header, ...twoClocks].join('\n'))), /^run\.csv: /);
 });
 
 test('a block of zeros in a table loses the row that it is in', async () => {
-  const [header, ...rows] = circles().split('\n');
-  for (const hole of [100, 700]) {
-    const { data, summary } = await read([header, ...rows.with(hole, `${rows[hole].slice(0, 9)}${'\0'.repeat(100_000)}${rows[hole + 1].slice(5)}`)].join('\n'));
-    assert.deepEqual([data.t.length, summary.dropped, [...data.breaks]], [rows.length - 1, { text: { count: 1, first: hole + 2 } }, [hole]]);
+  const [header, ...rows] = circleTable().split('\n');
+  for (const rowIndex of [100, 700]) {
+    const { data, summary } = await readTable([header, ...rows.with(rowIndex, `${rows[rowIndex].slice(0, 9)}${'\0'.repeat(100_000)}${rows[rowIndex + 1].slice(5)}`)].join('\n'));
+    assert.deepEqual([data.t.length, summary.dropped, [...data.breaks]], [rows.length - 1, { text: { count: 1, first: rowIndex + 2 } }, [rowIndex]]);
   }
-  const { data, summary } = await read([header, ...rows, '\0'.repeat(5_000_000)].join('\n'));
+  const { data, summary } = await readTable([header, ...rows, '\0'.repeat(5_000_000)].join('\n'));
   assert.deepEqual([data.t.length, summary.used], [rows.length, rows.length]);
 });
 
 test('a clock that was set back leaves the larger part, and halves are refused', async () => {
-  for (const back of [5, 4.96]) {
-    const { data, summary } = await read(straight([...steps(200), ...steps(100, 20 - back)]));
+  for (const setBackBy of [5, 4.96]) {
+    const { data, summary } = await readTable(straightTable([...timesFrom(200), ...timesFrom(100, 20 - setBackBy)]));
     assert.deepEqual([data.t.length, summary.dropped], [200, { setBack: { count: 100, first: 202 } }]);
   }
-  const end = await read(straight([...steps(60), ...steps(140, 4.03)]));
-  assert.deepEqual([end.data.t.length, end.data.x[0], end.summary.dropped.setBack], [140, 60 / 50, { count: 60, first: 2 }]);
-  assert.match(await sentenceOf(read(straight([...steps(100), ...steps(100, 5)]))), /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
+  const later = await readTable(straightTable([...timesFrom(60), ...timesFrom(140, 4.03)]));
+  assert.deepEqual([later.data.t.length, later.data.x[0], later.summary.dropped.setBack], [140, 60 / 50, { count: 60, first: 2 }]);
+  assert.match(await sentenceOf(readTable(straightTable([...timesFrom(100), ...timesFrom(100, 5)]))), /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
 });
 
 test('a clock that begins at 0 again goes on: at midnight, and where a counter overflows', async () => {
-  const clock = (/** @type {(seconds: number) => number | string} */ text) => read(['t,x,y,yaw', ...Array.from({ length: 200 }, (_, i) => `${text(i / 20)},${i / 50},0,0`)].join('\n'));
-  const midnight = await clock((t) => (t < 5 ? `23:59:5${(5 + t).toFixed(2)}` : `00:00:0${(t - 5).toFixed(2)}`));
-  const micros = await clock((t) => (4_290_000_000 + Math.round(t * 1e6)) % 2 ** 32);
-  for (const { data: { t }, summary } of [midnight, micros]) {
+  const readWithClock = (/** @type {(seconds: number) => number | string} */ text) => readTable(['t,x,y,yaw', ...Array.from({ length: 200 }, (_, i) => `${text(i / 20)},${i / 50},0,0`)].join('\n'));
+  const midnight = await readWithClock((t) => (t < 5 ? `23:59:5${(5 + t).toFixed(2)}` : `00:00:0${(t - 5).toFixed(2)}`));
+  const inMicroseconds = await readWithClock((t) => (4_290_000_000 + Math.round(t * 1e6)) % 2 ** 32);
+  for (const { data: { t }, summary } of [midnight, inMicroseconds]) {
     assert.deepEqual([t.length, Number((t[199] - t[0]).toFixed(6)), summary.notes[0].name, summary.gaps.count], [200, 9.95, 'rollover', 0]);
   }
   assert.deepEqual(midnight.summary.notes[0].values, [102]);
@@ -109,94 +109,94 @@ test('a clock that begins at 0 again goes on: at midnight, and where a counter o
 test('stamps of 0 drop their rows, and are no choice of the clock for the others', async () => {
   const stamp = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 10)}${i % 10}00000000`);
   const rows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 10},${stamp(i)},${i / 20},0,0`);
-  const { start, data, summary } = await read(['time,header.stamp,x,y,yaw', ...rows].join('\n'));
+  const { start, data, summary } = await readTable(['time,header.stamp,x,y,yaw', ...rows].join('\n'));
   assert.deepEqual([start, data.t.length, data.t[0], summary.clock, summary.units.time.unit], [1_718_000_000, 57, 0.2, 'header.stamp', 'ns']);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ noStamp: { count: 3, first: 2 } }, []]);
-  const stopped = await read(['time,header.stamp,x,y,yaw', ...rows.map((row) => row.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
-  assert.deepEqual([stopped.data.t.length, stopped.summary.clock, stopped.summary.columns?.t], [60, 'time', 'time']);
+  const frozen = await readTable(['time,header.stamp,x,y,yaw', ...rows.map((row) => row.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
+  assert.deepEqual([frozen.data.t.length, frozen.summary.clock, frozen.summary.columns?.t], [60, 'time', 'time']);
 });
 
 test('poses that a table repeats at the rate of another log are taken once', async () => {
-  const { data, summary } = await read(circles((row, i) => [row[0], ...CIRCLES[i - (i % 5)].slice(1)]));
-  assert.deepEqual([data.t.length, data.t[1], data.x[1]], [160, 0.25, CIRCLES[5][1]]);
+  const { data, summary } = await readTable(circleTable((row, i) => [row[0], ...CIRCLE[i - (i % 5)].slice(1)]));
+  assert.deepEqual([data.t.length, data.t[1], data.x[1]], [160, 0.25, CIRCLE[5][1]]);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ repeated: { count: 640, first: 3 } }, []]);
 });
 
 test('pauses and jumps are found, and a heading that wraps is no jump', async () => {
   // Five median steps are not a pause, and eight times the usual speed is not a jump.
-  const late = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
-  const far = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
-  const rows = Array.from({ length: 400 }, (_, i) => [i / 20 + late(i), i / 20 + far(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
-  const { summary, data } = await read(`t,x,y,yaw\n${rows.join('\n')}`);
+  const delay = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
+  const offset = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
+  const rows = Array.from({ length: 400 }, (_, i) => [i / 20 + delay(i), i / 20 + offset(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
+  const { summary, data } = await readTable(`t,x,y,yaw\n${rows.join('\n')}`);
   assert.deepEqual(summary.gaps, { count: 2, longest: 3.05, first: 59 / 20 + 0.19 });
   assert.deepEqual([summary.jumps, [...data.breaks]], [{ count: 2, first: 13.4 }, [200, 300]]);
   assert.ok(summary.distance > 20 && summary.distance < 20.3, `${summary.distance}`);
-  assert.equal((await read(circles())).summary.jumps.count, 0);
+  assert.equal((await readTable(circleTable())).summary.jumps.count, 0);
 });
 
-test('units are taken by two signs', async () => {
+test('units are guessed from two signs', async () => {
   const degrees = (/** @type {number} */ yaw) => (yaw * 180) / Math.PI;
   /** Tables and their units of time and angle. @type {[string, string, string][]} */
   const cases = [
-    [circles(), 's', 'rad'],
-    [circles(([t, x, y], i) => [t, x, y, i / 40]), 's', 'rad'],
-    [circles(([t, x, y, yaw]) => [t, x, y, degrees(yaw)]), 's', 'deg'],
-    [circles(([t, x, y, yaw]) => [t, x, y, (degrees(yaw) + 360) % 360]), 's', 'deg'],
-    [circles(([t, x, y, yaw]) => [1000 * t, x, y, yaw]), 'ms', 'rad'],
-    [circles(([t, x, y, yaw]) => [1e9 * t, x, y, yaw]), 'ns', 'rad'],
-    [circles(([t, x, y, yaw]) => [1e9 * t + 1e10, x, y, yaw]), 'ns', 'rad'],
-    [circles(([t, x, y, yaw]) => [1000 * t, x, y, degrees(yaw)]), 'ms', 'deg'],
-    [circles(([t, x, y, yaw]) => [1e9 * t, x, y, yaw], '%time,field.x,field.y,field.theta'), 'ns', 'rad'],
+    [circleTable(), 's', 'rad'],
+    [circleTable(([t, x, y], i) => [t, x, y, i / 40]), 's', 'rad'],
+    [circleTable(([t, x, y, yaw]) => [t, x, y, degrees(yaw)]), 's', 'deg'],
+    [circleTable(([t, x, y, yaw]) => [t, x, y, (degrees(yaw) + 360) % 360]), 's', 'deg'],
+    [circleTable(([t, x, y, yaw]) => [1000 * t, x, y, yaw]), 'ms', 'rad'],
+    [circleTable(([t, x, y, yaw]) => [1e9 * t, x, y, yaw]), 'ns', 'rad'],
+    [circleTable(([t, x, y, yaw]) => [1e9 * t + 1e10, x, y, yaw]), 'ns', 'rad'],
+    [circleTable(([t, x, y, yaw]) => [1000 * t, x, y, degrees(yaw)]), 'ms', 'deg'],
+    [circleTable(([t, x, y, yaw]) => [1e9 * t, x, y, yaw], '%time,field.x,field.y,field.theta'), 'ns', 'rad'],
   ];
   for (const [text, time, angle] of cases) {
-    const { data, summary: { units } } = await read(text);
+    const { data, summary: { units } } = await readTable(text);
     assert.deepEqual([units.time.unit, units.angle.unit], [time, angle]);
-    assert.ok(Math.abs(data.t.at(-1) - data.t[0] - CIRCLES[799][0]) < 1e-9, `${data.t[799]}`);
-    assert.ok(Math.abs(Math.sin(data.theta[799] - CIRCLES[799][3])) < 1e-9, `${data.theta[799]}`);
+    assert.ok(Math.abs(data.t.at(-1) - data.t[0] - CIRCLE[799][0]) < 1e-9, `${data.t[799]}`);
+    assert.ok(Math.abs(Math.sin(data.theta[799] - CIRCLE[799][3])) < 1e-9, `${data.theta[799]}`);
   }
 });
 
 /** Tables that lead to a question about a unit. Each has the option that answers it, and a field of row 9 with its value after the answer. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions, [string, number]][]} */
-const QUESTIONS = [
-  ['millimetres', circles(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }, ['x', CIRCLES[9][1]]],
-  ['centimetres of a slow robot', circles(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: m or cm or mm\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
-  ['commands in centimetres', ['t,v,omega', ...steps(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
-  ['metres that a name has as millimetres', circles(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }, ['x', CIRCLES[9][1]]],
-  ['commands in milliseconds', ['t,v,omega', ...steps(50).map((t) => `${1000 * t},0.5,0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
-  ['seconds that a name has as nanoseconds', circles(undefined, 't_ns,x,y,yaw'), /in ns, the times would mean/, { timeUnit: 's' }, ['t', CIRCLES[9][0]]],
-  ['degrees of a robot that drives straight on', circles(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }, ['theta', (Math.sin(0.05) * Math.PI) / 9]],
-  ['radians that a name has as degrees', circles(undefined, 't,x,y,yaw_deg'), /headings in deg .*: rad or deg\.$/, { angleUnit: 'rad' }, ['theta', CIRCLES[9][3]]],
-  ['turn rates in degrees', ['t,v,omega', ...steps(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
+const UNIT_QUESTIONS = [
+  ['millimetres', circleTable(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE[9][1]]],
+  ['centimetres of a slow robot', circleTable(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: m or cm or mm\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
+  ['commands in centimetres', ['t,v,omega', ...timesFrom(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
+  ['metres that a name has as millimetres', circleTable(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }, ['x', CIRCLE[9][1]]],
+  ['commands in milliseconds', ['t,v,omega', ...timesFrom(50).map((t) => `${1000 * t},0.5,0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
+  ['seconds that a name has as nanoseconds', circleTable(undefined, 't_ns,x,y,yaw'), /in ns, the times would mean/, { timeUnit: 's' }, ['t', CIRCLE[9][0]]],
+  ['degrees of a robot that drives straight on', circleTable(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }, ['theta', (Math.sin(0.05) * Math.PI) / 9]],
+  ['radians that a name has as degrees', circleTable(undefined, 't,x,y,yaw_deg'), /headings in deg .*: rad or deg\.$/, { angleUnit: 'rad' }, ['theta', CIRCLE[9][3]]],
+  ['turn rates in degrees', ['t,v,omega', ...timesFrom(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
 ];
 
 test('times in minutes are refused by their name', async () => {
-  for (const header of ['t_min,x,y,yaw', 'Time [min],x,y,yaw']) assert.match(await sentenceOf(read(circles(([t, ...rest]) => [t / 60, ...rest], header))), /^run\.csv: the unit min of a column is not known/);
-  assert.equal((await read(circles(([t, ...rest]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...rest], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
+  for (const header of ['t_min,x,y,yaw', 'Time [min],x,y,yaw']) assert.match(await sentenceOf(readTable(circleTable(([t, ...rest]) => [t / 60, ...rest], header))), /^run\.csv: the unit min of a column is not known/);
+  assert.equal((await readTable(circleTable(([t, ...rest]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...rest], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
 });
 
 test('a car is not asked about its lengths', async () => {
-  const { summary: { units } } = await read(circles(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0]));
+  const { summary: { units } } = await readTable(circleTable(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0]));
   assert.deepEqual(units.length, { unit: 'm', by: 'usage' });
 });
 
-for (const [name, text, sentence, options, [field, value]] of QUESTIONS) {
+for (const [name, text, sentence, options, [field, value]] of UNIT_QUESTIONS) {
   test(`asks about ${name}`, async () => {
-    const error = await refusalOf(read(text));
+    const error = await refusalOf(readTable(text));
     assert.match(error.message, sentence);
     const [[what, answer]] = Object.entries(options);
     assert.equal(error.ask?.what, what);
     assert.ok(error.ask.choices.includes(answer), String(error.ask.choices));
-    const { data, summary: { units } } = await read(text, options);
+    const { data, summary: { units } } = await readTable(text, options);
     assert.deepEqual(units[/** @type {'time' | 'length' | 'angle'} */ (what.replace('Unit', ''))], { unit: answer, by: 'option' });
     assert.ok(Math.abs(data[field][9] - value) < 1e-12, `${data[field][9]}, not ${value}`);
   });
 }
 
-const LONG = 'x'.repeat(100);
-const KITTI = Array.from({ length: 12 }, () => 1).join(' ');
+const LONG_WORD = 'x'.repeat(100);
+const KITTI_ROW = Array.from({ length: 12 }, () => 1).join(' ');
 
 /** Tables, and how each is refused. @type {[string, string | Uint8Array<ArrayBuffer>, RegExp, import('../../www/logs/log.ts').OpenOptions?][]} */
-const REFUSED = [
+const REFUSED_TABLES = [
   ['nothing', '', /^run\.csv: there is nothing in it;/],
   ['comments alone', '# t,x,y,yaw\n\n', /there is nothing in it;/],
   ['a header alone', 't,x,y,yaw\n', /0 of 0 rows can be used;/],
@@ -206,11 +206,11 @@ const REFUSED = [
   ['no time', 'x,y,yaw\n0,0,0\n', /, line 1: none of the columns x, y, yaw is the time;/],
   ['a count of rows as times', ',x,y,yaw\n0,0,0,0\n1,0,0,0\n', /is the time;/],
   ['x and y of one source and the heading of another', 't,x,y,imu_yaw\n0,0,0,0\n1,0,0,0\n', /: x, y are positions without a heading;/],
-  ['other columns', `t,${LONG}\n0,1\n`, /, line 1: the columns are t, x{40}…; expected are x, y and yaw/],
+  ['other columns', `t,${LONG_WORD}\n0,1\n`, /, line 1: the columns are t, x{40}…; expected are x, y and yaw/],
   ['two columns of one name', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n', /both “t” and “t” may be the column of time;/],
   ['a unit that is not known', 't,x [ft],y [ft],yaw\n0,0,0,0\n1,0,0,0\n', /the unit ft of a column is not known/],
   ['text in many rows', 't,x,y,yaw\n0,0,0,0\n1,a,0,0\n2,b,0,0\n', /, line 3: x is “a”; expected is a number\. 2 of 3 rows have text in place of a number, or too few cells; at most 10 % of the rows may\.$/],
-  ['text for a number', `t,x,y,yaw\n0,0,0,0\n1,${LONG},0,0\n`, /, line 3: x is “x{40}…”; expected is a number\.$/],
+  ['text for a number', `t,x,y,yaw\n0,0,0,0\n1,${LONG_WORD},0,0\n`, /, line 3: x is “x{40}…”; expected is a number\.$/],
   ['hexadecimal digits', 't,x,y,yaw\n0x10,0,0,0\n', /, line 2: t is “0x10”;/],
   ['thousands beside decimal commas', 't;x;y;yaw\n0,5;1.234;0;0\n1,5;1;0;0\n', /, line 2: x is “1\.234”;/],
   ['decimal commas between commas', 't,x,y,yaw\n0,5,1,25,2,5,0,1\n1,5,1,25,2,5,0,1\n', /has 8 cells, and the header in line 1 4;/],
@@ -219,14 +219,14 @@ const REFUSED = [
   ['few rows', 't,x,y,yaw\nnan,0,0,0\n1,0,0,0', /, line 2: 1 of 2 rows can be used \(a value that is not finite\);/],
   ['no rotations', '0 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0\n', /, line 1: 0 of 2 rows can be used \(a quaternion that is no rotation\);/],
   ['a large value', 't,x,y,yaw\n0,0,0,0\n1,0,1e300,0\n', /, line 3: a value is 1e\+300;/],
-  ['two logs at the same times', circles((row, i) => row.with(0, CIRCLES[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],
-  ['nanoseconds without leading zeros', circles(([t, ...pose]) => [`${Math.floor(t)}.${Math.round((t % 1) * 1e9)}`, ...pose]), /^run\.csv: in 0\.50000000 and other times the digits after the point lack their leading zeros;/],
-  ['times that a spreadsheet rounded', circles((row, i) => [`1.71800${i >> 6}E+18`, ...row.slice(1)]), /have the time of another row/],
-  ['a quaternion in another order', circles(([t, x, y, yaw]) => [t, x, y, 0, Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)]).slice('t,x,y,yaw\n'.length), /do not turn about a vertical Z axis;/],
-  ['several frames', circles((row, i) => [...row, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames \(base, wheel\)|of several frames \(wheel, base\)/],
-  ['poses of KITTI', `${KITTI}\n${KITTI}\n`, /poses of KITTI, which have no times; add/],
+  ['two logs at the same times', circleTable((row, i) => row.with(0, CIRCLE[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],
+  ['nanoseconds without leading zeros', circleTable(([t, ...pose]) => [`${Math.floor(t)}.${Math.round((t % 1) * 1e9)}`, ...pose]), /^run\.csv: in 0\.50000000 and other times the digits after the point lack their leading zeros;/],
+  ['times that a spreadsheet rounded', circleTable((row, i) => [`1.71800${i >> 6}E+18`, ...row.slice(1)]), /have the time of another row/],
+  ['a quaternion in another order', circleTable(([t, x, y, yaw]) => [t, x, y, 0, Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)]).slice('t,x,y,yaw\n'.length), /do not turn about a vertical Z axis;/],
+  ['several frames', circleTable((row, i) => [...row, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames \(base, wheel\)|of several frames \(wheel, base\)/],
+  ['poses of KITTI', `${KITTI_ROW}\n${KITTI_ROW}\n`, /poses of KITTI, which have no times; add/],
   ['Euler angles of Motive', 'Format Version,1.23,Take Name,x,Rotation Type,XYZ,Length Units,Meters\n\n,Type,Rigid Body\n,Name,Robot\n,ID,1\n,,Rotation\nFrame,Time (Seconds),X\n0,0.0,1\n1,0.1,1\n', /Euler angles \(XYZ\); export/],
-  ['positions', circles(([t, x, y]) => [t, x, y], 't,x,y'), /: x, y are positions without a heading; give a reference/],
+  ['positions', circleTable(([t, x, y]) => [t, x, y], 't,x,y'), /: x, y are positions without a heading; give a reference/],
   ['commands without times', '0.4,0.0,0.0,0.0,0.0,0.1\n0.4,0.0,0.0,0.0,0.0,0.1\n', /geometry_msgs\/Twist, which have no times; give/],
   ['a letter', 'Dear robot,\n\nwait 2, 3 or 4 s.\nYours, a friend\n', /^run\.csv: it does not look like a log, as it has no rows of numbers;/],
   ['a program’s messages', '[INFO] [1718000000.1] [amcl]: at 1.0, 2.0\n'.repeat(3), /does not look like a log/],
@@ -235,9 +235,9 @@ const REFUSED = [
   ['columns for a table of another width', '0 1 2 3 4\n1 1 2 3 4\n', /has 5 cells, and --columns names 4;/, { columns: ['t', 'x', 'y', 'yaw'] }],
 ];
 
-for (const [name, contents, sentence, options] of REFUSED) {
+for (const [name, contents, sentence, options] of REFUSED_TABLES) {
   test(`refuses ${name}`, async () => {
-    const error = await refusalOf(read(contents, options));
+    const error = await refusalOf(readTable(contents, options));
     assert.match(error.message, sentence);
     assert.match(error.message, /; [a-z].+\.$/);
     assert.match(error.sentence(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);
@@ -246,18 +246,18 @@ for (const [name, contents, sentence, options] of REFUSED) {
 
 test('more rows than those of a day at 100 Hz are refused', async () => {
   const rows = Object.assign(new Rows({ file: 'run.csv' }), { count: 1e7 - 1 });
-  const add = async () => rows.add(0, 0, 0, 0, 0, 1);
-  await add();
-  assert.equal(await sentenceOf(add()), 'run.csv: there are more rows; expected are at most 10000000.');
+  const addRow = async () => rows.add(0, 0, 0, 0, 0, 1);
+  await addRow();
+  assert.equal(await sentenceOf(addRow()), 'run.csv: there are more rows; expected are at most 10000000.');
 });
 
 test('a file that has been moved is refused', async () => {
-  const gone = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
-  assert.equal(await sentenceOf(openRecordings([/** @type {any} */ (gone)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
+  const missingFile = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
+  assert.equal(await sentenceOf(openRecordings([/** @type {any} */ (missingFile)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
 });
 
 test('lines across the pieces of a large file are read whole', async () => {
   const rows = Array.from({ length: 120_000 }, (_, i) => `${i},${i / 8},${'x'.repeat(i % 40)},0,0.125`);
-  const { data } = await read(['t,x,note,y,yaw', ...rows].join('\n'));
+  const { data } = await readTable(['t,x,note,y,yaw', ...rows].join('\n'));
   assert.deepEqual([...data.x], rows.map((_, i) => i / 8));
 });

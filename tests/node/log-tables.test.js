@@ -1,4 +1,4 @@
-// Logs in text: formats of tables, each with the rows that it has.
+// Logs as text tables: each format is read, and has the expected rows.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -36,24 +36,24 @@ const table = (header, cells, separator = ',') => [header, ...ROWS.map((row) => 
 const EPOCH = 1_718_000_000;
 /** Digits of a time in nanoseconds. @param {number} t */
 const nanoseconds = (t) => `${EPOCH + Math.floor(t)}${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
-const seconds = (/** @type {number} */ t) => [EPOCH + Math.floor(t), Math.round((t % 1) * 1e9)];
-const comma = (/** @type {unknown} */ value) => String(value).replace('.', ',');
+const splitTime = (/** @type {number} */ t) => [EPOCH + Math.floor(t), Math.round((t % 1) * 1e9)];
+const withComma = (/** @type {unknown} */ value) => String(value).replace('.', ',');
 const degrees = (/** @type {number} */ radians) => (radians * 180) / Math.PI;
-const iso = (/** @type {number} */ t) => new Date((EPOCH + Math.floor(t)) * 1000).toISOString().slice(0, 19) + `.${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
-const pose = (/** @type {Row} */ { x, y, qz, qw }) => [x, y, 0, 0, 0, qz, qw];
+const isoDate = (/** @type {number} */ t) => new Date((EPOCH + Math.floor(t)) * 1000).toISOString().slice(0, 19) + `.${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
+const poseOf = (/** @type {Row} */ { x, y, qz, qw }) => [x, y, 0, 0, 0, qz, qw];
 const zeros = (/** @type {number} */ count) => Array.from({ length: count }, () => 0);
 const ABBREVIATED = '<array type: double[36]>';
 const utf16 = (/** @type {string} */ text) => new Uint8Array(Buffer.from(`\ufeff${text}`, 'utf16le'));
 
-const ODOMETRY = 'seq header.frame_id child_frame_id pose.pose.position.x pose.pose.position.y pose.pose.position.z pose.pose.orientation.x pose.pose.orientation.y pose.pose.orientation.z pose.pose.orientation.w'.split(' ');
-const VELOCITY = ['twist.twist.linear.x', 'twist.twist.linear.y', 'twist.twist.angular.x', 'twist.twist.angular.z'];
-const rostopic = (/** @type {(row: Row) => string | number} */ stamp) =>
-  table(['%time', 'field.header.stamp', ...[...ODOMETRY, 'pose.covariance0', ...VELOCITY].map((name) => `field.${name}`)].join(','), (row) => [nanoseconds(row.t), stamp(row), row.i, 'odom', 'base', ...pose(row), 9, row.v, 9, 9, row.omega]);
-const bagpy = (/** @type {string} */ sec, /** @type {string} */ nsec) =>
-  table(['Time', sec, nsec, ...ODOMETRY, ...VELOCITY].join(','), (row) => [EPOCH + row.t + 7, ...seconds(row.t), row.i, 'odom', 'base', ...pose(row), row.v, 9, 9, row.omega]);
+const ODOMETRY_COLUMNS = 'seq header.frame_id child_frame_id pose.pose.position.x pose.pose.position.y pose.pose.position.z pose.pose.orientation.x pose.pose.orientation.y pose.pose.orientation.z pose.pose.orientation.w'.split(' ');
+const VELOCITY_COLUMNS = ['twist.twist.linear.x', 'twist.twist.linear.y', 'twist.twist.angular.x', 'twist.twist.angular.z'];
+const rostopicTable = (/** @type {(row: Row) => string | number} */ stamp) =>
+  table(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((name) => `field.${name}`)].join(','), (row) => [nanoseconds(row.t), stamp(row), row.i, 'odom', 'base', ...poseOf(row), 9, row.v, 9, 9, row.omega]);
+const bagpyTable = (/** @type {string} */ sec, /** @type {string} */ nsec) =>
+  table(['Time', sec, nsec, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (row) => [EPOCH + row.t + 7, ...splitTime(row.t), row.i, 'odom', 'base', ...poseOf(row), row.v, 9, 9, row.omega]);
 
 /** PlotJuggler's table of two topics, in which each sample of a topic has its own row. */
-const plotjuggler = [
+const plotjugglerTable = [
   ['__time', ...['position/x', 'position/y', 'orientation/x', 'orientation/y', 'orientation/z', 'orientation/w'].flatMap((name) => [`/odom/pose/pose/${name}`, `/mocap/pose/${name}`]), '/imu/angular_velocity/z'].join(','),
   ...ROWS.flatMap(({ t, x, y, qz, qw }) => [
     [EPOCH + t, ...[x, y, 0, 0, qz, qw].flatMap((value) => [value, '']), ''],
@@ -62,83 +62,83 @@ const plotjuggler = [
   ]).map((cells) => cells.join(',')),
 ].join('\n');
 
-/** Motive's export: with preamble, of a body and a marker. @param {'Meters' | 'Millimeters'} unit @param {boolean} isYUp */
-function motive(unit, isYUp) {
+/** Returns an export of Motive, with preamble, body and marker. @param {'Meters' | 'Millimeters'} unit @param {boolean} isYUp */
+function motiveTable(unit, isYUp) {
   const scale = unit === 'Meters' ? 1 : 1000;
-  const repeat = (/** @type {string} */ text, /** @type {number} */ count) => Array.from({ length: count }, () => text).join(',');
+  const repeated = (/** @type {string} */ text, /** @type {number} */ count) => Array.from({ length: count }, () => text).join(',');
   return [
     `Format Version,1.25,Take Name,drive,Take Notes,,Capture Frame Rate,16.000000,Export Frame Rate,16.000000,Capture Start Time,2024-06-10 06.13.20.000 AM,Total Frames in Take,60,Rotation Type,Quaternion,Length Units,${unit},Coordinate Space,Global`,
     '',
-    `,Type,${repeat('Rigid Body', 8)},${repeat('Rigid Body Marker', 3)}`,
-    `,Name,${repeat('Robot', 8)},${repeat('Robot:Marker1', 3)}`,
-    `,ID,${repeat('6E6B', 11)}`,
-    `,,${repeat('Rotation', 4)},${repeat('Position', 3)},Mean Marker Error,${repeat('Position', 3)}`,
+    `,Type,${repeated('Rigid Body', 8)},${repeated('Rigid Body Marker', 3)}`,
+    `,Name,${repeated('Robot', 8)},${repeated('Robot:Marker1', 3)}`,
+    `,ID,${repeated('6E6B', 11)}`,
+    `,,${repeated('Rotation', 4)},${repeated('Position', 3)},Mean Marker Error,${repeated('Position', 3)}`,
     'Frame,Time (Seconds),X,Y,Z,W,X,Y,Z,,X,Y,Z',
     ...ROWS.map(({ i, t, x, y, qz, qw }) => {
       // Heading about Y turns Z towards X.
-      const body = isYUp ? [0, qz, 0, qw, y * scale, 0.1, x * scale] : [0, 0, qz, qw, x * scale, y * scale, 0.1];
-      return [i, t, ...body, 0.0001, 1, 2, 3].join(',');
+      const bodyCells = isYUp ? [0, qz, 0, qw, y * scale, 0.1, x * scale] : [0, 0, qz, qw, x * scale, y * scale, 0.1];
+      return [i, t, ...bodyCells, 0.0001, 1, 2, 3].join(',');
     }),
   ].join('\r\n');
 }
 
 /** Lines of tables that pandas wrote, by tests/reference/logs/tables.py. */
-const TABLES = JSON.parse(readFileSync(new URL('../reference/logs/tables.json', import.meta.url), 'utf8'));
+const PANDAS_TABLES = JSON.parse(readFileSync(new URL('../reference/logs/tables.json', import.meta.url), 'utf8'));
 
-const pandas = (/** @type {string} */ name) => `${TABLES[name].join('\n')}\n`;
+const pandasTable = (/** @type {string} */ name) => `${PANDAS_TABLES[name].join('\n')}\n`;
 
 /** @type {Case[]} */
-const CASES = [
-  { name: 'pandas: an index without a name', text: pandas('index') },
-  { name: 'pandas: dates of UTC', start: EPOCH, text: pandas('utc') },
-  { name: 'pandas: dates of Berlin', start: EPOCH, text: pandas('berlin') },
-  { name: 'pandas: dates without a zone', start: EPOCH, text: pandas('naive'), says: /UTC/ },
-  { name: 'pandas: durations', text: pandas('timedelta') },
-  { name: 'pandas: decimal commas in UTF-16', text: utf16(pandas('german')) },
-  { name: 'pandas: nanoseconds in quotes', start: EPOCH, text: pandas('nanoseconds') },
-  { name: 'pandas: a log of two that are merged', series: ['odom_', 'gt_'], choice: { series: 'odom_' }, text: pandas('merged') },
+const READABLE_TABLES = [
+  { name: 'pandas: an index without a name', text: pandasTable('index') },
+  { name: 'pandas: dates of UTC', start: EPOCH, text: pandasTable('utc') },
+  { name: 'pandas: dates of Berlin', start: EPOCH, text: pandasTable('berlin') },
+  { name: 'pandas: dates without a zone', start: EPOCH, text: pandasTable('naive'), says: /UTC/ },
+  { name: 'pandas: durations', text: pandasTable('timedelta') },
+  { name: 'pandas: decimal commas in UTF-16', text: utf16(pandasTable('german')) },
+  { name: 'pandas: nanoseconds in quotes', start: EPOCH, text: pandasTable('nanoseconds') },
+  { name: 'pandas: a log of two that are merged', series: ['odom_', 'gt_'], choice: { series: 'odom_' }, text: pandasTable('merged') },
   { name: 'comma', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta]) },
   { name: 'blanks after commas, quoted names, units', text: table('"time [s]", "x [m]", "y [m]", "yaw [rad]"', ({ t, x, y, theta }) => [t, x, y, theta], ', ') },
   { name: 'tabs, columns in another order', text: table('heading\ttimestamp\tx\ty', ({ t, x, y, theta }) => [theta, t, x, y], '\t') },
   { name: 'blanks', text: table('stamp x y z yaw', ({ t, x, y, theta }) => [t, x, y, 0, theta], '  ') },
   { name: 'a separator in quotes', text: table('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
-  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${table('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(comma), ';').replaceAll('\n', '\r\n')}` },
-  { name: 'a spreadsheet in UTF-16', text: utf16(table('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(comma), '\t')) },
-  { name: 'commas in quotes', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${comma(value)}"`)) },
-  { name: 'times with exponents', start: EPOCH, text: table('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${nanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(comma)], ';') },
+  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${table('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(withComma), ';').replaceAll('\n', '\r\n')}` },
+  { name: 'a spreadsheet in UTF-16', text: utf16(table('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(withComma), '\t')) },
+  { name: 'commas in quotes', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${withComma(value)}"`)) },
+  { name: 'times with exponents', start: EPOCH, text: table('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${nanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(withComma)], ';') },
   { name: 'names of MATLAB', text: table('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, degrees(theta)]), says: /degrees/ },
   { name: 'durations of MATLAB', text: table('Time,x,y,yaw', ({ t, x, y, theta }) => [`00:00:${String(Math.floor(t)).padStart(2, '0')}.${String(t % 1).slice(2).padEnd(1, '0')}`, x, y, theta]) },
   { name: 'millimetres, degrees and milliseconds by name', text: table('t_ms,x [mm],y [mm],yaw (deg)', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]) },
-  { name: 'rostopic echo -p', start: EPOCH, text: rostopic(({ t }) => nanoseconds(t)) },
-  { name: 'rostopic echo -p with stamps of 0', start: EPOCH, text: rostopic(() => 0) },
-  { name: 'rostopic echo -p, commands', start: EPOCH, kind: 'commands', choice: { kind: 'commands' }, text: rostopic(({ t }) => nanoseconds(t)) },
-  { name: 'bagpy', start: EPOCH, text: bagpy('header.stamp.secs', 'header.stamp.nsecs') },
-  { name: 'stamp_sec, stamp_nsec', start: EPOCH, text: bagpy('stamp_sec', 'stamp_nsec') },
-  { name: 'seconds, nanoseconds', start: EPOCH, text: bagpy('seconds', 'nanoseconds') },
-  { name: 'ros2 topic echo --csv of odometry', start: EPOCH, text: table('', (row) => [...seconds(row.t), 'odom', 'base', ...pose(row), ...zeros(36), row.v, 0, 0, 0, 0, row.omega, ...zeros(36)]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH, text: table('', (row) => [...seconds(row.t), 'odom', 'base', ...pose(row), ABBREVIATED, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH, text: table('', (row) => [...seconds(row.t), 'map', ...pose(row), ABBREVIATED]).slice(1) },
-  { name: 'ros2 topic echo --csv of poses', start: EPOCH, text: table('', (row) => [...seconds(row.t), 'map', ...pose(row)]).slice(1) },
-  { name: 'ros2 topic echo --csv of commands', start: EPOCH, kind: 'commands', text: table('', ({ t, v, omega }) => [...seconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
-  { name: 'PlotJuggler, a topic of two', start: EPOCH, series: ['/odom', '/mocap', '/imu'], choice: { series: '/odom' }, text: plotjuggler },
+  { name: 'rostopic echo -p', start: EPOCH, text: rostopicTable(({ t }) => nanoseconds(t)) },
+  { name: 'rostopic echo -p with stamps of 0', start: EPOCH, text: rostopicTable(() => 0) },
+  { name: 'rostopic echo -p, commands', start: EPOCH, kind: 'commands', choice: { kind: 'commands' }, text: rostopicTable(({ t }) => nanoseconds(t)) },
+  { name: 'bagpy', start: EPOCH, text: bagpyTable('header.stamp.secs', 'header.stamp.nsecs') },
+  { name: 'stamp_sec, stamp_nsec', start: EPOCH, text: bagpyTable('stamp_sec', 'stamp_nsec') },
+  { name: 'seconds, nanoseconds', start: EPOCH, text: bagpyTable('seconds', 'nanoseconds') },
+  { name: 'ros2 topic echo --csv of odometry', start: EPOCH, text: table('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ...zeros(36), row.v, 0, 0, 0, 0, row.omega, ...zeros(36)]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH, text: table('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ABBREVIATED, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH, text: table('', (row) => [...splitTime(row.t), 'map', ...poseOf(row), ABBREVIATED]).slice(1) },
+  { name: 'ros2 topic echo --csv of poses', start: EPOCH, text: table('', (row) => [...splitTime(row.t), 'map', ...poseOf(row)]).slice(1) },
+  { name: 'ros2 topic echo --csv of commands', start: EPOCH, kind: 'commands', text: table('', ({ t, v, omega }) => [...splitTime(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
+  { name: 'PlotJuggler, a topic of two', start: EPOCH, series: ['/odom', '/mocap', '/imu'], choice: { series: '/odom' }, text: plotjugglerTable },
   { name: 'a prefix', series: ['gt_', 'odom_'], choice: { series: 'odom_' }, text: table('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
   { name: 'a suffix', series: ['_gt', '_odom'], choice: { series: '_gt' }, text: table('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
   { name: 'an own message before one that it contains', text: table('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw', ({ t, x, y, theta }) => [t, 9, x, y, theta]), series: ['', 'object'] },
-  { name: 'Motive in metres, Y up', text: motive('Meters', true), says: /Y is the vertical axis/ },
-  { name: 'Motive in millimetres, Z up', text: motive('Millimeters', false), says: /Z is the vertical axis/ },
-  { name: 'TUM', start: EPOCH, text: table('# timestamp tx ty tz qx qy qz qw', (row) => [EPOCH + row.t, ...pose(row)], ' ') },
-  { name: 'TUM without a header, tabs', text: table('', (row) => [row.t, ...pose(row)], '\t').slice(1) },
-  { name: 'TUM without a header, commas', text: table('', (row) => [row.t, ...pose(row)]).slice(1) },
+  { name: 'Motive in metres, Y up', text: motiveTable('Meters', true), says: /Y is the vertical axis/ },
+  { name: 'Motive in millimetres, Z up', text: motiveTable('Millimeters', false), says: /Z is the vertical axis/ },
+  { name: 'TUM', start: EPOCH, text: table('# timestamp tx ty tz qx qy qz qw', (row) => [EPOCH + row.t, ...poseOf(row)], ' ') },
+  { name: 'TUM without a header, tabs', text: table('', (row) => [row.t, ...poseOf(row)], '\t').slice(1) },
+  { name: 'TUM without a header, commas', text: table('', (row) => [row.t, ...poseOf(row)]).slice(1) },
   { name: 'a commented header in another order', text: table('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
   { name: 'EuRoC', start: EPOCH, text: table('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [nanoseconds(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
   { name: 'CARMEN', text: ROWS.flatMap(({ t, x, y, theta }) => [`FLASER 3 1.0 2.0 3.0 ${x} ${y} ${theta} 5 6 7 ${t} host ${t}`, `ODOM 5 6 7 0.5 0.1 0 ${t} host ${t}`]).join('\n'), series: ['ODOM', 'FLASER'], choice: { series: 'FLASER' } },
   { name: 'columns that are given', kind: 'commands', options: { columns: ['t', 'v', 'omega'] }, text: table('', ({ t, v, omega }) => [t, v, omega], ' ').slice(1) },
   { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, text: table('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, degrees(theta)]) },
-  { name: 'dates with a zone, in a column without a name', start: EPOCH, text: table(',x,y,yaw', ({ t, x, y, theta }) => [`${iso(t + 7200)}+02:00`, x, y, theta]) },
+  { name: 'dates with a zone, in a column without a name', start: EPOCH, text: table(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDate(t + 7200)}+02:00`, x, y, theta]) },
   { name: 'times in ms, by rate and speed', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), says: /time in ms \(by rate and speed\)/ },
 ];
 
-for (const { name, text, kind = 'poses', start = 0, series = [''], choice, options, says } of CASES) {
+for (const { name, text, kind = 'poses', start = 0, series = [''], choice, options, says } of READABLE_TABLES) {
   test(`reads ${name}`, async () => {
     const [recording] = await openRecordings([new File([text], 'run.csv')], options);
     assert.deepEqual(recording.series.map((each) => each.name), series);

@@ -14,29 +14,29 @@ export const file = (name, contents) => new File([contents], name);
 
 /** Returns the YAML file that describes an image, with fields replaced or added. @param {Record<string, unknown>} [fields] */
 export function description(fields) {
-  const all = { image: 'map.png', resolution: 0.05, origin: '[0, 0, 0]', ...fields };
-  return file('map.yaml', Object.entries(all).map(([key, value]) => `${key}: ${value}\n`).join(''));
+  const allFields = { image: 'map.png', resolution: 0.05, origin: '[0, 0, 0]', ...fields };
+  return file('map.yaml', Object.entries(allFields).map(([key, value]) => `${key}: ${value}\n`).join(''));
 }
 
-/** The machine that files put a map into. @param {File[]} files */
-export async function opened(...files) {
+/** Returns a machine with the map of some files. @param {File[]} files */
+export async function machineWithMap(...files) {
   const machine = new motion.MapSqueeze({ samples: 1 });
   (await readMapFiles(files, decodePng)).apply(machine);
   return machine;
 }
 
-/** Machine that maps are tried on, one after the other. */
-const machine = new motion.MapSqueeze({ samples: 1 });
+/** Machine to which the maps of `refusalOf` are applied, one after the other. */
+const trialMachine = new motion.MapSqueeze({ samples: 1 });
 
 /**
- * Returns the sentence with which files are refused, or an empty text. Other errors are thrown on.
+ * Returns the message with which files are refused, or an empty text. Other errors are rethrown.
  *
  * @param {File[]} files
  * @param {'en' | 'de'} [language]
  */
 export async function refusalOf(files, language = 'en') {
   try {
-    (await readMapFiles(files, decodePng)).apply(machine);
+    (await readMapFiles(files, decodePng)).apply(trialMachine);
   } catch (error) {
     if (error instanceof MapFileError) return error.sentence({ en, de }[language].refused);
     throw error;

@@ -20,7 +20,7 @@ for (const tag of Object.keys(widgets)) {
     const core = await instantiate(new WebAssembly.Module(readFileSync(new URL(`chunks/${names[0]}`, DIST))));
     const machines = Object.keys(widgets).map(pascalCase).filter((name) => name in core);
     assert.deepEqual(machines, [pascalCase(tag)]);
-    const own = golden.split('\n').filter((line) => line.startsWith(`${tag}/`)).map((line) => `${line}\n`).join('');
-    assert.deepEqual(differences(own, await digest(core, configurations, [tag])), []);
+    const goldenOfTag = golden.split('\n').filter((line) => line.startsWith(`${tag}/`)).map((line) => `${line}\n`).join('');
+    assert.deepEqual(differences(goldenOfTag, await digest(core, configurations, [tag])), []);
   });
 }

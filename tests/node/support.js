@@ -19,6 +19,6 @@ export function freshModule() {
  * @param {number} tolerance
  * @param {string} [message]
  */
-export function near(value, expected, tolerance, message = '') {
+export function assertNear(value, expected, tolerance, message = '') {
   assert.ok(Math.abs(value - expected) <= tolerance, `${message} ${value} is not ${expected} ± ${tolerance}`);
 }

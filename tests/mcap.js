@@ -9,29 +9,29 @@ await zstd.isLoaded;
 
 /** @typedef {{ sec: number, nanosec: number }} Stamp */
 
-/** @param {number} t */
+/** @param {number} t seconds */
 export const stampOf = (t) => ({ sec: Math.floor(t), nanosec: Math.round((t - Math.floor(t)) * 1e9) });
 
-const of = (/** @type {string} */ type, /** @type {string[]} */ ...names) => names.map((name) => ({ type, name, isComplex: /[A-Z]/.test(type) }));
+const fieldsOf = (/** @type {string} */ type, /** @type {string[]} */ ...fieldNames) => fieldNames.map((name) => ({ type, name, isComplex: /[A-Z]/.test(type) }));
 const covariance = { type: 'float64', name: 'covariance', isArray: true, arrayLength: 36 };
 
 /** Definitions of the messages, with all their fields. @type {Record<string, any[]>} */
 const DEFINITIONS = {
-  Header: [{ type: 'time', name: 'stamp' }, ...of('string', 'frame_id')],
-  Vector3: of('float64', 'x', 'y', 'z'),
-  Quaternion: of('float64', 'x', 'y', 'z', 'w'),
-  Pose: [...of('Vector3', 'position'), ...of('Quaternion', 'orientation')],
-  PoseWithCovariance: [...of('Pose', 'pose'), covariance],
-  Twist: of('Vector3', 'linear', 'angular'),
-  TwistWithCovariance: [...of('Twist', 'twist'), covariance],
-  'nav_msgs/msg/Odometry': [...of('Header', 'header'), ...of('string', 'child_frame_id'), ...of('PoseWithCovariance', 'pose'), ...of('TwistWithCovariance', 'twist')],
-  'geometry_msgs/msg/PoseStamped': [...of('Header', 'header'), ...of('Pose', 'pose')],
-  'geometry_msgs/msg/Twist': of('Vector3', 'linear', 'angular'),
-  'geometry_msgs/msg/TwistStamped': [...of('Header', 'header'), ...of('Twist', 'twist')],
-  Transform: [...of('Vector3', 'translation'), ...of('Quaternion', 'rotation')],
-  TransformStamped: [...of('Header', 'header'), ...of('string', 'child_frame_id'), ...of('Transform', 'transform')],
-  'tf2_msgs/msg/TFMessage': [{ ...of('TransformStamped', 'transforms')[0], isArray: true }],
-  'std_msgs/msg/String': of('string', 'data'),
+  Header: [{ type: 'time', name: 'stamp' }, ...fieldsOf('string', 'frame_id')],
+  Vector3: fieldsOf('float64', 'x', 'y', 'z'),
+  Quaternion: fieldsOf('float64', 'x', 'y', 'z', 'w'),
+  Pose: [...fieldsOf('Vector3', 'position'), ...fieldsOf('Quaternion', 'orientation')],
+  PoseWithCovariance: [...fieldsOf('Pose', 'pose'), covariance],
+  Twist: fieldsOf('Vector3', 'linear', 'angular'),
+  TwistWithCovariance: [...fieldsOf('Twist', 'twist'), covariance],
+  'nav_msgs/msg/Odometry': [...fieldsOf('Header', 'header'), ...fieldsOf('string', 'child_frame_id'), ...fieldsOf('PoseWithCovariance', 'pose'), ...fieldsOf('TwistWithCovariance', 'twist')],
+  'geometry_msgs/msg/PoseStamped': [...fieldsOf('Header', 'header'), ...fieldsOf('Pose', 'pose')],
+  'geometry_msgs/msg/Twist': fieldsOf('Vector3', 'linear', 'angular'),
+  'geometry_msgs/msg/TwistStamped': [...fieldsOf('Header', 'header'), ...fieldsOf('Twist', 'twist')],
+  Transform: [...fieldsOf('Vector3', 'translation'), ...fieldsOf('Quaternion', 'rotation')],
+  TransformStamped: [...fieldsOf('Header', 'header'), ...fieldsOf('string', 'child_frame_id'), ...fieldsOf('Transform', 'transform')],
+  'tf2_msgs/msg/TFMessage': [{ ...fieldsOf('TransformStamped', 'transforms')[0], isArray: true }],
+  'std_msgs/msg/String': fieldsOf('string', 'data'),
 };
 
 /** @param {number} x @param {number} y @param {number} theta @param {number} [scale] of the quaternion */
@@ -58,7 +58,7 @@ export const transform = (t, parent, child, x, y, theta) => {
 };
 
 /** LZ4 frame with one block that is not compressed. @param {Uint8Array} bytes */
-const lz4 = (bytes) => {
+const lz4Frame = (bytes) => {
   const size = Buffer.alloc(4);
   size.writeUInt32LE(0x80000000 + bytes.length);
   return Buffer.concat([Buffer.from('04224d184070df', 'hex'), size, bytes, Buffer.alloc(4)]);
@@ -68,7 +68,7 @@ const lz4 = (bytes) => {
 const COMPRESSION = {
   none: undefined,
   zstd: (bytes) => ({ compression: 'zstd', compressedData: new Uint8Array(zstd.compress(Buffer.from(bytes))) }),
-  lz4: (bytes) => ({ compression: 'lz4', compressedData: lz4(bytes) }),
+  lz4: (bytes) => ({ compression: 'lz4', compressedData: lz4Frame(bytes) }),
   odd: (bytes) => ({ compression: 'snappy', compressedData: bytes }),
 };
 
@@ -78,13 +78,13 @@ const COMPRESSION = {
  * @property {string} type
  * @property {string} [schema] name of another type that is recorded for it
  * @property {any} message
- * @property {number} t when it was recorded, in seconds
+ * @property {number} t time at which it was recorded, s
  * @property {string} [node] that publishes it
  *
  * @param {Iterable<Message>} messages
  * @param {object} [options]
  * @param {'none' | 'zstd' | 'lz4' | 'odd'} [options.compression]
- * @param {boolean} [options.index] whether it has chunks and an index; both, or neither
+ * @param {boolean} [options.index] whether the recording has an index, and by default chunks
  * @param {boolean} [options.chunks]
  * @param {number} [options.chunkSize] bytes
  * @param {string} [options.encoding] of messages
@@ -115,9 +115,9 @@ export async function recordingOf(messages, { compression = 'none', index = true
     if (!channel) {
       const schemaId = await writer.registerSchema({ name: schema, encoding: 'ros2msg', data: Buffer.from(`# ${schema}`) });
       const id = await writer.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map(node ? [['callerid', node]] : []) });
-      const all = Object.entries(DEFINITIONS).map(([name, definitions]) => ({ name, definitions }));
-      const first = all.find(({ name }) => name === type);
-      channel = { id, writer: new MessageWriter(first ? [first, ...all] : all) };
+      const definedTypes = Object.entries(DEFINITIONS).map(([name, definitions]) => ({ name, definitions }));
+      const ownType = definedTypes.find(({ name }) => name === type);
+      channel = { id, writer: new MessageWriter(ownType ? [ownType, ...definedTypes] : definedTypes) };
       channels.set(key, channel);
     }
     const logTime = BigInt(Math.round(t * 1e3)) * 1_000_000n;

@@ -8,7 +8,7 @@ import { crc32, deflateSync } from 'node:zlib';
  * @property {number} width
  * @property {number} height
  * @property {boolean} [opacity] true if a pixel has a second sample, its opacity
- * @property {(column: number, row: number, part: number) => number} sample 0 to 255; part 1 is the opacity
+ * @property {(column: number, row: number, part: number) => number} sample value from 0 to 255; part 0 is the grey, 1 the opacity
  */
 
 export const SIGNATURE = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
@@ -32,10 +32,10 @@ export function header({ width, height, opacity = false }) {
 
 /** Returns a chunk of a PNG file. @param {string} type @param {Uint8Array | number[]} data */
 function chunk(type, data) {
-  const body = Buffer.concat([Buffer.from(type, 'latin1'), Buffer.from(data)]);
-  const framed = Buffer.alloc(body.length + 8);
-  framed.writeUInt32BE(data.length, 0);
-  body.copy(framed, 4);
-  framed.writeUInt32BE(crc32(body), body.length + 4);
-  return framed;
+  const typeAndData = Buffer.concat([Buffer.from(type, 'latin1'), Buffer.from(data)]);
+  const chunkBytes = Buffer.alloc(typeAndData.length + 8);
+  chunkBytes.writeUInt32BE(data.length, 0);
+  typeAndData.copy(chunkBytes, 4);
+  chunkBytes.writeUInt32BE(crc32(typeAndData), typeAndData.length + 4);
+  return chunkBytes;
 }

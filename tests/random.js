@@ -1,4 +1,4 @@
-/** A small generator (mulberry32): the same inputs on every run. @param {number} seed */
+/** Returns a generator of random numbers from 0 to 1 (mulberry32), which are the same on every run. @param {number} seed */
 export function generator(seed) {
   let state = seed;
   return () => {

@@ -1,6 +1,6 @@
 /**
- * Digests of the results that machines give through their JavaScript interface, to the last bit. Node and pages can run it. For the Rust
- * simulations tests/native/digest computes the same digests.
+ * Digests of the results that machines give through their JavaScript interface, to the last bit. Node and web pages can run this
+ * module. For the Rust simulations tests/native/digest computes the same digests.
  *
  * @module
  */
@@ -18,7 +18,7 @@ import { presets } from '../../www/settings.js';
  * @property {Record<string, { bounds: number[], configurations: Record<string, Configuration> }>} widgets
  */
 
-/** Bits that replace those of every NaN, for the reason in tests/native/digest/encoding.rs. */
+/** Bits that replace those of every NaN (not a number); tests/native/digest/encoding.rs tells why. */
 const NAN = 0x7ff8_0000_0000_0000n;
 
 /** Results of the machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
@@ -185,10 +185,10 @@ function commandOf(presets, wanted) {
 /** @type {(count: number, step: number) => number[]} */
 const everyOf = (count, step) => Array.from({ length: Math.ceil(count / step) }, (_, i) => i * step);
 
-/** Colours of which no two are alike, as configuration.rs makes them. @param {number} count of ramps */
-const ramps = (count) => Uint8Array.from({ length: 1024 * count }, (_, at) => {
-  const i = (at >> 2) & 255;
-  return [i, 255 - i, 85 * (at >> 10), 255][at & 3];
+/** Returns colour ramps whose colours all differ, equal to those of configuration.rs. @param {number} count number of ramps */
+const ramps = (count) => Uint8Array.from({ length: 1024 * count }, (_, offset) => {
+  const i = (offset >> 2) & 255;
+  return [i, 255 - i, 85 * (offset >> 10), 255][offset & 3];
 });
 
 /** @param {any} value @returns {value is ArrayLike<unknown>} */
@@ -196,8 +196,8 @@ const isList = (value) => Array.isArray(value) || ArrayBuffer.isView(value);
 
 /**
  * @param {Encodable} value
- * @param {number[]} numbers that it is added to: of a list its length and its items, of a word those of its letters, of an
- *   object its values in their order, NaN where there is nothing
+ * @param {number[]} numbers to which the value is appended: a list as its length and items, a string as a list of its character
+ *   codes, an object as its values in order, and null as NaN
  */
 function encode(value, numbers) {
   if (value === null) numbers.push(NaN);
@@ -207,7 +207,7 @@ function encode(value, numbers) {
   else if (isList(value)) {
     numbers.push(value.length);
     for (let i = 0; i < value.length; i++) encode(/** @type {any} */ (value)[i], numbers);
-  } else for (const each of Object.values(value)) encode(each, numbers);
+  } else for (const item of Object.values(value)) encode(item, numbers);
 }
 
 /** Returns a hash of every bit of a value. @param {Encodable} value */
@@ -229,8 +229,8 @@ const hex = (bytes) => Array.from(new Uint8Array(bytes), (byte) => byte.toString
 /**
  * @param {Motion} motion
  * @param {Configurations} all
- * @param {string[]} [tags] of the widgets that are asked
- * @returns {Promise<string>} what golden.txt has to be, or its part on these
+ * @param {string[]} [tags] of the widgets whose digests are wanted
+ * @returns {Promise<string>} the text that golden.txt must have, or its lines on these widgets
  */
 export async function digest(motion, all, tags = Object.keys(all.widgets)) {
   /** @type {string[]} */
@@ -247,15 +247,15 @@ export async function digest(motion, all, tags = Object.keys(all.widgets)) {
 
 /** Returns a line for each configuration whose digest differs. @param {string} golden @param {string} computed */
 export function differences(golden, computed) {
-  const table = (/** @type {string} */ text) =>
+  const hashesByName = (/** @type {string} */ text) =>
     new Map(text.trimEnd().split('\n').map((line) => /** @type {[string, string[]]} */ ([line.split(' ')[0], line.split(' ').slice(1)])));
-  const [expected, got] = [table(golden), table(computed)];
-  const names = [...new Set([...expected.keys(), ...got.keys()])];
+  const [expectedByName, computedByName] = [hashesByName(golden), hashesByName(computed)];
+  const names = [...new Set([...expectedByName.keys(), ...computedByName.keys()])];
   return names.flatMap((name) => {
-    const [golden, computed] = [expected.get(name), got.get(name)];
+    const [golden, computed] = [expectedByName.get(name), computedByName.get(name)];
     if (golden === undefined) return [`${name} is not in golden.txt`];
     if (computed === undefined) return [`${name} is gone`];
-    const other = computed.filter((part) => !golden.includes(part)).map((part) => part.split(':')[0]);
-    return other.length > 0 || golden.length !== computed.length ? [`${name}: ${other.join(', ')}`] : [];
+    const changedParts = computed.filter((part) => !golden.includes(part)).map((part) => part.split(':')[0]);
+    return changedParts.length > 0 || golden.length !== computed.length ? [`${name}: ${changedParts.join(', ')}`] : [];
   });
 }

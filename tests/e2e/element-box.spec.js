@@ -62,7 +62,7 @@ const boxesOf = (page, name, em) =>
     em,
   );
 
-test('a figure is in proportion to the text around it, whatever the font size of the root', async ({ page, figure }) => {
+test('a figure is in proportion to the letters around it, whatever the font size of the root', async ({ page, figure }) => {
   const layouts = [];
   for (const [root, em] of [['100%', 16], ['62.5%', 24]]) {
     await page.setViewportSize({ width: 1400, height: 2400 });

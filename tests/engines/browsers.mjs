@@ -1,5 +1,5 @@
 /**
- * The engines, each driven by WebDriver. All of them report reduced motion, so that clouds are complete at once. The growth of a cloud
+ * The browser engines, driven by WebDriver. All of them report reduced motion, so that clouds are complete at once. The growth of a cloud
  * would depend on the number of frames, and so on the load of the computer.
  *
  * @module
@@ -17,19 +17,19 @@ import { ensureFirefox, ensureWebKit } from './programs.mjs';
  * @typedef {object} Engine
  * @property {string} version
  * @property {(url: string) => Promise<unknown>} open resolved when the page is loaded
- * @property {<G, R>(work: (given: G) => R | Promise<R>, given: G) => Promise<R>} ask calls a function in the page, which sees
- *   nothing from around it; what it is given and returns is JSON
- * @property {(way: [x: number, y: number][]) => Promise<unknown>} drag by the left button along points, in CSS pixels of the window
- * @property {(key: 'ArrowRight' | 'ArrowLeft' | 'ArrowUp' | 'ArrowDown') => Promise<unknown>} press for what has the focus
+ * @property {<G, R>(work: (given: G) => R | Promise<R>, given: G) => Promise<R>} ask calls a function in the page; it has no access
+ *   to variables around it, and its argument and result are JSON
+ * @property {(points: [x: number, y: number][]) => Promise<unknown>} drag with the left button along points, in CSS pixels of the window
+ * @property {(key: 'ArrowRight' | 'ArrowLeft' | 'ArrowUp' | 'ArrowDown') => Promise<unknown>} press a key, for the element with the focus
  * @property {() => Promise<Uint8Array>} screenshot as PNG
  * @property {() => Promise<unknown>} close
  */
 
-/** Size of the page inside of the window, CSS pixels. */
+/** Size of the page within the window of the browser, CSS pixels. */
 const SIZE = { width: 1280, height: 800 };
 
 /** Milliseconds that a script in a page may take, as for all machines of the digest. */
-const PATIENCE = 240_000;
+const SCRIPT_TIMEOUT = 240_000;
 
 const KEYS = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, ArrowUp: Key.ARROW_UP, ArrowDown: Key.ARROW_DOWN };
 
@@ -37,14 +37,14 @@ const KEYS = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, ArrowUp: 
 async function chromium() {
   const { chrome, driver } = await ensureBrowser();
   const args = [...CHROME_ARGUMENTS, '--headless=new', '--force-prefers-reduced-motion'];
-  return driven(driver, {}, { browserName: 'chrome', 'goog:chromeOptions': { binary: chrome, args } });
+  return engineWith(driver, {}, { browserName: 'chrome', 'goog:chromeOptions': { binary: chrome, args } });
 }
 
 /** @returns {Promise<Engine>} */
 async function firefox() {
   const { firefox, driver } = await ensureFirefox();
   const prefs = { 'ui.prefersReducedMotion': 1 };
-  return driven(driver, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefox, args: ['-headless'], prefs } });
+  return engineWith(driver, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefox, args: ['-headless'], prefs } });
 }
 
 /** @returns {Promise<Engine>} */
@@ -58,7 +58,7 @@ async function webkit() {
   writeFileSync(join(config, 'gtk-3.0/settings.ini'), '[Settings]\ngtk-enable-animations=false\n');
   const env = { DISPLAY: `:${number}`, XDG_CONFIG_HOME: config };
   const capabilities = { browserName: 'MiniBrowser', 'webkitgtk:browserOptions': { binary: browser, args: ['--automation'] } };
-  return driven(driver, env, capabilities, async () => {
+  return engineWith(driver, env, capabilities, async () => {
     await screen.stop();
     rmSync(config, { recursive: true });
   });
@@ -68,10 +68,10 @@ async function webkit() {
  * @param {string} driver program that speaks WebDriver
  * @param {Record<string, string>} env
  * @param {object} capabilities
- * @param {() => Promise<unknown>} [end] after the driver has ended
+ * @param {() => Promise<unknown>} [end] is called after the driver has ended
  * @returns {Promise<Engine>}
  */
-async function driven(driver, env, capabilities, end = async () => {}) {
+async function engineWith(driver, env, capabilities, end = async () => {}) {
   const server = await program((port) => [driver, [`--port=${port}`], env], '/status')('', {
     start: (command, args) => start(command, args, { env }),
     run: () => Promise.reject(new Error('It runs nothing.')),
@@ -96,7 +96,7 @@ async function driven(driver, env, capabilities, end = async () => {}) {
  */
 async function inSession(url, capabilities, stop) {
   const session = await new Builder().usingServer(url).withCapabilities(new Capabilities(/** @type {any} */ (capabilities))).build();
-  await session.manage().setTimeouts({ script: PATIENCE, pageLoad: PATIENCE });
+  await session.manage().setTimeouts({ script: SCRIPT_TIMEOUT, pageLoad: SCRIPT_TIMEOUT });
   const window = session.manage().window();
   await window.setRect(SIZE);
   const [width, height] = /** @type {number[]} */ (await session.executeScript('return [innerWidth, innerHeight]'));
@@ -119,11 +119,11 @@ async function inSession(url, capabilities, stop) {
       if (error) throw new Error(error);
       return result;
     },
-    async drag([[x, y], ...way]) {
+    async drag([[x, y], ...points]) {
       // One chain of actions: some drivers release the button between two chains. Each move takes longer than a frame.
-      const hand = session.actions({ async: false }).move({ x, y, duration: 0 }).press();
-      for (const [x, y] of way) hand.move({ x, y, duration: 40 });
-      await hand.release().perform();
+      const actions = session.actions({ async: false }).move({ x, y, duration: 0 }).press();
+      for (const [x, y] of points) actions.move({ x, y, duration: 40 });
+      await actions.release().perform();
     },
     press: (key) => session.actions().sendKeys(KEYS[key]).perform(),
     screenshot: async () => Buffer.from(await session.takeScreenshot(), 'base64'),
@@ -134,5 +134,5 @@ async function inSession(url, capabilities, stop) {
   };
 }
 
-/** By the names that the command line takes. @type {Record<string, () => Promise<Engine>>} */
+/** Functions that start the engines, by the names that the command line takes. @type {Record<string, () => Promise<Engine>>} */
 export const engines = { chromium, firefox, webkit };

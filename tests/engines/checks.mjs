@@ -15,15 +15,15 @@ import { machineState } from './inside.js';
 
 /** @typedef {import('./browsers.mjs').Engine} Engine */
 
-/** Number of steps of a drag, as a hand moves in steps. */
+/** Number of steps of a drag, because a reader's hand does not jump either. */
 const STEPS = 8;
 
-/** Number of colours from which a picture is not blank: lines, letters and a cloud have many shades. */
-const COLOURS = 16;
+/** A picture with at most so many colours counts as blank: lines, letters and a cloud have many shades. */
+const MIN_COLOURS = 16;
 
-const read = (/** @type {string} */ path) => readFileSync(join(ROOT, path), 'utf8');
+const readSource = (/** @type {string} */ path) => readFileSync(join(ROOT, path), 'utf8');
 
-/** A page of one engine, which is asked what inside.js exports. */
+/** A page in one engine; `ask` calls functions of inside.js in it. */
 class Page {
   /**
    * @param {string} name
@@ -49,10 +49,10 @@ class Page {
     );
   }
 
-  /** As a reader gets it. @param {string} [tag] of a figure that is brought into sight */
+  /** Loads the page anew. @param {string} [tag] of a figure to scroll to and wait for */
   async open(tag) {
     await this.engine.open(this.address);
-    if (tag !== undefined) await this.settled(tag);
+    if (tag !== undefined) await this.untilSettled(tag);
   }
 
   /** Presses keys one after the other, without waiting for pictures. @param {Parameters<Engine['press']>[0][]} keys */
@@ -60,24 +60,24 @@ class Page {
     for (const key of keys) await this.engine.press(key);
   }
 
-  /** @param {string} tag */
-  async settled(tag) {
-    const { stats, samples } = await this.ask('settled', tag);
+  /** Waits until a figure has settled, and checks that its pictures are not blank. @param {string} tag */
+  async untilSettled(tag) {
+    const { stats, samples } = await this.ask('untilSettled', tag);
     assert.equal(stats, samples, `The statistics are of ${stats} samples.`);
-    for (const count of await this.ask('coloursOf', tag)) assert.ok(count > COLOURS, `A picture has ${count} colours.`);
+    for (const count of await this.ask('coloursOf', tag)) assert.ok(count > MIN_COLOURS, `A picture has ${count} colours.`);
   }
 
-  /** @param {string} what */
-  async keep(what) {
+  /** Keeps a screenshot. @param {string} what its name */
+  async keepScreenshot(what) {
     const directory = join(ROOT, 'test-results/engines');
     mkdirSync(directory, { recursive: true });
     writeFileSync(join(directory, `${this.name}-${what}.png`), await this.engine.screenshot());
   }
 
-  /** @returns {Promise<string[]>} since it was opened */
+  /** Returns the new messages of the console. @returns {Promise<string[]>} */
   async complaints() {
-    const noted = await this.engine.ask(() => /** @type {string[]} */ (/** @type {any} */ (globalThis).complaints.splice(0)), null);
-    return [...new Set(noted)];
+    const messages = await this.engine.ask(() => /** @type {string[]} */ (/** @type {any} */ (globalThis).complaints.splice(0)), null);
+    return [...new Set(messages)];
   }
 }
 
@@ -101,27 +101,27 @@ export async function check(name, engine, address) {
     } catch (error) {
       failures.push(`${name}: ${what}: ${error instanceof Error ? error.message : error}`);
       console.log(`FAILED ${failures.at(-1)}`);
-      await page.keep('failed').catch(() => {});
+      await page.keepScreenshot('failed').catch(() => {});
     }
   };
 
-  await attempt('the digest', () => bits(page));
+  await attempt('the digest', () => checkDigest(page));
   for (const tag of Object.keys(settings)) {
     const { handles } = figures[tag];
-    await attempt(`${tag} opens`, () => opens(page, tag));
+    await attempt(`${tag} opens`, () => checkOpening(page, tag));
     for (const handle of handles) {
-      await attempt(`${tag} is dragged by its handle "${handle.name}"`, () => dragged(page, tag, handle));
-      await attempt(`the handle "${handle.name}" of ${tag} follows the keyboard`, () => handleByKeys(page, tag, handle));
+      await attempt(`${tag} is dragged by its handle "${handle.name}"`, () => checkDragging(page, tag, handle));
+      await attempt(`the handle "${handle.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, handle));
     }
-    await attempt(`sliders of ${tag} follow the keyboard`, () => slidersByKeys(page, tag));
+    await attempt(`sliders of ${tag} follow the keyboard`, () => checkSliderKeys(page, tag));
   }
   return { passed, failures };
 }
 
 /** @param {Page} page */
-async function bits(page) {
+async function checkDigest(page) {
   await page.open();
-  assert.deepEqual(differences(read('tests/digest/golden.txt'), await page.ask('wholeDigest')), []);
+  assert.deepEqual(differences(readSource('tests/digest/golden.txt'), await page.ask('wholeDigest')), []);
 }
 
 /**
@@ -131,7 +131,7 @@ async function bits(page) {
  * @param {string} tag
  * @returns {Promise<{ machine: any, hash: string }>} the machine in Node
  */
-async function asInNode(page, tag) {
+async function compareWithNode(page, tag) {
   const { config, hash } = await page.ask('stateOf', tag);
   const machine = await machineOf(tag, config);
   assert.equal(hash, (await machineState(machine)).hash, `Node has other bits for ${JSON.stringify(config)}.`);
@@ -139,10 +139,10 @@ async function asInNode(page, tag) {
 }
 
 /** @type {(page: Page, tag: string) => Promise<void>} */
-async function opens(page, tag) {
+async function checkOpening(page, tag) {
   await page.open(tag);
-  await asInNode(page, tag);
-  await page.keep(`${tag}-opened`);
+  await compareWithNode(page, tag);
+  await page.keepScreenshot(`${tag}-opened`);
 }
 
 /**
@@ -152,37 +152,37 @@ async function opens(page, tag) {
  * @param {string} tag
  * @param {import('./figures.mjs').Handle} handle
  */
-async function dragged(page, tag, { name, to, placeOf }) {
+async function checkDragging(page, tag, { name, to, placeOf }) {
   await page.open(tag);
-  const before = await page.ask('pixelsOf', tag);
+  const pixelsBefore = await page.ask('pixelsOf', tag);
   const places = await page.ask('placesOf', { tag, handle: name, to });
-  // Pointer positions are whole pixels. A handle that is grasped beside its middle keeps that offset.
+  // Pointer positions are whole pixels. A handle that is grasped beside its middle keeps its offset from the pointer.
   const from = [Math.round(places.from.x), Math.round(places.from.y)];
-  const way = [places.to.x - places.from.x, places.to.y - places.from.y];
-  const at = (/** @type {number} */ share) => /** @type {[number, number]} */ (from.map((start, i) => Math.round(start + share * way[i])));
-  await page.engine.drag(Array.from({ length: STEPS + 1 }, (_, i) => at(i / STEPS)));
-  await page.settled(tag);
-  await page.keep(`${tag}-${name}-dragged`);
-  const { machine } = await asInNode(page, tag);
+  const vector = [places.to.x - places.from.x, places.to.y - places.from.y];
+  const pointAt = (/** @type {number} */ share) => /** @type {[number, number]} */ (from.map((x, i) => Math.round(x + share * vector[i])));
+  await page.engine.drag(Array.from({ length: STEPS + 1 }, (_, i) => pointAt(i / STEPS)));
+  await page.untilSettled(tag);
+  await page.keepScreenshot(`${tag}-${name}-dragged`);
+  const { machine } = await compareWithNode(page, tag);
   const [x, y] = placeOf(machine, to);
-  const off = Math.hypot(x - to[0], y - to[1]) / places.pixel;
-  assert.ok(off <= 1, `It is ${off.toFixed(2)} pixels beside where it was dragged.`);
-  assert.notEqual(await page.ask('pixelsOf', tag), before, 'The picture is as it was.');
+  const error = Math.hypot(x - to[0], y - to[1]) / places.pixel;
+  assert.ok(error <= 1, `It is ${error.toFixed(2)} pixels beside where it was dragged.`);
+  assert.notEqual(await page.ask('pixelsOf', tag), pixelsBefore, 'The picture is as it was.');
 }
 
 /** Moves a handle by keys. @param {Page} page @param {string} tag @param {import('./figures.mjs').Handle} handle */
-async function handleByKeys(page, tag, { name }) {
+async function checkHandleKeys(page, tag, { name }) {
   await page.open(tag);
-  const { hash: before } = await page.ask('stateOf', tag);
+  const { hash: hashBefore } = await page.ask('stateOf', tag);
   assert.ok(await page.ask('focus', { tag, selector: `.handle.${name}` }), 'It does not take the focus.');
   await page.press('ArrowUp', 'ArrowUp', 'ArrowLeft');
-  await page.settled(tag);
-  const { hash } = await asInNode(page, tag);
-  assert.notEqual(hash, before, 'Nothing has moved.');
+  await page.untilSettled(tag);
+  const { hash } = await compareWithNode(page, tag);
+  assert.notEqual(hash, hashBefore, 'Nothing has moved.');
 }
 
 /** @type {(page: Page, tag: string) => Promise<void>} */
-async function slidersByKeys(page, tag) {
+async function checkSliderKeys(page, tag) {
   await page.open(tag);
   await page.ask('renderSteps', tag);
   const sliders = await page.ask('slidersOf', tag);
@@ -192,11 +192,11 @@ async function slidersByKeys(page, tag) {
     const before = await sliderOf();
     assert.ok(before && (await page.ask('focus', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
     await page.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
-    await page.settled(tag);
+    await page.untilSettled(tag);
     const after = await sliderOf();
-    const to = Math.min(before.shown + 2 * before.step, before.end) - before.step;
-    assert.ok(after && Math.abs(after.shown - to) < 1e-9, `The slider of ${key} was at ${before.shown} and is at ${after?.shown}.`);
-    assert.ok((after.value - before.value) * (to - before.shown) > 0, `${key} was ${before.value} and is ${after.value}.`);
+    const expected = Math.min(before.shown + 2 * before.step, before.end) - before.step;
+    assert.ok(after && Math.abs(after.shown - expected) < 1e-9, `The slider of ${key} was at ${before.shown} and is at ${after?.shown}.`);
+    assert.ok((after.value - before.value) * (expected - before.shown) > 0, `${key} was ${before.value} and is ${after.value}.`);
   }
-  await asInNode(page, tag);
+  await compareWithNode(page, tag);
 }

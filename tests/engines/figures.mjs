@@ -1,5 +1,5 @@
 /**
- * Handles of each figure, and where they are dragged to.
+ * Handles of each figure, and the places to which the tests drag them.
  *
  * @module
  */
@@ -9,7 +9,7 @@ import { load } from '../../dist/core.js';
 /**
  * @typedef {object} Handle
  * @property {string} name class of its element
- * @property {number[]} to where it is dragged, m
+ * @property {number[]} to place to which it is dragged, m
  * @property {(machine: any, to: number[]) => number[]} placeOf position of the handle by the machine's settings; `to` is the
  *   distance by which it was dragged
  */

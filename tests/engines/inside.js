@@ -1,5 +1,5 @@
 /**
- * Functions that run in the page; `machineState` runs in Node too.
+ * Functions that checks.mjs calls in the page; `machineState` runs in Node too.
  *
  * @module
  */
@@ -14,41 +14,41 @@ import { digest, hashOf } from '../digest/digest.js';
 
 const figureOf = (/** @type {string} */ tag) => /** @type {Figure} */ (document.querySelector(tag));
 const rootOf = (/** @type {string} */ tag) => /** @type {ShadowRoot} */ (figureOf(tag).shadowRoot);
-const canvasOf = (/** @type {string} */ tag) => /** @type {HTMLCanvasElement} */ (rootOf(tag).querySelector('canvas'));
-const frame = () => new Promise(requestAnimationFrame);
+const firstCanvasOf = (/** @type {string} */ tag) => /** @type {HTMLCanvasElement} */ (rootOf(tag).querySelector('canvas'));
+const nextFrame = () => new Promise(requestAnimationFrame);
 
 /** Number of frames without a change after which a figure counts as settled. */
-const STILL = 10;
+const STILL_FRAMES = 10;
 
 /**
- * Brings a figure into sight and waits until its cloud is complete and its picture rests.
+ * Scrolls to a figure and waits until its cloud is complete and its picture no longer changes.
  *
  * @param {string} tag
  * @returns {Promise<{ stats: number, samples: number }>} number of samples in the statistics, and number requested
  */
-export async function settled(tag) {
+export async function untilSettled(tag) {
   const end = performance.now() + 60_000;
   const figure = /** @type {any} */ (figureOf(tag));
   // A figure outside the viewport does not start.
   figure.scrollIntoView({ block: 'start' });
-  while (!(figure.shadowRoot && canvasOf(tag))) {
+  while (!(figure.shadowRoot && firstCanvasOf(tag))) {
     if (performance.now() > end) throw new Error(`<${tag}> has no picture.`);
-    await frame();
+    await nextFrame();
   }
-  canvasOf(tag).scrollIntoView({ block: 'center' });
+  firstCanvasOf(tag).scrollIntoView({ block: 'center' });
   // Statistics of some figures count attempts, and others have no samples.
   const samples = figure.samples ?? 0;
-  const counted = () => figure.stats?.n ?? figure.stats?.attempts ?? figure.stats?.drawn ?? 0;
-  while (counted() !== samples && performance.now() < end) await frame();
-  const look = () => JSON.stringify([figure.pictures.map((/** @type {any} */ { view }) => view.extent), canvasOf(tag).getBoundingClientRect()]);
-  let before = look();
-  for (let still = 0; still < STILL && performance.now() < end; still++) {
-    await frame();
-    const now = look();
-    if (now !== before) still = 0;
-    before = now;
+  const sampleCount = () => figure.stats?.n ?? figure.stats?.attempts ?? figure.stats?.drawn ?? 0;
+  while (sampleCount() !== samples && performance.now() < end) await nextFrame();
+  const layout = () => JSON.stringify([figure.pictures.map((/** @type {any} */ { view }) => view.extent), firstCanvasOf(tag).getBoundingClientRect()]);
+  let last = layout();
+  for (let still = 0; still < STILL_FRAMES && performance.now() < end; still++) {
+    await nextFrame();
+    const now = layout();
+    if (now !== last) still = 0;
+    last = now;
   }
-  return { stats: counted(), samples };
+  return { stats: sampleCount(), samples };
 }
 
 /** @param {string} tag */
@@ -60,14 +60,14 @@ export async function machineState({ config, poses = null, stats, verdicts = nul
 }
 
 /**
- * Returns the position of a handle, and the size of a pixel of the window there.
+ * Returns the position of a handle, that of the place to which it is to be dragged, and the size of a pixel.
  *
  * @param {{ tag: string, handle: string, to: number[] }} given `to` is a place in the picture, m
  * @returns {{ from: Point, to: Point, pixel: number }} in pixels of the window; `pixel` in m
  */
 export function placesOf({ tag, handle, to: [x, y] }) {
   const { view } = figureOf(tag).pictures[0];
-  const { left, top, width } = canvasOf(tag).getBoundingClientRect();
+  const { left, top, width } = firstCanvasOf(tag).getBoundingClientRect();
   const zoom = width / view.width;
   const box = /** @type {Element} */ (rootOf(tag).querySelector(`.handle.${handle}`)).getBoundingClientRect();
   return {
@@ -77,21 +77,21 @@ export function placesOf({ tag, handle, to: [x, y] }) {
   };
 }
 
-/** @param {{ tag: string, selector: string }} given what is to have the focus */
+/** @param {{ tag: string, selector: string }} given element that is to have the focus */
 export function focus({ tag, selector }) {
   const part = /** @type {HTMLElement} */ (rootOf(tag).querySelector(selector));
   part.focus();
   return rootOf(tag).activeElement === part;
 }
 
-/** Makes a figure render between each input event and its frame, as other events can do at any time. @param {string} tag */
+/** Makes a figure render between each input event and the next frame, as other events can at any time. @param {string} tag */
 export function renderSteps(tag) {
   const figure = /** @type {any} */ (figureOf(tag));
   figure.addEventListener('input', () => figure.requestUpdate());
 }
 
 /** @param {string} tag @returns {Promise<string>} a hash of every pixel of the first picture */
-export const pixelsOf = (tag) => hashOf(dataOf(canvasOf(tag)));
+export const pixelsOf = (tag) => hashOf(dataOf(firstCanvasOf(tag)));
 
 /** @param {HTMLCanvasElement} canvas */
 function dataOf(canvas) {

@@ -1,4 +1,4 @@
-// Firefox and WebKit, which `npm run test:engines` drives beside Chromium: those of this machine, or installed by apt.
+// Finds Firefox and WebKit, which `npm run test:engines` drives besides Chromium, or installs them by apt.
 
 import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -23,7 +23,7 @@ export async function ensureFirefox() {
   return { firefox, driver: await ensureGeckodriver() };
 }
 
-/** Returns the path of geckodriver. Distributions have no package of it, so that it is compiled once if it is not found. */
+/** Returns the path of geckodriver. If it is not found, it is compiled once, because distributions have no package of it. */
 async function ensureGeckodriver() {
   const { GECKOWEBDRIVER } = process.env;
   const bin = join(CACHE, 'geckodriver/bin');
@@ -55,7 +55,7 @@ function findWebKit() {
   return driver && display && browser ? { driver, display, browser } : undefined;
 }
 
-/** @returns {string | undefined} that of the newest interface */
+/** @returns {string | undefined} path of WebKit's MiniBrowser, in its newest version */
 function findMiniBrowser() {
   const subdirectories = (/** @type {string} */ directory) =>
     existsSync(directory) ? readdirSync(directory, { withFileTypes: true }).filter((entry) => entry.isDirectory()).map(({ name }) => join(directory, name)) : [];

@@ -14,18 +14,18 @@ import { serve } from '../../scripts/serve.mjs';
 import { engines } from './browsers.mjs';
 
 const PAGE = 'index.html';
-const LISTENING = '<script src="/tests/engines/listen.js"></script>';
+const LISTENER_TAG = '<script src="/tests/engines/listen.js"></script>';
 
 /**
  * Serves a copy of the page of `npm start` with two more scripts: one records errors, the other has functions that tests call.
  *
  * @returns {Promise<{ address: string, stop: () => void }>}
  */
-async function site() {
+async function serveSite() {
   const directory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
   for (const name of readdirSync(join(ROOT, 'dist'))) if (name !== PAGE) symlinkSync(join(ROOT, 'dist', name), join(directory, name));
   for (const name of ['tests', 'www']) symlinkSync(join(ROOT, name), join(directory, name));
-  writeFileSync(join(directory, PAGE), readFileSync(join(ROOT, 'dist', PAGE), 'utf8').replace('<head>', `<head>${LISTENING}`));
+  writeFileSync(join(directory, PAGE), readFileSync(join(ROOT, 'dist', PAGE), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
   const { address, close } = await serve(directory, { port: 0 });
   return {
     address,
@@ -59,24 +59,24 @@ async function outcomeOf(name, address) {
 
 /** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} wanted */
 async function test(wanted) {
-  const known = Object.keys(engines);
-  const unknown = wanted.find((name) => !known.includes(name));
-  if (unknown !== undefined) throw new Missing(`"${unknown}" is no engine that is tried; allowed are ${known.join(', ')}.`);
+  const allNames = Object.keys(engines);
+  const unknownName = wanted.find((name) => !allNames.includes(name));
+  if (unknownName !== undefined) throw new Missing(`"${unknownName}" is no engine that is tried; allowed are ${allNames.join(', ')}.`);
   await build();
-  const { address, stop } = await site();
-  const lines = [];
+  const { address, stop } = await serveSite();
+  const summaryLines = [];
   let failed = 0;
   try {
-    for (const name of wanted.length > 0 ? wanted : known) {
+    for (const name of wanted.length > 0 ? wanted : allNames) {
       const { version, passed, failures } = await outcomeOf(name, address);
       failed += failures.length;
-      lines.push(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(10)} ${version.padEnd(16)} ${passed} passed, ${failures.length} failed`);
+      summaryLines.push(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(10)} ${version.padEnd(16)} ${passed} passed, ${failures.length} failed`);
     }
   } finally {
     stop();
   }
   progress(`Summary, by Node ${process.versions.node}`);
-  console.log(lines.join('\n'));
+  console.log(summaryLines.join('\n'));
   return failed === 0;
 }
 

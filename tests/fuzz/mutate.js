@@ -11,37 +11,37 @@ const TOKENS = [
   ...['yaw', 't_ns', 'stamp', 'qw', 'v', ';', '1e17', '1700000000.123456789', 'zstd', 'lz4', '/tf', 'cdr'],
 ].map((token) => Buffer.from(token));
 
-/** Bytes at the ends of ranges. */
+/** Small bytes, and those at the ends of ranges. */
 const BYTES = [0, 1, 2, 3, 4, 8, 16, 32, 127, 128, 255];
 
 /** Largest size of a mutation in bytes. */
-const LONGEST = 4096;
+const MAX_SIZE = 4096;
 
-/** Returns an input of the corpus, changed in one to four places. @param {Uint8Array[]} corpus @param {() => number} random from 0 to 1 */
+/** Returns a valid input of the corpus, changed in one to four places. @param {Uint8Array[]} corpus @param {() => number} random from 0 to 1 */
 export function mutantOf(corpus, random) {
-  const below = (/** @type {number} */ count) => Math.floor(count * random());
-  const one = (/** @type {ArrayLike<any>} */ from) => from[below(from.length)];
+  const randomBelow = (/** @type {number} */ count) => Math.floor(count * random());
+  const randomItem = (/** @type {ArrayLike<any>} */ items) => items[randomBelow(items.length)];
   /** @type {Buffer<ArrayBuffer>} */
-  let bytes = Buffer.from(one(corpus));
+  let bytes = Buffer.from(randomItem(corpus));
   /** Replaces the bytes between two positions. @param {Uint8Array} middle */
-  const put = (middle, from = below(bytes.length + 1), to = from) => {
-    bytes = Buffer.concat([bytes.subarray(0, from), middle, bytes.subarray(to)]).subarray(0, LONGEST);
+  const replaceBytes = (middle, from = randomBelow(bytes.length + 1), to = from) => {
+    bytes = Buffer.concat([bytes.subarray(0, from), middle, bytes.subarray(to)]).subarray(0, MAX_SIZE);
   };
-  for (let changes = 1 + below(4); changes > 0; changes--) {
-    const [from, to] = [below(bytes.length + 1), below(bytes.length + 1)].sort((a, b) => a - b);
-    const kinds = [
-      () => put(Buffer.of(below(256)), from, from + 1),
-      () => put(Buffer.of(one(BYTES)), from, from + 1),
-      () => put(Buffer.of((bytes[from] ?? 0) ^ (1 << below(8))), from, from + 1),
-      () => put(one(TOKENS)),
-      () => put(one(TOKENS), from, Math.min(to, from + 8)),
-      () => put(Buffer.alloc(0), from, Math.min(to, from + 16)),
-      () => put(bytes.subarray(from, to)),
-      () => put(Buffer.concat(Array(1 + below(40)).fill(bytes.subarray(from, Math.min(to, from + 8))))),
-      () => put(one(corpus).subarray(from, to)),
+  for (let changes = 1 + randomBelow(4); changes > 0; changes--) {
+    const [from, to] = [randomBelow(bytes.length + 1), randomBelow(bytes.length + 1)].sort((a, b) => a - b);
+    const mutations = [
+      () => replaceBytes(Buffer.of(randomBelow(256)), from, from + 1),
+      () => replaceBytes(Buffer.of(randomItem(BYTES)), from, from + 1),
+      () => replaceBytes(Buffer.of((bytes[from] ?? 0) ^ (1 << randomBelow(8))), from, from + 1),
+      () => replaceBytes(randomItem(TOKENS)),
+      () => replaceBytes(randomItem(TOKENS), from, Math.min(to, from + 8)),
+      () => replaceBytes(Buffer.alloc(0), from, Math.min(to, from + 16)),
+      () => replaceBytes(bytes.subarray(from, to)),
+      () => replaceBytes(Buffer.concat(Array(1 + randomBelow(40)).fill(bytes.subarray(from, Math.min(to, from + 8))))),
+      () => replaceBytes(randomItem(corpus).subarray(from, to)),
       () => (bytes = bytes.subarray(0, to)),
     ];
-    one(kinds)();
+    randomItem(mutations)();
   }
   return bytes;
 }

@@ -1,5 +1,5 @@
 /**
- * Parsers of www/ as functions of bytes. Each returns true if the bytes are taken and false if they are refused with a proper
+ * Parsers of www/ as functions of bytes. Each returns true if it accepts the bytes and false if it refuses them with a proper
  * sentence. Any other exception is a failure.
  */
 
@@ -28,52 +28,52 @@ const motion = await load();
 
 /** Calibrator with a log of one second, which it calibrates again after each change. */
 const calibrator = new motion.AlphaCalibrator();
-const second = { t: [0, 0.5, 1], x: [0, 0.5, 1], y: [0, 0, 0], theta: [0, 0, 0] };
-calibrator.setLog(second, second);
+const logOfOneSecond = { t: [0, 0.5, 1], x: [0, 0.5, 1], y: [0, 0, 0], theta: [0, 0, 0] };
+calibrator.setLog(logOfOneSecond, logOfOneSecond);
 
-const squeeze = new motion.MapSqueeze({ samples: 1 });
+const mapSqueeze = new motion.MapSqueeze({ samples: 1 });
 
 /**
  * Machines of the elements, with their attributes and opening settings.
  *
  * @type {{ attributes: ReturnType<typeof attributesIn>, machine: any, opening: any }[]}
  */
-const machines = Object.entries(settings).map(([tag, declared]) => {
+const widgetMachines = Object.entries(settings).map(([tag, declared]) => {
   const className = tag.replaceAll(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase());
   const hasSamples = declared.some(({ key }) => key === 'samples');
-  const machine = { 'map-squeeze': squeeze, 'alpha-calibrator': calibrator }[tag] ?? new (/** @type {any} */ (motion)[className])(hasSamples ? { samples: 1 } : {});
+  const machine = { 'map-squeeze': mapSqueeze, 'alpha-calibrator': calibrator }[tag] ?? new (/** @type {any} */ (motion)[className])(hasSamples ? { samples: 1 } : {});
   return { attributes: attributesIn(propertiesOf(declared)), machine, opening: machine.config };
 });
 
-/** Maximum length of a sentence: long quotations are shortened. */
-const LONGEST = 700;
+/** Maximum length of the message of a refusal, in which long quotations are shortened. */
+const MAX_LENGTH = 700;
 
-/** Pattern of every refusal: the values that are taken, or what to do. */
+/** Pattern of every message of a refusal: it says which values are allowed, or what to do. */
 const SENTENCE = /; (allowed|expected) (is|are) |; (add|choose|convert|copy|decompress|export|give|keep|name|open|split|state|unzip|write) /;
 
-/** @param {string} sentence */
-function look(sentence) {
+/** Asserts that the message of a refusal is proper. @param {string} sentence */
+function assertSentence(sentence) {
   assert.match(sentence, SENTENCE);
-  assert.ok(sentence.length <= LONGEST, `${sentence.length} characters: ${sentence}`);
+  assert.ok(sentence.length <= MAX_LENGTH, `${sentence.length} characters: ${sentence}`);
 }
 
-/** @param {File[]} files */
+/** Returns true if the files are accepted as a map. @param {File[]} files */
 async function filesAreTaken(...files) {
   const sentence = await refusalOf(files);
   if (sentence === '') return true;
   assert.ok(sentence.startsWith(files[0].name.replace(/\..*/, '')), sentence);
-  look(sentence);
+  assertSentence(sentence);
   return false;
 }
 
-/** Returns true if the core takes the value, and checks the message of a refusal. @param {() => void} give */
+/** Returns true if the core accepts the value, and checks the message of a refusal. @param {() => void} give */
 function isTaken(give) {
   try {
     give();
     return true;
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
-    look(error.message);
+    assertSentence(error.message);
     return false;
   }
 }
@@ -86,7 +86,7 @@ async function logIsRead(read) {
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
     assert.ok(error.message.startsWith('run.'), error.message);
-    look(error.message);
+    assertSentence(error.message);
     return false;
   }
   const { t, breaks, ...values } = log.data;
@@ -98,7 +98,7 @@ async function logIsRead(read) {
   return true;
 }
 
-/** Recordings of a second in every form, of which the topics of the first are chosen. */
+/** Returns recordings with four topics, one in each form: with and without compression, an index and chunks. */
 async function recordings() {
   const messages = Array.from({ length: 2 }, (_, i) => {
     const [t, stamp] = [1 + i / 8, stampOf(1 + i / 8)];
@@ -111,16 +111,16 @@ async function recordings() {
     ];
   }).flat();
   const forms = /** @type {const} */ ([{ chunkSize: 4096 }, { compression: 'zstd' }, { compression: 'lz4' }, { index: false }, { index: false, chunks: true, compression: 'lz4' }]);
-  return Promise.all(forms.map(async (form) => unchecked(await recordingOf(messages, { chunkSize: 1024, ...form }))));
+  return Promise.all(forms.map(async (form) => withoutChecksums(await recordingOf(messages, { chunkSize: 1024, ...form }))));
 }
 
-/** A recording without checksums, in whose chunks little could be changed otherwise. @param {Buffer<ArrayBuffer>} bytes */
-function unchecked(bytes) {
+/** Clears the checksums of a recording, as readers would refuse any changed chunk because of them. @param {Buffer<ArrayBuffer>} bytes */
+function withoutChecksums(bytes) {
   const [CHUNK, FOOTER] = [6, 2];
-  for (let at = 8; at + 9 < bytes.length; at += 9 + Number(bytes.readBigUInt64LE(at + 1))) {
-    // Offsets of the checksum: after two times and a size, and after two positions.
-    const before = { [CHUNK]: 24, [FOOTER]: 16 }[bytes[at]];
-    if (before) bytes.writeUInt32LE(0, at + 9 + before);
+  for (let i = 8; i + 9 < bytes.length; i += 9 + Number(bytes.readBigUInt64LE(i + 1))) {
+    // The checksum follows two times and a size in a chunk, and two positions in the footer.
+    const checksumOffset = { [CHUNK]: 24, [FOOTER]: 16 }[bytes[i]];
+    if (checksumOffset) bytes.writeUInt32LE(0, i + 9 + checksumOffset);
   }
   return bytes;
 }
@@ -132,21 +132,21 @@ function fixtures(...names) {
 }
 
 /** Topics and frames that are read from a recording. */
-const CHOICES = [{ series: '/odom' }, { series: '/pose' }, { series: '/cmd_vel' }, { series: '/tf', frames: { parent: 'map', child: 'base' } }];
+const TOPIC_CHOICES = [{ series: '/odom' }, { series: '/pose' }, { series: '/cmd_vel' }, { series: '/tf', frames: { parent: 'map', child: 'base' } }];
 
 /** Options of the fastest deflation. */
-const STORED = { level: 0, memLevel: 1 };
+const FASTEST = { level: 0, memLevel: 1 };
 
-const texts = (/** @type {string[]} */ ...all) => all.map((text) => Buffer.from(text));
+const bytesOfTexts = (/** @type {string[]} */ ...all) => all.map((text) => Buffer.from(text));
 
-const YAMLS = texts(
+const YAMLS = bytesOfTexts(
   'image: map.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n',
   '# by hand\nimage: "maps/map.pgm"\nresolution: 5e-2\norigin:\n  - 1\n  - -2.5\n  - 1.57\nmode: scale\nnegate: no\n',
   '{image: map.pgm, resolution: .1, origin: [0, 0, 0], mode: raw, negate: true}',
   "? image\n: 'map.pgm'\nresolution: !!float 0.1\norigin: &o [0, 0, 0]\n",
 );
 
-const PLANS = texts(
+const PLANS = bytesOfTexts(
   '{"bounds": [0, 0, 6, 4], "walls": [[0, 0, 6, 0], [6, 0, 6, 4], [3, 0, 3, 1.5]]}',
   '{\n  # by hand\n  bounds: [-1e2, -3, 6, 4],\n  walls: [],\n}',
 );
@@ -156,7 +156,7 @@ export const targets = {
   yaml: { corpus: YAMLS, run: (bytes) => filesAreTaken(file('map.yaml', bytes), file('map.pgm', 'P5 2 1 255\nab')) },
   plan: { corpus: PLANS, run: (bytes) => filesAreTaken(file('map.json', bytes)) },
   csv: {
-    corpus: texts(
+    corpus: bytesOfTexts(
       't,x,y,yaw\n0.5,1,2,3\n0.75,1,2,-3\n1,nan,2,3\n1.25,1,2,3\n',
       '# by hand\nstamp_ns;v;omega\n1700000000000000001;0.5;-1e-1\n1700000000100000001;.5;+0.1',
       '"time [ms]"\t"x"\t"y"\t"heading_deg"\r\n0\t1\t2\t90\r\n50\t1\t2\t91\r\n',
@@ -173,30 +173,30 @@ export const targets = {
     corpus,
     async run(/** @type {Buffer<ArrayBuffer>} */ bytes) {
       const source = new File([bytes], 'run.mcap');
-      const { length } = CHOICES;
-      const pick = bytes.reduce((sum, byte) => sum + byte, 0);
-      const taken = await logIsRead(() => readLog(source, CHOICES[pick % length]));
-      // One input in four lists the topics too.
-      if (Math.floor(pick / length) % 4) return taken;
+      const { length } = TOPIC_CHOICES;
+      const byteSum = bytes.reduce((sum, byte) => sum + byte, 0);
+      const isRead = await logIsRead(() => readLog(source, TOPIC_CHOICES[byteSum % length]));
+      // One input in four is also asked for its list of topics.
+      if (Math.floor(byteSum / length) % 4) return isRead;
       try {
         for (const { name, count } of (await openRecordings([source]))[0].series) assert.ok(typeof name === 'string' && count >= 0);
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
-        look(error.message);
+        assertSentence(error.message);
       }
-      return taken;
+      return isRead;
     },
   }])),
   link: {
-    corpus: [...texts(...(await Promise.all(states().map(packJson)))), ...texts(...states().map((state) => JSON.stringify(state)))],
+    corpus: [...bytesOfTexts(...(await Promise.all(states().map(packJson)))), ...bytesOfTexts(...states().map((state) => JSON.stringify(state)))],
     async run(bytes) {
-      const text = bytes.length % 2 ? deflateRawSync(bytes, STORED).toString('base64url') : bytes.toString('latin1');
+      const text = bytes.length % 2 ? deflateRawSync(bytes, FASTEST).toString('base64url') : bytes.toString('latin1');
       try {
         await unpack(text);
         return true;
       } catch (error) {
         assert.ok(error instanceof RangeError);
-        look(error.message);
+        assertSentence(error.message);
         return false;
       }
     },
@@ -210,26 +210,26 @@ export const targets = {
       } catch {
         return false;
       }
-      const { map = null, ...rest } = Object(state);
+      const { map = null, ...fields } = Object(state);
       // The element itself checks this field.
-      delete rest.widget;
-      const before = mapOf(squeeze, '');
-      const taken = map === null || isTaken(() => applyMap(squeeze, map));
-      if (!taken) assert.deepEqual(mapOf(squeeze, ''), before);
-      const configured = isTaken(() => squeeze.configure(rest));
-      squeeze.configure(machines[1].opening);
-      return taken && configured;
+      delete fields.widget;
+      const mapBefore = mapOf(mapSqueeze, '');
+      const isMapTaken = map === null || isTaken(() => applyMap(mapSqueeze, map));
+      if (!isMapTaken) assert.deepEqual(mapOf(mapSqueeze, ''), mapBefore);
+      const isConfigured = isTaken(() => mapSqueeze.configure(fields));
+      mapSqueeze.configure(widgetMachines[1].opening);
+      return isMapTaken && isConfigured;
     },
   },
   attributes: {
-    corpus: texts('v=1', 'omega=-0.5', 'alpha1=1e-3', 'conditioned=false', 'conditioned=', 'sampler=whole-arc', 'samples=10', 'seed=7', 'x=2.05', 'noise=0.12', 'model=odometry', 'alpha6=0', 'nextY=-0.5', 'rule=nav2', 'phase=1.5', 'steps=40', 'per=path', 'map=density', 'startTheta=1'),
+    corpus: bytesOfTexts('v=1', 'omega=-0.5', 'alpha1=1e-3', 'conditioned=false', 'conditioned=', 'sampler=whole-arc', 'samples=10', 'seed=7', 'x=2.05', 'noise=0.12', 'model=odometry', 'alpha6=0', 'nextY=-0.5', 'rule=nav2', 'phase=1.5', 'steps=40', 'per=path', 'map=density', 'startTheta=1'),
     async run(bytes) {
-      const [name, ...rest] = bytes.toString().split('=');
-      const { attributes, machine, opening } = machines[bytes.length % machines.length];
+      const [name, ...values] = bytes.toString().split('=');
+      const { attributes, machine, opening } = widgetMachines[bytes.length % widgetMachines.length];
       const attribute = Object.hasOwn(attributes, name) ? attributes[name] : Object.values(attributes)[bytes.length % 9];
       // Millions of samples would take too much memory.
-      if (/^(samples|steps)$/.test(name) && Number(rest.join('=')) > 1e5) return false;
-      if (!isTaken(() => machine.configure(attribute.change(attribute.converter.parse(rest.join('=')), machine.config)))) return false;
+      if (/^(samples|steps)$/.test(name) && Number(values.join('=')) > 1e5) return false;
+      if (!isTaken(() => machine.configure(attribute.change(attribute.converter.parse(values.join('=')), machine.config)))) return false;
       assert.equal(typeof attribute.converter.print(attribute.get(machine.config)), 'string');
       machine.configure(opening);
       return true;
@@ -237,12 +237,12 @@ export const targets = {
   },
 };
 
-/** The map that a machine has, as data. @param {InstanceType<typeof motion.MapSqueeze>} machine @param {string} name */
+/** Returns the map that a machine has, as data of a link. @param {InstanceType<typeof motion.MapSqueeze>} machine @param {string} name */
 function mapOf(machine, name) {
   return mapData(machine, name, cellsOf(machine));
 }
 
-/** States that links carry. */
+/** Returns states of Map Squeeze as links contain them. */
 function states() {
   const machine = new motion.MapSqueeze({ samples: 1 });
   const { config } = machine;

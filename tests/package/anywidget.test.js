@@ -1,4 +1,4 @@
-// Module for notebooks, with models as notebooks and books provide them.
+// Module for notebooks (anywidget), with models as Jupyter notebooks and MyST books provide them.
 
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
@@ -24,25 +24,25 @@ after(async () => {
 });
 
 /**
- * Returns a page that shows a model. Its global `view` records the test: `log` lists what was set and saved, `end()` removes the
- * figure, and `state` has the traits.
+ * Opens a page that shows a model. Its global variable `view` is for the test: `log` lists what was set and saved, `end()` removes
+ * the figure, and `state` has the traits, which are the values of the model.
  *
  * @param {Record<string, unknown>} state
- * @param {'notebook' | 'book'} kind in a book, the model throws the errors that MyST's model throws, and the figure is in a shadow root
+ * @param {'notebook' | 'book'} kind in a book, some methods of the model throw as MyST's model does, and the figure is in a shadow root
  */
-async function shown(state, kind) {
+async function pageShowing(state, kind) {
   const page = await browser.newPage();
-  const complaints = listen(page);
+  const consoleMessages = listen(page);
   const body = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
   await page.goto(`${server.address}page.html`);
   await page.evaluate(render, { state, inBook: kind === 'book' });
-  return { page, complaints };
+  return { page, consoleMessages };
 }
 
 /** Runs in the page. @param {{ state: Record<string, unknown>, inBook: boolean }} given */
 async function render({ state, inBook }) {
-  const heard = new Map();
+  const listeners = new Map();
   const log = /** @type {unknown[]} */ ([]);
   const missing = (/** @type {string} */ name) => {
     throw new Error(`${name} not implemented yet.`);
@@ -52,10 +52,10 @@ async function render({ state, inBook }) {
     set(/** @type {string} */ name, /** @type {unknown} */ value) {
       log.push([name, value]);
       state[name] = value;
-      for (const listener of heard.get(`change:${name}`) ?? []) listener();
+      for (const listener of listeners.get(`change:${name}`) ?? []) listener();
     },
-    on: (/** @type {string} */ name, /** @type {() => void} */ listener) => heard.set(name, (heard.get(name) ?? new Set()).add(listener)),
-    off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (inBook ? missing('off') : heard.get(name)?.delete(listener)),
+    on: (/** @type {string} */ name, /** @type {() => void} */ listener) => listeners.set(name, (listeners.get(name) ?? new Set()).add(listener)),
+    off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (inBook ? missing('off') : listeners.get(name)?.delete(listener)),
     save_changes: () => (inBook ? missing('save_changes') : log.push('saved')),
   };
   const cell = /** @type {HTMLElement} */ (document.querySelector('#cell'));
@@ -63,11 +63,11 @@ async function render({ state, inBook }) {
   const address = '/anywidget.js';
   const { default: widget } = await import(address);
   const end = widget.render({ model, el });
-  Object.assign(globalThis, { view: { model, state, log, el, end, heard } });
+  Object.assign(globalThis, { view: { model, state, log, el, end, listeners } });
 }
 
-/** Runs in the page, with `view` in it. @param {import('@playwright/test').Page} page */
-async function complete(page) {
+/** Waits until the figure of a page has all its samples. @param {import('@playwright/test').Page} page */
+async function untilComplete(page) {
   await page.locator('canvas').first().waitFor();
   await page.waitForFunction(() => {
     const { el } = /** @type {any} */ (globalThis).view;
@@ -88,14 +88,14 @@ const frames = (page) =>
  * @param {string[]} names
  * @returns {Promise<{ traits: Record<string, unknown>, figure: Record<string, unknown> }>}
  */
-const saidOf = (page, names) =>
+const valuesOf = (page, names) =>
   page.evaluate((wanted) => {
     const { el, state } = /** @type {any} */ (globalThis).view;
-    const pick = (/** @type {any} */ of) => Object.fromEntries(wanted.map((name) => [name, of[name]]));
+    const pick = (/** @type {any} */ object) => Object.fromEntries(wanted.map((name) => [name, object[name]]));
     return { traits: pick(state), figure: pick(el.firstElementChild) };
   }, names);
 
-/** @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changes */
+/** Sets traits of the model and clears its log. @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changes */
 const change = async (page, changes) => {
   await page.evaluate((given) => {
     const { model, log } = /** @type {any} */ (globalThis).view;
@@ -105,86 +105,86 @@ const change = async (page, changes) => {
   await frames(page);
 };
 
-/** Other traits of a notebook's model, which has all traits of its class; most of them are null. */
-const KERNEL = { stats: null, error: '', _asked: 0, _shown: {} };
+/** Traits that every model of a notebook has besides the settings. */
+const KERNEL_TRAITS = { stats: null, error: '', _asked: 0, _shown: {} };
 
 test('traits become what the figure shows, by whichever of their names, and those without a value what it shows', async () => {
-  const state = { ...KERNEL, widget: 'banana-machine', omega: 0.8, samples: '2000', reverse_aware: true, 'heading-level': 3, v: null, alphas: null, preset: null, lang: 'de' };
-  const { page, complaints } = await shown(state, 'notebook');
-  await complete(page);
-  const { figure, traits } = await saidOf(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
+  const state = { ...KERNEL_TRAITS, widget: 'banana-machine', omega: 0.8, samples: '2000', reverse_aware: true, 'heading-level': 3, v: null, alphas: null, preset: null, lang: 'de' };
+  const { page, consoleMessages } = await pageShowing(state, 'notebook');
+  await untilComplete(page);
+  const { figure, traits } = await valuesOf(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
   assert.deepEqual(figure, { omega: 0.8, samples: 2000, reverseAware: true, headingLevel: '3', v: 1, preset: null, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], lang: 'de' });
   assert.equal(traits.v, 1);
   assert.equal(traits.samples, 2000);
   assert.deepEqual(traits.alphas, figure.alphas);
   await page.getByRole('button', { name: 'Neu würfeln' }).waitFor();
   await change(page, { lang: null, omega: null });
-  assert.deepEqual((await saidOf(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
+  assert.deepEqual((await valuesOf(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
   await page.getByRole('button', { name: 'New seed' }).waitFor();
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(consoleMessages, []);
   await page.close();
 });
 
 test('a trait with the underscore of a Python keyword sets the property of that name, and gets its value', async () => {
   const from = { x: 1, y: 2, theta: 0.5 };
-  const { page, complaints } = await shown({ ...KERNEL, widget: 'odometry-decomposer', from_: from }, 'notebook');
+  const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'odometry-decomposer', from_: from }, 'notebook');
   await page.locator('canvas').first().waitFor();
-  assert.deepEqual((await saidOf(page, ['from'])).figure, { from });
+  assert.deepEqual((await valuesOf(page, ['from'])).figure, { from });
   await change(page, { from_: null });
-  const { figure, traits } = await saidOf(page, ['from', 'from_']);
+  const { figure, traits } = await valuesOf(page, ['from', 'from_']);
   assert.notDeepEqual(figure.from, from);
   assert.deepEqual(traits.from_, figure.from);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(consoleMessages, []);
   await page.close();
 });
 
 test('a change of the model reaches the figure, what follows of it the model, and an equal value nobody', async () => {
-  const { page, complaints } = await shown({ ...KERNEL, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
-  await complete(page);
+  const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
+  await untilComplete(page);
   await change(page, { _asked: 1, preset: 'hard' });
-  const { traits, figure } = await saidOf(page, ['preset', 'v', 'omega', 'dt', 'command']);
+  const { traits, figure } = await valuesOf(page, ['preset', 'v', 'omega', 'dt', 'command']);
   assert.deepEqual(figure, { preset: 'hard', v: 1, omega: 1.2, dt: 1.4, command: { v: 1, omega: 1.2, dt: 1.4 } });
   assert.deepEqual(traits, figure);
-  const { traits: { _shown } } = await saidOf(page, ['_shown']);
+  const { traits: { _shown } } = await valuesOf(page, ['_shown']);
   assert.deepEqual(_shown, { heard: 1, settings: { ...traits, samples: 100, isolate: null } });
 
   // Several changes at once, as from a kernel that groups them: no earlier value is sent back.
   await page.evaluate(() => {
-    const { state, heard } = /** @type {any} */ (globalThis).view;
+    const { state, listeners } = /** @type {any} */ (globalThis).view;
     Object.assign(state, { omega: 0.2, v: 0.5 });
-    for (const name of ['omega', 'v']) for (const listener of heard.get(`change:${name}`)) listener();
+    for (const name of ['omega', 'v']) for (const listener of listeners.get(`change:${name}`)) listener();
   });
   await frames(page);
-  const both = await saidOf(page, ['preset', 'v', 'omega']);
-  assert.deepEqual(both.figure, { preset: null, v: 0.5, omega: 0.2 });
-  assert.deepEqual(both.traits, both.figure);
+  const afterChanges = await valuesOf(page, ['preset', 'v', 'omega']);
+  assert.deepEqual(afterChanges.figure, { preset: null, v: 0.5, omega: 0.2 });
+  assert.deepEqual(afterChanges.traits, afterChanges.figure);
 
   await change(page, { command: { dt: 1.4, omega: 0.2, v: 0.5 } });
   const log = await page.evaluate(() => /** @type {any} */ (globalThis).view.log);
   assert.deepEqual(log, [['command', { dt: 1.4, omega: 0.2, v: 0.5 }]]);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(consoleMessages, []);
   await page.close();
 });
 
 test('what is refused is said by the trait error, and the trait has the last good value again', async () => {
-  const { page, complaints } = await shown({ ...KERNEL, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
-  await complete(page);
-  const { traits: { alphas } } = await saidOf(page, ['alphas']);
+  const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
+  await untilComplete(page);
+  const { traits: { alphas } } = await valuesOf(page, ['alphas']);
   await change(page, { alphas: [1, 2, 3] });
-  const { traits } = await saidOf(page, ['alphas', 'error']);
+  const { traits } = await valuesOf(page, ['alphas', 'error']);
   assert.match(String(traits.error), /^alphas .*allowed/);
   assert.deepEqual(traits.alphas, alphas);
   await change(page, { samples: 200 });
-  assert.deepEqual((await saidOf(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
-  assert.deepEqual(complaints, []);
+  assert.deepEqual((await valuesOf(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
+  assert.deepEqual(consoleMessages, []);
   await page.close();
 });
 
 test('in a book whose models keep nothing the figure is as live, and what is taken away leaves nothing @nightly', async () => {
   for (const kind of /** @type {const} */ (['book', 'notebook'])) {
-    const { page, complaints } = await shown({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, kind);
-    await complete(page);
-    const { figure, traits } = await saidOf(page, ['preset', 'samples', 'view']);
+    const { page, consoleMessages } = await pageShowing({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, kind);
+    await untilComplete(page);
+    const { figure, traits } = await valuesOf(page, ['preset', 'samples', 'view']);
     assert.deepEqual(figure, { preset: 'corridor', samples: 300, view: 'whole' });
     await page.getByRole('slider', { name: /noise level/ }).focus();
     await page.keyboard.press('ArrowRight');
@@ -193,21 +193,21 @@ test('in a book whose models keep nothing the figure is as live, and what is tak
     // The model has only the traits that it was given.
     assert.deepEqual(Object.keys(await page.evaluate(() => /** @type {any} */ (globalThis).view.state)).sort(), ['preset', 'samples', 'view', 'widget']);
     assert.equal(traits.preset, 'corridor');
-    const left = await page.evaluate(() => {
-      const { el, end, heard } = /** @type {any} */ (globalThis).view;
+    const remains = await page.evaluate(() => {
+      const { el, end, listeners } = /** @type {any} */ (globalThis).view;
       end();
-      return { html: el.innerHTML, listeners: [...heard.values()].reduce((sum, { size }) => sum + size, 0) };
+      return { html: el.innerHTML, listeners: [...listeners.values()].reduce((sum, { size }) => sum + size, 0) };
     });
-    assert.equal(left.html, '');
-    if (kind === 'notebook') assert.equal(left.listeners, 0);
-    assert.deepEqual(complaints, []);
+    assert.equal(remains.html, '');
+    if (kind === 'notebook') assert.equal(remains.listeners, 0);
+    assert.deepEqual(consoleMessages, []);
     await page.close();
   }
 });
 
 test('a model of no widget says what is allowed in the place of the figure @nightly', async () => {
   for (const [widget, said] of [[undefined, 'missing'], ['banana', '"banana"']]) {
-    const { page } = await shown({ widget }, 'book');
+    const { page } = await pageShowing({ widget }, 'book');
     await page.getByText(`This cell shows no figure: widget is ${said}; allowed is ${Object.keys(settings).join(' or ')}.`).waitFor();
     await page.close();
   }

@@ -1,4 +1,4 @@
-// Files and options that the package's documents and its manifest name are in the package.
+// The package has the files that its package.json names, the options that its documents describe, and one version.
 
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
@@ -11,29 +11,29 @@ import { installed } from './support.js';
 /** @type {ReturnType<typeof installed>} */
 let project;
 /** @type {string} */
-let root;
+let packageRoot;
 
 before(() => {
   project = installed();
-  root = join(project.directory, 'node_modules/motion-widgets');
+  packageRoot = join(project.directory, 'node_modules/motion-widgets');
 });
 
 after(() => project?.remove());
 
-const read = (/** @type {string} */ document) => readFileSync(join(root, document), 'utf8');
-const isMissing = (/** @type {string} */ path) => !existsSync(join(root, path));
+const readPackaged = (/** @type {string} */ document) => readFileSync(join(packageRoot, document), 'utf8');
+const isMissing = (/** @type {string} */ path) => !existsSync(join(packageRoot, path));
 
 test('package.json names no file that the package leaves out', () => {
-  const { bin, exports, main, types, unpkg, jsdelivr, customElements } = JSON.parse(read('package.json'));
+  const { bin, exports, main, types, unpkg, jsdelivr, customElements } = JSON.parse(readPackaged('package.json'));
   /** @type {(value: any) => string[]} */
   const paths = (value) => (typeof value === 'string' ? [value] : Object.values(value).flatMap(paths));
-  const all = [...paths(bin), ...paths(exports), main, types, unpkg, jsdelivr, customElements];
-  assert.ok(all.length > 10, all.join(' '));
-  assert.deepEqual(all.filter(isMissing), []);
+  const allPaths = [...paths(bin), ...paths(exports), main, types, unpkg, jsdelivr, customElements];
+  assert.ok(allPaths.length > 10, allPaths.join(' '));
+  assert.deepEqual(allPaths.filter(isMissing), []);
 });
 
 test('doc/calibration.md tells every option of the command that the package installs', () => {
-  const { status, stdout } = spawnSync(process.execPath, [join(root, 'dist/cli.js'), '--help'], { encoding: 'utf8' });
+  const { status, stdout } = spawnSync(process.execPath, [join(packageRoot, 'dist/cli.js'), '--help'], { encoding: 'utf8' });
   assert.equal(status, 0);
   const options = new Set(stdout.match(/--[a-z-]+/g));
   assert.ok(options.size > 15, [...options].join(' '));
@@ -42,7 +42,7 @@ test('doc/calibration.md tells every option of the command that the package inst
 });
 
 test('all that is released has one version', () => {
-  const { version } = JSON.parse(read('package.json'));
+  const { version } = JSON.parse(readPackaged('package.json'));
   for (const path of ['Cargo.toml', 'python/pyproject.toml']) {
     assert.equal(readFileSync(join(ROOT, path), 'utf8').match(/^version = "(.+)"$/m)?.[1], version, path);
   }

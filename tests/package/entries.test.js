@@ -12,7 +12,7 @@ import { listen, served } from './support.js';
 const project = served();
 
 /** Runs a module next to the installed package, and returns what it prints. @param {string} source */
-function inNode(source) {
+function outputOfNode(source) {
   const path = join(project.directory, 'script.mjs');
   writeFileSync(path, source);
   return execFileSync(process.execPath, [path], { encoding: 'utf8' });
@@ -23,23 +23,23 @@ test('every script of the package can be imported in Node, and leaves no names b
   const names = Object.keys(exports).filter((name) => /\.js$/.test(exports[name].default));
   const addresses = names.map((name) => join('motion-widgets', name));
   assert.ok(addresses.length >= 4, addresses.join(' '));
-  const printed = inNode(`
+  const output = outputOfNode(`
     const before = Object.getOwnPropertyNames(globalThis);
     for (const address of ${JSON.stringify(addresses)}) await import(address);
     console.log(JSON.stringify(Object.getOwnPropertyNames(globalThis).filter((name) => !before.includes(name))));
   `);
-  // Lit stores its version there, which several copies share.
-  const ofLit = ['reactiveElementVersions', 'litHtmlVersions', 'litElementVersions', 'litPropertyMetadata'];
-  assert.deepEqual(JSON.parse(printed).filter((/** @type {string} */ name) => !ofLit.includes(name)), []);
+  // The library Lit keeps the versions of its loaded copies in global variables.
+  const litNames = ['reactiveElementVersions', 'litHtmlVersions', 'litElementVersions', 'litPropertyMetadata'];
+  assert.deepEqual(JSON.parse(output).filter((/** @type {string} */ name) => !litNames.includes(name)), []);
 });
 
 test('the elements find the core in Node', () => {
-  const printed = inNode(`
+  const output = outputOfNode(`
     import { isFigureTag, load } from 'motion-widgets';
     const { BananaMachine } = await load();
     console.log(new BananaMachine({ samples: 100 }).poses.length, isFigureTag('map-squeeze'), isFigureTag('map'));
   `);
-  assert.equal(printed, '300 true false\n');
+  assert.equal(output, '300 true false\n');
 });
 
 test('a server component is told that no browser would get the elements', () => {
@@ -52,8 +52,8 @@ test('a server component is told that no browser would get the elements', () => 
   assert.equal(execFileSync(process.execPath, ['--conditions=react-server', path], { encoding: 'utf8' }), 'function\n');
 });
 
-/** Components, their events, and the tags in JSX. */
-const REACT = `
+/** Source of a page in TypeScript with React: components, their events, and tags of the elements. */
+const REACT_SOURCE = `
     import { useRef } from 'react';
     import { BananaMachine, MapSqueeze } from 'motion-widgets/react';
     import type { BananaMachineElement } from 'motion-widgets';
@@ -109,7 +109,7 @@ test('TypeScript knows the elements, the components of React and the core, howev
      document.createElement('banana-machine').omega = true;
      export { omega, stats };`,
   );
-  writeFileSync(join(project.directory, 'typed.tsx'), REACT);
+  writeFileSync(join(project.directory, 'typed.tsx'), REACT_SOURCE);
   for (const name of ['@types/react', 'csstype']) cpSync(join(ROOT, 'node_modules', name), join(project.directory, 'node_modules', name), { recursive: true });
   // The script has to be in the directory of a module, so that top-level await is allowed.
   writeFileSync(join(project.directory, 'package.json'), '{ "private": true, "type": "module" }');
@@ -123,15 +123,15 @@ test('TypeScript knows the elements, the components of React and the core, howev
 });
 
 /**
- * A page with three elements and some of the package's scripts.
+ * Opens a page with three elements and some of the package's scripts, until the elements have drawn.
  *
  * @param {string} scripts
- * @returns {Promise<{ complaints: string[], modules: string[] }>} `modules` are the addresses of WebAssembly that it requested
+ * @returns {Promise<{ consoleMessages: string[], modules: string[] }>} `modules` are addresses of requested WebAssembly modules
  */
 async function pageWith(scripts) {
   const elements = '<banana-machine></banana-machine><banana-machine></banana-machine><map-squeeze></map-squeeze>';
   const page = await project.browser.newPage();
-  const complaints = listen(page);
+  const consoleMessages = listen(page);
   /** @type {string[]} */
   const requests = [];
   page.on('request', (request) => requests.push(request.url()));
@@ -144,22 +144,22 @@ async function pageWith(scripts) {
     await element.locator('canvas').first().waitFor({ timeout: 10_000 });
   }
   await page.close();
-  return { complaints, modules: requests.filter((url) => url.includes('.wasm')) };
+  return { consoleMessages, modules: requests.filter((url) => url.includes('.wasm')) };
 }
 
 const DIST = '/node_modules/motion-widgets/dist/';
-const script = (/** @type {string} */ name) => `<script type="module" src="${DIST}${name}"></script>`;
+const scriptTag = (/** @type {string} */ name) => `<script type="module" src="${DIST}${name}"></script>`;
 
 test('custom-elements.json says what the elements have', async () => {
   const path = join(project.directory, 'node_modules/motion-widgets/dist/custom-elements.json');
   const { modules } = JSON.parse(readFileSync(path, 'utf8'));
   /** @type {any[]} */
-  const declared = modules[0].declarations;
-  assert.deepEqual(declared.map(({ tagName }) => tagName).sort(), Object.keys(settings).sort());
+  const declarations = modules[0].declarations;
+  assert.deepEqual(declarations.map(({ tagName }) => tagName).sort(), Object.keys(settings).sort());
   const page = await project.browser.newPage();
   await page.goto(`${project.address}plain/`);
-  for (const { tagName, attributes, members, events, cssParts, cssProperties } of declared) {
-    const live = await page.evaluate(async (tag) => {
+  for (const { tagName, attributes, members, events, cssParts, cssProperties } of declarations) {
+    const actual = await page.evaluate(async (tag) => {
       const element = document.createElement(tag);
       document.body.prepend(element);
       await new Promise((resolve) => element.addEventListener('load', resolve));
@@ -175,18 +175,18 @@ test('custom-elements.json says what the elements have', async () => {
       const properties = [...new Set(styles.match(/--motion-[a-z-]+/g))];
       return { attributes: [...Class.observedAttributes], parts: parts.flatMap(({ part }) => [...part]), properties };
     }, tagName);
-    const names = (/** @type {{ name: string }[]} */ list) => list.map(({ name }) => name).sort();
+    const sortedNames = (/** @type {{ name: string }[]} */ list) => list.map(({ name }) => name).sort();
     // HTML attributes have no capital letters.
-    assert.deepEqual(names(attributes).map((name) => name.toLowerCase()).sort(), live.attributes.sort(), tagName);
-    for (const name of names(members)) {
-      const there = await page.evaluate(([tag, key]) => key in /** @type {Element} */ (document.querySelector(tag)), [tagName, name]);
-      assert.ok(there, `${tagName} has ${name}`);
+    assert.deepEqual(sortedNames(attributes).map((name) => name.toLowerCase()).sort(), actual.attributes.sort(), tagName);
+    for (const name of sortedNames(members)) {
+      const hasMember = await page.evaluate(([tag, key]) => key in /** @type {Element} */ (document.querySelector(tag)), [tagName, name]);
+      assert.ok(hasMember, `${tagName} has ${name}`);
     }
     for (const { name, description } of [...attributes, ...members, ...events, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
-    assert.deepEqual(names(events), ['change', 'error', 'input', 'load', 'stats']);
-    // The element exists only during progress.
-    assert.deepEqual(names(cssParts), [...new Set([...live.parts, 'progress'])].sort(), `parts of ${tagName}`);
-    assert.deepEqual(names(cssProperties), live.properties.sort(), `properties of ${tagName}`);
+    assert.deepEqual(sortedNames(events), ['change', 'error', 'input', 'load', 'stats']);
+    // The element with the part progress exists only while samples are drawn.
+    assert.deepEqual(sortedNames(cssParts), [...new Set([...actual.parts, 'progress'])].sort(), `parts of ${tagName}`);
+    assert.deepEqual(sortedNames(cssProperties), actual.properties.sort(), `properties of ${tagName}`);
   }
   await page.close();
 });
@@ -202,8 +202,8 @@ test('external.js loads a widget when its tag is met, with the words that the pa
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
   await page.goto(`${project.address}page.html`);
   await page.locator('banana-machine canvas').first().waitFor();
-  const ofSqueeze = () => requests.filter((path) => path.includes('/map-squeeze-'));
-  assert.deepEqual(ofSqueeze(), []);
+  const squeezeRequests = () => requests.filter((path) => path.includes('/map-squeeze-'));
+  assert.deepEqual(squeezeRequests(), []);
   // An element that is defined later has a Map Squeeze in its shadow root.
   await page.evaluate(() => {
     const Late = class extends HTMLElement {
@@ -215,7 +215,7 @@ test('external.js loads a widget when its tag is met, with the words that the pa
   });
   await page.locator('map-squeeze').scrollIntoViewIfNeeded();
   await page.getByRole('region', { name: 'Le plan' }).getByRole('button', { name: 'Un pas' }).waitFor();
-  assert.equal(ofSqueeze().length, 1);
+  assert.equal(squeezeRequests().length, 1);
   await page.close();
 });
 
@@ -226,23 +226,23 @@ test('the classic script is ASCII: it means the same, whatever encoding its page
 
 test('two copies of the bundle on a page get along @nightly', async () => {
   const classic = '<script defer src="/iframe/motion-widgets.iife.js"></script>';
-  for (const other of [classic, script('external.js?copy')]) {
-    const { complaints } = await pageWith(script('external.js') + other);
-    assert.deepEqual(complaints, []);
+  for (const other of [classic, scriptTag('external.js?copy')]) {
+    const { consoleMessages } = await pageWith(scriptTag('external.js') + other);
+    assert.deepEqual(consoleMessages, []);
   }
 });
 
 test('the address of the external module can be set by the script that imports it', async () => {
   const address = `${DIST}motion.wasm?mine`;
-  const { complaints, modules } = await pageWith(
+  const { consoleMessages, modules } = await pageWith(
     `<script type="module">import { load } from '${DIST}external.js'; load('${address}');</script>`,
   );
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(consoleMessages, []);
   assert.deepEqual(modules, [new URL(address, project.address).href]);
 });
 
-/** Returns a page with a figure, whose modules are answered by an HTML page, as some servers answer requests for missing files. @param {string} script */
-async function withoutModules(script) {
+/** Opens a page with a figure on a server that answers requests for modules by HTML, as some servers do for missing files. @param {string} script */
+async function openWithoutModules(script) {
   const page = await project.browser.newPage();
   /** @type {string[]} */
   const warnings = [];
@@ -254,20 +254,20 @@ async function withoutModules(script) {
   return { page, warnings };
 }
 
-const CURE = "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out";
+const ADVICE = "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out";
 
 test('where the file of a module cannot be had, the embedded one is used, and a warning names its address and the cure', async () => {
-  const { page, warnings } = await withoutModules(script('external.js'));
+  const { page, warnings } = await openWithoutModules(scriptTag('external.js'));
   await page.locator('banana-machine canvas').first().waitFor();
   assert.equal(warnings.length, 1);
   assert.match(warnings[0], new RegExp(`${project.address}\\S+\\.wasm answers with text/html, which is no WebAssembly module`));
-  assert.ok(warnings[0].includes(CURE));
+  assert.ok(warnings[0].includes(ADVICE));
   await page.close();
 });
 
 test('an address that has no module is refused with the cure @nightly', async () => {
-  const { page } = await withoutModules('');
-  const refused = page.evaluate(async (address) => (await import(address)).load('/none.wasm'), `${DIST}external.js`);
-  await assert.rejects(refused, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(CURE));
+  const { page } = await openWithoutModules('');
+  const loading = page.evaluate(async (address) => (await import(address)).load('/none.wasm'), `${DIST}external.js`);
+  await assert.rejects(loading, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(ADVICE));
   await page.close();
 });

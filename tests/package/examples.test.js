@@ -1,4 +1,4 @@
-// Ways to embed the packed package: plain pages, and production builds of bundlers.
+// Ways to embed the package as npm packs it: plain pages, and production builds of bundlers.
 
 import assert from 'node:assert/strict';
 import { mkdirSync, writeFileSync } from 'node:fs';
@@ -19,11 +19,11 @@ test('a page with a module script', async () => {
 
 test('a frame that takes the height of its widget', async () => {
   const { page } = await openWithCloud(project.browser, `${project.address}iframe/`);
-  const heightOf = () =>
+  const heights = () =>
     page.evaluate(() => {
       const frame = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
-      const inside = /** @type {Document} */ (frame.contentDocument).documentElement;
-      return { given: frame.clientHeight, needed: inside.scrollHeight, scrolls: inside.scrollHeight > inside.clientHeight };
+      const innerRoot = /** @type {Document} */ (frame.contentDocument).documentElement;
+      return { given: frame.clientHeight, needed: innerRoot.scrollHeight, scrolls: innerRoot.scrollHeight > innerRoot.clientHeight };
     });
   for (const width of [1100, 420]) {
     await page.setViewportSize({ width, height: 800 });
@@ -32,7 +32,7 @@ test('a frame that takes the height of its widget', async () => {
       const body = /** @type {Document} */ (frame.contentDocument).body;
       return frame.style.height === `${Math.ceil(body.getBoundingClientRect().height)}px`;
     });
-    const { given, needed, scrolls } = await heightOf();
+    const { given, needed, scrolls } = await heights();
     assert.equal(given, needed);
     assert.ok(!scrolls);
   }
@@ -69,20 +69,20 @@ test('the one file of a classroom, from a disk', async () => {
   await opened.page.close();
 });
 
-// Bundlers that leave the WebAssembly modules behind, as they do not know `new URL(…, import.meta.url)`.
+// Bundlers that do not copy the WebAssembly modules into their output, as they do not know `new URL(…, import.meta.url)`.
 
 /** @param {import('esbuild').BuildOptions} options */
-const byEsbuild = (options) => async (/** @type {string} */ outdir) => {
+const esbuildBundler = (options) => async (/** @type {string} */ outdir) => {
   const entryPoints = [join(project.directory, 'main.js')];
   const { warnings } = await build({ entryPoints, outdir, bundle: true, minify: true, logLevel: 'silent', ...options });
   assert.deepEqual(warnings, []);
 };
 
-/** Each writes main.js into a directory. @type {Record<string, (outdir: string) => Promise<void>>} */
-const BUILDS = {
-  'esbuild with chunks': byEsbuild({ format: 'esm', splitting: true }),
-  "esbuild in one file, as Hugo's js.Build": byEsbuild({ format: 'esm' }),
-  'esbuild as a classic script': byEsbuild({ format: 'iife' }),
+/** Bundlers by the names of their tests; each writes main.js into a directory. @type {Record<string, (outdir: string) => Promise<void>>} */
+const BUNDLERS = {
+  'esbuild with chunks': esbuildBundler({ format: 'esm', splitting: true }),
+  "esbuild in one file, as Hugo's js.Build": esbuildBundler({ format: 'esm' }),
+  'esbuild as a classic script': esbuildBundler({ format: 'iife' }),
   async Rollup(dir) {
     // Rollup finds packages only with a plugin.
     const bundle = await rollup({ input: { main: join(project.directory, 'node_modules/motion-widgets/dist/external.js') } });
@@ -90,7 +90,7 @@ const BUILDS = {
   },
 };
 
-for (const [name, bundle] of Object.entries(BUILDS)) {
+for (const [name, bundle] of Object.entries(BUNDLERS)) {
   test(`${name}: a figure is live from the embedded module, and no file is asked for in vain${name.includes('chunks') ? '' : ' @nightly'}`, async () => {
     const path = name.replaceAll(/\W+/g, '-');
     const directory = join(project.directory, path);

@@ -1,4 +1,4 @@
-// Checks by tools of npm of the package as it would be published.
+// Checks the package as npm would publish it: its size, its types and its licences.
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
@@ -39,24 +39,24 @@ test('publint finds nothing', async () => {
 
 test('Are the types wrong? finds nothing', () => {
   // Only scripts have types.
-  const others = Object.keys(manifest.exports).filter((name) => /\.(css|wasm|json)$/.test(name));
+  const entriesWithoutTypes = Object.keys(manifest.exports).filter((name) => /\.(css|wasm|json)$/.test(name));
   const cli = join(ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
   // All scripts are modules: `require` is not supported, nor resolution without `exports`.
-  const args = [cli, tarball, '--profile', 'esm-only', '--exclude-entrypoints', ...others];
+  const args = [cli, tarball, '--profile', 'esm-only', '--exclude-entrypoints', ...entriesWithoutTypes];
   const { status, stdout } = spawnSync(process.execPath, args, { encoding: 'utf8' });
   assert.equal(status, 0, stdout);
   assert.match(stdout, /"motion-widgets\/core"/);
 });
 
 test('whoever wrote what the bundles carry is named, with the licence', () => {
-  const listed = readFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), 'utf8');
+  const licences = readFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), 'utf8');
   const outputs = JSON.parse(readFileSync(join(ROOT, 'build/outputs.json'), 'utf8'));
   const sources = Object.values(outputs).flatMap(({ inputs }) => Object.keys(inputs).filter((path) => inputs[path].bytesInOutput > 0));
   const packages = sources.flatMap((path) => path.match(/(?<=node_modules\/)(?:@[^/]+\/)?[^/]+/) ?? []);
   const [, crates] = readFileSync(join(ROOT, 'Cargo.toml'), 'utf8').match(/\n\[dependencies\]\n(.*?)\n\n/s) ?? [];
-  const named = [...new Set(packages), ...[...(crates ?? '').matchAll(/^[\w-]+/gm)].map(String)];
-  assert.ok(named.includes('lit-html') && named.includes('nalgebra'), named.join(' '));
-  for (const name of named) assert.match(listed, new RegExp(`^${name} \\d\\S* \\(.+\\)$`, 'm'));
-  const inPackage = execFileSync('tar', ['-tf', tarball], { encoding: 'utf8' }).split('\n');
-  assert.ok(inPackage.includes('package/dist/LICENSE-third-party.txt'));
+  const dependencies = [...new Set(packages), ...[...(crates ?? '').matchAll(/^[\w-]+/gm)].map(String)];
+  assert.ok(dependencies.includes('lit-html') && dependencies.includes('nalgebra'), dependencies.join(' '));
+  for (const name of dependencies) assert.match(licences, new RegExp(`^${name} \\d\\S* \\(.+\\)$`, 'm'));
+  const packedFiles = execFileSync('tar', ['-tf', tarball], { encoding: 'utf8' }).split('\n');
+  assert.ok(packedFiles.includes('package/dist/LICENSE-third-party.txt'));
 });

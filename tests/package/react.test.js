@@ -11,13 +11,13 @@ import { listen, served } from './support.js';
 
 const project = served(prepare);
 /** Address of the pages. */
-const at = (/** @type {string} */ name) => new URL(`react/${name}`, project.address).href;
+const addressOf = (/** @type {string} */ name) => new URL(`react/${name}`, project.address).href;
 /** @type {import('@playwright/test').Page} */
 let page;
 /** Messages of the console. @type {string[]} */
-let complaints;
+let consoleMessages;
 
-/** Page whose props a test changes, with the events that it received. */
+/** Source of a React application: a test changes its props by `page`, and reads the received events in `heard`. */
 const APPLICATION = `
   import { createElement, useRef, useState } from 'react';
   import { BananaMachine, MapSqueeze } from 'motion-widgets/react';
@@ -31,7 +31,7 @@ const APPLICATION = `
     const figure = useRef(null);
     Object.assign(page, { figure, setProps, renderings: (page.renderings ?? 0) + 1 });
     const hear = (name) => (event) => {
-      // Prevents the warning in the console.
+      // Without this call the figure would also write the error to the console.
       event.preventDefault();
       heard.push([name, event.currentTarget === figure.current, ...(event.message ? [event.message] : [])]);
     };
@@ -69,9 +69,9 @@ function prepare() {
   mkdirSync(join(project.directory, 'react'));
   write('application.js', APPLICATION);
   write('client.js', CLIENT);
-  const html = (/** @type {string} */ sent) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${sent}</div><script type="module" src="./bundle.js"></script>`;
-  write('index.html', html(''));
-  write('sent.html', html(sent({ omega: 0.8 })));
+  const pageWith = (/** @type {string} */ html) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${html}</div><script type="module" src="./bundle.js"></script>`;
+  write('index.html', pageWith(''));
+  write('sent.html', pageWith(serverHtmlOf({ omega: 0.8 })));
   const directory = join(project.directory, 'react');
   // The development build of React reports errors.
   const define = { 'process.env.NODE_ENV': '"development"' };
@@ -80,7 +80,7 @@ function prepare() {
 
 beforeEach(async () => {
   page = await project.browser.newPage();
-  complaints = listen(page);
+  consoleMessages = listen(page);
 });
 
 afterEach(() => page.close());
@@ -90,8 +90,8 @@ function write(name, contents) {
   writeFileSync(join(project.directory, 'react', name), contents);
 }
 
-/** Returns what a server sends for a figure. @param {object} props as source, because JSON has no NaN */
-function sent(props) {
+/** Returns the HTML that a server renders for a figure. @param {object} props of the figure; they may contain NaN */
+function serverHtmlOf(props) {
   const text = JSON.stringify(props, (_, value) => (Number.isNaN(value) ? 'NaN' : value)).replaceAll('"NaN"', 'NaN');
   const source = `
     import { createElement } from 'react';
@@ -105,50 +105,50 @@ function sent(props) {
 }
 
 /** Waits until the page shows the 2000 samples that the last `stats` event of the first figure has. */
-const whole = () => page.getByText('of 2000').waitFor();
+const untilComplete = () => page.getByText('of 2000').waitFor();
 
 /** @param {string} name of the file */
-async function open(name) {
-  await page.goto(at(name));
+async function openPage(name) {
+  await page.goto(addressOf(name));
   await page.waitForFunction(() => 'hydrate' in globalThis);
 }
 
-/** @param {Record<string, unknown> | null} props of the first figure; none where it is to go */
-const set = (props) => page.evaluate((given) => /** @type {any} */ (globalThis).page.setProps(given), props);
+/** @param {Record<string, unknown> | null} props of the first figure, or null to remove it */
+const setProps = (props) => page.evaluate((given) => /** @type {any} */ (globalThis).page.setProps(given), props);
 
 /** @param {string} name of a property of the first figure */
 const property = (name) => page.evaluate((key) => /** @type {any} */ (document.querySelector('banana-machine'))[key], name);
 
-/** @returns {Promise<[name: string, onFigure: boolean, message?: string][]>} */
+/** Returns the events that the page received. @returns {Promise<[name: string, onFigure: boolean, message?: string][]>} */
 const heard = () => page.evaluate(() => /** @type {any} */ (globalThis).heard);
 
 test('a server sends what attributes say', () => {
-  const html = sent({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
+  const html = serverHtmlOf({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
   const [tag] = html.match(/<banana-machine[^>]*>/) ?? [];
   const attributes = { reverseAware: '', omega: '0.8', samples: '2000', overlays: 'command ellipse', share: '', 'heading-level': '2', class: 'wide' };
-  const named = Object.fromEntries([...(tag ?? '').matchAll(/ ([\w-]+)="([^"]*)"/g)].map(([, name, text]) => [name, text]));
-  assert.deepEqual(named, attributes);
+  const actual = Object.fromEntries([...(tag ?? '').matchAll(/ ([\w-]+)="([^"]*)"/g)].map(([, name, text]) => [name, text]));
+  assert.deepEqual(actual, attributes);
   assert.match(html, /<map-squeeze conditioned="false" heading-level="3">/);
   assert.match(html, /<span slot="title">Figure 1<\/span>/);
 });
 
 test('what the server has sent is taken over, before its elements are there', async () => {
-  await open('sent.html');
+  await openPage('sent.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).hydrate({ omega: 0.8 }));
-  await whole();
+  await untilComplete();
   assert.equal(await property('omega'), 0.8);
   assert.deepEqual(await property('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
   assert.deepEqual((await heard())[0], ['onLoad', true]);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(consoleMessages, []);
 });
 
 test('a list in JSX, and a page that is rendered at every figure, leave what the reader does', async () => {
-  await open('index.html');
+  await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({}));
-  await whole();
+  await untilComplete();
   await page.locator('banana-machine').first().locator('#v').press('ArrowRight');
   await page.waitForFunction(() => /** @type {any} */ (globalThis).heard.some((/** @type {string[]} */ [name]) => name === 'onChange'));
-  await set({ omega: 0.3 });
+  await setProps({ omega: 0.3 });
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0.3);
   assert.notEqual(await property('v'), 1);
   // Properties and events do not trigger each other endlessly.
@@ -160,13 +160,13 @@ test('a list in JSX, and a page that is rendered at every figure, leave what the
     return page.renderings - before;
   });
   assert.equal(renderings, 0);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(consoleMessages, []);
 });
 
 test('a prop that is refused is told, one that goes leaves the element as it opens @nightly', async () => {
-  await open('index.html');
+  await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({ omega: 0.8, marked: 7, conditioned: false }));
-  await whole();
+  await untilComplete();
   assert.equal(await property('marked'), 7);
   await page.evaluate(() => /** @type {any} */ (globalThis).page.setProps({ omega: NaN, alphas: [1, 2] }));
   await page.waitForFunction(() => /** @type {any} */ (globalThis).heard.filter((/** @type {string[]} */ [name]) => name === 'onError').length === 2);
@@ -176,5 +176,5 @@ test('a prop that is refused is told, one that goes leaves the element as it ope
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0);
   assert.deepEqual(await property('alphas'), [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
   assert.equal(await property('marked'), null);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(consoleMessages, []);
 });

@@ -1,4 +1,4 @@
-// The site that `npm run build:site` writes: each page on a phone, and the figures on it. The script itself checks the links.
+// The site that `npm run build:site` writes: each page on a phone, and the figures on it. That script checks the links.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -27,18 +27,18 @@ after(async () => {
 
 test('pages fit a phone, load without complaints, and start their figures', async () => {
   const page = await browser.newPage({ viewport: { width: 375, height: 800 } });
-  const complaints = listen(page);
+  const consoleMessages = listen(page);
   const paths = filesOf('build/site').map((path) => path.slice('build/site/'.length)).filter((path) => /^(?!rust|classroom|embed\.).*html$/.test(path));
-  let figures = 0;
+  let figureCount = 0;
   for (const path of paths) {
     await page.goto(server.address + path);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${path} is too wide`);
     for (const figure of await page.locator('.stand > *, .document > :is(banana-machine, map-squeeze)').all()) {
       await figure.evaluate((element) => element.scrollIntoView());
       await figure.locator('canvas').first().waitFor();
-      figures++;
+      figureCount++;
     }
   }
-  assert.ok(figures >= 10, `${figures} figures`);
-  assert.deepEqual(complaints, []);
+  assert.ok(figureCount >= 10, `${figureCount} figures`);
+  assert.deepEqual(consoleMessages, []);
 });

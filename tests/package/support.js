@@ -1,5 +1,5 @@
 /**
- * Package as npm would publish it, installed next to the examples in a separate directory.
+ * Installs the package as npm would publish it in a separate directory, with the examples.
  *
  * @module
  */
@@ -16,8 +16,8 @@ import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 import { complete } from '../embeddings/checks.mjs';
 
-/** Files of a release that are not in the package. */
-const SINGLE_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
+/** Files of dist/ that an author copies next to a page. */
+const COPIED_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
 
 /** Returns a directory with the examples, in which only the packed package is installed. @returns {{ directory: string, remove: () => void }} */
 export function installed() {
@@ -31,11 +31,11 @@ export function installed() {
   execFileSync('tar', ['-xzf', tarball, '-C', modules], { cwd: directory });
   renameSync(join(modules, 'package'), join(modules, 'motion-widgets'));
   writeFileSync(join(directory, 'package.json'), '{ "private": true }');
-  // Peer dependencies, which the page provides.
+  // npm leaves the installation of peer dependencies to the application.
   const { peerDependencies } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
   for (const name of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', name), join(modules, name), { recursive: true });
   cpSync(join(ROOT, 'examples'), directory, { recursive: true });
-  for (const name of SINGLE_FILES) {
+  for (const name of COPIED_FILES) {
     for (const example of ['classic-script', 'iframe']) cpSync(join(ROOT, 'dist', name), join(directory, example, name));
   }
   for (const entry of readdirSync(join(ROOT, 'examples'), { withFileTypes: true })) {
@@ -44,27 +44,27 @@ export function installed() {
   return { directory, remove: () => rmSync(directory, { recursive: true, force: true }) };
 }
 
-/** Directory of the project, its server, and a browser, for all tests of a file. @param {() => unknown} [prepare] the directory */
+/** Installs and serves the package for all tests of a file. @param {() => unknown} [prepare] is called after the installation */
 export function served(prepare) {
-  const here = /** @type {{ directory: string, address: string, browser: import('@playwright/test').Browser }} */ ({});
+  const context = /** @type {{ directory: string, address: string, browser: import('@playwright/test').Browser }} */ ({});
   /** @type {(() => void)[]} */
-  const ends = [];
+  const endings = [];
   before(async () => {
     // The calling file is evaluated completely first.
     await null;
     const { directory, remove } = installed();
-    ends.push(remove);
-    here.directory = directory;
+    endings.push(remove);
+    context.directory = directory;
     prepare?.();
     const { address, close } = await serve(directory, { port: 0 });
-    ends.push(close);
-    Object.assign(here, { address, browser: await launch() });
+    endings.push(close);
+    Object.assign(context, { address, browser: await launch() });
   });
   after(async () => {
-    await here.browser?.close();
-    for (const end of ends.reverse()) end();
+    await context.browser?.close();
+    for (const end of endings.reverse()) end();
   });
-  return here;
+  return context;
 }
 
 export function launch() {
@@ -74,11 +74,11 @@ export function launch() {
 /** Collects the errors and warnings of a page. @param {import('@playwright/test').Page} page @returns {string[]} */
 export function listen(page) {
   /** @type {string[]} */
-  const complaints = [];
-  page.on('console', (message) => void (['error', 'warning'].includes(message.type()) && complaints.push(message.text())));
-  page.on('pageerror', (error) => complaints.push(String(error)));
-  page.on('requestfailed', (request) => complaints.push(`${request.url()} ${request.failure()?.errorText}`));
-  return complaints;
+  const consoleMessages = [];
+  page.on('console', (message) => void (['error', 'warning'].includes(message.type()) && consoleMessages.push(message.text())));
+  page.on('pageerror', (error) => consoleMessages.push(String(error)));
+  page.on('requestfailed', (request) => consoleMessages.push(`${request.url()} ${request.failure()?.errorText}`));
+  return consoleMessages;
 }
 
 /**
@@ -92,7 +92,7 @@ export function listen(page) {
 export async function openWithCloud(browser, address, prepare) {
   const page = await browser.newPage();
   await prepare?.(page);
-  const complaints = listen(page);
+  const consoleMessages = listen(page);
   /** @type {string[]} */
   const requests = [];
   page.on('request', (request) => requests.push(request.url()));
@@ -100,9 +100,9 @@ export async function openWithCloud(browser, address, prepare) {
   const frame = (await page.locator('iframe').count()) > 0 ? page.frameLocator('iframe') : page;
   const canvas = frame.locator('banana-machine canvas').first();
   await canvas.waitFor({ timeout: 10_000 }).catch((error) => {
-    throw new Error([...complaints, error.message].join('\n'));
+    throw new Error([...consoleMessages, error.message].join('\n'));
   });
   await frame.locator('banana-machine').first().evaluate(complete);
-  assert.deepEqual(complaints, []);
+  assert.deepEqual(consoleMessages, []);
   return { page, requests };
 }

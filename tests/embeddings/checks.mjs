@@ -1,5 +1,5 @@
 /**
- * Checks of a page of any engine.
+ * Checks that run on the pages of every engine, a tool that makes web pages, such as Hugo, Next or JupyterLab.
  *
  * @module
  */
@@ -11,8 +11,8 @@ import { ROOT } from '../../scripts/process.mjs';
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {{ name: string, definition: import('./project.mjs').Engine, serving: import('./project.mjs').Serving, url: string }} Site */
 
-/** Time limit in milliseconds: a development server compiles a page at the first request. */
-const PATIENCE = 90_000;
+/** Time limit in milliseconds; it is long because a development server compiles a page at the first request. */
+const TIMEOUT = 90_000;
 
 /** Runs the checks of a site. @param {import('@playwright/test').Browser} browser @param {Site} site */
 export async function check(browser, site) {
@@ -25,7 +25,7 @@ export async function check(browser, site) {
   for (const [name, work] of Object.entries(serving.checks ?? checksOf(site))) {
     const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: 'light' });
     const page = await context.newPage();
-    page.setDefaultTimeout(PATIENCE);
+    page.setDefaultTimeout(TIMEOUT);
     listen(page, messages);
     try {
       await work(page, site);
@@ -48,15 +48,15 @@ function checksOf({ definition, serving }) {
   return {
     'first load': firstLoad,
     ...(go && { 'away and back': awayAndBack }),
-    ...(go && pages.second && { 'from a page without figures': fromElsewhere }),
+    ...(go && pages.second && { 'from a page without figures': comeFromOtherPage }),
     ...((serving.dark ?? definition.dark) && { 'dark mode': darkMode }),
   };
 }
 
-/** Collects what the console and requests of a page complain of. @param {Page} page @param {string[]} messages */
+/** Collects errors and warnings of the console and failed requests of a page. @param {Page} page @param {string[]} messages */
 function listen(page, messages) {
   page.on('console', (message) => {
-    // The addresses of failed requests are listed below.
+    // The events requestfailed and response tell the addresses of failed requests.
     if (/^Failed to load resource/.test(message.text())) return;
     if (['error', 'warning', 'assert'].includes(message.type())) messages.push(message.text());
   });
@@ -73,11 +73,11 @@ function listen(page, messages) {
   });
 }
 
-/** @param {Site} site @param {string} path */
+/** Returns the address of a page. @param {Site} site @param {string} path */
 const address = ({ url }, path) => new URL(path.replace(/^\//, ''), url).href;
 
 /** Waits until every figure has drawn its present settings. @param {Page} page @param {Site} site */
-export async function live(page, { definition }) {
+export async function untilLive(page, { definition }) {
   assert.ok(definition.expected.length > 0, 'No figure is expected.');
   for (const { selector, properties } of definition.expected) {
     const figure = page.locator(selector);
@@ -86,7 +86,7 @@ export async function live(page, { definition }) {
     await figure.evaluate((element) => element.scrollIntoView({ block: 'center' }));
     await figure.locator('canvas').first().waitFor();
     assert.deepEqual(await figure.evaluate(propertiesOf, Object.keys(properties)), properties, selector);
-    await figure.evaluate(complete);
+    await figure.evaluate(untilComplete);
   }
 }
 
@@ -97,12 +97,12 @@ export async function live(page, { definition }) {
  * @param {string[]} names
  */
 function propertiesOf(element, names) {
-  const plain = (/** @type {any} */ value) => (ArrayBuffer.isView(value) ? Array.from(/** @type {any} */ (value)) : value);
-  return Object.fromEntries(names.map((name) => [name, plain(/** @type {any} */ (element)[name])]));
+  const plainValue = (/** @type {any} */ value) => (ArrayBuffer.isView(value) ? Array.from(/** @type {any} */ (value)) : value);
+  return Object.fromEntries(names.map((name) => [name, plainValue(/** @type {any} */ (element)[name])]));
 }
 
 /** Resolves when a figure has all of its samples, and its picture more than one colour. Runs in the page. @param {Element} element */
-export async function complete(element) {
+export async function untilComplete(element) {
   const figure = /** @type {any} */ (element);
   const canvas = /** @type {HTMLCanvasElement} */ (figure.shadowRoot.querySelector('canvas'));
   const isDrawn = () => {
@@ -116,11 +116,11 @@ export async function complete(element) {
 /** @type {(page: Page, site: Site) => Promise<void>} */
 async function firstLoad(page, site) {
   await page.goto(address(site, site.definition.pages.first));
-  await live(page, site);
+  await untilLive(page, site);
 }
 
 /**
- * Follows the engine's own link, and waits until the first figure has gone or come.
+ * Follows a link of the page, and waits until the first figure is on the page or no longer there.
  *
  * @param {Page} page
  * @param {Site} site
@@ -136,16 +136,16 @@ async function awayAndBack(page, site) {
   await firstLoad(page, site);
   await follow(page, site, 'second');
   await follow(page, site, 'first');
-  await live(page, site);
+  await untilLive(page, site);
 }
 
-/** Comes to the figure from another page. The element is created before its class is defined, and has to apply the properties that it got. @type {(page: Page, site: Site) => Promise<void>} */
-async function fromElsewhere(page, site) {
+/** Opens the figure by a link on another page. It is created before its class is defined, and has to apply the properties set until then. @type {(page: Page, site: Site) => Promise<void>} */
+async function comeFromOtherPage(page, site) {
   await page.goto(address(site, site.definition.pages.second ?? ''));
-  // From then on the engine's own script handles links.
+  // When the network is idle, the engine's script handles links.
   await page.waitForLoadState('networkidle');
   await follow(page, site, 'first');
-  await live(page, site);
+  await untilLive(page, site);
 }
 
 /** @type {(page: Page, site: Site) => Promise<void>} */
@@ -154,7 +154,7 @@ async function darkMode(page, site) {
   await firstLoad(page, site);
   for (const on of [true, false]) {
     await dark?.(page, on);
-    await page.locator(site.definition.expected[0].selector).evaluate(hasScheme, on ? 'dark' : 'light');
+    await page.locator(site.definition.expected[0].selector).evaluate(untilScheme, on ? 'dark' : 'light');
   }
 }
 
@@ -164,7 +164,7 @@ async function darkMode(page, site) {
  * @param {Element} figure
  * @param {string} scheme "dark" or "light"
  */
-export async function hasScheme(figure, scheme) {
+export async function untilScheme(figure, scheme) {
   const surface = /** @type {HTMLElement} */ (figure.shadowRoot?.querySelector('.surface'));
   while (getComputedStyle(surface).colorScheme !== scheme) await new Promise(requestAnimationFrame);
 }

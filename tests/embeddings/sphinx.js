@@ -1,8 +1,8 @@
-/** A book by Sphinx, made by a program and a classic script. Every link loads another document. */
+/** A book by Sphinx with a classic script. Every link loads another document. */
 
 import { join } from 'node:path';
 import { copySingleFiles } from './plain.mjs';
-import { pinned, pythonInstall, pythonProgram } from './project.mjs';
+import { pinnedVersions, pythonInstall, pythonProgram } from './project.mjs';
 import { files } from './serving.mjs';
 
 /** Themes with a switch between light and dark, and one without. @type {Record<string, import('./project.mjs').Engine['dark']>} */
@@ -18,25 +18,25 @@ const THEMES = {
   },
   sphinx_rtd_theme: undefined,
 };
-const names = Object.keys(THEMES);
+const themeNames = Object.keys(THEMES);
 
 /** @type {import('./project.mjs').Engine} */
 export default {
   heading: 'Sphinx',
-  versions: () => pinned('sphinx', 'sphinx', ...names.map((theme) => theme.replaceAll('_', '-'))),
+  versions: () => pinnedVersions('sphinx', 'sphinx', ...themeNames.map((theme) => theme.replaceAll('_', '-'))),
   async install(directory, tools) {
     await pythonInstall(directory, tools, []);
   },
   async build(directory, { run }) {
     copySingleFiles(join(directory, '_static'));
-    for (const theme of names) {
+    for (const theme of themeNames) {
       const options = ['--fail-on-warning', '--quiet', '--define', `html_theme=${theme}`];
       await run(pythonProgram(directory, 'sphinx-build'), [...options, '.', `_build/${theme}`]);
     }
   },
-  servings: names.map((theme) => ({ name: theme, serve: files(`_build/${theme}`, '/a/book/'), dark: THEMES[theme] })),
+  servings: themeNames.map((theme) => ({ name: theme, serve: files(`_build/${theme}`, '/a/book/'), dark: THEMES[theme] })),
   pages: { first: 'index.html', second: 'map.html' },
   go: (page, path) => page.locator(`a[href$="${path}"]`).filter({ visible: true }).first().click(),
   expected: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
-  allowed: [{ message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme says so to readers who have chosen none' }],
+  allowed: [{ message: /^Got invalid theme mode: \. Resetting to auto\.$/, reason: 'pydata_sphinx_theme warns readers who have chosen no mode.' }],
 };

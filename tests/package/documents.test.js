@@ -6,15 +6,15 @@ import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
-import { installed } from './support.js';
+import { installPackage } from './support.js';
 
-/** @type {ReturnType<typeof installed>} */
+/** @type {ReturnType<typeof installPackage>} */
 let project;
 /** @type {string} */
 let packageRoot;
 
 before(() => {
-  project = installed();
+  project = installPackage();
   packageRoot = join(project.directory, 'node_modules/motion-widgets');
 });
 

@@ -7,9 +7,9 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../www/settings.js';
-import { listen, served } from './support.js';
+import { listen, serveProject } from './support.js';
 
-const project = served();
+const project = serveProject();
 
 /** Runs a module next to the installed package, and returns what it prints. @param {string} source */
 function outputOfNode(source) {

@@ -8,9 +8,9 @@ import { pathToFileURL } from 'node:url';
 import { build } from 'esbuild';
 import { rollup } from 'rollup';
 import { ROOT } from '../../scripts/process.mjs';
-import { openWithCloud, served } from './support.js';
+import { openWithCloud, serveProject } from './support.js';
 
-const project = served(() => writeFileSync(join(project.directory, 'main.js'), "import 'motion-widgets';\n"));
+const project = serveProject(() => writeFileSync(join(project.directory, 'main.js'), "import 'motion-widgets';\n"));
 
 test('a page with a module script', async () => {
   const { page } = await openWithCloud(project.browser, `${project.address}plain/`);

@@ -7,9 +7,9 @@ import { join } from 'node:path';
 import { afterEach, beforeEach, test } from 'node:test';
 import { buildSync } from 'esbuild';
 import { ROOT } from '../../scripts/process.mjs';
-import { listen, served } from './support.js';
+import { listen, serveProject } from './support.js';
 
-const project = served(prepare);
+const project = serveProject(prepare);
 /** Address of the pages. */
 const addressOf = (/** @type {string} */ name) => new URL(`react/${name}`, project.address).href;
 /** @type {import('@playwright/test').Page} */

@@ -14,13 +14,13 @@ import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
-import { complete } from '../embeddings/checks.mjs';
+import { untilComplete } from '../embeddings/checks.mjs';
 
 /** Files of dist/ that an author copies next to a page. */
 const COPIED_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
 
 /** Returns a directory with the examples, in which only the packed package is installed. @returns {{ directory: string, remove: () => void }} */
-export function installed() {
+export function installPackage() {
   const directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
   // The package has been built already.
   execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory]);
@@ -45,14 +45,14 @@ export function installed() {
 }
 
 /** Installs and serves the package for all tests of a file. @param {() => unknown} [prepare] is called after the installation */
-export function served(prepare) {
+export function serveProject(prepare) {
   const context = /** @type {{ directory: string, address: string, browser: import('@playwright/test').Browser }} */ ({});
   /** @type {(() => void)[]} */
   const endings = [];
   before(async () => {
     // The calling file is evaluated completely first.
     await null;
-    const { directory, remove } = installed();
+    const { directory, remove } = installPackage();
     endings.push(remove);
     context.directory = directory;
     prepare?.();
@@ -102,7 +102,7 @@ export async function openWithCloud(browser, address, prepare) {
   await canvas.waitFor({ timeout: 10_000 }).catch((error) => {
     throw new Error([...consoleMessages, error.message].join('\n'));
   });
-  await frame.locator('banana-machine').first().evaluate(complete);
+  await frame.locator('banana-machine').first().evaluate(untilComplete);
   assert.deepEqual(consoleMessages, []);
   return { page, requests };
 }

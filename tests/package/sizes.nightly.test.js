@@ -10,7 +10,7 @@ import { settings } from '../../www/settings.js';
 
 const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 
-/** What esbuild reports on each file that it has written, by the file's path from the root. @type {Record<string, { entryPoint?: string, imports: { path: string, kind: string }[] }>} */
+/** Report of esbuild on each file that it has written, by the file's path from the root. @type {Record<string, { entryPoint?: string, imports: { path: string, kind: string }[] }>} */
 const outputs = JSON.parse(readFileSync(pathOf('build/outputs.json'), 'utf8'));
 
 /** Returns a module with its static imports, which a browser loads with it, and without dynamic imports. @param {string} path */

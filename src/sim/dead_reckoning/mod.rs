@@ -106,7 +106,7 @@ impl DeadReckoning {
             allowed: Allowed::LessMemory,
         })?;
         let predicted = RECURSIONS.map(|order| covariances(&settings, order));
-        let measured = rollouts.moments_from_sums(0);
+        let measured = rollouts.measured(0);
         let comparisons = compare_all(&settings, &predicted, &measured);
         let mut machine = Self { settings, rollouts, shown: 0, predicted, measured, comparisons };
         machine.drive_robots(count.min(settings.samples));
@@ -154,7 +154,7 @@ impl DeadReckoning {
         }
         self.rollouts.drive_to(count);
         self.shown = count;
-        self.measured = self.rollouts.moments_from_sums(count);
+        self.measured = self.rollouts.measured(count);
         self.comparisons = compare_all(&self.settings, &self.predicted, &self.measured);
     }
 

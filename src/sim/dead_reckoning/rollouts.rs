@@ -175,7 +175,7 @@ impl Rollouts {
     }
 
     /// Returns the moments of `goal` robots after each step. It drives those of the last, incomplete block.
-    pub fn moments_from_sums(&mut self, goal: usize) -> Vec<Measured> {
+    pub fn measured(&mut self, goal: usize) -> Vec<Measured> {
         let moments_of = |sums: &[Sums<SUMMED_TERMS>]| {
             sums.iter().map(|sums| moments_from_sums(&sums.finish(), goal as f64)).collect()
         };

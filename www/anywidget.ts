@@ -22,7 +22,7 @@ export interface Model {
 }
 
 /** Renders the widget of a model. @returns a function that removes it again */
-function renderWidget({ model, el }: { model: Model, el: HTMLElement }): (() => void) | undefined {
+function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) | undefined {
   let element: any;
   try {
     element = elementNamed(model.get('widget'));
@@ -139,4 +139,4 @@ function jsonValue(value: unknown): unknown {
   return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, jsonValue(each)]));
 }
 
-export default { render: renderWidget };
+export default { render };

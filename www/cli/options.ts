@@ -123,8 +123,8 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
     refuseRepeated(allPaths);
     const uselessOption = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
     if (uselessOption !== undefined) throw new UsageError(`--${uselessOption} is an option of calibrate; inspect has ${listOfAlternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
-    const statedOptions = Object.entries(values).filter((each): each is [string, string] => typeof each[1] === 'string');
-    return { command, inputs: allPaths.map((path) => ({ path, open: openAs() })), stated: statedOptions, isJson: values.json ?? false };
+    const stated = Object.entries(values).filter((each): each is [string, string] => typeof each[1] === 'string');
+    return { command, inputs: allPaths.map((path) => ({ path, open: openAs() })), stated, isJson: values.json ?? false };
   }
   if (command !== 'calibrate') {
     const path = paths[0] ?? (isPath(command) ? command : 'run.bag');

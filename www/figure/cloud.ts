@@ -138,8 +138,8 @@ export class Cloud extends FigureController {
     if (typeof playing !== 'boolean') throw refusalError('state.playing', playing, 'true or false', TypeError);
     const { shown = present.shown === present.samples ? samples : Math.min(present.shown, samples) } = given;
     // A comparison with undefined is false, so that a missing selection becomes null.
-    const markedOrNull = present.marked < (playing ? samples : shown) ? present.marked : null;
-    return { shown, marked: markedOrNull };
+    const marked = present.marked < (playing ? samples : shown) ? present.marked : null;
+    return { shown, marked };
   }
 
   /** Index of the selected sample; −1 for none. */

@@ -81,10 +81,10 @@ function surroundings(probe: Element): Surroundings {
   const isLegible = contrast(textColour, backColour) >= MIN_CONTRAST;
   const scheme = backgroundLightness < (isLegible ? lightness(textColour) : 0.5) ? 'dark' : 'light';
   // The darkening grows with the darkness of the background. Nearly white backgrounds need none.
-  const darkening = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
-  const mutedText = (share: number) => backColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
-  const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrast(mutedText(share), backColour) >= MIN_CONTRAST) ?? 100}%` : '';
-  return { ground: `rgb(${backColour})`, text: isLegible ? color : '', shade: darkening, strength: mutedStrength, scheme };
+  const shade = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
+  const mutedColour = (share: number) => backColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
+  const strength = isLegible ? `${MUTED_SHARES.find((share) => contrast(mutedColour(share), backColour) >= MIN_CONTRAST) ?? 100}%` : '';
+  return { ground: `rgb(${backColour})`, text: isLegible ? color : '', shade, strength, scheme };
 }
 
 /** Returns the contrast by WCAG 2. */

@@ -13,11 +13,11 @@ export class Link extends FigureController {
 
   hostConnected() {
     addEventListener('hashchange', this.#addressChanged, { signal: this.host.connection.signal });
-    anchorToScroll ??= openingAnchor();
-    if (isAnchor(anchorToScroll)) document.getElementById(decodeOrKeep(anchorToScroll))?.scrollIntoView();
-    else if (anchorToScroll !== fragmentParts()[0] || !this.#isOwnPart(anchorToScroll)) return;
+    pendingPart ??= openingPart();
+    if (isAnchor(pendingPart)) document.getElementById(decodeOrKeep(pendingPart))?.scrollIntoView();
+    else if (pendingPart !== fragmentParts()[0] || !this.#isOwnPart(pendingPart)) return;
     else this.#scrollHere();
-    anchorToScroll = '';
+    pendingPart = '';
   }
 
   #addressChanged = () => {
@@ -106,10 +106,10 @@ const fragmentParts = () => location.hash.slice(1).split('&').filter((part) => p
 const isAnchor = (part = '') => part !== '' && !part.includes('=');
 
 /** First part of the fragment of a followed link, until the page has scrolled to it; then an empty text. */
-let anchorToScroll: string | undefined;
+let pendingPart: string | undefined;
 
 /** Returns the first part of the fragment that the page was opened with, if the browser does not scroll to it. */
-function openingAnchor() {
+function openingPart() {
   const [navigation] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
   const [first = '', second] = fragmentParts();
   // On a reload the browser restores the scroll position, and it finds an anchor that is the whole fragment.

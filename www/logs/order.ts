@@ -84,8 +84,8 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
     partOfRow[i] = partSizes.length - 1;
     if (classes[i] !== STRAY) partSizes[partOfRow[i]] += 1;
   }
-  const largestSize = Math.max(...partSizes);
-  const largestPart = partSizes.indexOf(largestSize);
+  const largest = Math.max(...partSizes);
+  const largestPart = partSizes.indexOf(largest);
   let newestTime = -Infinity;
   for (let i = 0; i < t.length; i++) {
     if (classes[i] === STRAY) continue;
@@ -93,7 +93,7 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
     else if (t[i] < newestTime) classes[i] = LATE;
     else newestTime = t[i];
   }
-  return { order: sortedRows.filter((i) => classes[i] < STRAY), classes, setBack, largest: largestSize };
+  return { order: sortedRows.filter((i) => classes[i] < STRAY), classes, setBack, largest };
 }
 
 /** Repeated poses of a moving robot: maximum duration in s of a run of equal rows, and minimum number of such runs. */

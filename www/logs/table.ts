@@ -144,7 +144,7 @@ class ClockReader {
   /** True if a fraction of a second begins with 0. */
   #hasLeadingZero = false;
   /** Number of digits of the longest fraction. */
-  #longestFraction = 0;
+  #maxDigits = 0;
   /** Times whose fractions end in 0, by the number of digits of the fraction. */
   #endingInZero = new Map<number, string[]>();
 
@@ -186,7 +186,7 @@ class ClockReader {
     const pointIndex = text.indexOf('.');
     const digitCount = text.length - pointIndex - 1;
     if (pointIndex < 0 || digitCount < 2) return;
-    this.#longestFraction = Math.max(this.#longestFraction, digitCount);
+    this.#maxDigits = Math.max(this.#maxDigits, digitCount);
     if (text[pointIndex + 1] === '0') this.#hasLeadingZero = true;
     if (!text.endsWith('0')) return;
     const sameDigitTimes = this.#endingInZero.get(digitCount) ?? [];
@@ -200,7 +200,7 @@ class ClockReader {
    */
   get unpadded(): string | undefined {
     if (this.#hasLeadingZero) return undefined;
-    return [...this.#endingInZero].find(([digits, { length }]) => digits < this.#longestFraction && length === MIN_UNPADDED)?.[1][0];
+    return [...this.#endingInZero].find(([digits, { length }]) => digits < this.#maxDigits && length === MIN_UNPADDED)?.[1][0];
   }
 }
 

@@ -163,7 +163,7 @@ const EARLIER_OPACITY = 0.35;
  * Draws earlier outlines. Returns a callout that names them, or none if they are out of the view. It points to the visible point that is
  * furthest from the present outlines.
  */
-export function drawGhosts(brush: Brush, outlines: Outline[], from: ArrayLike<number>[], text: string): Callout[] {
+export function drawEarlier(brush: Brush, outlines: Outline[], from: ArrayLike<number>[], text: string): Callout[] {
   const { context, view, palette } = brush;
   const drawn = outlines.filter(({ points }) => hasLength(points));
   fade(context, EARLIER_OPACITY, () => strokeLines(brush, drawn));

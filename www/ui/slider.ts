@@ -199,13 +199,13 @@ const NUMBER_START = /^[\d.,+\-\u2212]$/;
  */
 export function sliderRow(row: SliderRow) {
   const printedValue = row.show(row.value);
-  const longText = [row.show(row.min), row.show(row.max)].reduce((one, other) => (other.length > one.length ? other : one), printedValue);
+  const longest = [row.show(row.min), row.show(row.max)].reduce((one, other) => (other.length > one.length ? other : one), printedValue);
   return html`
     <div class="slider ${row.off ? 'off' : ''} ${row.refusal ? 'refused' : ''}" part="slider" data-role=${row.role}>
       ${row.pick ?? nothing}
       <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
       ${track({ ...row, ...stopPositions(row), name: undefined, text: printedValue, describedBy: `${row.id}-effect`, keydown: focusField })}
-      <span class="value notranslate" translate="no" dir="ltr" data-longest=${longText}>
+      <span class="value notranslate" translate="no" dir="ltr" data-longest=${longest}>
         <span class="printed">${printedValue}</span>
         ${valueField(row, printedValue)}
       </span>

@@ -19,14 +19,14 @@ const MAGIC_BYTES = 8;
 export async function openMcap(source: Source): Promise<Container> {
   await loadZstd();
   const size = BigInt(source.size);
-  const readableSource = {
+  const readable = {
     size: async () => size,
     read: async (offset: bigint, length: bigint) => {
       if (offset + length > size) throw new RangeError('it ends before what it refers to');
       return bytesOf(source, Number(offset), Number(offset + length));
     },
   };
-  const indexReader = await McapIndexedReader.Initialize({ readable: readableSource }).catch(() => undefined);
+  const indexReader = await McapIndexedReader.Initialize({ readable }).catch(() => undefined);
   const mcap = new Mcap(source);
   if (indexReader && isCompleteIndex(indexReader)) mcap.useIndex(indexReader);
   else await mcap.read(() => true, ({ channel }) => (channel.count += 1));

@@ -58,9 +58,9 @@ function selectField(id: string, label: string, value: string, options: [value: 
 
 function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: ChosenFiles, role: Role, { choose: say }: LogWords) {
   const choiceByLabel = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
-  const [plannedRead] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
-  const chosenChoice = (wishes[role] as Choice | undefined) ?? plannedRead?.choice ?? guessOf(recordings[0], role, opener.kind);
-  return selectField(`log-${role}`, say.roles[role], chosenChoice ? labelOf(chosenChoice) || (plannedRead?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
+  const [planned] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
+  const present = (wishes[role] as Choice | undefined) ?? planned?.choice ?? guessOf(recordings[0], role, opener.kind);
+  return selectField(`log-${role}`, say.roles[role], present ? labelOf(present) || (planned?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.change({ wishes: { ...wishes, [role]: choice } });
   }, say.open);
@@ -68,8 +68,8 @@ function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: ChosenFil
 
 /** Returns the likeliest choice; undefined if there are several. */
 function guessOf(recording: Recording, role: Role, kind: 'commands' | undefined): Choice | undefined {
-  const likeliestChoice = candidates(recording, role, { kind }).find(({ length }) => length > 0);
-  return likeliestChoice?.length === 1 ? likeliestChoice[0] : undefined;
+  const likeliest = candidates(recording, role, { kind }).find(({ length }) => length > 0);
+  return likeliest?.length === 1 ? likeliest[0] : undefined;
 }
 
 function roleSelect(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, index: number, { choose: say }: LogWords) {
@@ -158,7 +158,7 @@ export function logSummary({ chosen, say, host }: LogOpener) {
 function tableOf({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
   const lines = logs.map((log) => summaryLines(log, found));
-  const tableCell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
+  const cell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
   const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => lines.some((each) => each[label]?.length));
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
@@ -166,7 +166,7 @@ function tableOf({ odometry, reference }: Drive, caption: string, { choose, foun
       <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
     </thead>
     <tbody>
-      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((each) => tableCell(each[label]))}</tr>`)}
+      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((each) => cell(each[label]))}</tr>`)}
     </tbody>
   </table>`;
 }

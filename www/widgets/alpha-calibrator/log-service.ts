@@ -103,19 +103,19 @@ export class LogService {
   }
 
   #ask<Result>(method: Request['method'], parameters: unknown[], onProgress?: OnProgress): Promise<Result> {
-    const requestNumber = ++this.#requestNumber;
+    const number = ++this.#requestNumber;
     const answerPromise = new Promise<Result>((resolve, reject) => {
       this.#fail = reject;
       const postRequest = async () => {
         const { port } = await this.#connected;
-        if (requestNumber !== this.#requestNumber) return;
+        if (number !== this.#requestNumber) return;
         port.onmessage = ({ data }: MessageEvent<Answer>) => {
           if (data.number !== this.#requestNumber) return;
           if ('progress' in data) onProgress?.(data.progress);
           else if ('failure' in data) reject(new LogFailure(data.failure));
           else resolve(data.result as Result);
         };
-        port.postMessage({ number: requestNumber, method, parameters } satisfies Request);
+        port.postMessage({ number, method, parameters } satisfies Request);
       };
       postRequest().catch((error) => {
         this.#workerLink = undefined;
@@ -123,7 +123,7 @@ export class LogService {
       });
     });
     return answerPromise.finally(() => {
-      if (requestNumber === this.#requestNumber) this.#fail = undefined;
+      if (number === this.#requestNumber) this.#fail = undefined;
     });
   }
 }

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import { densityRamp, drawDots, drawGhosts, drawHandle, drawRobotHeap, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineKeys, lineStyles } from '../../scene/draw.ts';
+import { densityRamp, drawDots, drawEarlier, drawHandle, drawRobotHeap, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineKeys, lineStyles } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
@@ -180,7 +180,7 @@ export class PlanePicture extends CloudPicture {
         this.paintCloud(brush, scene, 4 * Math.PI * cloudArea * view.scaleX * view.scaleY);
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      callouts.push(...drawGhosts(brush, earlierOutlines, [cloudMiddle, [0, 0]], earlierName(scene)));
+      callouts.push(...drawEarlier(brush, earlierOutlines, [cloudMiddle, [0, 0]], earlierName(scene)));
       drawOutlines(brush, outlinesInStyle(outlines));
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
       if (isHeap && scene.shown > 0) drawRobotHeap(brush, robotHeap(this.places(scene), scene.shown));
@@ -315,7 +315,7 @@ export class TwistPicture extends CloudPicture {
       if (scene.driving) return;
       this.paintCloud(brush, scene, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
-        if (earlierReading) callouts.push(...drawGhosts(brush, [{ points: earlierReading.contours.twistEllipse, ...exponential }], [twistMiddle], earlierName(scene)));
+        if (earlierReading) callouts.push(...drawEarlier(brush, [{ points: earlierReading.contours.twistEllipse, ...exponential }], [twistMiddle], earlierName(scene)));
         drawOutline(brush, contours.twistEllipse, exponential);
       }
       if (overlays.command) {

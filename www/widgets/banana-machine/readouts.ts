@@ -66,14 +66,14 @@ export function markedRobot(figure: import('./banana-machine.ts').BananaMachineE
   const { shown } = figure.reading;
   const quantityHtml = (symbol: string, value: number, unit: string) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
-  const selectedText = inspection && (inspection.legs
+  const selected = inspection && (inspection.legs
     ? legNoise(inspection.legs, figure.reading.reading as import('../../types.d.ts').OdomDelta)
     : [
         quantityHtml('v̂', inspection.vHat, 'm/s'),
         quantityHtml('ω̂', inspection.omegaHat, 'rad/s'),
         quantityHtml('γ̂', inspection.gammaHat, 'rad/s'),
       ]);
-  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected: selectedText });
+  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected });
 }
 
 /** Returns the noise of each leg: the reading minus the executed motion, as Table 5.6 subtracts it. */

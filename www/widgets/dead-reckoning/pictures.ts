@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import { drawDots, drawGhosts, drawMark, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawDots, drawEarlier, drawMark, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { significantText } from '../../ui/format.ts';
@@ -49,7 +49,7 @@ export class PathPicture extends SamplesPicture<Scene> {
         ...shownOf(['command']).map((name) => ({ points: commanded, ...styles[name] })),
         ...shownNames.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
       ]);
-      if (brush.previousReading) callouts.push(...drawGhosts(brush, linesOf(brush.previousReading.outlines), [pose, [0, 0]], words.before));
+      if (brush.previousReading) callouts.push(...drawEarlier(brush, linesOf(brush.previousReading.outlines), [pose, [0, 0]], words.before));
       drawOutlines(brush, linesOf(outlines));
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       drawEndMark(brush, pose);
@@ -106,7 +106,7 @@ export class StepPicture extends Picture<Scene> {
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
-      if (brush.previousReading && overlays.includes('exponential')) callouts.push(...drawGhosts(brush, [{ points: brush.previousReading.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
+      if (brush.previousReading && overlays.includes('exponential')) callouts.push(...drawEarlier(brush, [{ points: brush.previousReading.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
       drawOutlines(brush, shownNames.map((name) => ({ points: points[name], ...styles[name] })));
     });
     drawCallouts(brush, callouts, { from: [0, 0], lines: [predicted, measured] });

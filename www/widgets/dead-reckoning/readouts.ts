@@ -116,6 +116,6 @@ export function markedRobot(figure: import('./dead-reckoning.ts').DeadReckoningE
   const { robot, markHint, markedAt } = words.reckoning;
   const { config: { step }, shown } = figure.reading;
   const poseAtStep = marked?.subarray(3 * (step - 1), 3 * step);
-  const selectedText = poseAtStep && [markedAt(fixed(poseAtStep[0], 3), fixed(poseAtStep[1], 3), fixed(poseAtStep[2], 3))];
-  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected: selectedText });
+  const selected = poseAtStep && [markedAt(fixed(poseAtStep[0], 3), fixed(poseAtStep[1], 3), fixed(poseAtStep[2], 3))];
+  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected });
 }

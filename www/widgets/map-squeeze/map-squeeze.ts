@@ -228,9 +228,9 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   moveWalls(walls: Float64Array) {
     const { bounds } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
-    const applyWalls: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
+    const apply: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
-      this.#enterMap({ name, apply: applyWalls, start: this.settings.wanted.start });
+      this.#enterMap({ name, apply, start: this.settings.wanted.start });
       this.gesture.step();
     });
     this.renderer.requestFrame();

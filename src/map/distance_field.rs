@@ -110,7 +110,7 @@ struct FieldBuilder {
     /// Bound on the rounding error of any coordinate on the map, m.
     slack: f64,
     /// Stack of candidates for the nearest wall, for the blocks that are still to be filled.
-    near: Vec<Candidate>,
+    candidates: Vec<Candidate>,
     blocks: Vec<Block>,
     /// Candidates of the current block: not yet measured, and measured.
     open: Vec<Candidate>,
@@ -162,7 +162,7 @@ impl FieldBuilder {
             rows,
             side: cell_side,
             slack: rounding_bound(&bounds),
-            near: candidates,
+            candidates,
             blocks: vec![whole_block],
             open: Vec::new(),
             measured: Vec::new(),
@@ -180,15 +180,15 @@ impl FieldBuilder {
         let radius = size as f64 * self.field.radius;
         let uncertainty = size as f64 * self.field.uncertainty;
         // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
-        self.near.truncate(range[1]);
+        self.candidates.truncate(range[1]);
         let Some([min_distance, max_distance]) = self.measure(tree, centre, block, uncertainty) else {
             return;
         };
         if size > 1 && min_distance <= UNDIVIDED_DISTANCE * radius + uncertainty / BLOCK_UNCERTAINTY {
             let reach = max_distance + 2.0 * radius + self.slack;
-            self.near
+            self.candidates
                 .extend(self.measured.iter().filter(|(least, _)| *least <= reach).map(|(_, near)| *near));
-            let range = [range[1], self.near.len()];
+            let range = [range[1], self.candidates.len()];
             let half_size = size / 2;
             for [column, row] in [[half_size, half_size], [0, half_size], [half_size, 0], [0, 0]] {
                 self.blocks.push(Block { first: [left + column, bottom + row], size: half_size, range });
@@ -223,14 +223,14 @@ impl FieldBuilder {
         block: Block,
         uncertainty: f64,
     ) -> Option<[f64; 2]> {
-        let Self { near, open, measured, .. } = self;
+        let Self { candidates, open, measured, .. } = self;
         let Block { size, range: [from, to], .. } = block;
         // A wall that is nearest to some point of the block is at most one diameter of the block further from the middle
         // than the wall nearest to the middle.
         let max_excess = 2.0 * size as f64 * self.field.radius + self.slack;
         measured.clear();
         open.clear();
-        open.extend_from_slice(&near[from..to]);
+        open.extend_from_slice(&candidates[from..to]);
         let mut upper = f64::INFINITY;
         let mut measured_count = 0;
         while let Some(near) = open.pop() {

@@ -64,14 +64,14 @@ fn cell_middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)>
 /// Asserts that each cell contains its middle, and that outlines separate obstacle cells from other cells: their total
 /// length equals that of the sides between obstacle cells and others.
 fn assert_outlined(grid: &OccupancyGrid, unknown: Unknown) {
-    let cell_middles = cell_middles(grid, unknown);
-    for (middle, blocks) in &cell_middles {
+    let middles = cell_middles(grid, unknown);
+    for (middle, blocks) in &middles {
         assert_eq!(grid.is_blocked_at(*middle), *blocks, "{middle:?} in {grid:?}");
     }
     let [columns, rows] = grid.size();
     let is_obstacle_at = |column: usize, row: usize| {
         (column < columns && row < rows)
-            .then(|| cell_middles.get(row * columns + column))
+            .then(|| middles.get(row * columns + column))
             .flatten()
             .is_some_and(|cell| cell.1)
     };
@@ -85,7 +85,7 @@ fn assert_outlined(grid: &OccupancyGrid, unknown: Unknown) {
     }
     let outlines = grid.outlines(usize::MAX).expect("no limit");
     let total_length: f64 = outlines.iter().map(length_of).sum();
-    if !cell_middles.is_empty() {
+    if !middles.is_empty() {
         assert!((total_length / grid.resolution() - obstacle_sides as f64).abs() < 1e-3 * (1 + obstacle_sides) as f64, "{grid:?}");
     }
 }

@@ -134,19 +134,16 @@ impl Systematic {
     /// small motion (x, y, θ) in the frame of the reference there.
     pub(super) fn reference_jacobians(&self, leg: &Leg) -> [Matrix3<f64>; 2] {
         let seen = leg.reference[0].between(&leg.reference[1]);
-        let [mount_rotation, turn_rotation] = [self.mount_yaw, seen.theta()].map(rotation_matrix);
-        let rotated_lever_arm = turn_rotation * Vector2::from(self.lever_arm);
+        let [mount, turned] = [self.mount_yaw, seen.theta()].map(rotation_matrix);
+        let arm = turned * Vector2::from(self.lever_arm);
         // Displacement of the base for each rad by which the reference's heading at the end is too large.
-        let lever_displacement = Vector2::new(rotated_lever_arm.y, -rotated_lever_arm.x);
-        let turn_displacement = mount_rotation * Vector2::new(-seen.y(), seen.x());
-        let to_jacobian = |place: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
+        let by_lever = Vector2::new(arm.y, -arm.x);
+        let by_turn = mount * Vector2::new(-seen.y(), seen.x());
+        let jacobian = |place: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
             Matrix3::new(place.m11, place.m12, heading.x, place.m21, place.m22, heading.y, 0.0, 0.0, turn)
         };
         let [start, end] = leg.interpolation_variances.map(f64::sqrt);
-        [
-            to_jacobian(-mount_rotation, -turn_displacement - lever_displacement, -1.0) * start,
-            to_jacobian(mount_rotation * turn_rotation, lever_displacement, 1.0) * end,
-        ]
+        [jacobian(-mount, -by_turn - by_lever, -1.0) * start, jacobian(mount * turned, by_lever, 1.0) * end]
     }
 
     /// Returns the Jacobian, with respect to [`SystematicError::ALL`], of the motion by the reference minus the motion by the odometry.
@@ -198,8 +195,8 @@ fn rotation_matrix(angle: f64) -> Matrix2<f64> {
 /// Returns the derivative of the motion exp(twist), which ends at `end`, with respect to the turn. The twist keeps its length.
 fn turn_derivative(twist: &Vector3<f64>, end: &SE2) -> Vector3<f64> {
     let half_turn = 0.5 * twist.z;
-    let log_chord_change = 0.5 * log_sinc_derivative(half_turn);
-    Vector3::new(log_chord_change * end.x() - 0.5 * end.y(), log_chord_change * end.y() + 0.5 * end.x(), 1.0)
+    let log_derivative = 0.5 * log_sinc_derivative(half_turn);
+    Vector3::new(log_derivative * end.x() - 0.5 * end.y(), log_derivative * end.y() + 0.5 * end.x(), 1.0)
 }
 
 /// Returns the derivative of ln sinc β: cot β − 1/β.

@@ -106,8 +106,8 @@ impl FirstPass {
     /// Multiplies the products by the Jacobians of the poses for which `mask` has all bits set.
     #[inline(never)]
     pub fn multiply_some(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
-        let one_unless_masked = |of: f64x4| mask.bitselect(of, f64x4::splat(1.0));
-        let [chart, length, arc] = [poses.sinc, arcs.length, arcs.sinc].map(one_unless_masked);
+        let masked_or_one = |of: f64x4| mask.bitselect(of, f64x4::splat(1.0));
+        let [chart, length, arc] = [poses.sinc, arcs.length, arcs.sinc].map(masked_or_one);
         self.multiply(&FourPoses { sinc: chart, ..*poses }, &FourArcs { length, sinc: arc, ..*arcs });
     }
 

@@ -35,7 +35,7 @@ function commandedArc({ v, omega, dt }: { v: number, omega: number, dt: number }
 const SHAPES: Record<string, (command: { v: number, omega: number, dt: number }) => Point[]> = {
   point: (command) => ringAround(toPixel(commandedArc(command)[24]), 7, 7),
   band: (command) => {
-    const bandEdge = (length: number) => Array.from({ length: 13 }, (_, i) => toPixel(commandedArc({ ...command, v: command.v * length }, (i - 6) / 18)[24]));
+    const bandEdge = (factor: number) => Array.from({ length: 13 }, (_, i) => toPixel(commandedArc({ ...command, v: command.v * factor }, (i - 6) / 18)[24]));
     return [...bandEdge(1.04), ...bandEdge(0.96).reverse()];
   },
   ellipse: (command) => ringAround(toPixel(commandedArc(command)[24]), 42, 26),

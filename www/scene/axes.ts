@@ -90,9 +90,9 @@ function drawKey({ context, view, palette, font }: Brush, before: string, entrie
 
 /** Returns about `count` ticks, at least two if possible, with the power of ten for the unit, and a function for the labels. */
 function axisTicks(from: number, to: number, count: number) {
-  const maxTicks = Math.max(2, Math.floor(count));
-  const firstTicks = ticks(from, to, maxTicks);
-  const values = firstTicks.length > 1 ? firstTicks : ticks(from, to, 2 * maxTicks);
+  const tickCount = Math.max(2, Math.floor(count));
+  const firstTicks = ticks(from, to, tickCount);
+  const values = firstTicks.length > 1 ? firstTicks : ticks(from, to, 2 * tickCount);
   const step = values.length > 1 ? values[1] - values[0] : 1;
   const exponent = step < MIN_PLAIN_STEP ? Math.floor(Math.log10(step) + 1e-9) : 0;
   return {

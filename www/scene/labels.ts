@@ -41,13 +41,13 @@ export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text
   const { left, right, top, bottom } = view.frame;
   const labelLeft = clamp(x - (0.5 - 0.5 * towards) * width, left + 3, Math.max(left + 3, right - width - 3));
   const [across, down] = [width / 2 + 2, BACKGROUND.half];
-  const candidateLines = LABEL_SHIFTS.map((shift) => clamp(y + 2 * down * shift, top + 10, bottom - 10));
-  const isFreeAt = (height: number) => placed.every((other) => Math.abs(other.x - labelLeft - width / 2) >= other.across + across || Math.abs(other.y - height) >= other.down + down);
-  const labelLine = candidateLines.find(isFreeAt) ?? candidateLines[0];
-  placed.push({ x: labelLeft + width / 2, y: labelLine, across, down });
+  const candidates = LABEL_SHIFTS.map((shift) => clamp(y + 2 * down * shift, top + 10, bottom - 10));
+  const isFreeAt = (at: number) => placed.every((other) => Math.abs(other.x - labelLeft - width / 2) >= other.across + across || Math.abs(other.y - at) >= other.down + down);
+  const labelY = candidates.find(isFreeAt) ?? candidates[0];
+  placed.push({ x: labelLeft + width / 2, y: labelY, across, down });
   context.fillStyle = palette.paper;
-  fade(context, BACKGROUND.alpha, () => context.fillRect(labelLeft - 2, labelLine - down, 2 * across, 2 * down));
-  writeParts(brush, parts, labelLeft, labelLine, colour);
+  fade(context, BACKGROUND.alpha, () => context.fillRect(labelLeft - 2, labelY - down, 2 * across, 2 * down));
+  writeParts(brush, parts, labelLeft, labelY, colour);
 }
 
 /**
@@ -65,27 +65,27 @@ export function drawLabelsAbove(brush: Brush, labels: (Text & { x: number, y: nu
   for (const row of [0, 1]) {
     const rowLabels = placedLabels.filter((label) => label.row === row);
     // Each label is moved to the right of the previous one. Then the last labels are moved to the left, into the picture.
-    let freeLeft = left;
+    let limit = left;
     for (const label of rowLabels) {
-      label.from = Math.max(label.from, freeLeft);
-      freeLeft = label.from + label.width + LABEL_GAP;
+      label.from = Math.max(label.from, limit);
+      limit = label.from + label.width + LABEL_GAP;
     }
-    freeLeft = right;
+    limit = right;
     for (const label of rowLabels.toReversed()) {
-      label.from = Math.min(label.from, freeLeft - label.width);
-      freeLeft = label.from - LABEL_GAP;
+      label.from = Math.min(label.from, limit - label.width);
+      limit = label.from - LABEL_GAP;
     }
   }
   placedLabels.forEach((label, i) => {
     const { from, width, row, x, y, colour, parts } = label;
-    const rowLine = top - BACKGROUND.half - ROW_HEIGHT * row;
+    const rowY = top - BACKGROUND.half - ROW_HEIGHT * row;
     const [previousLabel, nextLabel] = [placedLabels[i - 1], placedLabels[i + 1]];
     const minLeaderX = row === 0 ? from : previousLabel.from + previousLabel.width + LABEL_GAP / 2;
     const maxLeaderX = row === 0 ? from + width : (nextLabel?.from ?? right) - LABEL_GAP / 2;
     const leaderX = clamp(x, minLeaderX, Math.max(minLeaderX, maxLeaderX));
-    const leaderStart = [clamp(leaderX, from, from + width), rowLine + BACKGROUND.half];
+    const leaderStart = [clamp(leaderX, from, from + width), rowY + BACKGROUND.half];
     drawLeader(context, [leaderStart, [leaderX, top - (row === 0 ? 0 : ROW_HEIGHT)], [leaderX, top], [x, y]], palette.muted);
-    writeParts(brush, parts, from, rowLine, colour);
+    writeParts(brush, parts, from, rowY, colour);
   });
 }
 

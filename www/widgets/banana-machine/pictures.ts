@@ -157,7 +157,7 @@ export class PlanePicture extends CloudPicture {
     ];
     for (const { view: of, there, names } of axesAtEnds) {
       context.globalAlpha = clamp(there, 0, 1);
-      // The lattice is the grid of exponential coordinates until it is straight.
+      // Until it is straight, `drawMorphGrid` draws the grid of exponential coordinates.
       if (there > 0) drawAxes({ ...brush, view: of }, names, key, of === twist && morph < 1 ? 0 : undefined);
     }
     context.globalAlpha = 1;

@@ -96,17 +96,17 @@ function legEndsOf(rows) {
  * Returns the true poses of the robot. The odometry model moves it leg by leg, and within a leg the error grows smoothly.
  *
  * @param {Motion} motion
- * @param {Pose[]} drivenPoses poses of the odometry, one a row
+ * @param {Pose[]} readPoses poses of the odometry, one a row
  * @param {number} seed of the first leg's noise; each leg has the next one
  * @returns {Pose[]} one a row, up to the end of the last complete leg
  */
-function truePoses(motion, drivenPoses, seed) {
+function truePoses(motion, readPoses, seed) {
   const { se2 } = motion;
-  const rows = drivenPoses.map(roundedPose);
+  const rows = readPoses.map(roundedPose);
   const scaledPose = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUE_MODEL.distanceScale * x, y: TRUE_MODEL.distanceScale * y, theta });
   const poseOf = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
   const model = new motion.OdometryModel({ alphas: TRUE_MODEL.alphas });
-  const trueDrive = [scaledPose(drivenPoses[0])];
+  const trueDrive = [scaledPose(readPoses[0])];
   const legEnds = legEndsOf(rows);
   for (const [leg, end] of legEnds.entries()) {
     if (leg === 0) continue;
@@ -119,7 +119,7 @@ function truePoses(motion, drivenPoses, seed) {
     for (let i = fromRow + 1; i <= end; i++) {
       const legShare = (i - fromRow) / (end - fromRow);
       const smoothShare = legShare * legShare * (3 - 2 * legShare);
-      trueDrive.push(se2.boxplus(se2.compose(trueStart, motionTo(scaledPose(drivenPoses[i]))), legError.map((each) => smoothShare * each)));
+      trueDrive.push(se2.boxplus(se2.compose(trueStart, motionTo(scaledPose(readPoses[i]))), legError.map((each) => smoothShare * each)));
     }
   }
   model.free();
@@ -128,15 +128,15 @@ function truePoses(motion, drivenPoses, seed) {
 
 /** Returns the tables of the example log, as CSV. @param {Motion} motion @param {number} [seed] */
 export function exampleLog(motion, seed = SEED) {
-  const drivenPoses = odometryPoses(motion);
-  const trueDrive = truePoses(motion, drivenPoses, seed);
+  const readPoses = odometryPoses(motion);
+  const trueDrive = truePoses(motion, readPoses, seed);
   const extraRows = Math.round(EXTRA_TIME / ROW_INTERVAL);
   const csvLine = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...roundedPose(pose)].join(',')}\n`;
   const csvTable = (/** @type {string[]} */ lines) => `t,x,y,yaw\n${lines.join('')}`;
   const [odometry, reference] = [/** @type {string[]} */ ([]), /** @type {string[]} */ ([])];
   const mount = { x: 0, y: 0, theta: TRUE_MODEL.mountYaw };
   const last = trueDrive.length - 1;
-  for (let i = 0; i <= last; i++) odometry.push(csvLine(START + i * ROW_INTERVAL, drivenPoses[i]));
+  for (let i = 0; i <= last; i++) odometry.push(csvLine(START + i * ROW_INTERVAL, readPoses[i]));
   for (let i = -extraRows; i <= last + extraRows; i++) {
     const pose = trueDrive[Math.max(0, Math.min(i, last))];
     reference.push(csvLine(START + i * ROW_INTERVAL + TRUE_MODEL.clockOffset, motion.se2.compose(pose, mount)));

@@ -92,12 +92,12 @@ const COMPRESSION = {
  */
 export async function recordingOf(messages, { compression = 'none', index = true, chunks = index, chunkSize = 4096, encoding = 'cdr' } = {}) {
   /** @type {Uint8Array[]} */
-  const parts = [];
+  const writtenParts = [];
   let size = 0n;
   const writable = {
     position: () => size,
     write: async (/** @type {Uint8Array} */ bytes) => {
-      parts.push(bytes.slice());
+      writtenParts.push(bytes.slice());
       size += BigInt(bytes.length);
     },
   };
@@ -124,5 +124,5 @@ export async function recordingOf(messages, { compression = 'none', index = true
     await writer.addMessage({ channelId: channel.id, sequence: sequence++, logTime, publishTime: logTime, data: channel.writer.writeMessage(message) });
   }
   await writer.end();
-  return Buffer.concat(parts);
+  return Buffer.concat(writtenParts);
 }

@@ -15,9 +15,9 @@ export const SIGNATURE = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 
 
 /** @param {Image} image */
 export function pngOf({ width, height, opacity = false, sample }) {
-  const parts = opacity ? [0, 1] : [0];
+  const sampleParts = opacity ? [0, 1] : [0];
   const columns = Array.from({ length: width }, (_, column) => column);
-  const rows = Array.from({ length: height }, (_, row) => [0, ...columns.flatMap((column) => parts.map((part) => sample(column, row, part)))]);
+  const rows = Array.from({ length: height }, (_, row) => [0, ...columns.flatMap((column) => sampleParts.map((part) => sample(column, row, part)))]);
   return Buffer.concat([SIGNATURE, header({ width, height, opacity }), chunk('IDAT', deflateSync(Buffer.from(rows.flat()))), chunk('IEND', [])]);
 }
 

@@ -250,8 +250,8 @@ export function differences(golden, computed) {
   const hashesByName = (/** @type {string} */ text) =>
     new Map(text.trimEnd().split('\n').map((line) => /** @type {[string, string[]]} */ ([line.split(' ')[0], line.split(' ').slice(1)])));
   const [expectedByName, computedByName] = [hashesByName(golden), hashesByName(computed)];
-  const names = [...new Set([...expectedByName.keys(), ...computedByName.keys()])];
-  return names.flatMap((name) => {
+  const configurationNames = [...new Set([...expectedByName.keys(), ...computedByName.keys()])];
+  return configurationNames.flatMap((name) => {
     const [golden, computed] = [expectedByName.get(name), computedByName.get(name)];
     if (golden === undefined) return [`${name} is not in golden.txt`];
     if (computed === undefined) return [`${name} is gone`];

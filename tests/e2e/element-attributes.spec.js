@@ -137,9 +137,9 @@ test('elements in the table of doc/embedding/figures.md have the attributes that
   const examples = [...document.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
   expect(new Set(examples.map(({ name }) => name)).size).toBe(ALL_NAMES.length);
   await showPage(page, examples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));
-  const unknown = await page.locator('.example').evaluateAll((all) => all.flatMap(({ attributes, constructor }) =>
+  const unknownAttributes = await page.locator('.example').evaluateAll((all) => all.flatMap(({ attributes, constructor }) =>
     [...attributes].map(({ name }) => name).filter((name) => name !== 'class' && !Reflect.get(constructor, 'observedAttributes').includes(name))));
-  expect(unknown).toEqual([]);
+  expect(unknownAttributes).toEqual([]);
   for (const widget of await page.locator(`${figure}.example`).all()) {
     await widget.scrollIntoViewIfNeeded();
     await untilReady(widget);
@@ -222,13 +222,13 @@ test('properties that were set before the element was defined are taken up, in a
     const names = cases.flatMap(([, , checkedNames]) => [checkedNames, checkedNames]);
     return figures.map((figure, i) => names[i].map((name) => Reflect.get(figure, name)));
   });
-  const twice = (/** @type {unknown[]} */ values) => [values, values];
+  const repeated = (/** @type {unknown[]} */ values) => [values, values];
   expect(propertyValues).toEqual([
-    ...twice([3, [0.1, 0.1, 0.1, 0.1, 0, 0], ['ellipse'], 'dark']),
-    ...twice([0.7, 1, 1.4, [0.1, 0.3, 0.1, 0.1]]),
-    ...twice([60_000, 70_000]),
-    ...twice([30, 40]),
-    ...twice([3, { x: 3, y: 1, theta: 0 }]),
+    ...repeated([3, [0.1, 0.1, 0.1, 0.1, 0, 0], ['ellipse'], 'dark']),
+    ...repeated([0.7, 1, 1.4, [0.1, 0.3, 0.1, 0.1]]),
+    ...repeated([60_000, 70_000]),
+    ...repeated([30, 40]),
+    ...repeated([3, { x: 3, y: 1, theta: 0 }]),
   ]);
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
@@ -302,12 +302,12 @@ test('properties that are refused fire an error event that does not bubble, and 
   });
   expect(messages).toEqual(['command.omega is NaN; allowed is a number from -1000000 to 1000000']);
   // On a page without listeners, the error is printed as a warning.
-  const other = await page.context().newPage();
-  await other.goto('/embed.html?widget=banana-machine');
-  const warning = other.waitForEvent('console', (message) => message.type() === 'warning');
-  await other.locator('banana-machine').evaluate((element) => Object.assign(element, { theme: 'sepia' }));
+  const otherPage = await page.context().newPage();
+  await otherPage.goto('/embed.html?widget=banana-machine');
+  const warning = otherPage.waitForEvent('console', (message) => message.type() === 'warning');
+  await otherPage.locator('banana-machine').evaluate((element) => Object.assign(element, { theme: 'sepia' }));
   const message = await warning;
   expect(message.text()).toContain('theme is "sepia"; allowed is "auto" or "light" or "dark"');
   expect(await message.args()[1].evaluate((element) => element.localName)).toBe('banana-machine');
-  await other.close();
+  await otherPage.close();
 });

@@ -29,11 +29,11 @@ const BOXES_BY_NAME = {
 
 test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', FRESH, async ({ page, figure }) => {
   const cases = Object.entries(BOXES_BY_NAME).map(([box, html]) => {
-    const whole = html === 'X' ? '<X></X>' : html;
-    return `<section data-box="${box}" style="display: flow-root">${whole.replace('<X', `<${figure}`).replace('</X>', `</${figure}>`)}</section>`;
+    const example = html === 'X' ? '<X></X>' : html;
+    return `<section data-box="${box}" style="display: flow-root">${example.replace('<X', `<${figure}`).replace('</X>', `</${figure}>`)}</section>`;
   });
   const head = '<link rel="stylesheet" href="/motion-widgets.css"><style>body { margin: 0; font: 16px/1.5 sans-serif }</style>';
-  const wrong = async (/** @type {number} */ width) => {
+  const wrongWidths = async (/** @type {number} */ width) => {
     await page.setViewportSize({ width, height: 900 });
     await frames(page);
     const widths = await page.locator(figure).evaluateAll((all) =>
@@ -44,7 +44,7 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
   for (const script of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
     await showPage(page, cases.join(''), { head, script });
     if (script) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figure);
-    for (const width of [320, 600, 1280]) expect.soft(await wrong(width), `${script ? 'defined' : 'not defined'}, ${width} px`).toEqual([]);
+    for (const w of [320, 600, 1280]) expect.soft(await wrongWidths(w), `${script ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
   }
 });
 

@@ -67,8 +67,8 @@ test('a page with one figure fetches the module of that figure @nightly', async 
 });
 
 test('figures within six hundred pixels of the window start, and others do not', async ({ page }) => {
-  const places = [560, 620].map((below) => `<div style="position: absolute; top: calc(100vh + ${below}px); width: 600px"><map-squeeze></map-squeeze></div>`);
-  await showPage(page, places.join(''));
+  const sections = [560, 620].map((below) => `<div style="position: absolute; top: calc(100vh + ${below}px); width: 600px"><map-squeeze></map-squeeze></div>`);
+  await showPage(page, sections.join(''));
   const widgets = page.locator('map-squeeze');
   await untilReady(widgets.nth(0));
   expect(await property(widgets.nth(1), 'machine')).toBe(undefined);
@@ -83,9 +83,9 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
   const shownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown);
   const samples = Number(await property(widget, 'samples'));
   await widget.evaluate(async (element) => {
-    const changed = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
+    const statsChanged = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
-    await changed;
+    await statsChanged;
     scrollTo(0, 6000);
     // Waits for an observer of this test. The observer of the figure reports in the same frame.
     await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));

@@ -73,8 +73,8 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
   await page.locator('body > banana-machine').scrollIntoViewIfNeeded();
   await untilReady(page.locator('body > banana-machine'));
   const keys = await page.evaluate(async () => {
-    const inShadow = [...document.querySelectorAll('open-host, closed-host')].map((host) => Reflect.get(host, 'figure'));
-    const figures = /** @type {AnyElement[]} */ ([...inShadow, document.querySelector('body > banana-machine')]);
+    const shadowFigures = [...document.querySelectorAll('open-host, closed-host')].map((host) => Reflect.get(host, 'figure'));
+    const figures = /** @type {AnyElement[]} */ ([...shadowFigures, document.querySelector('body > banana-machine')]);
     return Promise.all(figures.map(async (figure) => new URL(await figure.shareLink()).hash.slice(1).split('=')[0]));
   });
   expect(keys).toEqual([

@@ -334,9 +334,9 @@ test('each entry of the legend hides the marks that it names', async ({ page }) 
   const legend = widget.locator('.legend');
   const canvas = widget.locator('canvas.plane');
   for (const name of ['accepted', 'accepted through a wall', 'rejected', 'commanded path']) {
-    const before = await pictureOf(canvas);
+    const pictureBefore = await pictureOf(canvas);
     await legend.getByLabel(name, { exact: true }).uncheck();
-    expect(await pictureOf(canvas), name).not.toBe(before);
+    expect(await pictureOf(canvas), name).not.toBe(pictureBefore);
   }
   expect(await widget.getAttribute('overlays')).toBe('unknown');
   await expect(legend.getByLabel('unknown cells')).toHaveCount(0);

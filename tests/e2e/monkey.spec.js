@@ -45,9 +45,9 @@ const DROPPED_FILES = [
 
 /** @param {number} seed @returns {Random} */
 function randomOf(seed) {
-  const next = generator(seed);
-  const below = (/** @type {number} */ end) => Math.floor(end * next());
-  return { below, one: (of) => of[below(of.length)] };
+  const random = generator(seed);
+  const randomBelow = (/** @type {number} */ end) => Math.floor(end * random());
+  return { below: randomBelow, one: (of) => of[randomBelow(of.length)] };
 }
 
 /** Brings a part of a widget to where the pointer can reach it. @param {Page} page @param {Random} random @param {string} selector */

@@ -78,8 +78,8 @@ testEach('Tab leads to every handle and control of a figure, once, and beyond', 
   /** @type {(number | string)[]} */
   const reachedStops = [];
   const focusedStop = () => page.evaluate((tag) => {
-    const inside = document.querySelector(tag)?.shadowRoot?.activeElement;
-    return inside ? Reflect.get(window, 'stops').indexOf(inside) : `${document.activeElement?.id}`;
+    const focusedElement = document.querySelector(tag)?.shadowRoot?.activeElement;
+    return focusedElement ? Reflect.get(window, 'stops').indexOf(focusedElement) : `${document.activeElement?.id}`;
   }, name);
   const [count, names] = await page.evaluate(() => {
     const stops = /** @type {Element[]} */ (Reflect.get(window, 'stops'));
@@ -110,9 +110,9 @@ test('the focus stays near a control that goes or is disabled by its own action'
   await untilReady(arc);
   await arc.evaluate((element) => /** @type {any} */ (element).setState({ widget: 'arc-anatomy', version: 1, line: 8 }));
   await unfold(arc);
-  const next = arc.getByRole('button', { name: 'Next line' });
-  await next.press('Enter');
-  await expect(next).toBeDisabled();
+  const nextButton = arc.getByRole('button', { name: 'Next line' });
+  await nextButton.press('Enter');
+  await expect(nextButton).toBeDisabled();
   expect(await arc.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.getAttribute('title'))).toBe('Previous line');
 });
 

@@ -15,8 +15,8 @@ const SAME_NAMES = ['Map Squeeze', 'Arc Anatomy'];
 
 /** @param {string} lang @returns {Promise<any>} messages of a language */
 async function catalogueOf(lang) {
-  const ofWidgets = Object.entries(FOLDERS).map(async ([key, folder]) => [key, (await import(`../../www/widgets/${folder}/${lang}.js`))[lang]]);
-  return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...Object.fromEntries(await Promise.all(ofWidgets)) };
+  const widgetEntries = Object.entries(FOLDERS).map(async ([key, folder]) => [key, (await import(`../../www/widgets/${folder}/${lang}.js`))[lang]]);
+  return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...Object.fromEntries(await Promise.all(widgetEntries)) };
 }
 
 /** Returns path and message of each entry. @param {any} catalogue @param {string} [path] @returns {[string, string | Function][]} */

@@ -76,10 +76,10 @@ export async function engine(name) {
 /** Returns packages with the versions that an example pins. @param {string} example @param {string[]} packages */
 export function pinnedVersions(example, ...packages) {
   const directory = join(ROOT, 'examples', example);
-  const read = (/** @type {string} */ name) => (existsSync(join(directory, name)) ? readFileSync(join(directory, name), 'utf8') : '');
-  const { dependencies = {}, devDependencies = {} } = JSON.parse(read('package.json') || '{}');
+  const textOf = (/** @type {string} */ name) => (existsSync(join(directory, name)) ? readFileSync(join(directory, name), 'utf8') : '');
+  const { dependencies = {}, devDependencies = {} } = JSON.parse(textOf('package.json') || '{}');
   const versions = new Map(Object.entries({ ...dependencies, ...devDependencies }));
-  for (const [, name, version] of read('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versions.set(name, version);
+  for (const [, name, version] of textOf('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versions.set(name, version);
   return packages
     .map((name) => {
       const version = versions.get(name);

@@ -104,13 +104,13 @@ export function start(command, args, { env = {}, cwd = ROOT } = {}) {
     output: () => output,
     said: (pattern) =>
       new Promise((resolve, reject) => {
-        const look = () => {
-          const found = output.match(pattern);
-          if (found) resolve(found[1]);
+        const checkOutput = () => {
+          const match = output.match(pattern);
+          if (match) resolve(match[1]);
         };
-        for (const stream of [child.stdout, child.stderr]) stream.on('data', look);
+        for (const stream of [child.stdout, child.stderr]) stream.on('data', checkOutput);
         ended.then(() => reject(new Error(`${command} has ended:\n${output}`)));
-        look();
+        checkOutput();
       }),
     ended,
     stop() {

@@ -8,9 +8,9 @@ import { files } from './serving.mjs';
 /** Themes with a switch between light and dark, and one without. @type {Record<string, import('./project.mjs').Engine['dark']>} */
 const THEMES = {
   async furo(page, on) {
-    const chosen = page.locator(`[data-theme="${on ? 'dark' : 'light'}"]`);
+    const currentTheme = page.locator(`[data-theme="${on ? 'dark' : 'light'}"]`);
     // The button cycles through light, dark, and the system's scheme.
-    for (let i = 0; i < 3 && (await chosen.count()) === 0; i++) await page.locator('.theme-toggle').filter({ visible: true }).click();
+    for (let i = 0; i < 3 && (await currentTheme.count()) === 0; i++) await page.locator('.theme-toggle').filter({ visible: true }).click();
   },
   async pydata_sphinx_theme(page, on) {
     await page.locator('.theme-switch-button').filter({ visible: true }).click();

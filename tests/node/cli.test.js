@@ -230,9 +230,9 @@ test('doc/calibration.md shows the report of the example', async () => {
 test('units are stated for both logs, or for each', async () => {
   const [header, ...rows] = readFileSync(example('odometry'), 'utf8').trim().split('\n');
   const scaledBy = (/** @type {number} */ scale) => fileWith(`scaled-${scale}.csv`, [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [scale, scale, scale, 180 / Math.PI][i]).join(','))].join('\n'));
-  const scaled = scaledBy(1000);
+  const scaledLog = scaledBy(1000);
   const units = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
-  const [plain, stated] = [await callOf(ARGS), await callOf(['--odometry', scaled, ...ARGS.slice(2), ...units])];
+  const [plain, stated] = [await callOf(ARGS), await callOf(['--odometry', scaledLog, ...ARGS.slice(2), ...units])];
   assert.deepEqual(stated.reference, plain.reference);
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(stated.odometry[0][name][999] - plain.odometry[0][name][999]) < 1e-9, name);
   const refusal = await outputOf(['--odometry', scaledBy(1), ...ARGS.slice(2), '--angle-unit', 'rad']);

@@ -10,9 +10,9 @@ import { freshModule, assertNear } from './support.js';
 test('importing and loading touch neither the DOM nor the network, and load gives one module', async () => {
   /** @type {string[]} */
   const accessedNames = [];
-  const names = ['document', 'window', 'customElements', 'fetch', 'XMLHttpRequest', 'WebSocket'];
-  const descriptorsBefore = names.map((name) => Object.getOwnPropertyDescriptor(globalThis, name));
-  for (const name of names) {
+  const browserNames = ['document', 'window', 'customElements', 'fetch', 'XMLHttpRequest', 'WebSocket'];
+  const descriptorsBefore = browserNames.map((name) => Object.getOwnPropertyDescriptor(globalThis, name));
+  for (const name of browserNames) {
     Object.defineProperty(globalThis, name, { configurable: true, get: () => void accessedNames.push(name) });
   }
   try {
@@ -21,7 +21,7 @@ test('importing and loading touch neither the DOM nor the network, and load give
     const motion = await core.load();
     assert.equal(await core.load(), motion);
   } finally {
-    names.forEach((name, i) => {
+    browserNames.forEach((name, i) => {
       const descriptor = descriptorsBefore[i];
       if (descriptor) Object.defineProperty(globalThis, name, descriptor);
       else Reflect.deleteProperty(globalThis, name);

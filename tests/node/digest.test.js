@@ -52,8 +52,8 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
       const takenValues = valuesOf(key);
       const allowed = type === 'boolean' ? [true, false] : (words ?? []);
       for (const each of allowed) assert.ok(takenValues.has(JSON.stringify(each)) || each === opening, `${key}: ${each}`);
-      const others = [...takenValues].filter((value) => value !== undefined && value !== JSON.stringify(opening));
-      assert.ok(others.length > 0, `${key} is never set`);
+      const otherValues = [...takenValues].filter((value) => value !== undefined && value !== JSON.stringify(opening));
+      assert.ok(otherValues.length > 0, `${key} is never set`);
       if (nullable && opening !== null && type !== 'number') assert.ok(takenValues.has('null'), `${key}: null`);
     }
     for (const { name } of presets[/** @type {keyof typeof presets} */ (tag)]) {
@@ -64,8 +64,8 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
   test(`all that a machine of ${tag} tells is in its digest`, () => {
     const functionText = widgets[tag].toString();
     const members = Object.getOwnPropertyNames(classes.get(tag).prototype);
-    const missing = members.filter((name) => !TESTED_ELSEWHERE.has(name) && !new RegExp(`\\b${name}\\b`).test(functionText));
-    assert.deepEqual(missing, [], `ask for them in digest.js and in tests/digest/`);
+    const missingNames = members.filter((name) => !TESTED_ELSEWHERE.has(name) && !new RegExp(`\\b${name}\\b`).test(functionText));
+    assert.deepEqual(missingNames, [], `ask for them in digest.js and in tests/digest/`);
   });
 }
 

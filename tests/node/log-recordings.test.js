@@ -108,8 +108,8 @@ test('stamps that begin at 0 are used; messages without stamps have the times of
   assert.equal((await logWithStamps(() => 1_700_000_001)).data.t.length, 100);
   assert.doesNotMatch(simulated.sentences, /recorded/);
   // A single missing stamp is far from all other times.
-  const missing = await logWithStamps((i) => (i === 50 ? 0 : 5 + i / 10));
-  assert.deepEqual([missing.data.t.length, missing.summary.dropped.stray?.count], [99, 1]);
+  const logWithoutStamp = await logWithStamps((i) => (i === 50 ? 0 : 5 + i / 10));
+  assert.deepEqual([logWithoutStamp.data.t.length, logWithoutStamp.summary.dropped.stray?.count], [99, 1]);
   assert.deepEqual((await logWithStamps((i) => 50 - i / 10)).data.t.length, 100);
 });
 
@@ -180,8 +180,8 @@ test('other recordings are refused', async () => {
   assert.equal(await refusal({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
   assert.equal(await refusal({}, drive().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
   // These messages claim to be odometry, and are too short.
-  const short = odomMessages(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY }));
-  assert.match(await refusal({}, short), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
+  const shortMessages = odomMessages(3, () => ({ data: 'x' })).map((each) => ({ ...each, type: 'std_msgs/msg/String', schema: ODOMETRY }));
+  assert.match(await refusal({}, shortMessages), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
 });
 
 test('chunks with another checksum or size than they state are not read', async () => {

@@ -88,10 +88,10 @@ test('a plan that is not quite JSON is forgiven as long as it may be written by 
 
 test('the size of a file is checked before the file is read', async () => {
   for (const [name, maxBytes] of /** @type {[string, number][]} */ ([['plan.json', 2_000_000], ['map.yaml', 100_000], ['map.pgm', limits.bytes]])) {
-    const large = file(name, '');
-    Object.defineProperty(large, 'size', { value: maxBytes + 1 });
-    large.arrayBuffer = () => assert.fail(`${name} is read.`);
-    const files = name === 'map.pgm' ? [description({ image: name }), large] : [large];
+    const largeFile = file(name, '');
+    Object.defineProperty(largeFile, 'size', { value: maxBytes + 1 });
+    largeFile.arrayBuffer = () => assert.fail(`${name} is read.`);
+    const files = name === 'map.pgm' ? [description({ image: name }), largeFile] : [largeFile];
     assert.equal(await refusalOf(files), `${name}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
   }
 });
@@ -100,6 +100,6 @@ test('a damaged or too large PNG image is refused by a sentence', async () => {
   const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
   const sentence = await refusalOf([description(), file('map.png', png.subarray(0, 50))]);
   assert.match(sentence, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
-  const large = Buffer.concat([SIGNATURE, header({ width: 100_000, height: 100_000 })]);
-  assert.equal(await refusalOf([description(), file('map.png', large)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
+  const largeImage = Buffer.concat([SIGNATURE, header({ width: 100_000, height: 100_000 })]);
+  assert.equal(await refusalOf([description(), file('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
 });

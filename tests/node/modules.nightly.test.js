@@ -14,10 +14,10 @@ const golden = readFileSync(new URL('golden.txt', DIGESTS), 'utf8');
 
 for (const tag of Object.keys(widgets)) {
   test(`the module of ${tag} has its machine alone, with the same bits`, async () => {
-    const names = readdirSync(new URL('chunks', DIST)).filter((name) => name.startsWith(`${tag}-`) && name.endsWith('.wasm'));
-    assert.equal(names.length, 1, `one module for ${tag}`);
+    const moduleNames = readdirSync(new URL('chunks', DIST)).filter((name) => name.startsWith(`${tag}-`) && name.endsWith('.wasm'));
+    assert.equal(moduleNames.length, 1, `one module for ${tag}`);
     const { default: instantiate } = await import(`../../build/${tag}.js`);
-    const core = await instantiate(new WebAssembly.Module(readFileSync(new URL(`chunks/${names[0]}`, DIST))));
+    const core = await instantiate(new WebAssembly.Module(readFileSync(new URL(`chunks/${moduleNames[0]}`, DIST))));
     const machines = Object.keys(widgets).map(pascalCase).filter((name) => name in core);
     assert.deepEqual(machines, [pascalCase(tag)]);
     const goldenOfTag = golden.split('\n').filter((line) => line.startsWith(`${tag}/`)).map((line) => `${line}\n`).join('');

@@ -44,7 +44,7 @@ async function pageShowing(state, kind) {
 async function render({ state, inBook }) {
   const listeners = new Map();
   const log = /** @type {unknown[]} */ ([]);
-  const missing = (/** @type {string} */ name) => {
+  const throwMissing = (/** @type {string} */ name) => {
     throw new Error(`${name} not implemented yet.`);
   };
   const model = {
@@ -55,8 +55,8 @@ async function render({ state, inBook }) {
       for (const listener of listeners.get(`change:${name}`) ?? []) listener();
     },
     on: (/** @type {string} */ name, /** @type {() => void} */ listener) => listeners.set(name, (listeners.get(name) ?? new Set()).add(listener)),
-    off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (inBook ? missing('off') : listeners.get(name)?.delete(listener)),
-    save_changes: () => (inBook ? missing('save_changes') : log.push('saved')),
+    off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (inBook ? throwMissing('off') : listeners.get(name)?.delete(listener)),
+    save_changes: () => (inBook ? throwMissing('save_changes') : log.push('saved')),
   };
   const cell = /** @type {HTMLElement} */ (document.querySelector('#cell'));
   const el = inBook ? cell.attachShadow({ mode: 'open' }).appendChild(document.createElement('div')) : cell;

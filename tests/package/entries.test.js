@@ -20,8 +20,8 @@ function outputOfNode(source) {
 
 test('every script of the package can be imported in Node, and leaves no names behind', () => {
   const { exports } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
-  const names = Object.keys(exports).filter((name) => /\.js$/.test(exports[name].default));
-  const addresses = names.map((name) => join('motion-widgets', name));
+  const scriptNames = Object.keys(exports).filter((name) => /\.js$/.test(exports[name].default));
+  const addresses = scriptNames.map((name) => join('motion-widgets', name));
   assert.ok(addresses.length >= 4, addresses.join(' '));
   const output = outputOfNode(`
     const before = Object.getOwnPropertyNames(globalThis);

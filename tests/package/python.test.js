@@ -31,13 +31,13 @@ const pip = (args, search) => python(['-m', 'pip', '--quiet', ...args], search);
 /** Installs what the package needs to be built and to run, once for all clones of the repository, and returns its directory. */
 function dependencies() {
   const lists = project.match(/^(?:requires|dependencies) = .*$/gm) ?? [];
-  const names = lists.flatMap((list) => list.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
-  assert.ok(names.length >= 2, project);
+  const requirements = lists.flatMap((list) => list.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
+  assert.ok(requirements.length >= 2, project);
   const version = python(['--version']);
-  const directory = join(CACHE, `python-${createHash('sha256').update(names + version).digest('hex').slice(0, 12)}`);
+  const directory = join(CACHE, `python-${createHash('sha256').update(requirements + version).digest('hex').slice(0, 12)}`);
   if (existsSync(directory)) return directory;
   const incomplete = `${directory}-${process.pid}`;
-  pip(['install', '--target', incomplete, ...names]);
+  pip(['install', '--target', incomplete, ...requirements]);
   renameSync(incomplete, directory);
   return directory;
 }

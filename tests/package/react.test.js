@@ -120,7 +120,7 @@ const setProps = (props) => page.evaluate((given) => /** @type {any} */ (globalT
 const property = (name) => page.evaluate((key) => /** @type {any} */ (document.querySelector('banana-machine'))[key], name);
 
 /** Returns the events that the page received. @returns {Promise<[name: string, onFigure: boolean, message?: string][]>} */
-const heard = () => page.evaluate(() => /** @type {any} */ (globalThis).heard);
+const receivedEvents = () => page.evaluate(() => /** @type {any} */ (globalThis).heard);
 
 test('a server sends what attributes say', () => {
   const html = serverHtmlOf({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
@@ -138,7 +138,7 @@ test('what the server has sent is taken over, before its elements are there', as
   await untilComplete();
   assert.equal(await property('omega'), 0.8);
   assert.deepEqual(await property('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
-  assert.deepEqual((await heard())[0], ['onLoad', true]);
+  assert.deepEqual((await receivedEvents())[0], ['onLoad', true]);
   assert.deepEqual(consoleMessages, []);
 });
 
@@ -155,9 +155,9 @@ test('a list in JSX, and a page that is rendered at every figure, leave what the
   const renderings = await page.evaluate(async () => {
     const { page } = /** @type {any} */ (globalThis);
     for (let i = 0; i < 10; i++) await new Promise(requestAnimationFrame);
-    const before = page.renderings;
+    const countBefore = page.renderings;
     for (let i = 0; i < 30; i++) await new Promise(requestAnimationFrame);
-    return page.renderings - before;
+    return page.renderings - countBefore;
   });
   assert.equal(renderings, 0);
   assert.deepEqual(consoleMessages, []);

@@ -15,18 +15,18 @@ const outputs = JSON.parse(readFileSync(pathOf('build/outputs.json'), 'utf8'));
 
 /** Returns a module with its static imports, which a browser loads with it, and without dynamic imports. @param {string} path */
 function loadedWith(path) {
-  const found = new Set([path]);
-  for (const each of found) {
-    for (const { path: imported, kind } of outputs[each].imports) if (kind === 'import-statement') found.add(imported);
+  const loadedPaths = new Set([path]);
+  for (const each of loadedPaths) {
+    for (const { path: imported, kind } of outputs[each].imports) if (kind === 'import-statement') loadedPaths.add(imported);
   }
-  return [...found];
+  return [...loadedPaths];
 }
 
 /** Returns the chunk of external.js whose entry point is a source file, and what a browser loads with it. @param {string} source */
 function chunkWith(source) {
-  const found = Object.entries(outputs).find(([product, { entryPoint }]) => entryPoint === source && product.startsWith('dist/chunks/'));
-  assert.ok(found, `external.js has no chunk of ${source}.`);
-  return loadedWith(found[0]);
+  const chunk = Object.entries(outputs).find(([product, { entryPoint }]) => entryPoint === source && product.startsWith('dist/chunks/'));
+  assert.ok(chunk, `external.js has no chunk of ${source}.`);
+  return loadedWith(chunk[0]);
 }
 
 /** Returns the scripts that a page with some widgets loads before a reader uses them. @param {string[]} tags @param {string} core */
@@ -35,9 +35,9 @@ const scriptsOf = (tags, core) =>
 
 /** Returns the path of the WebAssembly module of a widget. @param {string} tag */
 function moduleOf(tag) {
-  const found = readdirSync(pathOf('dist/chunks')).find((name) => name.startsWith(`${tag}-`) && name.endsWith('.wasm'));
-  assert.ok(found, `dist/chunks has no module for ${tag}.`);
-  return `dist/chunks/${found}`;
+  const fileName = readdirSync(pathOf('dist/chunks')).find((name) => name.startsWith(`${tag}-`) && name.endsWith('.wasm'));
+  assert.ok(fileName, `dist/chunks has no module for ${tag}.`);
+  return `dist/chunks/${fileName}`;
 }
 
 /** Asserts that files compressed by brotli are within a limit. @param {string} name @param {string[]} paths @param {number} limit bytes */

@@ -61,37 +61,37 @@ fn rounding_does_not_decide_where_a_leg_ends() {
 /// step it would be 0.63 m long, more than twice the requested length, and is lost.
 #[test]
 fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
-    let whole = straight(101, 0.0625);
+    let drive = straight(101, 0.0625);
     for (after, ends, across_pauses) in [(1, 37, 0), (4, 40, 1)] {
-        let paused = without_rows_between(&whole, 30 + after, 30 + after + 6);
+        let paused = without_rows_between(&drive, 30 + after, 30 + after + 6);
         assert_eq!(paused.gaps(), 1);
-        let (legs, lost) = split_into_legs(&paused, &whole, QUARTER, 0.0);
+        let (legs, lost) = split_into_legs(&paused, &drive, QUARTER, 0.0);
         assert_eq!(lost, LostLegs { across_pauses, ..LostLegs::default() });
-        let across = legs.iter().find(|leg| leg.times[0] == times(&whole)[30]);
-        assert_eq!(across.map(|leg| leg.times[1]), (across_pauses == 0).then_some(times(&whole)[ends]));
+        let across = legs.iter().find(|leg| leg.times[0] == times(&drive)[30]);
+        assert_eq!(across.map(|leg| leg.times[1]), (across_pauses == 0).then_some(times(&drive)[ends]));
         // The leg after one that was lost does not share an end with the leg before it in the list.
-        let next_leg = legs.iter().find(|leg| leg.times[0] == times(&whole)[ends]).expect("it goes on");
+        let next_leg = legs.iter().find(|leg| leg.times[0] == times(&drive)[ends]).expect("it goes on");
         assert_eq!(next_leg.follows, across_pauses == 0);
     }
     // Both ends of the leg have a reference pose, although the reference has none in between.
-    let (legs, lost) = split_into_legs(&whole, &without_rows_between(&whole, 30, 35), QUARTER, 0.0);
-    assert_eq!((legs, lost), split_into_legs(&whole, &whole, QUARTER, 0.0));
+    let (legs, lost) = split_into_legs(&drive, &without_rows_between(&drive, 30, 35), QUARTER, 0.0);
+    assert_eq!((legs, lost), split_into_legs(&drive, &drive, QUARTER, 0.0));
 }
 
 #[test]
 fn lost_legs_are_counted_by_cause() {
-    let whole = straight(101, 0.05);
-    let all_legs = split_into_legs(&whole, &whole, QUARTER, 0.0).0;
+    let drive = straight(101, 0.05);
+    let all_legs = split_into_legs(&drive, &drive, QUARTER, 0.0).0;
     // A reference with the rows from 12 to 66: it begins after two of sixteen legs and ends before the last five.
-    let shorter = trajectory(whole.samples().skip(12).take(55));
-    let (legs, lost) = split_into_legs(&whole, &shorter, QUARTER, 0.0);
+    let shorter = trajectory(drive.samples().skip(12).take(55));
+    let (legs, lost) = split_into_legs(&drive, &shorter, QUARTER, 0.0);
     assert_eq!(
         legs.iter().map(|leg| leg.times).collect::<Vec<_>>(),
         all_legs[2..11].iter().map(|leg| leg.times).collect::<Vec<_>>()
     );
     assert!(lost.without_reference >= 4 && lost.total() == lost.without_reference, "{lost:?}");
     // The robot stands still for 4 s, in four legs of a second.
-    let standing = trajectory(whole.samples().map(|(time, pose)| {
+    let standing = trajectory(drive.samples().map(|(time, pose)| {
         (time, SE2::new(if time < 3.0 { pose.x() } else { 1.5 + (pose.x() - 3.5).max(0.0) }, 0.0, 0.0))
     }));
     let (legs, lost) = split_into_legs(&standing, &standing, LegLength::Duration { duration: 1.0 }, 0.0);
@@ -100,29 +100,29 @@ fn lost_legs_are_counted_by_cause() {
 
 #[test]
 fn no_leg_leads_across_a_break() {
-    let whole = straight(101, 0.1);
-    let all_legs = split_into_legs(&whole, &whole, QUARTER, 0.0).0;
+    let drive = straight(101, 0.1);
+    let all_legs = split_into_legs(&drive, &drive, QUARTER, 0.0).0;
     let breaks = [17, 33, 34, 70];
-    let broken = whole.clone().with_breaks_before(breaks);
-    assert_eq!([whole.gaps(), broken.gaps()], [0, 4]);
+    let broken = drive.clone().with_breaks_before(breaks);
+    assert_eq!([drive.gaps(), broken.gaps()], [0, 4]);
     let has_break = |leg: &Leg| {
-        let contains = |row: usize| leg.times[0] < times(&whole)[row] && times(&whole)[row] <= leg.times[1];
+        let contains = |row: usize| leg.times[0] < times(&drive)[row] && times(&drive)[row] <= leg.times[1];
         breaks.into_iter().any(contains)
     };
     let kept: Vec<[f64; 2]> = all_legs.iter().filter(|leg| !has_break(leg)).map(|leg| leg.times).collect();
     // A break of the reference removes the legs across it, and no others.
-    let (legs, lost) = split_into_legs(&whole, &broken, QUARTER, 0.0);
+    let (legs, lost) = split_into_legs(&drive, &broken, QUARTER, 0.0);
     assert_eq!(legs.iter().map(|leg| leg.times).collect::<Vec<_>>(), kept);
     assert_eq!(lost, LostLegs { across_breaks: all_legs.len() - kept.len(), ..LostLegs::default() });
     // After a break of the odometry a leg begins at the break.
-    let (legs, lost) = split_into_legs(&broken, &whole, QUARTER, 0.0);
+    let (legs, lost) = split_into_legs(&broken, &drive, QUARTER, 0.0);
     assert!(legs.len() > 25 && !legs.iter().any(has_break));
     assert_eq!(lost, LostLegs { across_breaks: 4, ..LostLegs::default() });
-    assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == times(&whole)[*row])));
+    assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == times(&drive)[*row])));
     // There is no pose between the rows, and no break before the first row or after the last.
-    assert!(broken.pose_at(times(&whole)[16] + 0.01).is_none());
-    assert!([16, 17].iter().all(|row| broken.pose_at(times(&whole)[*row]).is_some()));
-    assert_eq!(whole.with_breaks_before([0, 101]).gaps(), 0);
+    assert!(broken.pose_at(times(&drive)[16] + 0.01).is_none());
+    assert!([16, 17].iter().all(|row| broken.pose_at(times(&drive)[*row]).is_some()));
+    assert_eq!(drive.with_breaks_before([0, 101]).gaps(), 0);
 }
 
 #[test]
@@ -156,14 +156,14 @@ fn both_ends_of_a_leg_are_at_one_moment_of_both_clocks() {
 
 #[test]
 fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
-    let whole = straight(1001, 0.05);
-    let every_nth_row = |first: usize, step: usize| trajectory(whole.samples().skip(first).step_by(step));
+    let drive = straight(1001, 0.05);
+    let every_nth_row = |first: usize, step: usize| trajectory(drive.samples().skip(first).step_by(step));
     let has = |samples: &Trajectory, time: f64| times(samples).contains(&time);
     // With a sample each 0.4 s or each 0.8 s, a leg of half a second ends at the nearest.
     for (step, duration) in [(4, 0.5), (8, 0.8)] {
         let sparse = every_nth_row(3, step);
         let length = LegLength::Duration { duration: 0.5 };
-        let legs = split_into_legs(&whole, &sparse, length, 0.0).0;
+        let legs = split_into_legs(&drive, &sparse, length, 0.0).0;
         assert!(legs.len() > 100);
         for leg in &legs {
             assert!(leg.times.iter().all(|time| has(&sparse, *time)), "{:?}", leg.times);
@@ -172,7 +172,7 @@ fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
         }
         assert!(legs.windows(2).all(|pair| pair[0].times[1] == pair[1].times[0]));
         // If the odometry is the sparser trajectory, legs end at its samples.
-        let legs = split_into_legs(&sparse, &whole, length, 0.01).0;
+        let legs = split_into_legs(&sparse, &drive, length, 0.01).0;
         assert!(legs.len() > 100 && legs.iter().all(|leg| leg.times.iter().all(|time| has(&sparse, *time))));
     }
 }
@@ -204,15 +204,15 @@ fn times_must_rise_and_numbers_must_be_finite() {
 
 #[test]
 fn commands_are_integrated_along_arcs() {
-    let driven =
+    let trajectory =
         Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, 0.5, 1.0), (3.0, 0.0, -2.0), (4.0, 9.0, 9.0)]);
-    let driven = driven.expect("times rise");
+    let trajectory = trajectory.expect("times rise");
     // Commands: a metre straight ahead; an arc of a metre that turns by 2 rad, with radius ½; a turn on the spot back
     // to the first heading.
     let arc = SE2::new(1.0 + 0.5 * libm::sin(2.0), 0.5 * (1.0 - libm::cos(2.0)), 2.0);
     let expected = [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc, SE2::new(arc.x(), arc.y(), 0.0)];
     for (time, expected) in [0.0, 1.0, 3.0, 4.0].into_iter().zip(expected) {
-        let pose = driven.pose_at(time).expect("inside");
+        let pose = trajectory.pose_at(time).expect("inside");
         assert!(pose.boxminus(&expected).norm() < 1e-12, "{pose:?} is not {expected:?}");
     }
 }

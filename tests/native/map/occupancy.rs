@@ -226,20 +226,20 @@ fn the_open_place_has_the_most_room() {
     ];
     for unknown in [Unknown::Free, Unknown::Blocked] {
         let plan = FloorPlan::from_grid(grid_of(&rows, unknown)).expect("a small grid");
-        let place = plan.open_place(0.1).expect("there is room");
+        let open_pose = plan.open_place(0.1).expect("there is room");
         // The pose is in the middle of the first square of four free cells, and heads through the door.
-        assert!((place.x() - 0.3).abs() + (place.y() - 0.3).abs() < 1e-12, "{place:?}");
-        assert!(plan.point_free([place.x(), place.y()], 0.1).free);
-        let drive = Arc { start: place, length: 0.5, turn: 0.0 };
-        assert!(plan.arc_free(&drive, 0.0).free && place.theta().abs() < 0.5, "{place:?}");
+        assert!((open_pose.x() - 0.3).abs() + (open_pose.y() - 0.3).abs() < 1e-12, "{open_pose:?}");
+        assert!(plan.point_free([open_pose.x(), open_pose.y()], 0.1).free);
+        let drive = Arc { start: open_pose, length: 0.5, turn: 0.0 };
+        assert!(plan.arc_free(&drive, 0.0).free && open_pose.theta().abs() < 0.5, "{open_pose:?}");
     }
     // A robot that just fits cannot move: the heading is then 0.
     let tight = FloorPlan::from_grid(grid_of(&["###", "#.#", "###"], Unknown::Free)).expect("a small grid");
     assert_eq!(tight.open_place(0.0499).expect("there is room").theta(), 0.0);
     // All cells are unknown: free or blocked, as the setting says.
     let unknown = grid_of(&["???", "???", "???"], Unknown::Free);
-    let place = FloorPlan::from_grid(unknown).expect("no walls").open_place(0.1).expect("there is room");
-    assert!((place.x() - 0.05).abs() + (place.y() - 0.05).abs() < 1e-12, "the first: {place:?}");
+    let open_pose = FloorPlan::from_grid(unknown).expect("no walls").open_place(0.1).expect("there is room");
+    assert!((open_pose.x() - 0.05).abs() + (open_pose.y() - 0.05).abs() < 1e-12, "the first: {open_pose:?}");
     let blocked = grid_of(&["???", "???", "???"], Unknown::Blocked);
     assert_eq!(FloorPlan::from_grid(blocked).expect("four walls").open_place(0.1), None);
 }

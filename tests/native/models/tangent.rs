@@ -152,14 +152,14 @@ fn compound_is_the_chapters_recursion() {
 fn first_order_turns_the_noise_inside_the_arc_only() {
     let tau = TangentNoiseModel::twist(&U);
     let jacobian = SE2::right_jacobian(&tau);
-    let inside = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025));
-    let after = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 0.00625));
+    let arc_cov = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025));
+    let turn_cov = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 0.00625));
     let one_step =
         |model: &TangentNoiseModel| model.propagate(&Matrix3::zeros(), &tau, Compounding::FirstOrder);
     let separate = TangentNoiseModel::from_velocity(&model_of(FULL_RANK), &U).unwrap();
-    assert!((one_step(&separate) - (jacobian * inside * jacobian.transpose() + after)).amax() < 1e-15);
-    let merged = TangentNoiseModel::new(inside + after).unwrap();
-    assert!((one_step(&merged) - jacobian * (inside + after) * jacobian.transpose()).amax() < 1e-15);
+    assert!((one_step(&separate) - (jacobian * arc_cov * jacobian.transpose() + turn_cov)).amax() < 1e-15);
+    let merged = TangentNoiseModel::new(arc_cov + turn_cov).unwrap();
+    assert!((one_step(&merged) - jacobian * (arc_cov + turn_cov) * jacobian.transpose()).amax() < 1e-15);
     assert!((one_step(&separate) - one_step(&merged)).amax() > 1e-4);
 }
 

@@ -171,8 +171,8 @@ fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
     for (a, b) in [(1.0, 0.2), (0.8, 0.1)] {
         let position = x * SE2::new(a, b, 0.0);
         let density = |deviation: f64| -> f64 {
-            let last = deviation * deviation;
-            let model = model(VelocityAlphas([0.05, 0.05, 0.05, 0.09, last, 0.0]), NoiseKind::Normal);
+            let alpha5 = deviation * deviation;
+            let model = model(VelocityAlphas([0.05, 0.05, 0.05, 0.09, alpha5, 0.0]), NoiseKind::Normal);
             let spacing = TAU / f64::from(HEADINGS);
             let poses = (0..HEADINGS).map(|i| SE2::new(position.x(), position.y(), spacing * f64::from(i)));
             poses.map(|pose| model.pose_density(&pose, &u, &x).unwrap()).sum::<f64>() * spacing

@@ -43,11 +43,11 @@ fn legs_end_after_a_duration_where_one_is_set() {
     for Leg { times: [from, to], .. } in machine.legs() {
         assert!((to - from - 0.8).abs() < 0.06, "{from} {to}");
     }
-    let before = machine.legs().to_vec();
+    let legs_before = machine.legs().to_vec();
     machine.configure(Settings { distance: 3.0, angle: 2.0, ..settings }).expect("allowed");
-    assert_eq!(machine.legs(), before);
+    assert_eq!(machine.legs(), legs_before);
     machine.configure(Settings { distance: 3.0, angle: 2.0, ..Settings::default() }).expect("allowed");
-    assert!(machine.legs().len() < before.len() / 2);
+    assert!(machine.legs().len() < legs_before.len() / 2);
 }
 
 /// A standard deviation of 0 is estimated from the log; any other is used as stated.

@@ -106,14 +106,14 @@ fn changed_settings_move_the_same_robots() {
 #[test]
 fn a_large_cloud_grows_in_blocks() {
     for settings in settings_of_models() {
-        let large = Settings { samples: 60_000, ..settings };
+        let larger_settings = Settings { samples: 60_000, ..settings };
         let mut growing = BananaMachine::showing(settings, 0).unwrap();
-        growing.configure_first(large, usize::MAX).unwrap();
+        growing.configure_first(larger_settings, usize::MAX).unwrap();
         assert_eq!(growing.shown(), 25_000);
-        while growing.shown() < large.samples {
+        while growing.shown() < larger_settings.samples {
             growing.add_samples(growing.block());
         }
-        assert_eq!(results(&growing), results(&machine(large)));
+        assert_eq!(results(&growing), results(&machine(larger_settings)));
     }
 }
 

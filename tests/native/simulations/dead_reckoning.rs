@@ -181,8 +181,8 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
         machine.comparison(Compounding::FourthOrder).ratios[first..].iter().all(|ratio| ratio.x.is_nan())
     );
     assert!(machine.predicted(Compounding::FirstOrder).iter().all(Option::is_some));
-    let shown = Settings { step: first as u32 + 1, compounding: Compounding::FourthOrder, ..noisy };
-    let outlines = DeadReckoning::new(shown).expect("valid settings").outlines(shown.step).expect("a step");
+    let noisy = Settings { step: first as u32 + 1, compounding: Compounding::FourthOrder, ..noisy };
+    let outlines = DeadReckoning::new(noisy).expect("valid settings").outlines(noisy.step).expect("a step");
     assert!(outlines.ellipse.is_empty() && outlines.exponential.is_empty() && outlines.predicted.is_empty());
     assert!(!outlines.measured.is_empty());
 }
@@ -191,14 +191,14 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
 /// Other α's scale the noise.
 #[test]
 fn a_seed_gives_the_same_draws() {
-    let large = machine(few(1500));
-    let small = machine(few(300));
-    let short = machine(Settings { steps: 7, ..few(300) });
+    let large_cloud = machine(few(1500));
+    let small_cloud = machine(few(300));
+    let short_path = machine(Settings { steps: 7, ..few(300) });
     let double = machine(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..few(300) });
     for index in [0, 1, 255, 256, 299] {
-        let path = large.rollout(index).expect("a robot");
-        assert_eq!(small.rollout(index).as_ref(), Some(&path));
-        assert_eq!(short.rollout(index).as_deref(), Some(&path[..7]));
+        let path = large_cloud.rollout(index).expect("a robot");
+        assert_eq!(small_cloud.rollout(index).as_ref(), Some(&path));
+        assert_eq!(short_path.rollout(index).as_deref(), Some(&path[..7]));
         // With twice the noise, the executed velocities of the first step differ from the command by twice as much.
         let u = Settings::default().command;
         let noise = |path: &[[f64; 3]]| {
@@ -209,8 +209,8 @@ fn a_seed_gives_the_same_draws() {
         let double_noise = noise(&double.rollout(index).expect("a robot"));
         assert!((double_noise - noise(&path) * 2.0).amax() < 1e-12, "{double_noise}");
     }
-    assert_ne!(large.rollout(0), machine(Settings { seed: 4, ..few(300) }).rollout(0));
-    assert_eq!(large.rollout(1500), None);
+    assert_ne!(large_cloud.rollout(0), machine(Settings { seed: 4, ..few(300) }).rollout(0));
+    assert_eq!(large_cloud.rollout(1500), None);
 }
 
 /// Each step has a share of the variance of the whole path. The shares add up to that variance for any number of steps.

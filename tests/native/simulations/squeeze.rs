@@ -36,18 +36,18 @@ fn changed_settings_move_no_sample() {
     let verdicts = |machine: &MapSqueeze| -> Vec<[bool; 2]> {
         machine.attempts().iter().map(|Attempt { end_free, path_free, .. }| [*end_free, *path_free]).collect()
     };
-    let free = verdicts(&machine);
+    let outcomes = verdicts(&machine);
     let accepted = |machine: &MapSqueeze| -> Vec<bool> {
         machine.attempts().iter().map(|attempt| attempt.accepted).collect()
     };
-    assert!(accepted(&machine).iter().zip(&free).all(|(accepted, [end, _])| accepted == end));
+    assert!(accepted(&machine).iter().zip(&outcomes).all(|(accepted, [end, _])| accepted == end));
     machine.configure(Settings { sampler: Sampler::WholeArc, ..endpoint }).expect("valid");
-    assert!(accepted(&machine).iter().zip(&free).all(|(accepted, [_, path])| accepted == path));
-    assert_eq!((poses(&machine), verdicts(&machine)), (cloud.clone(), free.clone()));
+    assert!(accepted(&machine).iter().zip(&outcomes).all(|(accepted, [_, path])| accepted == path));
+    assert_eq!((poses(&machine), verdicts(&machine)), (cloud.clone(), outcomes.clone()));
     assert_eq!(machine.tally().through_wall, 0);
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         machine.configure(Settings { conditioned: false, sampler, ..endpoint }).expect("valid");
-        assert!((poses(&machine), verdicts(&machine)) == (cloud.clone(), free.clone()), "{sampler:?}");
+        assert!((poses(&machine), verdicts(&machine)) == (cloud.clone(), outcomes.clone()), "{sampler:?}");
         assert_eq!(machine.tally().accepted, 3000, "no attempt is rejected");
         assert_eq!((machine.tally().draws, machine.tally().wall_tests), (3000, 0));
     }
@@ -93,8 +93,8 @@ fn attempts_have_the_arcs_that_they_drove() {
         for (index, attempt) in attempts.iter().enumerate().step_by(17) {
             let arcs = machine.arcs(index);
             assert_eq!(arcs.len(), parts as usize);
-            let last = arcs[arcs.len() - 1].end();
-            assert!((last.x() - attempt.pose.x()).abs() + (last.y() - attempt.pose.y()).abs() < 1e-12);
+            let end = arcs[arcs.len() - 1].end();
+            assert!((end.x() - attempt.pose.x()).abs() + (end.y() - attempt.pose.y()).abs() < 1e-12);
             let free = arcs.iter().all(|arc| machine.plan().arc_free(arc, 0.13).free);
             assert_eq!(attempt.path_free, free);
             let are_joined = arcs.windows(2).all(|pair| {

@@ -56,10 +56,10 @@ fn determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVector<f64>) -
     let columns: Vec<DVector<f64>> = (0..at.len())
         .map(|i| {
             let difference = |steps: f64| {
-                let mut ends = [at.clone(), at.clone()];
-                ends[0][i] += steps * STEP;
-                ends[1][i] -= steps * STEP;
-                (map(&ends[0]) - map(&ends[1])) / (2.0 * steps * STEP)
+                let mut varied = [at.clone(), at.clone()];
+                varied[0][i] += steps * STEP;
+                varied[1][i] -= steps * STEP;
+                (map(&varied[0]) - map(&varied[1])) / (2.0 * steps * STEP)
             };
             (4.0 * difference(1.0) - difference(2.0)) / 3.0
         })

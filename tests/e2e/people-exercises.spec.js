@@ -42,7 +42,7 @@ test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ al
   expect(await revealedText()).toBe(noCloudText);
   expect(await isolateAndOmega()).toEqual([6, 0]);
   await cases.nth(1).press('ArrowDown');
-  expect(await revealedText()).toMatch(/^Not what you expected\. The robots spread by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);
+  expect(await revealedText()).toMatch(/^Not what you expected\. The robots spread over a curved band, by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);
   expect(await isolateAndOmega()).toEqual([4, 0.5]);
   await cases.nth(2).press('ArrowDown');
   expect(await revealedText('a point')).toMatch(/^Right\. Every robot stops at the same point\. Only the headings differ, by 0\.\d+ rad/);

@@ -86,7 +86,7 @@ test('lines for Nav2 have no α that means nothing, and none at all where none i
 test('lines for Nav2 warn of failed checks, of another rule, and of a localizer as reference', () => {
   const { diagnostics } = calibrationOf();
   const checks = ['tails-normal', 'outliers-few'].map((name) => ({ name, passed: false, message: 'Drive on.' }));
-  assert.ok(linesOf({ diagnostics: { ...diagnostics, checks } }).includes('# failed checks: tails-normal, outliers-few'));
+  assert.ok(linesOf({ diagnostics: { ...diagnostics, checks } }).includes('# Caution, these checks failed: tails-normal, outliers-few'));
   for (const [warning, options] of /** @type {[string, object][]} */ ([
     [en.nav2.otherRule, { rule: 'thrun' }],
     [en.nav2.localizer, { warnings: ['localizer'] }],

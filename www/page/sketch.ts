@@ -60,7 +60,7 @@ function outcomeOf(poses: Float64Array, expected: string) {
   const deviationAlong = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;
   const [positionStd, headingStd] = [Math.hypot(deviationAlong(0), deviationAlong(1)), deviationAlong(2)];
   const verdictText = positionStd > MIN_SPREAD && expected === 'drawing' ? '' : expected === (positionStd > MIN_SPREAD ? 'band' : 'point') ? 'Right. ' : 'Not what you expected. ';
-  if (positionStd > MIN_SPREAD) return `${verdictText}The robots spread by ${positionStd.toFixed(2)}\u00a0m (1σ), their headings by ${headingStd.toFixed(2)}\u00a0rad.`;
+  if (positionStd > MIN_SPREAD) return `${verdictText}The robots spread over a curved band, by ${positionStd.toFixed(2)}\u00a0m (1σ), their headings by ${headingStd.toFixed(2)}\u00a0rad.`;
   if (headingStd > MIN_SPREAD) return `${verdictText}Every robot stops at the same point. Only the headings differ, by ${headingStd.toFixed(2)}\u00a0rad (1σ).`;
   return `${verdictText}Every robot stops at the same point, with the same heading. There is no cloud.`;
 }

@@ -108,7 +108,7 @@ export const de: typeof import('./en.ts').en = {
     few: (count) => `Empfohlen: die Anpassung selbst, da ${count} zurückgehaltene Fenster von 1 m sie nicht beurteilen können.`,
     covered: (coverage, count) => `Empfohlen: die Anpassung selbst. In ihrem Bereich liegen ${coverage} von ${count} zurückgehaltenen Fenstern von 1 m; richtig sind 95 %.`,
     inflated: (inflation, coverage, count, nees) =>
-      `Empfohlen: angepasst × ${inflation}. Im Bereich der Anpassung liegen ${coverage} von ${count} zurückgehaltenen Fenstern von 1 m. Quadrierter Fehler durch vorhergesagte Varianz (NEES): ${nees}, erwartet 1.`,
+      `Empfohlen: angepasst × ${inflation}; in diesem Bereich liegen 95 % von ${count} zurückgehaltenen Fenstern von 1 m, in dem der Anpassung ${coverage}. Ihr quadrierter Fehler durch vorhergesagte Varianz (NEES) ist ${nees}, erwartet 1.`,
   },
   alphas: {
     title: (kind) => `Angepasste Rauschparameter (${kind})`,
@@ -236,7 +236,7 @@ export const de: typeof import('./en.ts').en = {
     lasted: (duration) => `von ${duration} s`,
     recommended: (factor, coverage, windows) => `empfohlen = angepasst × ${factor}: die Anpassung deckt ${coverage} von ${windows} zurückgehaltenen Fenstern von 1 m`,
     fitted: (value, interval) => `angepasst ${value}${interval && `, 95 % ${interval}`}`,
-    failed: (checks) => `nicht bestandene Prüfungen: ${checks}`,
+    failed: (checks) => `Vorsicht, nicht bestandene Prüfungen: ${checks}`,
     localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein.',
     swapped: 'Warnung: Die Referenz sieht wie Odometrie aus, die Odometrie nicht. Sind die beiden vertauscht?',
     corrected: (errors) => `nach Korrektur dieser systematischen Fehler: ${errors}`,

@@ -76,7 +76,7 @@ export const en = {
     few: (count) => `Recommended: the fit itself, as ${of(count, 'held-out window')} of 1 m cannot judge it.`,
     covered: (coverage, count) => `Recommended: the fit itself. It covers ${coverage} of ${count} held-out windows of 1 m; 95 % is right.`,
     inflated: (inflation, coverage, count, nees) =>
-      `Recommended: fitted × ${inflation}. The fit covers ${coverage} of ${count} held-out windows of 1 m. Squared error over predicted variance (NEES): ${nees}, expected 1.`,
+      `Recommended: fitted × ${inflation}, which covers 95 % of ${count} held-out windows of 1 m; the fit covers ${coverage}. Its squared error over predicted variance (NEES) is ${nees}, expected 1.`,
   },
   alphas: {
     title: (kind) => `Fitted noise parameters (${kind})`,
@@ -204,7 +204,7 @@ export const en = {
     lasted: (duration) => `of ${duration} s`,
     recommended: (factor, coverage, windows) => `recommended = fitted × ${factor}: the fit covers ${coverage} of ${windows} held-out windows of 1 m`,
     fitted: (value, interval) => `fitted ${value}${interval && `, 95 % ${interval}`}`,
-    failed: (checks) => `failed checks: ${checks}`,
+    failed: (checks) => `Caution, these checks failed: ${checks}`,
     localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small.',
     swapped: 'Warning: the reference looks like odometry, and the odometry does not. Are the two swapped?',
     corrected: (errors) => `with these systematic errors corrected: ${errors}`,

@@ -145,6 +145,11 @@ export const styles = css`
     margin-bottom: 0.1em;
   }
 
+  /* Results of the former log, while another one is read. */
+  .spoken:has([part='progress']) :is(.verdict, .fitted) {
+    opacity: 0.4;
+  }
+
   /* In sight beside the button that copies, whatever the length of the table. */
   .fitted .copied:not(:empty) {
     display: block;
@@ -383,7 +388,12 @@ export const styles = css`
 
   /* Each α in one line, while its table has the width of the figure. */
   @container (38em <= width < 56em) {
-    /* In sight beside the button that copies, whatever the length of the table. */
+    /* Results of the former log, while another one is read. */
+  .spoken:has([part='progress']) :is(.verdict, .fitted) {
+    opacity: 0.4;
+  }
+
+  /* In sight beside the button that copies, whatever the length of the table. */
   .fitted .copied:not(:empty) {
     display: block;
     position: sticky;

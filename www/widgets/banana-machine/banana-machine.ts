@@ -240,7 +240,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       ${this.renderer.afterFirstPicture(() => html`
       <div class="morphing">
         ${morphControl(this)}
-        ${button(say.pin, () => this.#pin(), { title: say.pinTitle, pressed: this.#pinned !== undefined })}
+        ${button(this.#pinned ? say.unpin : say.pin, () => this.#pin(), { title: say.pinTitle, other: this.#pinned ? say.pin : say.unpin })}
       </div>
       ${legend(this, LINE_STYLES, this.#missingOutlineNotes(reading))}
       <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>

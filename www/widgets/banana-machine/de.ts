@@ -15,7 +15,7 @@ export const de: typeof import('./en.ts').en = {
         velocity: [
           ['v² in v̂', 'verschmiert die Wolke den Bogen entlang', 'den Bogen entlang verschmiert'],
           ['ω² in v̂', 'ebenso, aber nur in Kurven', 'den Bogen entlang verschmiert'],
-          ['v² in ω̂', 'fächert die Wolke auf und biegt sie, was ein großes α₁ verdeckt', 'auffächert'],
+          ['v² in ω̂', 'fächert die Wolke auf und biegt sie; α₁ und α₂ verwischen es', 'auffächert'],
           ['ω² in ω̂', 'fächert ebenso, aber nur in Kurven', 'auffächert'],
           ['v² in γ̂', 'dreht jeden Roboter, wo er hält', 'auf der Stelle dreht'],
           ['ω² in γ̂', 'dreht jeden, der hält, wenn ω ≠ 0', 'in ihren Richtungen verwischt'],
@@ -78,7 +78,7 @@ export const de: typeof import('./en.ts').en = {
     hardly: (skew, exactly) => `Beide Seiten sind fast gleich: Schiefe ${skew}, genau ${exactly}.`,
     neither: (skew) => `Beide Seiten sind gleich: Schiefe ${skew}, genau 0 (Symmetrie).`,
     wide: (ratio) => `Die Wolke ist krumm: Ihre Ellipse hat die ${ratio}-fache Fläche des ξ-Umrisses.`,
-    gains: (gain) => `Krumm: Der ξ-Umriss passt um ${gain} Nat je Roboter besser.`,
+    gains: (gain, isBent) => `${isBent ? 'Krumm: ' : ''}Der ξ-Umriss passt um ${gain} Nat je Roboter besser.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `Eine Fliege: Das Drehen bringt Rauschen α₂ω² ins Tempo. v̂ ist ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
@@ -120,6 +120,7 @@ export const de: typeof import('./en.ts').en = {
   handleTitle: 'Zieh am Ende des Bogens',
   handleHint: 'zieh mich',
   pin: 'Festhalten',
+  unpin: 'Loslassen',
   pinned: 'festgehalten',
   pinTitle: 'Behält diese Umrisse und Zahlen zum Vergleich',
   pinNotInCode: 'Die festgehaltenen Umrisse sind nicht dabei.',

@@ -18,7 +18,7 @@ export const en = {
         velocity: [
           ['v² into v̂', 'smears the cloud along the arc', 'smear along the arc'],
           ['ω² into v̂', 'smears it too, but only in turns', 'smear along the arc'],
-          ['v² into ω̂', 'fans the cloud open and bends it, which a large α₁ hides', 'fan'],
+          ['v² into ω̂', 'fans the cloud open and bends it; α₁ and α₂ blur it', 'fan'],
           ['ω² into ω̂', 'fans it too, but only in turns', 'fan'],
           ['v² into γ̂', 'turns each robot where it stopped', 'turn in place'],
           ['ω² into γ̂', 'turns each stopped robot, if ω ≠ 0', 'blur its headings'],
@@ -83,7 +83,7 @@ export const en = {
     neither: (skew) => `Both sides are alike: skew ${skew}, exactly 0 by symmetry.`,
     /** Text before the sentence on the skew. */
     wide: (ratio) => `The cloud is bent: its ellipse covers ${ratio} times the area of the ξ outline.`,
-    gains: (gain) => `Bent: the ξ outline fits better by ${gain} nats per robot.`,
+    gains: (gain, isBent) => `${isBent ? 'Bent: the' : 'The'} ξ outline fits better by ${gain} nats per robot.`,
     bowTie: {
       velocity: (speed, deviation, skew) =>
         `A bow-tie: turning adds noise α₂ω² to the speed. v̂ is ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, so robots end ahead of the start and behind it. Skew ${skew}.`,
@@ -126,6 +126,7 @@ export const en = {
   handleTitle: 'Drag the end of the arc',
   handleHint: 'drag me',
   pin: 'Pin',
+  unpin: 'Unpin',
   pinned: 'pinned',
   pinTitle: 'Keep these outlines and numbers to compare with',
   pinNotInCode: 'The pinned outlines are not in it.',

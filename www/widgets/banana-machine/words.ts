@@ -50,8 +50,8 @@ const MIN_GAIN = 0.02;
 /** Area ratio above which the ellipse is visibly too large. */
 const VISIBLE_AREA_RATIO = 1.1;
 
-/** Gains (nats per robot) above which the cloud is visibly bent: a likelihood ratio of e for 20 positions, or for 4 poses. */
-const VISIBLE_GAINS = { floor: 0.05, pose: 0.25 };
+/** Gains (nats per robot) above which the cloud is visibly bent: a likelihood ratio of e for 20 positions, or for 10 poses. */
+const VISIBLE_GAINS = { floor: 0.05, pose: 0.1 };
 
 /** Returns the title of the view of the floor: how the ellipse fits, by the exact figures, or by the samples where no figure is exact. */
 export function floorTitle({ stats, table: { exact } }: Pick<Reading, 'stats' | 'table'>) {
@@ -81,7 +81,8 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
     // No figure is exact if robots turn by more than π.
     const lesserOf = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
     if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
-    return lesserOf(gain.value, gain.exact) > MIN_GAIN ? `${say.gains(withoutBreaks(withError(gain.value, gain.error, 3)))} ${lean}` : lean;
+    const gained = lesserOf(gain.value, gain.exact);
+    return gained > MIN_GAIN ? `${say.gains(withoutBreaks(withError(gain.value, gain.error, 3)), gained > VISIBLE_GAINS.pose)} ${lean}` : lean;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measuredSkew, exactText);
   return exactSkew < 0 ? say.right(measuredSkew) : say.left(measuredSkew);

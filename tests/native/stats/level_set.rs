@@ -86,9 +86,9 @@ fn surface(settings: Settings) -> Surface {
     machine.surface([-0.5, -1.0], [2.0, 1.5]).expect("a map")
 }
 
-/// The heights of contour points are computed by the models. Linear interpolation of log p in a cell of h = 0.028 m is off by h²/8 times
-/// the second derivative, which is largest across the drive: at the distance d the arc's turn changes by 2/d per metre. From d = 0.7 m on
-/// (2/d)² · (1/σ_ω² + 1/σ_γ²) < 770, so that log p is off by up to 0.075.
+/// The heights of contour points are computed by the models. In a cell of h = 0.028 m, linear interpolation of log p has an error of h²/8
+/// times the second derivative. This is largest across the drive: at the distance d the arc's turn changes by 2/d per metre. From
+/// d = 0.7 m on, (2/d)² · (1/σ_ω² + 1/σ_γ²) is below 770, so the error of log p is at most 0.075.
 #[test]
 fn contours_are_where_the_models_have_their_levels() {
     let settings = Settings { map: SurfaceKind::Density, ..Settings::default() };

@@ -10,7 +10,7 @@ use crate::noise::{NoiseKind, Variance, product_or_zero};
 js_structs! {
     /// An arc with its circle.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct ArcWithCircle as "Bend" {
+    pub struct ArcWithCircle {
         /// Length, m; negative in reverse.
         pub arc_length: f64,
         /// Turn, rad, positive to the left.

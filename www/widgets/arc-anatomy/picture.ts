@@ -13,7 +13,7 @@ import { clamp } from '../../ui/clamp.ts';
 import { fixed, significantText } from '../../ui/format.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
 import { CONTOUR_STYLES, LINE_STYLES, type LineName } from './settings.ts';
-import type { ArcAnatomy, Bend, Pose, AnatomySurface } from '../../types.d.ts';
+import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
 import type { Palette } from '../../ui/theme.ts';
 import type { Reading } from './words.ts';
 
@@ -129,7 +129,7 @@ function keyOf(brush: Brush, { overlays, config: { map } }: Scene) {
  * Draws the centre of an arc, both radii and the turn between them. `side` (±1) is the direction in which the first radius is shifted, so
  * that another radius on the same line stays visible.
  */
-function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }: Bend, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
+function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }: ArcWithCircle, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
   if (!center) return;
   const { context, view } = brush;
   const [x, y] = view.toPixel(center[0], center[1]);

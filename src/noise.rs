@@ -69,8 +69,8 @@ impl NoiseKind {
 
     /// Returns the density of the noise of variance `b2` at the residual `a`, in the inverse of a's unit.
     ///
-    /// For a variance of 0 the result is 1 if `a` is 0 up to rounding (1e-7), and 0 otherwise. In a product of such factors, only
-    /// the residuals with noise then count.
+    /// For a variance of 0 the result is 1 if `a` is 0 up to rounding (1e-7), and 0 otherwise. In a product of densities, a
+    /// residual without noise therefore changes nothing if it is 0, and makes the product 0 if it is not.
     pub fn prob(self, a: f64, b2: Variance) -> f64 {
         let Variance(b2) = b2;
         if b2 == 0.0 {

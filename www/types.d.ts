@@ -1,4 +1,4 @@
-/** All types. Types of settings, machines and elements are generated from the declarations by scripts/types.mjs. */
+/** Types that the code imports. scripts/types.mjs generates those of settings, machines and elements from their declarations. */
 
 import type { BananaMachineSettings, CalibrationOptions, MapSqueezeSettings, Start } from '../build/machines.d.ts';
 import type { BananaMachineElement, BananaMachineState, FigureElement } from '../build/elements.d.ts';

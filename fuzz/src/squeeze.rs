@@ -38,7 +38,8 @@ pub fn run(bytes: &[u8]) {
     assert_results(&machine);
 }
 
-/// Returns the settings with few samples. Most get a sampler without parts, because a robot that is wedged in a part takes 10 000 draws.
+/// Returns the settings with few samples, and with a sampler that divides the command only if `with_parts`. Callers rarely ask for that: a
+/// robot that cannot move in one part of the command takes 10 000 draws.
 fn with_few_samples(settings: Settings, with_parts: bool) -> Settings {
     let steps = settings.steps.min(MAX_PARTS);
     let sampler = if with_parts { settings.sampler.in_parts(steps) } else { without_parts(settings.sampler) };

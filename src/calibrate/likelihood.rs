@@ -100,7 +100,7 @@ pub(super) struct LeastSquares {
     pub log_likelihood: f64,
     /// Information on all errors, XᵀV⁻¹X.
     pub information: ErrorMatrix,
-    /// Estimate of β; 0 for errors that are not estimated.
+    /// Estimates of the systematic errors β; 0 for those that are not estimated.
     pub errors: ErrorVector,
     /// Covariance of the estimate: the inverse of the information on the errors that are estimated.
     pub covariance: ErrorMatrix,

@@ -91,8 +91,8 @@ impl JsBananaMachine {
         flat_float_array(&self.0.twists().map(<[f64; 3]>::from).collect::<Vec<_>>())
     }
 
-    /// Motion that each sample shown executed: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1 (rad), δ̂_trans (m),
-    /// δ̂_rot2 (rad). A copy.
+    /// Motion executed by each of the samples that are shown: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1
+    /// (rad), δ̂_trans (m), δ̂_rot2 (rad). A copy.
     #[wasm_bindgen(getter)]
     pub fn executed(&self) -> Float64Array {
         flat_float_array(&self.0.executed().collect::<Vec<_>>())

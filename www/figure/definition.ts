@@ -34,7 +34,7 @@ export interface Definition {
 }
 
 interface Options extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {
-  /** Styles of the lines and marks in the pictures, which are the words of the attribute `overlays`. */
+  /** Styles of the lines and marks in the pictures. The keys are the words of the attribute `overlays`. */
   lines: Record<string, LineStyle>;
   /** Lines that are drawn by default. */
   opening?: readonly string[];

@@ -299,7 +299,7 @@ export class Rows {
     return rowsAfterBreak;
   }
 
-  /** Returns the rate, the gaps, the jumps, and the rows before which the path is unknown. */
+  /** Returns the rate, the gaps, the jumps, and the rows to which the path from the row before is unknown. */
   #events(kind: LogKind, [t, a, b, c]: Float64Array[], isBroken: (i: number) => boolean) {
     const medianStep = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     const gaps = { count: 0, longest: 0, first: NaN };

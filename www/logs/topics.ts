@@ -10,7 +10,10 @@ import { MAX_VALUE, Rows } from './rows.ts';
 /** Maximum number of messages with transforms that are read to find the frames. */
 const MAX_FRAME_MESSAGES = 2000;
 
-/** Maximum number of times that a node publishes a topic again after another one. A restarted node counts as a new one, and does not alternate. */
+/**
+ * Maximum number of times that a publisher of a topic comes back after another node published it. More times mean that two nodes publish at
+ * the same time. A restarted node counts as a new publisher.
+ */
 const MAX_ALTERNATIONS = 2;
 
 /** Returns true for a topic of static transforms. */

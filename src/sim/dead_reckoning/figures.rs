@@ -38,7 +38,7 @@ js_structs! {
         pub first: Option<u32>,
         /// Last step with a miss.
         pub last: Option<u32>,
-        /// Ratio after the last step, minus 1; NaN if undefined.
+        /// Predicted over measured variance after the last step, minus 1; NaN if the measured one is 0.
         pub end: f64,
         /// Standard error of `end`.
         pub error: f64,

@@ -39,7 +39,7 @@ fn the_printed_table_loses_p_for_centres_to_the_right() {
         // The estimated speed has the opposite sign of the command.
         speed.assert(-factors[0].estimate.abs(), 0.0);
         assert!(factors[0].estimate * printed.command.v < 0.0);
-        // With the unsigned radius the contours stay near the start. With a signed radius they reach further.
+        // Contours of equal score: with the unsigned radius of the printed table they stay near the start, with the signed one they do not.
         let reach = |settings: Settings| {
             let surface = ArcAnatomy::new(Settings { map: SurfaceKind::Prob, ..settings })
                 .expect("valid settings")

@@ -54,6 +54,8 @@ async function timeDrag({ widget, selector, i, steps }) {
   const root = /** @type {ShadowRoot} */ (figure.shadowRoot);
   const target = /** @type {HTMLInputElement} */ (root.querySelectorAll(selector)[i]);
   const isSlider = target.localName === 'input';
+  // The text of the drag before may still set the slider.
+  await figure.settled;
   const openingValue = target.value;
   // Every picture begins with an empty canvas.
   let pictureCount = 0;

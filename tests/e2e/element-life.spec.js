@@ -113,6 +113,23 @@ test('settled waits for the figure and all of its samples, in sight and far from
   }
 });
 
+test('settled waits for the text that follows a picture on a slow device', async ({ page }) => {
+  const widget = await mount(page, 'banana-machine');
+  const session = await page.context().newCDPSession(page);
+  await session.send('Emulation.setCPUThrottlingRate', { rate: 6 });
+  const shownSpeeds = await widget.evaluate(async (element) => {
+    const figure = /** @type {any} */ (element);
+    const shown = [];
+    for (const v of [0.5, 1.5, 0.6]) {
+      figure.v = v;
+      await figure.settled;
+      shown.push(figure.shadowRoot.getElementById('v').valueAsNumber);
+    }
+    return shown;
+  });
+  expect(shownSpeeds).toEqual([0.5, 1.5, 0.6]);
+});
+
 test('a cloud that is half grown stays so over a move and over a removal @nightly', async ({ page, cloud }) => {
   await showPage(page, `<div id="a"><${cloud}></${cloud}></div><div id="b"></div>`);
   const widget = page.locator(cloud);

@@ -231,7 +231,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   }
 
   /**
-   * Promise that resolves when the figure is ready, all changes are in effect, all samples are shown and no log is being read. It starts a
+   * Promise that resolves when the figure is ready, all changes are in effect and in its text, all samples are shown and no log is being read. It starts a
    * figure far from the window, and waits for the growth of a visible cloud.
    * @public
    */
@@ -257,7 +257,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   resolveSettled() {
     if (!this.isAwaited) return;
     const { machine, cloud, settings, runtime, renderer } = this;
-    const isSettled = machine ? !this.isBusy && !settings.isWaiting && !renderer.isBehind && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
+    const isSettled = machine ? !this.isBusy && !settings.isWaiting && !renderer.isBehind && !this.isUpdatePending && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
     if (isSettled) for (const resolve of this.#waiting.splice(0)) resolve();
   }
 

@@ -32,7 +32,7 @@ export class Renderer extends FigureController {
   /** Pictures to draw, the one that has waited longest first. */
   #undrawn: Set<AnyPicture> = new Set();
   /** True if the latest frame left pictures to the next one. */
-  isBehind = false;
+  #hasPicturesLeft = false;
   /** Time of the first picture that is newer than the text; undefined if the text is up to date. */
   #textPendingSince: number | undefined;
   #frameRequest: number | undefined;
@@ -71,7 +71,7 @@ export class Renderer extends FigureController {
   setVisible(isVisible: boolean) {
     if (!isVisible && (this.opening || this.#textPendingSince !== undefined)) this.#renderText();
     this.isVisible = isVisible;
-    this.isBehind = false;
+    this.#hasPicturesLeft = false;
     // No events report changes of colours while the figure is out of the viewport.
     if (isVisible) this.host.colours.update();
     else if (this.host.isAwaited) this.requestFrame();
@@ -116,6 +116,11 @@ export class Renderer extends FigureController {
     });
   }
 
+  /** True if pictures or text have to follow in later frames. */
+  get isBehind() {
+    return this.#hasPicturesLeft || this.#textPendingSince !== undefined;
+  }
+
   /** True until a visible figure has drawn its first picture and rendered its text. */
   get opening() {
     return this.host.machine !== undefined && !this.#hasRenderedText && this.isVisible && !document.hidden;
@@ -149,15 +154,15 @@ export class Renderer extends FigureController {
     const { pressed: still, previousReading } = host.gesture;
     const options = { elapsed, still, atOnce: this.printing || prefersReducedMotion(), previousReading, highlight: host.highlight, handles: this.printing };
     let isMoving = false;
-    this.isBehind = false;
+    this.#hasPicturesLeft = false;
     for (const picture of this.#undrawn) {
-      if (this.isBehind) break;
+      if (this.#hasPicturesLeft) break;
       this.#undrawn.delete(picture);
       const canvas = host.canvases.of(picture);
       // A figure may have replaced its picture.
       if (!host.pictures.includes(picture) || !hasPixels(canvas)) continue;
       isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, options) || isMoving;
-      this.isBehind = this.#undrawn.size > 0 && !this.#resizing && performance.now() - beganAt > MAX_PICTURES_MS;
+      this.#hasPicturesLeft = this.#undrawn.size > 0 && !this.#resizing && performance.now() - beganAt > MAX_PICTURES_MS;
     }
     host.placeHandles(scene);
     const now = performance.now();
@@ -170,7 +175,7 @@ export class Renderer extends FigureController {
     }
     host.resolveSettled();
     const isPlaying = host.player?.advance(elapsed);
-    if (this.isBehind) this.#schedule();
+    if (this.#hasPicturesLeft) this.#schedule();
     if (isPlaying || isMoving || host.cloud?.isSettled === false) this.requestFrame();
   }
 

@@ -238,7 +238,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     // Jupyter sends this module as text, without a source map next to it.
     bundleOf({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
     bundleOf({ external: 'external.ts' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
-    bundleOf({ [LOG_WORKER.replace('.js', '')]: 'logs/worker.ts' }, 'worker', { inject: [] }),
+    bundleOf({ [LOG_WORKER.replace('.js', '')]: 'log-worker.ts' }, 'worker', { inject: [] }),
     bundleOf({ 'motion-widgets.iife': 'motion-widgets.ts' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundleOf({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
     bundleOf({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),

@@ -1,9 +1,9 @@
 /**
- * Worker that opens recordings, reads logs and calibrates. It answers requests of the page. If the page cannot have a worker,
- * `serveRequests` answers on a port in the page's thread.
+ * Answers of the worker that opens recordings, reads logs and calibrates. If the page cannot have a worker, `serveRequests` answers on a port
+ * in the page's thread.
  */
 
-import { instantiateShared, type SharedCore } from '../core.ts';
+import type { SharedCore } from '../core.ts';
 import type { AlphaCalibrator, AlphaCalibratorSettings, CalibrationLog, Motion } from '../types.d.ts';
 import { german } from './de.ts';
 import { readDrives, type Drive, type RecordingChoice, type LogPlan } from './drives.ts';
@@ -93,14 +93,17 @@ function buffersOf(result: unknown): ArrayBuffer[] {
 /** Minimum time between messages of progress, ms. The page renders the figure after each message. */
 const PROGRESS_INTERVAL = 50;
 
-/** Answers the requests on a port. The first message has the core. */
-export function serveRequests(port: Pick<MessagePort, 'onmessage' | 'postMessage'>) {
+/**
+ * Answers the requests on a port. The first message has the core. `instantiate` is a parameter and not an import: in a script that is one
+ * file, esbuild puts everything that a dynamic import reaches into functions, and a browser would read the bytes of the core twice.
+ */
+export function serveRequests(port: Pick<MessagePort, 'onmessage' | 'postMessage'>, instantiate: (core: SharedCore) => Promise<Motion>) {
   let session: LogSession;
   const postAnswer = (message: Answer, buffers: ArrayBuffer[] = []) => port.postMessage(message, buffers);
   port.onmessage = async ({ data }: MessageEvent<Request & { core?: SharedCore }>) => {
     const { core, number = 0, method, parameters } = data;
     try {
-      if (core) session = new LogSession(await instantiateShared(core));
+      if (core) session = new LogSession(await instantiate(core));
       let nextProgress = 0;
       const onProgress = (progress: number) => {
         const now = performance.now();
@@ -115,5 +118,3 @@ export function serveRequests(port: Pick<MessagePort, 'onmessage' | 'postMessage
     }
   };
 }
-
-if ('DedicatedWorkerGlobalScope' in globalThis) serveRequests(globalThis as unknown as MessagePort);

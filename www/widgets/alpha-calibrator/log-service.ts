@@ -1,6 +1,6 @@
 /** Reading and calibration of logs, in a worker or, if the page cannot start one, in the page's thread. */
 
-import { sharedCore, startWorker, type SharedCore } from '../../core.ts';
+import { instantiateShared, sharedCore, startWorker, type SharedCore } from '../../core.ts';
 import type { Drive, LogPlan } from '../../logs/drives.ts';
 import type { OpenOptions, Source } from '../../logs/log.ts';
 import type { Answer, PostedFailure, OnProgress, Opened, Request } from '../../logs/worker.ts';
@@ -157,7 +157,7 @@ async function startLogWorker(core: SharedCore): Promise<WorkerLink | undefined>
 async function linkInPage(core: SharedCore): Promise<WorkerLink> {
   const { serveRequests } = await import('../../logs/worker.ts');
   const { port1, port2 } = new MessageChannel();
-  serveRequests(port2);
+  serveRequests(port2, instantiateShared);
   await new Promise<void>((resolve, reject) => {
     port1.onmessage = ({ data }: MessageEvent<Answer>) => ('failure' in data ? reject(new LogFailure(data.failure)) : resolve());
     port1.postMessage({ core });

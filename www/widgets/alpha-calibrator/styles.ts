@@ -388,22 +388,7 @@ export const styles = css`
 
   /* Each α in one line, while its table has the width of the figure. */
   @container (38em <= width < 56em) {
-    /* Results of the former log, while another one is read. */
-  .spoken:has([part='progress']) :is(.verdict, .fitted) {
-    opacity: 0.4;
-  }
-
-  /* In sight beside the button that copies, whatever the length of the table. */
-  .fitted .copied:not(:empty) {
-    display: block;
-    position: sticky;
-    z-index: 1;
-    bottom: 0;
-    padding-block: 0.25em;
-    background: var(--paper);
-  }
-
-  .fitted .panel-title {
+    .fitted .panel-title {
       flex: none;
     }
 

@@ -101,12 +101,12 @@ test('every check has its value, the values that pass, and what to do where it f
   const widget = await openCalibrator(page, 'outliers="keep" lang="de"');
   await unfold(widget);
   const { diagnostics: { checks } } = await stats(widget);
-  const table = section(widget, 'Prüfungen').locator('tbody tr');
-  await expect(table).toHaveCount(checks.length);
+  const checkRows = section(widget, 'Prüfungen').locator('tbody tr');
+  await expect(checkRows).toHaveCount(checks.length);
   expect(checks.filter(({ passed }) => !passed).length).toBeGreaterThan(1);
-  for (const [i, { passed }] of checks.entries()) await expect(table.nth(i)).toContainText(passed ? '✓ bestanden' : '✕ nicht bestanden');
-  await expect(table.filter({ hasText: 'Korrelation benachbarter Etappen' })).toContainText('Fehler benachbarter Etappen sind korreliert');
-  await expect(table.filter({ hasText: 'Anzahl der Etappen' })).toContainText('≥ 100');
+  for (const [i, { passed }] of checks.entries()) await expect(checkRows.nth(i)).toContainText(passed ? '✓ bestanden' : '✕ nicht bestanden');
+  await expect(checkRows.filter({ hasText: 'Korrelation benachbarter Etappen' })).toContainText('Fehler benachbarter Etappen sind korreliert');
+  await expect(checkRows.filter({ hasText: 'Anzahl der Etappen' })).toContainText('≥ 100');
 });
 
 test('a leg is chosen in the picture, by its slider, and from one large residual to the next', async ({ page }) => {

@@ -54,13 +54,13 @@ test('the line of the chart walks along the path, from the keyboard too, and dri
   const slider = widget.getByRole('slider', { name: 'selected step', exact: true });
   const measuredBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured);
   const twoPictures = () => Promise.all(['plane', 'twist'].map((name) => pictureOf(widget.locator(`canvas.${name}`))));
-  const [plane, twist] = await twoPictures();
+  const [planeAtEnd, twistAtEnd] = await twoPictures();
   await slider.press('ArrowLeft');
   await frames(page);
   expect((await configOf(widget)).step).toBe(19);
-  const [planeBefore, twistBefore] = await twoPictures();
-  expect(planeBefore).not.toBe(plane);
-  expect(twistBefore).not.toBe(twist);
+  const [plane, twist] = await twoPictures();
+  expect(plane).not.toBe(planeAtEnd);
+  expect(twist).not.toBe(twistAtEnd);
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured)).toEqual(measuredBefore);
   await expect(slider).toHaveAttribute('aria-valuetext', 'step 19');
   await slider.press('Home');

@@ -13,7 +13,7 @@ import { ALL_NAMES } from './figures.js';
  * @typedef {import('@playwright/test').Page} Page
  * @typedef {import('./support.js').AnyElement} AnyElement
  * @typedef {{ below: (end: number) => number, one: <T>(of: readonly T[]) => T }} Random random numbers, and random elements of lists
- * @typedef {(page: Page, luck: Random) => Promise<string>} Action random action, which returns a description of itself
+ * @typedef {(page: Page, random: Random) => Promise<string>} Action random action, which returns a description of itself
  */
 
 const EVENTS = Number(process.env.MONKEY_EVENTS ?? 600);

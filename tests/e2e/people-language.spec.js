@@ -179,7 +179,7 @@ test('signs stand left of their numbers on a page from right to left, also among
       });
     }, values);
     expect(signsAndSides.length).toBeGreaterThan(1);
-    expect(signsAndSides.filter(([, isRight]) => !isRight)).toEqual([]);
+    expect(signsAndSides.filter(([, isLeftOfNumber]) => !isLeftOfNumber)).toEqual([]);
     const directionOf = (/** @type {string} */ selector) => widget.locator(selector).evaluate((element) => getComputedStyle(element).direction);
     expect(await directionOf('.machine')).toBe(direction);
     expect(await directionOf('[slot=caption]')).toBe('rtl');

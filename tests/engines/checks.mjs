@@ -159,7 +159,7 @@ async function checkDragging(page, tag, { name, to, placeOf }) {
   // Pointer positions are whole pixels. A handle that is grasped beside its middle keeps its offset from the pointer.
   const from = [Math.round(places.from.x), Math.round(places.from.y)];
   const vector = [places.to.x - places.from.x, places.to.y - places.from.y];
-  const pointAt = (/** @type {number} */ share) => /** @type {[number, number]} */ (from.map((x, i) => Math.round(x + share * vector[i])));
+  const pointAt = (/** @type {number} */ share) => /** @type {[number, number]} */ (from.map((coordinate, i) => Math.round(coordinate + share * vector[i])));
   await page.engine.drag(Array.from({ length: STEPS + 1 }, (_, i) => pointAt(i / STEPS)));
   await page.untilSettled(tag);
   await page.keepScreenshot(`${tag}-${name}-dragged`);

@@ -47,7 +47,7 @@ const calibrationOf = (change) => ({
   alphas: [0.03, 0.008],
   intervals: [[0.024, 0.036], [0.007, 0.0091]],
   recommended: { inflation: 2 },
-  systematicErrors: { 
+  systematicErrors: {
     mountYaw: { value: 0.05, interval: [0.04, 0.06], corrected: true },
     distanceScale: { value: 0.99, interval: [0.98, 0.999], corrected: true }, turnScale: { value: 1.01, interval: [1.005, 1.015], corrected: false },
   },

@@ -46,7 +46,7 @@ test('no import runs in a circle', () => {
 });
 
 test('no import runs up, and none from one widget to another', () => {
-  const layerOf = (/** @type {string} */ path) => LAYERS.findIndex((floor) => path.startsWith(`${floor}/`));
+  const layerOf = (/** @type {string} */ path) => LAYERS.findIndex((layer) => path.startsWith(`${layer}/`));
   for (const [importer, imported] of imports) {
     const [from, to] = [layerOf(importer), layerOf(imported)];
     if (from >= 0 && to >= 0) assert.ok(from <= to, `${importer} imports ${imported}`);

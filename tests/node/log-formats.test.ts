@@ -129,22 +129,22 @@ const BLOCK_POSITIONS: Record<string, (bytes: Buffer) => number[]> = {
 
 for (const [name, blockPositions] of Object.entries(BLOCK_POSITIONS)) {
   test(`${name}: a damaged block loses its own rows, and a file that breaks off those from there on`, async () => {
-    const rowsOfBlocks: number[] = [];
+    const rowsSoFar: number[] = [];
     for (const at of blockPositions(bytesOf(name))) {
       const log = await odometryOfDamaged(name, at);
       const rows = rowsOf(log);
       const lostRows = range(0, 100).filter((row) => !rows.includes(row));
       if (lostRows.length > 0) assert.match(summaryText(log), /1 damaged block skipped \(.+\)$/);
       const truncatedLog = odometryOf(bytesOf(name).subarray(0, at), name);
-      if (rowsOfBlocks.length === 0) await refusalOf(truncatedLog);
+      if (rowsSoFar.length === 0) await refusalOf(truncatedLog);
       else {
-        assert.deepEqual(rowsOf(await truncatedLog), rowsOfBlocks);
+        assert.deepEqual(rowsOf(await truncatedLog), rowsSoFar);
         if (lostRows.length > 0) assert.match(summaryText(await truncatedLog), /notes: the file is incomplete: it ends in the middle of a row or record$/);
       }
       assert.ok(lostRows.length < 50);
-      rowsOfBlocks.push(...lostRows);
+      rowsSoFar.push(...lostRows);
     }
-    assert.deepEqual(rowsOfBlocks, range(0, 100));
+    assert.deepEqual(rowsSoFar, range(0, 100));
   });
 }
 

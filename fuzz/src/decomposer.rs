@@ -115,14 +115,14 @@ fn assert_results(machine: &OdometryDecomposer) {
         independent_heading,
     } = machine.stats();
     assert_eq!(n, machine.poses().len());
-    let exact_moments = [exact_cross_track, lever, exact_heading, independent_heading];
-    let measured_moments = [cross_track, cross_track_error, heading, heading_error];
-    laws::assert_finite("exact", &exact_moments);
-    laws::assert_finite_or_none("measured", &measured_moments);
+    let exact_figures = [exact_cross_track, lever, exact_heading, independent_heading];
+    let measured_figures = [cross_track, cross_track_error, heading, heading_error];
+    laws::assert_finite("exact", &exact_figures);
+    laws::assert_finite_or_none("measured", &measured_figures);
     assert_eq!(n == 0, cross_track.is_nan());
     assert!(
-        exact_moments.iter().chain(&measured_moments).all(|figure| figure.is_nan() || *figure >= 0.0),
-        "{exact_moments:?} {measured_moments:?}"
+        exact_figures.iter().chain(&measured_figures).all(|figure| figure.is_nan() || *figure >= 0.0),
+        "{exact_figures:?} {measured_figures:?}"
     );
 
     for figures in machine.rules() {

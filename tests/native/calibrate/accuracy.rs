@@ -133,7 +133,7 @@ fn wrong_alphas(model: Model, scenario: &Scenario, study: &Study) -> Vec<String>
     reports.map(|report| format!("{}, {model:?}: {report}", scenario.name)).collect()
 }
 
-/// Asserts that the α's of every model are right in a hundred logs, and that `more` reports nothing.
+/// Asserts that the α's of every model are right in a hundred logs, and that `others` reports nothing.
 fn assert_right_in_every_model(scenario: &Scenario, others: impl Fn(&Study) -> Vec<String>) {
     let reports: Vec<String> = MODELS
         .into_iter()

@@ -66,9 +66,9 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
         }
         (time, SE2::new(0.0, 0.0, frame_heading) * pose)
     }));
-    let visible_at_times = trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(60.0) < 20.0));
+    let partly_visible = trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(60.0) < 20.0));
     let short_log = trajectory(reference.samples().skip(rows / 2).take(rows / 5));
-    for reference in [restarting.with_breaks_before((0..rows).step_by(400)), visible_at_times, short_log] {
+    for reference in [restarting.with_breaks_before((0..rows).step_by(400)), partly_visible, short_log] {
         let calibration = calibrated_log(&[odometry.clone(), reference], &simulation.options());
         assert_recovers(&calibration, SystematicError::ClockOffset, 3.2);
     }

@@ -185,7 +185,7 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
 #[test]
 fn alphas_and_their_intervals_scale_with_the_noise() {
     for model in [MODELS[1], MODELS[3]] {
-        let scaled = |times: f64| {
+        let fit_with_noise = |times: f64| {
             let sim = Simulation { violation: Violation::Times(times), ..Simulation::of(model, 1000, 103) };
             let exact_options = Options { position_std: Some(0.0), yaw_std: Some(0.0), ..sim.options() };
             let Calibration { alphas, intervals, .. } = calibrated_log(&sim.log(), &exact_options);
@@ -196,8 +196,8 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
             });
             results.collect::<Vec<_>>()
         };
-        let larger = scaled(0.01);
-        for (k, (smaller, expected)) in scaled(0.001).into_iter().zip(larger).enumerate() {
+        let larger = fit_with_noise(0.01);
+        for (k, (smaller, expected)) in fit_with_noise(0.001).into_iter().zip(larger).enumerate() {
             for (number, expected_number) in smaller.into_iter().zip(expected) {
                 let allowed = 0.025 * (expected[2] - expected[0]);
                 assert!(

@@ -52,8 +52,8 @@ impl Grid {
         let (distance, off) =
             if off.abs() <= PI / 2.0 { (dx.hypot(dy), off) } else { (-dx.hypot(dy), off - PI.copysign(off)) };
         let bearing = self.centre[1] + off;
-        let heading = wrap_angle(pose.theta() - self.slope * bearing - self.centre[2]);
-        [distance, bearing, self.centre[2] + heading]
+        let offset = wrap_angle(pose.theta() - self.slope * bearing - self.centre[2]);
+        [distance, bearing, self.centre[2] + offset]
     }
 
     /// Returns the lower bound of a cell along an axis.
@@ -123,12 +123,12 @@ impl Grid {
         expected.push(n - expected.iter().sum::<f64>());
         let (small, large): (Vec<_>, Vec<_>) =
             observed.into_iter().zip(expected).partition(|(_, expected)| *expected < 20.0);
-        let small = small.iter().fold((0.0, 0.0), |(o, e), cell| (o + cell.0, e + cell.1));
+        let pooled = small.iter().fold((0.0, 0.0), |(o, e), cell| (o + cell.0, e + cell.1));
         assert!(large.len() > 40, "{} cells test little", large.len());
-        assert!(small.1 > -1e-4 * n, "the density has more mass than 1: {} poses remain", small.1);
+        assert!(pooled.1 > -1e-4 * n, "the density has more mass than 1: {} poses remain", pooled.1);
         let term = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
         // If only a few poses remain, the error of the quadrature may exceed their number. They are left out.
-        let remainder = if small.1 >= 20.0 { term(&small) } else { 0.0 };
+        let remainder = if pooled.1 >= 20.0 { term(&pooled) } else { 0.0 };
         (large.iter().map(term).sum::<f64>() + remainder, chi_square_limit(large.len() + 1))
     }
 }

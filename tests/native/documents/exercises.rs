@@ -142,7 +142,7 @@ fn exercise_5_poses_through_walls() {
         let stats = stats(settings(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
         assert!(stats.through_wall_rate < 0.4, "{i}: {}", stats.through_wall_rate);
     }
-    let [arc_cost_printed, four_printed, share_printed, eight_printed]: [Number; 4] = [
+    let [arc_cost_printed, quarters_printed, share_printed, eighths_printed]: [Number; 4] = [
         "Judging the whole arc costs # draws",
         "a quarter of the time cost # draws",
         "draws, and # % still go through one",
@@ -154,9 +154,9 @@ fn exercise_5_poses_through_walls() {
     arc_cost_printed.assert(whole_arc.draws_per_accepted, 0.0);
     assert_eq!(whole_arc.through_wall, 0);
     let [quarters, eighths] = [4, 8].map(|parts| stats_of(Sampler::SubStepped(parts)));
-    four_printed.assert(quarters.draws_per_accepted, 0.0);
+    quarters_printed.assert(quarters.draws_per_accepted, 0.0);
     share_printed.assert_percent(quarters.through_wall_rate, 0.0);
-    eight_printed.assert(eighths.draws_per_accepted, 0.0);
+    eighths_printed.assert(eighths.draws_per_accepted, 0.0);
     let [draws_per_second]: [Number; 1] = exercises_document().numbers("at 20 Hz that is # draws a second");
     // Printed in thousands.
     assert!((draws_per_second.value - 2000.0 * 20.0 * whole_arc.draws_per_accepted).abs() <= 500.0);

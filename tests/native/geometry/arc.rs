@@ -121,7 +121,7 @@ const ARC_AND_WALL_KINDS: [(&str, MakeArc, MakeWall, u32); 14] = [
     ("on the spot", TURN_ON_THE_SPOT, any_wall, 500),
     ("nearly on the spot, any wall", nearly_on_the_spot, any_wall, 1000),
     ("nearly on the spot, tangent", nearly_on_the_spot, tangent_wall, 1500),
-    ("far", LONG_ARC, tangent_wall, 1500),
+    ("long", LONG_ARC, tangent_wall, 1500),
 ];
 
 // --------------------------------------------------------------------------------------------------------- tests

@@ -102,18 +102,18 @@ proptest! {
     }
 
     #[test]
-    fn matrices_that_are_no_covariances_are_refused(cov in covariances(), scaled_point in (0..3usize, 0..3usize), number in any_double(), less in 0.01..1.0) {
+    fn matrices_that_are_no_covariances_are_refused(cov in covariances(), entry in (0..3usize, 0..3usize), number in any_double(), less in 0.01..1.0) {
         let mut changed = cov;
-        changed[scaled_point] = number;
+        changed[entry] = number;
         match TangentNoiseModel::new(changed) {
             Ok(model) => prop_assert_eq!(model.r, changed),
             Err(error) => prop_assert_eq!(error == TangentNoiseError::NotFinite, !number.is_finite()),
         }
         let with_negative_eigenvalue = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + less);
         prop_assert_eq!(TangentNoiseModel::new(with_negative_eigenvalue), Err(TangentNoiseError::NotPositiveSemidefinite));
-        if scaled_point.0 != scaled_point.1 {
+        if entry.0 != entry.1 {
             let mut asymmetric = cov;
-            asymmetric[scaled_point] += less * (1.0 + cov.amax());
+            asymmetric[entry] += less * (1.0 + cov.amax());
             prop_assert_eq!(TangentNoiseModel::new(asymmetric), Err(TangentNoiseError::NotSymmetric));
         }
     }

@@ -75,14 +75,14 @@ fn the_last_turn_is_not_part_of_the_path() {
     for _ in 0..1000 {
         let [v, omega, gamma] = unit_noise(&mut rng);
         let draw = endpoint.draw_tester(&command, &start).judge([v, omega, gamma]);
-        let straight = endpoint.draw_tester(&command, &start).judge([v, omega, 0.0]);
-        assert_eq!((draw.arc, draw.end, draw.path), (straight.arc, straight.end, straight.path));
+        let without_turn = endpoint.draw_tester(&command, &start).judge([v, omega, 0.0]);
+        assert_eq!((draw.arc, draw.end, draw.path), (without_turn.arc, without_turn.end, without_turn.path));
         let executed = model().executed(&command, [v, omega, gamma]);
         assert!((draw.arc.length - 2.0 * executed.v_hat).abs() < 1e-15);
         assert!((draw.arc.turn - 2.0 * executed.omega_hat).abs() < 1e-15);
         let pose = model().apply_noise(&command, &start, [v, omega, gamma]);
         assert!(crate::common::pose_distance(&draw.pose, &pose) < 1e-14);
-        assert_ne!(draw.pose.theta(), straight.pose.theta());
+        assert_ne!(draw.pose.theta(), without_turn.pose.theta());
     }
 }
 
@@ -139,7 +139,6 @@ fn a_wedged_robot_is_an_error_that_counts_its_draws() {
         assert_eq!(error.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
     }
     // The first part of the motion, 1 m ± 1 mm, is free and leads to a wall, which blocks the second part. All draws count.
-    // walls.
     let dead_end = FloorPlan::new(vec![Segment { from: [1.5, 0.0], to: [1.5, 2.0] }], [0.0, 0.0, 2.0, 2.0])
         .expect("a valid plan");
     let precise =

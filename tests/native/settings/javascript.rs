@@ -150,9 +150,9 @@ const HEAD: &str = "\
 
 /// Returns objects of JavaScript, one on each line.
 fn object_lines(objects: impl IntoIterator<Item = String>) -> String {
-    objects.into_iter().fold(String::new(), |mut object_lines, object| {
-        writeln!(object_lines, "    {{ {object} }},").expect("a string takes all");
-        object_lines
+    objects.into_iter().fold(String::new(), |mut text, object| {
+        writeln!(text, "    {{ {object} }},").expect("a string takes all");
+        text
     })
 }
 

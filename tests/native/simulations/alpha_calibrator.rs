@@ -155,9 +155,12 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
         "{drive_variance}, {}",
         variances.trans.0
     );
-    let turn = variance(&|[_, _, theta]| *theta);
+    let turn_variance = variance(&|[_, _, theta]| *theta);
     let expected = variances.rot1.0 + variances.rot2.0;
-    assert!((turn / expected - 1.0).abs() < 4.0 * (2.0 / count).sqrt(), "{turn}, {expected}");
+    assert!(
+        (turn_variance / expected - 1.0).abs() < 4.0 * (2.0 / count).sqrt(),
+        "{turn_variance}, {expected}"
+    );
     assert!(machine.leg(calibration.legs.len()).is_none());
 }
 

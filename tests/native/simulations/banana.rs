@@ -174,7 +174,7 @@ fn a_dragged_end_is_reached() {
             // A chord d on an arc of length s = |v|Δt carries the rounding of s.
             let rounding = 1e-14 * (1.0 + (command.v * dt).abs());
             assert!(pose_distance(&end_position, &SE2::new(x, y, 0.0)) < rounding, "({x}, {y}): {end}");
-            // The command has the arc to that end whose turn is nearest to the present one. A straight line is the only arc to its end.
+            // Of the arcs to that end, the command drives the one whose turn is nearest to the present turn. A straight line has no other arc.
             assert!(((command.omega - omega) * dt).abs() <= PI + 1e-14 || command.omega == 0.0);
         }
     }

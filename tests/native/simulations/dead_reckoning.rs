@@ -123,9 +123,9 @@ fn ratios_and_misses_are_counted() {
                 })
                 .collect();
             assert!(comparison.ratios.iter().zip(&ratios).all(|(row, ratio)| row[axis] == *ratio));
-            let miss: Vec<u32> = (1..=20).filter(|k| (ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
+            let steps: Vec<u32> = (1..=20).filter(|k| (ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
             assert!(misses.told);
-            assert_eq!((misses.first, misses.last), (miss.first().copied(), miss.last().copied()));
+            assert_eq!((misses.first, misses.last), (steps.first().copied(), steps.last().copied()));
             assert_eq!(misses.end, ratios[19] - 1.0);
         }
     }
@@ -311,8 +311,8 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         for (first_order, exact_values) in
             [(&growth.along_first_order, &growth.along), (&growth.across_first_order, &growth.across)]
         {
-            for ((line, exact_ratio), dt) in first_order.iter().zip(exact_values).zip(&growth.durations) {
-                assert!(*dt > 3.0 || (exact_ratio / line - 1.0).abs() < 2e-3, "{exact_ratio} {line}");
+            for ((line, exact), dt) in first_order.iter().zip(exact_values).zip(&growth.durations) {
+                assert!(*dt > 3.0 || (exact / line - 1.0).abs() < 2e-3, "{exact} {line}");
             }
         }
     }

@@ -84,8 +84,8 @@ fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
         .map(|(length, turn)| DVector::from_vec(vec![length, turn]))
         .collect();
     let pose_of_twist = |xi: &DVector<f64>| {
-        let position_of_arc = SE2::exp(&Vector3::new(xi[0], xi[1], xi[2]));
-        DVector::from_vec(vec![position_of_arc.x(), position_of_arc.y(), xi[2]])
+        let pose = SE2::exp(&Vector3::new(xi[0], xi[1], xi[2]));
+        DVector::from_vec(vec![pose.x(), pose.y(), xi[2]])
     };
     let position_of_arc = |arc: &DVector<f64>| {
         let (x, y) = chord(arc[0], arc[1]);
@@ -94,8 +94,8 @@ fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
     let gains_of =
         |plain: &[DVector<f64>], bent: &[DVector<f64>], map: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
             let (plain, log) = (log_densities(plain), log_densities(bent));
-            let gains_of = bent.iter().zip(plain.iter().zip(&log));
-            gains_of.map(|(at, (plain, log))| log - determinant(map, at).abs().ln() - plain).collect()
+            let robots = bent.iter().zip(plain.iter().zip(&log));
+            robots.map(|(at, (plain, log))| log - determinant(map, at).abs().ln() - plain).collect()
         };
     [gains_of(&coordinates, &twists, &pose_of_twist), gains_of(&positions, &arcs, &position_of_arc)]
 }

@@ -29,9 +29,9 @@ fn exponential_moments_are_means_of_twists_from_the_start() {
     let twists: Vec<Vector3<f64>> = poses.iter().map(|pose| pose.boxminus(&start)).collect();
     let exponential = ExponentialMoments::from_poses(&poses, &start);
     let mean = twists.iter().sum::<Vector3<f64>>() / 500.0;
-    let squares = twists.iter().map(|t| (t - mean) * (t - mean).transpose()).sum::<Matrix3<f64>>();
+    let scatter = twists.iter().map(|t| (t - mean) * (t - mean).transpose()).sum::<Matrix3<f64>>();
     assert!((exponential.mean - mean).amax() < 1e-14);
-    assert!((exponential.cov - squares / 499.0).amax() < 1e-14);
+    assert!((exponential.cov - scatter / 499.0).amax() < 1e-14);
 }
 
 /// If ξ is a Gaussian of rank 2, its 2σ contour, mapped by exp, contains the same fraction of robots. The outline separates inside from
@@ -94,8 +94,8 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
             // Minimizes the distance over 4001 headings within three standard deviations. The step is so small that the
             // minimum is too large by less than 1e-5.
             let headings = (0..=4000).map(|i| mean.z + spread * 3.0 * (f64::from(i) / 2000.0 - 1.0));
-            let nearest = headings.map(distance).fold(f64::INFINITY, f64::min);
-            assert!((1.9..2.0 + 1e-5).contains(&nearest), "({x}, {y}) is {nearest} deviations away");
+            let min_distance = headings.map(distance).fold(f64::INFINITY, f64::min);
+            assert!((1.9..2.0 + 1e-5).contains(&min_distance), "({x}, {y}): {min_distance}");
         }
     }
 }

@@ -1,4 +1,5 @@
-// Interface of dist/core.js in Node: how it is loaded, and which names it exports. The results of the exports are tested in tests/web.
+// Interface of dist/core.js in Node: how it is loaded, and which names it exports. tests/digest compares the results of machines, and
+// tests/web those of other exports.
 
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';

@@ -210,7 +210,7 @@ test('a frozen reference is left out while the odometry moves on, and kept while
   const frozenTable = straight((i) => seenX(i >= 200 && i < 300 ? 200 : i));
   const { data, summary } = await referenceOf(frozenTable);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [301, [201], 301, { held: { count: 99, first: 0 } }]);
-  assert.equal(await sentenceOf(referenceOf(straight(() => 7))), 'truth.csv: its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.');
+  assert.equal(await sentenceOf(referenceOf(straight(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // A pause of two seconds, or one in which the odometry moves by five centimetres, does not count as lost.
   const droppedDuring = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
     const xOf = (/** @type {number} */ i) => (speed * i) / 20;

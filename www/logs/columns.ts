@@ -32,7 +32,7 @@ export interface Group {
   twice: Partial<Record<Field, Column>>;
   /** Columns of times, best first. */
   times: Column[];
-  /** Clock of the rows, and another one that is used if the first is mostly 0, or stands. */
+  /** Clock of the rows, and another one that is used if the first is mostly 0, or stands still. */
   clocks: Clock[];
   /** First cell of the group's rows, in a file with several kinds of rows. */
   tag?: string;

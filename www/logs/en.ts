@@ -33,7 +33,7 @@ const REASONS = {
   repeated: 'a pose repeated at a higher rate than it was measured',
   stray: 'a time far from all others',
   setBack: 'times of a clock that was set back',
-  held: 'the pose stands while the odometry moves on',
+  held: 'the pose stands still while the odometry moves on',
 };
 
 /** Errors of a log and their corrections, found by comparing it with the other log. */
@@ -148,7 +148,7 @@ export const english = {
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
     correction: (name: Correction['name'], other: string, score: number, factor: number) => `${CORRECTIONS[name](other, factor)}. The motions then agree (correlation ${score.toFixed(2)}).`,
-    held: 'its pose stands while the odometry moves on: it has lost the robot; give one that follows the robot.',
+    held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
     /** Errors of several recordings. */
     noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
     unpaired: (odometry: number, reference: number) => `there are ${odometry} logs of odometry and ${reference} of the reference; give one of each for a drive.`,
@@ -189,7 +189,7 @@ export const english = {
     noGaps: 'none',
     gaps: (count: number, first: number, longest: number) => `${count}, the first ${first.toFixed(2)} s after the start, the longest of ${longest.toFixed(2)} s`,
     jumps: (count: number, first: number) => `${count}, the first ${first.toFixed(2)} s after the start`,
-    recorded: 'when messages were recorded, as their headers have none, or the same again',
+    recorded: 'when messages were recorded, as their headers have no stamps, or all the same one',
     notes: {
       missing: (files: string) => `the files ${files} of the recording are missing`,
       damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,

@@ -31,7 +31,7 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
-/** Maximum fraction of rows with another time than the row before, for a clock that stands. */
+/** Maximum fraction of rows with another time than the row before, for a clock that stands still. */
 const MAX_STANDING_CHANGES = 0.01;
 
 /** Periods (s) after which clocks begin at 0 again: days, weeks of GPS, and counters of 32 bits in s, ms or µs. */
@@ -87,7 +87,7 @@ export class Rows {
    * @param b y, or omega
    * @param c heading, or 0
    * @param line or number of the message
-   * @param otherSeconds whole part of the time by the other clock, which is used if the first one stands
+   * @param otherSeconds whole part of the time by the other clock, which is used if the first one stands still
    * @param otherRest of the time by the other clock
    */
   add(seconds: number, rest: number, a: number, b: number, c: number, line: number, otherSeconds = 0, otherRest = 0): void {
@@ -168,7 +168,7 @@ export class Rows {
     for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(WIDTH * from, WIDTH * (from + 1)), WIDTH * rank);
   }
 
-  /** Switches to the other clock if the first one is mostly 0, or stands. Returns whether it did. */
+  /** Switches to the other clock if the first one is mostly 0, or stands still. Returns whether it did. */
   #chooseClock(hasOther: boolean): boolean {
     if (!hasOther) return false;
     let [unset, changes] = [0, 0];

@@ -155,7 +155,7 @@ test('no noise has no ratio, and a fourth order without a covariance neither @ni
   await expect(captionOf(widget)).toHaveText(/has left no covariance/);
 });
 
-test('a robot that is pointed at shows its way', async ({ page }) => {
+test('a robot that is chosen by its number shows its path', async ({ page }) => {
   const widget = await openReckoning(page, 'step="20"');
   await unfold(widget);
   const canvas = widget.locator('canvas.plane');

@@ -25,7 +25,7 @@ fn the_lever_grows_faster_than_the_drive() {
 }
 
 #[test]
-fn only_the_table_charges_two_half_turns_for_backing_up() {
+fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
     let [of_table, of_localizers] =
         page().numbers("adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.");
     let deviations_of = |rule| figures(of_preset("reverse"), rule).deviations;

@@ -254,7 +254,7 @@ fn the_executed_motion_leads_to_the_pose() {
 
 /// In reverse, Table 5.6 adds the noise of two half turns to the heading. The option `reverse_aware` does not.
 #[test]
-fn a_reverse_aware_robot_is_not_charged_for_half_turns() {
+fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
     let command = VelocityCmd { v: -1.0, ..GENTLE };
     let odometry = Settings { model: ModelKind::Odometry, command, samples: 10, ..preset("gentle") };
     let machines = [false, true].map(|reverse_aware| machine(Settings { reverse_aware, ..odometry }));

@@ -267,7 +267,7 @@ fn outlines_are_those_of_the_covariance() {
 }
 
 #[test]
-fn the_commanded_way_leads_through_its_poses() {
+fn the_commanded_path_leads_through_its_poses() {
     for settings in hard_settings() {
         let machine = machine(settings);
         let path = machine.commanded();

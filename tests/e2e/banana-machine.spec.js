@@ -173,10 +173,10 @@ test('no slider moves while the noise that bends the cloud is dragged, or outlin
     const topBefore = await sliderTop();
     for (const alpha of ['0.05', '0.02', '0', '0.2']) {
       await widget.locator('#alpha3').fill(alpha);
-      expect.soft(Math.abs((await sliderTop()) - topBefore), `${width} px, ${alpha}`).toBeLessThan(1.5);
+      expect.soft(Math.abs((await sliderTop()) - topBefore), `${width} px, ${alpha}`).toBeLessThan(0.5);
     }
     await widget.getByRole('button', { name: 'Pin' }).click();
-    expect.soft(Math.abs((await sliderTop()) - topBefore), `${width} px, pinned`).toBeLessThan(1.5);
+    expect.soft(Math.abs((await sliderTop()) - topBefore), `${width} px, pinned`).toBeLessThan(0.5);
   }
 });
 

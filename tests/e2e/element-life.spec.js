@@ -253,12 +253,13 @@ test('a canvas that has got its context back is drawn again', async ({ page, fig
 test('a figure that comes back is drawn on the screen again, even if it was removed during print', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   await page.emulateMedia({ media: 'print' });
-  await expect(widget.locator('canvas.plane')).toHaveJSProperty('width', 2 * (await widget.locator('canvas.plane').evaluate(({ clientWidth }) => clientWidth)));
+  const canvas = widget.locator('canvas.plane');
+  await expect(canvas).toHaveJSProperty('width', 2 * (await canvas.evaluate(({ clientWidth }) => clientWidth)));
   const element = await widget.evaluateHandle((each) => (each.remove(), each));
   await page.emulateMedia({ media: 'screen' });
   await element.evaluate((each) => document.body.append(each));
   await untilReady(widget);
-  await expect.poll(() => widget.locator('canvas.plane').evaluate((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width)).toBeGreaterThan(0);
+  await expect.poll(() => canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).width / element.clientWidth)).toBeCloseTo(1, 1);
 });
 
 test('a figure that was removed and comes back has no more observers, and does not draw its walls anew when it is seen again', FRESH, async ({ page }) => {

@@ -19,7 +19,7 @@ import { machineState } from './inside.js';
 const STEPS = 8;
 
 /** A picture with at most so many colours counts as blank: lines, letters and a cloud have many shades. */
-const MIN_COLOURS = 16;
+const MAX_COLOURS_OF_BLANK = 16;
 
 const readSource = (/** @type {string} */ path) => readFileSync(join(ROOT, path), 'utf8');
 
@@ -64,7 +64,7 @@ class Page {
   async untilSettled(tag) {
     const { stats, samples } = await this.ask('untilSettled', tag);
     assert.equal(stats, samples, `The statistics are of ${stats} samples.`);
-    for (const count of await this.ask('coloursOf', tag)) assert.ok(count > MIN_COLOURS, `A picture has ${count} colours.`);
+    for (const count of await this.ask('coloursOf', tag)) assert.ok(count > MAX_COLOURS_OF_BLANK, `A picture has ${count} colours.`);
   }
 
   /** Keeps a screenshot. @param {string} what its name */

@@ -45,12 +45,12 @@ export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
 /** Returns a function from time to the path length of a robot so far, the sum of metres and radians. */
 function pathLength(data: Poses | Commands): (time: number) => number {
   const { t } = data;
-  const movedBreaks = new Float64Array(t.length);
+  const lengths = new Float64Array(t.length);
   const stepLength = (i: number) => {
     if ('v' in data) return (Math.abs(data.v[i - 1]) + Math.abs(data.omega[i - 1])) * (t[i] - t[i - 1]);
     const { x, y, theta } = data;
     return Math.hypot(x[i] - x[i - 1], y[i] - y[i - 1]) + 2 * Math.abs(Math.sin((theta[i] - theta[i - 1]) / 2));
   };
-  for (let i = 1; i < t.length; i++) movedBreaks[i] = movedBreaks[i - 1] + stepLength(i);
-  return (time) => movedBreaks[Math.max(bisectRight(t, time) - 1, 0)];
+  for (let i = 1; i < t.length; i++) lengths[i] = lengths[i - 1] + stepLength(i);
+  return (time) => lengths[Math.max(bisectRight(t, time) - 1, 0)];
 }

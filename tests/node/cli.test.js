@@ -262,7 +262,7 @@ test('a journal beside a recording is named', async () => {
 });
 
 /** Writes the reference of another drive: the path of the example from its end to its start. */
-const writtenReversedReference = () => {
+const writeReversedReference = () => {
   const [header, ...rows] = readFileSync(example('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
   return fileWith('other.csv', [header, ...rows.map(([t], i) => [t, ...rows[rows.length - 1 - i].slice(1)])].join('\n'));
 };
@@ -275,7 +275,7 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   assert.match((await outputOf([...ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const swappedOutput = await outputOf(['--odometry', example('reference'), '--reference', example('odometry'), '--yaml']);
   assert.match(swappedOutput.err, /^Warning: .* Are the two swapped\?$/m);
-  const reversedPath = writtenReversedReference();
+  const reversedPath = writeReversedReference();
   const refusal = await outputOf([...ARGS.slice(0, 3), reversedPath, '--yaml']);
   assert.deepEqual([refusal.code, refusal.out], [3, '']);
   assert.match(refusal.err, /^No lines for nav2_params\.yaml: the log is unusable\.$/m);
@@ -353,7 +353,7 @@ test('inspect lists what is in a file, and the command to go on with', async () 
 });
 
 test('an unusable log has a sentence and no lines for Nav2', async () => {
-  const reversedPath = writtenReversedReference();
+  const reversedPath = writeReversedReference();
   const { code, out } = await outputOf([...ARGS.slice(0, 3), reversedPath]);
   assert.equal(code, 3);
   for (const line of [

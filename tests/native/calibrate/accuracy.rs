@@ -21,9 +21,8 @@ const FINE_REFERENCE: Scenario =
 const COARSE_REFERENCE: Scenario =
     Scenario { name: "20 mm, 20 mrad", change: |sim| sim.reference_stds = [0.02, 0.02], bias: 0.05 };
 const SYSTEMATIC_ERRORS: Scenario =
-    Scenario { name: "systematic errors", change: |simulation| simulation.errors = ERRORS, bias: 0.05 };
-const JUMPING_REFERENCE: Scenario =
-    Scenario { name: "jumps", change: |simulation| simulation.jumps = 0.01, bias: 0.05 };
+    Scenario { name: "systematic errors", change: |sim| sim.errors = ERRORS, bias: 0.05 };
+const JUMPING_REFERENCE: Scenario = Scenario { name: "jumps", change: |sim| sim.jumps = 0.01, bias: 0.05 };
 const PERSISTENT_ERRORS: Scenario =
     Scenario { name: "persistent", change: |sim| sim.violation = Violation::Autoregressive(0.7), bias: 0.1 };
 

@@ -96,14 +96,18 @@ test('a clock that was set back leaves the larger part, and halves are refused',
   assert.match(await sentenceOf(readTable(straightTable([...timesFrom(100), ...timesFrom(100, 5)]))), /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
 });
 
-test('a clock that begins at 0 again goes on: at midnight, and where a counter overflows', async () => {
-  const readWithClock = (/** @type {(seconds: number) => number | string} */ text) => readTable(['t,x,y,yaw', ...Array.from({ length: 200 }, (_, i) => `${text(i / 20)},${i / 50},0,0`)].join('\n'));
-  const midnight = await readWithClock((t) => (t < 5 ? `23:59:5${(5 + t).toFixed(2)}` : `00:00:0${(t - 5).toFixed(2)}`));
-  const inMicroseconds = await readWithClock((t) => (4_290_000_000 + Math.round(t * 1e6)) % 2 ** 32);
-  for (const { data: { t }, summary } of [midnight, inMicroseconds]) {
-    assert.deepEqual([t.length, Number((t[199] - t[0]).toFixed(6)), summary.notes[0].name, summary.gaps.count], [200, 9.95, 'rollover', 0]);
+test('a clock that begins at 0 again goes on, also around a late row: each day or week, and where a counter overflows', async () => {
+  const readWithClock = (/** @type {string} */ header, /** @type {(seconds: number) => number | string} */ text) =>
+    readTable([`${header},x,y,yaw`, ...Array.from({ length: 200 }, (_, i) => (i === 99 || i === 100 ? 199 - i : i)).map((i) => `${text(i / 20 - 5)},${i / 50},0,0`)].join('\n'));
+  const clock = (/** @type {number} */ period, /** @type {number} */ unit) => (/** @type {number} */ t) => (t < 0 ? period : 0) + Number((unit * t).toFixed(2));
+  for (const [header, text] of /** @type {const} */ ([
+    ['t', (/** @type {number} */ t) => (t < 0 ? `23:59:${(60 + t).toFixed(2)}` : `00:00:0${t.toFixed(2)}`)],
+    ['t', clock(604_800, 1)], ['t', clock(2 ** 32, 1e6)], ['t_ms', clock(2 ** 32, 1e3)], ['t_us', clock(2 ** 32, 1e6)],
+  ])) {
+    const { data: { t }, summary: { notes, gaps } } = await readWithClock(header, text);
+    assert.deepEqual([t.length, Number((t[199] - t[0]).toFixed(6)), notes, gaps.count], [200, 9.95, [{ name: 'rollover', values: [101] }, { name: 'sorted', values: [1] }], 0]);
   }
-  assert.deepEqual(midnight.summary.notes[0].values, [102]);
+  assert.equal((await readWithClock('t', (t) => t + (t < 0 ? 9 : 86_409))).summary.gaps.count, 1);
 });
 
 test('stamps of 0 drop their rows, and are no choice of the clock for the others', async () => {
@@ -169,8 +173,8 @@ const UNIT_QUESTIONS = [
   ['turn rates in degrees', ['t,v,omega', ...timesFrom(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
 ];
 
-test('times in minutes are refused by their name', async () => {
-  for (const header of ['t_min,x,y,yaw', 'Time [min],x,y,yaw']) assert.match(await sentenceOf(readTable(circleTable(([t, ...rest]) => [t / 60, ...rest], header))), /^run\.csv: the unit min of a column is not known/);
+test('times in minutes or hours are refused by their name', async () => {
+  for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await sentenceOf(readTable(circleTable(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
   assert.equal((await readTable(circleTable(([t, ...rest]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...rest], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
 });
 

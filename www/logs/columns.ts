@@ -32,7 +32,7 @@ export interface Group {
   twice: Partial<Record<Field, Column>>;
   /** Columns of times, best first. */
   times: Column[];
-  /** Clock of the rows, and another one that is used if the first is mostly 0, or stands still. */
+  /** Clock of the rows, and another one that is used if the first is mostly 0, or never changes. */
   clocks: Clock[];
   /** First cell of the group's rows, in a file with several kinds of rows. */
   tag?: string;
@@ -76,10 +76,11 @@ const SUFFIXED_NAME = /^((?:pos\.|position\.)?[xy]|yaw|theta|heading|q\.?[xyzw]|
 /** Parts of the names of columns without a pose, velocity or time: uncertainty, acceleration, vectors of an IMU, goals. */
 const OTHER_QUANTITIES = /(^|\.)(cov(ariance)?|std(dev)?|sigma|var(iance)?|err(or)?|residual|acc(el(eration)?)?|force|torque|effort|bias|mag(netic)?|dot|linear|angular|lin|ang|vel(ocity)?|twist|goal|setpoint|euler|rpy)(\.|\d|$)|^[vabw]\./;
 
-type ParsedUnit = { of: 'time' | 'length' | 'angle'; unit: TimeUnit | 'min' | LengthUnit | AngleUnit; isRate: boolean };
+type ParsedUnit = { of: 'time' | 'length' | 'angle'; unit: TimeUnit | 'min' | 'h' | LengthUnit | AngleUnit; isRate: boolean };
 
 const UNIT_WORDS: [RegExp, ParsedUnit['of'], ParsedUnit['unit']][] = [
-  [/^(min|minutes?|h|hrs?|hours?)$/, 'time', 'min'],
+  [/^(min|minutes?)$/, 'time', 'min'],
+  [/^(h|hrs?|hours?)$/, 'time', 'h'],
   [/^(s|secs?|seconds?)$/, 'time', 's'],
   [/^(ms|m?secs?|millisecs?|milliseconds?)$/, 'time', 'ms'],
   [/^(us|µs|μs|usecs?|microsecs?|microseconds?)$/, 'time', 'us'],

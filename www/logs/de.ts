@@ -180,7 +180,7 @@ export const german: Words = {
       cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
       noZone: 'Datumsangaben ohne Zeitzone gelten als UTC',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
-      rollover: (line) => `die Uhr beginnt in Zeile ${line} wieder bei 0; spätere Zeiten setzen fort`,
+      rollover: (line) => `die Uhr beginnt in Zeile ${line} wieder bei 0; Zeiten ab dort setzen die vorigen fort`,
       sorted: (count) => `${times(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       swapped: (odometry, by) =>
         `${by === 'name' ? `sie heißt wie eine Odometrie, und ${odometry} nicht` : `sie wiederholt im Stand genau ihre Pose, wie die Odometrie von Rädern, und ${odometry} nicht`}: Ist die Odometrie als Referenz angegeben?`,

@@ -196,7 +196,7 @@ export const english = {
       cutShort: 'the file is incomplete: it ends in the middle of a row or record',
       noZone: 'dates without a time zone are taken as UTC',
       upAxis: (axis: string) => `${axis} is the vertical axis`,
-      rollover: (line: number) => `the clock begins at 0 again in row ${line}; later times are continued`,
+      rollover: (line: number) => `the clock begins at 0 again in line ${line}; times from there on continue those before`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       swapped: (odometry: string, by: 'name' | 'rest') =>
         `${by === 'name' ? `its name is that of odometry, and ${odometry} is not` : `at rest it repeats its pose exactly, like wheel odometry, and ${odometry} does not`}: was the odometry given as the reference?`,

@@ -31,11 +31,11 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
-/** Maximum fraction of rows with another time than the row before, for a clock that stands still. */
-const MAX_STANDING_CHANGES = 0.01;
-
-/** Periods (s) after which clocks begin at 0 again: days, weeks of GPS, and counters of 32 bits in s, ms or µs. */
+/** Periods (s) after which clocks begin at 0 again: a day, a week of GPS, and 32-bit counters of an unstated unit, ms or µs. */
 const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
+
+/** Minimum period in median steps. A clock that was set back might match a shorter period by chance. */
+const MIN_PERIOD_STEPS = 500;
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
 const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
@@ -87,7 +87,7 @@ export class Rows {
    * @param b y, or omega
    * @param c heading, or 0
    * @param line or number of the message
-   * @param otherSeconds whole part of the time by the other clock, which is used if the first one stands still
+   * @param otherSeconds whole part of the time by the other clock, which is used if the first one is mostly 0, or never changes
    * @param otherRest of the time by the other clock
    */
   add(seconds: number, rest: number, a: number, b: number, c: number, line: number, otherSeconds = 0, otherRest = 0): void {
@@ -168,37 +168,35 @@ export class Rows {
     for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(WIDTH * from, WIDTH * (from + 1)), WIDTH * rank);
   }
 
-  /** Switches to the other clock if the first one is mostly 0, or stands still. Returns whether it did. */
+  /** Switches to the other clock if the first one is mostly 0, or never changes. Returns true if it did. */
   #chooseClock(hasOther: boolean): boolean {
-    if (!hasOther) return false;
-    let [unset, changes] = [0, 0];
-    for (let row = 0; row < this.#addedCount; row++) {
-      if (this.#isUnset(row)) unset += 1;
-      if (row > 0 && this.#time(row, 0) !== this.#time(row - 1, 0)) changes += 1;
-    }
-    if (2 * unset <= this.#addedCount && changes > MAX_STANDING_CHANGES * this.#addedCount) return false;
+    const isFrozen = () => this.#rows.every((row) => this.#time(row, 0) === this.#time(0, 0));
+    if (!hasOther || (2 * this.#rows.filter((row) => this.#isUnset(row)).length <= this.#addedCount && !isFrozen())) return false;
     this.#clock = OTHER_SECONDS;
     return true;
   }
 
-  /** Continues the times of a clock that begins at 0 again. Returns the number of the first row after that, as counted in the file; 0 if there is none. */
+  /**
+   * Adds the periods that have passed to the times of a clock that begins at 0 again. Returns the number, as counted in the file, of the
+   * first row after such a reset; 0 if there is none.
+   */
   #continueClock(): number {
     const numbers = this.#numbers;
-    const timeStep = (row: number) => this.#time(row, this.#number(row - 1, this.#clock)) - this.#number(row - 1, this.#clock + 1);
-    const maxError = MIN_GAP_STEPS * quantile(sample(this.#addedCount - 1, (i) => Math.abs(timeStep(i + 1))), 0.5);
-    const periodChanges: [row: number, period: number][] = [];
-    for (let row = 1; row < this.#addedCount; row++) {
-      const step = timeStep(row);
-      const period = step < 0 || periodChanges.length > 0 ? CLOCK_PERIODS.find((each) => Math.abs(Math.abs(step) - each) <= maxError && each > 100 * maxError) : undefined;
-      if (period) periodChanges.push([row, step < 0 ? period : -period]);
-    }
-    for (const [first, period] of periodChanges) {
-      for (let row = first; row < this.#addedCount; row++) {
-        numbers[WIDTH * row + this.#clock] += Math.floor(period);
-        numbers[WIDTH * row + this.#clock + 1] += period - Math.floor(period);
+    const steps = new Float64Array(this.#addedCount).map((_, row) => (row > 0 ? this.#time(row, this.#number(row - 1, this.#clock)) - this.#number(row - 1, this.#clock + 1) : 0));
+    const medianStep = quantile(sample(steps.length - 1, (i) => Math.abs(steps[i + 1])), 0.5);
+    const periods = CLOCK_PERIODS.filter((period) => period > MIN_PERIOD_STEPS * medianStep);
+    let [passedTime, firstLine] = [0, 0];
+    for (const [row, step] of steps.entries()) {
+      // A late row from before the reset leads back over it.
+      const period = step < 0 || passedTime > 0 ? periods.find((each) => Math.abs(Math.abs(step) - each) <= MIN_GAP_STEPS * medianStep) : undefined;
+      if (period) {
+        passedTime -= Math.sign(step) * period;
+        firstLine ||= this.#number(row, LINE);
       }
+      numbers[WIDTH * row + this.#clock] += Math.floor(passedTime);
+      numbers[WIDTH * row + this.#clock + 1] += passedTime - Math.floor(passedTime);
     }
-    return periodChanges.length > 0 ? this.#number(periodChanges[0][0], LINE) : 0;
+    return firstLine;
   }
 
   /** Returns the indices of all rows that were added. */

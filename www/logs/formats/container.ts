@@ -87,14 +87,13 @@ function joinBytes(first: Uint8Array, second: Uint8Array): Uint8Array {
 
 export const viewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);
 
-/** Returns a number of eight bytes that is below 2^53. */
+/** Returns a number of eight bytes. It is exact below 2^53, and rounded above. */
 export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
 
 /** Splits a time in nanoseconds into seconds and nanoseconds. Reading a BigInt takes as long as the rest of the message. */
 export function stampAt(view: DataView, at: number) {
-  // The quotient of rounded numbers may be wrong by 1. The lower 32 bits of the remainder are exact, and reveal it.
+  // The number may be rounded up to the next second. The lower 32 bits of the remainder are exact, and negative then.
   const seconds = Math.floor(uint53(view, at) / 1e9);
-  const remainder = (view.getUint32(at, true) - Math.imul(seconds, 1e9)) | 0;
-  const carry = remainder < 0 ? -1 : remainder < 1e9 ? 0 : 1;
-  return { seconds: seconds + carry, nanoseconds: remainder - 1e9 * carry };
+  const nanoseconds = (view.getUint32(at, true) - Math.imul(seconds, 1e9)) | 0;
+  return nanoseconds < 0 ? { seconds: seconds - 1, nanoseconds: nanoseconds + 1e9 } : { seconds, nanoseconds };
 }

@@ -20,7 +20,7 @@ const [COMPARED_ROWS, MIN_EQUAL_ROWS] = [500, 10];
 /** Maximum difference (m and rad) between copies of one path, due to rounding to six digits. */
 const COPY_TOLERANCE = 1e-5;
 
-/** Steps in m to which positions of a file may be rounded, and minimum length of a rounded path, in steps: no odometry is as exact that far. */
+/** Steps in m to which positions of a file may be rounded, and minimum length, in steps, of a path that is compared so: no odometry stays within half a step that far. */
 const [ROUNDING_STEPS, MIN_ROUNDED_LENGTH] = [[1e-2, 1e-3, 1e-4], 2000];
 
 /** Minimum motion, in m and rad, of paths that are compared. */

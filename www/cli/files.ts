@@ -8,9 +8,14 @@ import type { Recording, Source } from '../logs/log.ts';
 import { openRecordings } from '../logs/open.ts';
 import type { InputPath } from './options.ts';
 
-/** Opens a file or a folder; rejects with a LogError. In a folder other files than logs are skipped, each with a call of `onSkip`. */
+/** Opens a file or a folder; rejects with a LogError. Files beside a log that are none are skipped, each with a call of `onSkip`. */
 export async function recordingsOf({ path, open }: InputPath, onSkip: (error: LogError) => void): Promise<Recording[]> {
-  return openRecordings(await openSources(path), open, onSkip);
+  const errors: LogError[] = [];
+  const recordings = await openRecordings(await openSources(path), open, (error) => errors.push(error));
+  const refusal = recordings.length === 0 ? errors.shift() : undefined;
+  errors.forEach(onSkip);
+  if (refusal) throw refusal;
+  return recordings;
 }
 
 async function openSources(path: string): Promise<Source[]> {

@@ -1,6 +1,5 @@
 /** Options of the command line. */
 
-import { resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import type { Wishes } from '../logs/drives.ts';
 import { cut } from '../logs/log-error.ts';
@@ -120,14 +119,13 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
   if (command === 'inspect') {
     const allPaths = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
     if (allPaths.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
-    refuseRepeated(allPaths);
     const uselessOption = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
     if (uselessOption !== undefined) throw new UsageError(`--${uselessOption} is an option of calibrate; inspect has ${listOfAlternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
     const stated = Object.entries(values).filter((each): each is [string, string] => typeof each[1] === 'string');
     return { command, inputs: allPaths.map((path) => ({ path, open: openAs() })), stated, isJson: values.json ?? false };
   }
   if (command !== 'calibrate') {
-    const path = paths[0] ?? (isPath(command) ? command : 'run.bag');
+    const path = [command, ...paths].find(isPath) ?? 'run.bag';
     throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”), as in npx motion-widgets inspect ${shellQuoted(path)}; --help has examples.`);
   }
   const numberOf = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
@@ -143,7 +141,6 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
   if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${cut(values.plot)}”).`);
   if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
   const recording = [...paths, ...(values.recording ?? [])];
-  refuseRepeated(recording);
   const { odometry = [], reference = [] } = values;
   if (recording.length === 0) {
     for (const [one, other] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
@@ -173,13 +170,6 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
     output: values.json ? 'json' : values.yaml ? 'yaml' : 'text',
     plot: values.plot,
   };
-}
-
-/** Throws a UsageError if a path is given twice. */
-function refuseRepeated(paths: string[]): void {
-  const resolvedPaths = paths.map((path) => resolve(path));
-  const repeatedPath = paths.find((_, i) => resolvedPaths.indexOf(resolvedPaths[i]) < i);
-  if (repeatedPath !== undefined) throw new UsageError(`“${cut(repeatedPath)}” is given twice; give two independent measurements of one drive, odometry and reference.`);
 }
 
 /** Returns the units that the options state for a log. If an option has two units, the role of the log selects one. */

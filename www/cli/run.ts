@@ -62,7 +62,6 @@ async function calibrate({ inputs, wishes, fit, output, plot }: CalibrateArgumen
       if (kind !== 'recording') for (const each of openedRecordings) roleByRecording.set(each, kind);
     }
   }
-  if (recordings.length === 0) throw new UsageError('there are no logs in the folder.');
   const plan = planDrives(recordings, { ...wishes, roles: roleByRecording });
   plan.unused.forEach(onSkip);
   if (plan.isByOrder) complain(`${byOrder(plan)}\n`);

@@ -33,12 +33,12 @@ const MAX_MAGIC_BYTES = 32;
  * lists become one recording.
  *
  * @param options of all files, or of each by its name
- * @param onSkip is called with the errors of files among others, which are then skipped
+ * @param onSkip is called with the error of each file that is not a log, which is then skipped; without it, the first error rejects
  */
 export async function openRecordings(files: Source[], options: OpenOptions | ((file: string) => OpenOptions | undefined) = {}, onSkip?: (error: LogError) => void): Promise<Recording[]> {
   const optionsOf = (file: string) => (typeof options === 'function' ? options(file) : options) ?? {};
   const attempt = (work: () => Promise<void>) => work().catch((error) => {
-    if (!(error instanceof LogError) || !onSkip || files.length === 1) throw error;
+    if (!(error instanceof LogError) || !onSkip) throw error;
     onSkip(error);
   });
   const formatByFile = new Map<Source, Format | undefined>();

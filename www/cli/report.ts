@@ -88,7 +88,7 @@ const inColor = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[
 export const verdictLines = ({ calibration, logs }: Pick<CalibrationResult, 'calibration' | 'logs'>): string[] => [
   verdictSentence(calibration),
   ...warningsOf(logs).map((name) => en.nav2[name]),
-  ...(calibration.recommended ? correctFirst(calibration.systematicErrors, en.nav2) : []),
+  ...correctFirst(calibration, en.nav2),
 ];
 
 /** Returns the verdict with the advice. */

@@ -110,7 +110,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
     say.recommended(toText(inflation), percent(window.coverage), String(window.count)),
     ...(isOfNav2(model, rule) ? [] : [say.otherRule]),
     ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
-    ...correctFirst(systematicErrors, say),
+    ...correctFirst(calibration, say),
     ...(failedNames ? [say.failed(failedNames)] : []),
     ...warnings.map((name) => say[name]),
   ];
@@ -133,10 +133,13 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
 export const failedOf = <Check extends { name: string, passed: boolean, message: string }>(checks: Check[]) => checks.filter(({ passed }) => !passed);
 
 /**
- * Returns a sentence (or none) that says how to correct the robot's odometry, because AMCL gets the odometry as the robot reports it. The
- * sentence has the scales that were corrected and differ from 1 beyond their intervals. `print` formats its numbers.
+ * Returns a sentence that says how to correct the robot's odometry, because AMCL gets the odometry as the robot reports it. The sentence
+ * has the scales that were corrected and differ from 1 beyond their intervals. There is none without such scales or recommended α's.
+ *
+ * @param print formats numbers
  */
-export function correctFirst(systematicErrors: any, say: Words, print = (number: string) => number): string[] {
+export function correctFirst({ recommended, systematicErrors }: any, say: Words, print = (number: string) => number): string[] {
+  if (!recommended) return [];
   const [distance, turn] = ['distanceScale', 'turnScale'].map((key) => {
     const { value, interval, corrected } = systematicErrors[key];
     return corrected && interval && (interval[0] > 1 || interval[1] < 1) ? print(fixed(value, interval)) : '';

@@ -21,14 +21,15 @@ const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
  * example that the reference is a localizer.
  */
 export function judgementOf(reading: Reading, given: Warning[]) {
-  const { stats: { diagnostics: { verdict, checks }, systematicErrors, recommended }, legs } = reading;
+  const { stats, legs } = reading;
+  const { verdict, checks } = stats.diagnostics;
   const say = words.calibrator;
   const warnings = [uncorrectedText(reading), ...given.map((name) => say.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
   const judgement = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: toDo.join(' ') });
   if (legs.count === 0) return judgement(say.none, say.longer, ...warnings);
   const failedChecks = failedOf(checks);
-  const correction = recommended ? correctFirst(systematicErrors, say.nav2, localized) : [];
+  const correction = correctFirst(stats, say.nav2, localized);
   if (failedChecks.length > 0) return judgement(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, messageOf(failedChecks[0]), ...correction);
   if (verdict === 'unusable') return judgement(say.noAlpha, ...warnings);
   return warnings.length > 0 ? judgement(warnings[0], ...warnings.slice(1), ...correction) : judgement(say.passed(integer(checks.length)), say.use, ...correction);

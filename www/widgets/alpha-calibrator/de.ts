@@ -108,7 +108,7 @@ export const de: typeof import('./en.ts').en = {
     few: (count) => `Empfohlen: die Anpassung selbst, da ${count} zurückgehaltene Fenster von 1 m sie nicht beurteilen können.`,
     covered: (coverage, count) => `Empfohlen: die Anpassung selbst. In ihrem Bereich liegen ${coverage} von ${count} zurückgehaltenen Fenstern von 1 m; richtig sind 95 %.`,
     inflated: (inflation, coverage, count, nees) =>
-      `Empfohlen: angepasst × ${inflation}; in diesem Bereich liegen 95 % von ${count} zurückgehaltenen Fenstern von 1 m, in dem der Anpassung ${coverage}. Ihr quadrierter Fehler durch vorhergesagte Varianz (NEES) ist ${nees}, erwartet 1.`,
+      `Empfohlen: angepasst × ${inflation}, deckt mindestens 95 % von ${count} zurückgehaltenen Fenstern von 1 m. Die Anpassung deckt ${coverage}; ihr quadrierter Fehler durch vorhergesagte Varianz (NEES) ist ${nees}, erwartet 1.`,
   },
   alphas: {
     title: (kind) => `Angepasste Rauschparameter (${kind})`,

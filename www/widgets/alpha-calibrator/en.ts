@@ -76,7 +76,7 @@ export const en = {
     few: (count) => `Recommended: the fit itself, as ${of(count, 'held-out window')} of 1 m cannot judge it.`,
     covered: (coverage, count) => `Recommended: the fit itself. It covers ${coverage} of ${count} held-out windows of 1 m; 95 % is right.`,
     inflated: (inflation, coverage, count, nees) =>
-      `Recommended: fitted × ${inflation}, which covers 95 % of ${count} held-out windows of 1 m; the fit covers ${coverage}. Its squared error over predicted variance (NEES) is ${nees}, expected 1.`,
+      `Recommended: fitted × ${inflation}, which covers at least 95 % of ${count} held-out windows of 1 m. The fit covers ${coverage}, with a squared error over predicted variance (NEES) of ${nees}, expected 1.`,
   },
   alphas: {
     title: (kind) => `Fitted noise parameters (${kind})`,

@@ -85,20 +85,9 @@ fn a_copy_of_the_odometry_is_no_reference() {
 /// On legs of 3 cm and 0.05 rad, a difference of odometry and reference cannot be told from the noise of a good reference.
 #[test]
 fn legs_that_hardly_move_are_not_compared() {
-    let mut rng = seeded(4);
-    let mut noise = |std: f64| NoiseKind::Normal.sample(Variance(std * std), &mut rng);
-    let [mut odometry_pose, mut reference_pose] = [SE2::identity(); 2];
-    let mut poses = vec![[odometry_pose, reference_pose]];
-    for leg in 0..200 {
-        let turn = if leg % 2 == 0 { 0.05 } else { -0.05 };
-        odometry_pose = odometry_pose.boxplus(Vector3::new(0.03, 0.0, turn));
-        reference_pose = reference_pose.boxplus(Vector3::new(0.03 + noise(0.001), 0.0, turn + noise(0.001)));
-        poses.push([odometry_pose, reference_pose]);
-    }
-    let log = |k: usize| trajectory(poses.iter().enumerate().map(|(i, pose)| (i as f64, pose[k])));
     let legs = LegLength::Duration { duration: 1.0 };
-    let options = Options { legs, ..good_log(1, 1).options() };
-    let calibration = calibrated_log(&[log(0), log(1)], &options);
+    let slow_drive = Simulation { legs, drive: Some(|_| [0.03, 0.05]), ..good_log(200, 4) };
+    let calibration = calibrated(&slow_drive);
     assert!(calibration.diagnostics.checks.iter().all(|check| check.name != ReferenceMatches));
 }
 

@@ -88,6 +88,9 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureWithPin);
   await expect(restore({ ...state, pinned: { ...state.pinned, samples: 0 } })).rejects.toThrow('state.pinned.samples is 0; allowed is');
   await expect(area).toContainText(`pinned: ${areaBefore}`);
+  // A gain on the floor is not compared with one of poses.
+  await widget.getByRole('button', { name: 'Worked example' }).click();
+  await expect(widget.locator('.readouts div').filter({ hasText: 'gain in fit on the floor' })).not.toContainText('pinned');
 });
 
 test('the title of the floor agrees with the fit of the ellipse', async ({ page }) => {

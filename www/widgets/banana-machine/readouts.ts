@@ -24,7 +24,8 @@ export function readouts(reading: Reading, pinned?: Reading) {
   const coverages = [coverage.ellipse, coverage.exponential];
   return readoutList([
     [say.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : say.areaDetail(Number.isNaN(areaRatioError) ? '' : significantText(areaRatioError, 1), percent(coverages[0]), percent(coverages[1])), pinnedValues?.[0]],
-    [gain.unbounded ? say.gainOnFloor : say.gain, printedValues[1], gainText(gain), pinnedValues?.[1]],
+    // A gain on the floor and one of poses are not comparable.
+    [gain.unbounded ? say.gainOnFloor : say.gain, printedValues[1], gainText(gain), pinned?.gain.unbounded === gain.unbounded ? pinnedValues?.[1] : undefined],
     [say.skew, printedValues[2], Number.isNaN(exactSkew) ? NO_VALUE : say.exactly(fixed(exactSkew, 3)), pinnedValues?.[2]],
   ], 0);
 }

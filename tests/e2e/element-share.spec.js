@@ -213,6 +213,9 @@ test('a figure with share keeps its state in the address, and follows it', async
   expect(await page.evaluate(() => document.querySelector(':target')?.id)).toBe('end');
   expect(await stateOf(widget)).toEqual(state);
   expect(await takeEvents(page, ['error'])).toEqual([]);
+  await page.evaluate((fragment) => (location.hash = fragment.slice(0, -9)), formerHash);
+  await expect(widget.getByRole('alert')).toHaveText('This link cannot be read: it may be cut off. The figure stays as it was.');
+  expect(await stateOf(widget)).toEqual(state);
 });
 
 test.describe('the menu', () => {

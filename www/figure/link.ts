@@ -4,6 +4,7 @@
  */
 
 import { packJson, unpack } from './packing.ts';
+import { words } from '../messages/registry.ts';
 import { FigureController } from './controller.ts';
 
 export class Link extends FigureController {
@@ -53,6 +54,7 @@ export class Link extends FigureController {
       if (token === this.#latestRead) host.runtime.attemptOrReport(() => host.setState(state as any));
     } catch (error) {
       host.runtime.report(error);
+      host.notice.show(words.unreadableLink);
     }
   }
 

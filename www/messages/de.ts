@@ -63,6 +63,7 @@ export const de: typeof import('./en.ts').en = {
     csvTitle: 'Jede Stichprobe, mit den Parametern und dem Startwert',
   },
   close: 'Schließen',
+  unreadableLink: 'Dieser Link ist nicht lesbar: Er ist vielleicht abgeschnitten. Die Abbildung bleibt, wie sie war.',
   progress: {
     label: 'Wird berechnet',
     begins: 'Das dauert einen Augenblick. Escape bricht es ab.',

@@ -69,6 +69,7 @@ export const en = {
     csvTitle: 'Every sample, with the parameters and the seed',
   },
   close: 'Close',
+  unreadableLink: 'This link cannot be read: it may be cut off. The figure stays as it was.',
   progress: {
     label: 'Computing',
     begins: 'This takes a moment. Escape stops it.',

@@ -186,7 +186,7 @@ test('a log without enough legs is refused, and the present log keeps its place 
   const { alphas } = await stats(widget);
   const standingLog = 't,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n';
   await choose(widget, { 'a.csv': standingLog, 'b.csv': standingLog });
-  await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time.');
+  await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.');
   await untilSettled(widget);
   expect(await caption(widget).innerText()).toBe(captionBefore);
   expect((await stats(widget)).alphas).toEqual(alphas);

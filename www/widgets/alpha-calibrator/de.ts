@@ -73,7 +73,7 @@ export const de: typeof import('./en.ts').en = {
   failed: (name, failed, count) => `Prüfung nicht bestanden: ${name} (${failed} von ${count}).`,
   use: 'Die empfohlenen α mit Etappen dieser Länge verwenden.',
   noAlpha: 'Die Aufzeichnung bestimmt kein α.',
-  none: 'Nicht genug Daten: weniger als 8 Etappen, oder keine gemeinsame Zeit.',
+  none: 'Nicht genug Daten: weniger als 8 Etappen, oder keine gemeinsame Zeit. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
   longer: 'Länger aufzeichnen oder kürzere Etappen wählen.',
   checks: {
     title: 'Prüfungen',

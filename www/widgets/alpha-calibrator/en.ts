@@ -41,7 +41,7 @@ export const en = {
   failed: (name, failed, count) => `Failed check: ${name} (${failed} of ${count} failed).`,
   use: 'Use the recommended α’s with legs of this length.',
   noAlpha: 'The log identifies no α.',
-  none: 'Not enough data: fewer than 8 legs, or the logs do not overlap in time.',
+  none: 'Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.',
   longer: 'Record a longer drive, or choose shorter legs.',
   checks: {
     title: 'Checks',

@@ -386,6 +386,15 @@ export const styles = css`
     }
   }
 
+  /* The pictures are as high as the table below them: in a low window both would leave no room for the controls. */
+  @media (40em <= height < 60em) {
+    @container (30em <= width < 56em) {
+      .views {
+        position: static;
+      }
+    }
+  }
+
   /* Each α in one line, while its table has the width of the figure. */
   @container (38em <= width < 56em) {
     .fitted .panel-title {

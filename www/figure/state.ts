@@ -85,6 +85,7 @@ export class State extends FigureController {
   goBack(state: Values | undefined = this.#openingState) {
     const { gesture, runtime } = this.host;
     runtime.attempt(() => {
+      this.host.copies.forget();
       this.enter(state);
       gesture.complete();
     });

@@ -288,6 +288,7 @@ test('a figure that was removed and comes back has no more observers, and does n
   await untilReady(widget);
   const counts = () => page.evaluate(() => ({ ...Reflect.get(window, 'counts') }));
   const countsBefore = await counts();
+  expect(Math.min(countsBefore.observers, countsBefore.paths)).toBeGreaterThan(0);
   for (const y of [3500, 0]) {
     await page.evaluate((top) => scrollTo(0, top), y);
     await frames(page);

@@ -236,6 +236,8 @@ test('copies a link, and the code to embed with the address of the script', asyn
   await expect.poll(clipboard).toContain('<banana-machine preset="pivot"></banana-machine>');
   const origin = new URL(page.url()).origin;
   expect(await clipboard()).toContain(`<script type="module" src="${origin}/motion-widgets.js"></script>`);
+  await widget.getByRole('button', { name: 'Start over' }).click();
+  await expect(widget.getByText('Copied.')).toHaveCount(0);
 });
 
   test('the button that copies the code to embed says that the code has no map of the reader, which a link has @nightly', async ({ page }) => {

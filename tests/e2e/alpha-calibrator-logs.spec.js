@@ -262,6 +262,7 @@ test('reading a log can be stopped, and everything is as it was', async ({ page 
   const widget = await openCalibrator(page);
   const stateBefore = await stateOf(widget);
   await chooseLong(widget);
+  await expect(widget.locator('.verdict')).toHaveCSS('opacity', '0.4');
   await widget.locator('.drop-zone').getByRole('button', { name: 'Stop' }).click();
   await expect(widget.getByRole('alert')).toHaveText('Stopped: everything is as it was.');
   await expect(widget.locator('.drop-zone progress')).toHaveCount(0);
@@ -274,12 +275,14 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
   const widget = await openCalibrator(page);
   const stateBefore = await stateOf(widget);
   const captionBefore = await caption(widget).innerText();
+  const leftEdge = () => widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.extent.xMin);
+  const leftEdgeBefore = await leftEdge();
   const refusals = await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement} */ (element);
     const { legs } = figure.machine;
     const t = Array.from({ length: legs.count }, (_, leg) => leg);
     const column = (/** @type {Float64Array} */ poses, /** @type {number} */ at) => t.map((leg) => poses[6 * leg + at]);
-    const poses = (/** @type {Float64Array} */ all) => ({ t, x: column(all, 0), y: column(all, 1), theta: column(all, 2) });
+    const poses = (/** @type {Float64Array} */ all) => ({ t, x: column(all, 0).map((x) => x + 0.01), y: column(all, 1), theta: column(all, 2) });
     const log1 = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
     const nextError = () => new Promise((resolve) => {
       figure.addEventListener('error', (event) => {
@@ -303,6 +306,8 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
     return [log?.name, count > 100];
   })).toEqual(['of the page', true]);
   expect(await stateOf(widget)).toEqual(stateBefore);
+  // The picture is fitted anew, although the extent before had room for the path.
+  await expect.poll(leftEdge).not.toBe(leftEdgeBefore);
   await widget.evaluate((element) => void Object.assign(element, { log: null }));
   await expect(caption(widget)).toHaveText(captionBefore);
 });

@@ -145,8 +145,8 @@ export const styles = css`
     margin-bottom: 0.1em;
   }
 
-  /* Results of the former log, while another one is read. */
-  .spoken:has([part='progress']) :is(.verdict, .fitted) {
+  /* Results of the previous log or settings, while another log is read, or a fit takes long. */
+  .spoken:has(progress) :is(.verdict, .fitted) {
     opacity: 0.4;
   }
 

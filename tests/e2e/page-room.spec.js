@@ -56,7 +56,11 @@ test('a title and a caption move nothing when the script is loaded', async ({ pa
   });
   const content = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';
   const pageIsShown = showPage(page, content, { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
-  const topOfText = async () => (await boxOf(page.locator('#after'))).y;
+  const text = page.locator('#after');
+  const topOfText = async () => (await boxOf(text)).y;
+  await text.waitFor();
+  // The first frame comes after the stylesheet, which reserves the room.
+  await frames(page);
   const topBefore = await topOfText();
   allowScript();
   await pageIsShown;

@@ -6,8 +6,9 @@ use super::residuals::Model;
 use super::result::LegFit;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
-use crate::geom::se2::wrap_angle;
+use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::OdometryRule;
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 /// Overall judgement of a calibration.
@@ -25,7 +26,8 @@ pub enum Verdict {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
-    /// Median difference of a leg's motions by odometry and by reference, divided by the median motion.
+    /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. Of paths that do not drift apart,
+    /// their distance, divided by their length.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -183,6 +185,13 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 /// measurements differ by more than 0.05 %: one that differs by less is a copy of the other.
 const MISMATCH_RANGE: [f64; 2] = [0.0005, 0.7];
 
+/// Root mean square distance between two paths, over their length, below which one is a copy of the other with rounded numbers. The error
+/// of wheels grows with the distance, but that of rounding does not: a robot that errs by 1 mm and 0.5 mrad over a metre drifts by 1e-4.
+const MAX_COPY_DRIFT: f64 = 3e-5;
+
+/// Maximum and minimum length (m) of the pieces in which paths are compared.
+const COMPARED_LENGTHS: [f64; 2] = [200.0, 2.0];
+
 /// Scales that wheels can have. Any other scale shows that the reference has another unit.
 const PLAUSIBLE_SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
@@ -205,7 +214,13 @@ pub(super) fn log_checks(
     let count = sample.legs.len();
     let scales = [SystematicError::DistanceScale, SystematicError::TurnScale];
     let has_plausible_scales = scales.iter().all(|scale| PLAUSIBLE_SCALES.contains(&systematic.get(*scale)));
-    let mismatch = if has_plausible_scales { mismatch(sample, systematic) } else { Some(f64::INFINITY) };
+    let mismatch = if has_plausible_scales {
+        // A copy with rounded numbers differs in each leg, but hardly drifts.
+        let copy_drift = drift(sample, systematic).filter(|drift| *drift < MAX_COPY_DRIFT);
+        copy_drift.or_else(|| mismatch(sample, systematic))
+    } else {
+        Some(f64::INFINITY)
+    };
     let mut ratios: Vec<f64> =
         sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = sample.outliers.iter().filter(|is| **is).count();
@@ -254,6 +269,56 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
         (sizes.len() >= MIN_LEGS).then(|| median(&mut differences) / median(&mut sizes))
     };
     [turns, drives].into_iter().filter_map(median_ratio).reduce(f64::max)
+}
+
+/// Returns the median, over pieces of the drives, of the distance between the paths by odometry and by reference, divided by the
+/// length of the piece. `None` if the robot hardly drives.
+fn drift(sample: &Sample, systematic: &Systematic) -> Option<f64> {
+    let ([max_length, min_length], base) = (COMPARED_LENGTHS, systematic.base());
+    let mut ratios = Vec::new();
+    let (mut paths, mut expected, mut length) = (PathPair::default(), SE2::identity(), 0.0);
+    let mut legs = sample.legs.iter().peekable();
+    while let Some(leg) = legs.next() {
+        let motion = systematic.expected(sample.options.model, leg);
+        expected = expected * motion;
+        length += distance(&motion);
+        let seen = leg.reference[1] * base;
+        paths.push([expected, seen].map(|pose| Vector2::new(pose.x(), pose.y())));
+        if length >= max_length || legs.peek().is_none_or(|next| !next.follows) {
+            if length > min_length {
+                ratios.push(paths.rms_distance() / length);
+            }
+            (paths, expected, length) = (PathPair::default(), SE2::identity(), 0.0);
+        }
+    }
+    (!ratios.is_empty()).then(|| median(&mut ratios))
+}
+
+/// Sums over the points of two paths.
+#[derive(Default)]
+struct PathPair {
+    count: f64,
+    sums: [Vector2<f64>; 2],
+    square_sum: f64,
+    /// Sums of the scalar products and of the vector products of the points of both paths.
+    products: Vector2<f64>,
+}
+
+impl PathPair {
+    fn push(&mut self, [one, other]: [Vector2<f64>; 2]) {
+        self.count += 1.0;
+        self.sums = [self.sums[0] + one, self.sums[1] + other];
+        self.square_sum += one.norm_squared() + other.norm_squared();
+        self.products += Vector2::new(one.dot(&other), one.perp(&other));
+    }
+
+    /// Returns the root mean square distance of the points, after the rotation and shift of one path that make it least.
+    fn rms_distance(&self) -> f64 {
+        let [one, other] = self.sums;
+        let square_sum = self.square_sum - (one.norm_squared() + other.norm_squared()) / self.count;
+        let products = self.products - Vector2::new(one.dot(&other), one.perp(&other)) / self.count;
+        ((square_sum - 2.0 * products.norm()) / self.count).max(0.0).sqrt()
+    }
 }
 
 /// Returns the checks of the innovations: correlation of neighbours and tails.

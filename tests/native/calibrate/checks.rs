@@ -71,15 +71,17 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
 fn a_copy_of_the_odometry_is_no_reference() {
     let sim = good_log(600, 1);
     let [odometry, _] = sim.log();
-    // A copy in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and numbers rounded to six digits.
-    let round6 = |value: f64| (1e6 * value).round() / 1e6;
-    let copy = odometry.samples().map(|(time, pose)| {
-        let shifted = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
-        (time + 0.1, SE2::new(round6(shifted.x()), round6(shifted.y()), round6(shifted.theta())))
-    });
-    let calibration = calibrated_log(&[odometry.clone(), trajectory(copy)], &sim.options());
-    assert!(failed_checks(&calibration).contains(&ReferenceMatches));
-    assert_unusable(&calibration, "a copy");
+    // Copies in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and numbers rounded to six digits and to three.
+    for digits in [6, 3] {
+        let round = |value: f64| (value * 10_f64.powi(digits)).round() / 10_f64.powi(digits);
+        let copy = odometry.samples().map(|(time, pose)| {
+            let shifted = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
+            (time + 0.1, SE2::new(round(shifted.x()), round(shifted.y()), round(shifted.theta())))
+        });
+        let calibration = calibrated_log(&[odometry.clone(), trajectory(copy)], &sim.options());
+        assert!(failed_checks(&calibration).contains(&ReferenceMatches), "{digits} digits");
+        assert_unusable(&calibration, "a copy");
+    }
 }
 
 /// On legs of 3 cm and 0.05 rad, a difference of odometry and reference cannot be told from the noise of a good reference.

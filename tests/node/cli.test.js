@@ -261,6 +261,15 @@ test('a journal beside a recording is named, unless it is empty', async () => {
     const { code, err } = await outputOf(['--odometry', fileWith('odometry.db3', readFileSync(example('odometry'))), ...ARGS.slice(2)]);
     assert.deepEqual([code, err.split(' with')[0]], [0, message]);
   }
+  // All messages are in the journal.
+  const database = fileWith('run.db3', 'SQLite format 3\0');
+  fileWith('run.db3-wal', Buffer.from('377f0682', 'hex'));
+  for (const flag of [[], ['--json']]) {
+    let [out, err] = ['', ''];
+    const code = await run(['inspect', database, ...flag], { load, print: (text) => (out += text), complain: (text) => (err += text) });
+    assert.deepEqual([code, out], [2, '']);
+    assert.match(err, /^run\.db3-wal: it is a journal with messages that its \.db3 file lacks; /m);
+  }
 });
 
 /** Writes the reference of another drive: the path of the example from its end to its start. */

@@ -148,6 +148,17 @@ for (const [name, blockPositions] of Object.entries(BLOCK_POSITIONS)) {
   });
 }
 
+test('a database whose transaction was never finished has the messages of all its pages', async () => {
+  const bytes = bytesOf('sqlite-sqlite.db3');
+  const root = range(0, bytes.length / 4096).map((page) => 4096 * page).find((at) => bytes[at] === 5) ?? 0;
+  // The number of pages and the root of the messages are those before the transaction: an empty page.
+  bytes.writeUInt32BE(8, 28);
+  bytes.fill(0, root, root + 5)[root] = 13;
+  const log = await odometryOf(bytes, 'run.db3');
+  assert.deepEqual(rowsOf(log), range(0, 100));
+  assert.match(summaryText(log), /notes: the file is incomplete/);
+});
+
 test('a damaged message is dropped, and a file of damaged headers or compression is refused', async () => {
   const name = 'mcap-messages-mcap-messages.mcap';
   // The file has frames of Zstandard, which contain messages of the odometry and the reference in turns.
@@ -182,7 +193,7 @@ test('LZ4 frames of another size are refused, and any damage to one with checksu
 
 test('formats that are not read are refused with the cure, by their contents', async () => {
   const magicBytes: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
-    ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['zip', 'PK\x03\x04'],
+    ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['sqlitePart', '\x18\xe2\x2d\0'], ['zip', 'PK\x03\x04'],
     ['gzip', '\x1f\x8b\x08'], ['bzip2', 'BZh9'], ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
   ];
   for (const [format, start] of magicBytes) assert.equal(await sentenceOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
@@ -190,7 +201,7 @@ test('formats that are not read are refused with the cure, by their contents', a
 });
 
 test('a recording without one whole message is incomplete, and the tool that repairs it is named', async () => {
-  for (const [name, tool] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover']]) {
+  for (const [name, tool] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover | sqlite3 NEW.db3']]) {
     for (const size of [20, 200]) {
       const sentence = await sentenceOf(openRecordings([fileOf(bytesOf(name).slice(0, size), name)]));
       assert.ok(sentence.startsWith(`${name}: it is incomplete`) && sentence.includes(`“${tool}”`), sentence);

@@ -27,7 +27,7 @@ async function openSources(path: string): Promise<Source[]> {
       return await Promise.all(['', ...(hasJournal ? ['-wal'] : [])].map((ending) => openSource(`${path}${ending}`, `${name}${ending}`)));
     }
     const folderEntries = await readdir(path, { withFileTypes: true, recursive: true });
-    const paths = folderEntries.filter((entry) => entry.isFile() && !entry.name.startsWith('.')).map((entry) => join(entry.parentPath, entry.name)).toSorted();
+    const paths = folderEntries.filter((entry) => entry.isFile() && !/^\.|-shm$/.test(entry.name)).map((entry) => join(entry.parentPath, entry.name)).toSorted();
     if (paths.length === 0) throw Object.assign(new Error(), { code: 'an empty folder' });
     return await Promise.all(paths.map((file) => openSource(file, basename(file), join(name, relative(path, file)).replaceAll('\\', '/'))));
   } catch (error) {

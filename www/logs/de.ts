@@ -45,6 +45,7 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
   dataflash: 'ein ArduPilot-Log; mit „mavlogdump.py --format csv --types POS“ umwandeln.',
   pcap: 'ein Netzwerkmitschnitt; erwartet wird eine Aufzeichnung von „ros2 bag record“ oder „rosbag record“.',
   wal: `ein Journal mit Nachrichten, die seiner .db3-Datei fehlen; das Aufzeichnen beenden, oder sie mit „sqlite3 DATEI.db3 'PRAGMA wal_checkpoint'“ zurückschreiben.`,
+  sqlitePart: 'eine Datei, die SQLite neben einer Datenbank hat, ohne Nachrichten; die .db3-Datei daneben angeben, mit deren Namen sie beginnt.',
   zip: 'ein Zip-Archiv oder eine Arbeitsmappe (.xlsx, .ods); entpacken und die Dateien angeben, oder die Tabelle als CSV speichern.',
   gzip: 'mit gzip komprimiert; mit „gunzip“ dekomprimieren und das Ergebnis angeben.',
   bzip2: 'mit bzip2 komprimiert; mit „bunzip2“ dekomprimieren und das Ergebnis angeben.',

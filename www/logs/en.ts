@@ -55,6 +55,7 @@ export const UNSUPPORTED_FORMATS = {
   dataflash: 'an ArduPilot log; convert it with “mavlogdump.py --format csv --types POS”.',
   pcap: 'a network capture; expected is a recording of “ros2 bag record” or “rosbag record”.',
   wal: `a journal with messages that its .db3 file lacks; end the recorder, or write them back with “sqlite3 FILE.db3 'PRAGMA wal_checkpoint'”.`,
+  sqlitePart: 'a file that SQLite keeps beside a database, and has no messages; give the .db3 file beside it, which its name begins with.',
   zip: 'a zip archive or a workbook (.xlsx, .ods); unzip it and give its files, or save the sheet as CSV.',
   gzip: 'compressed by gzip; decompress it with “gunzip”, and give the result.',
   bzip2: 'compressed by bzip2; decompress it with “bunzip2”, and give the result.',
@@ -65,7 +66,7 @@ export const UNSUPPORTED_FORMATS = {
 };
 
 /** Tools that repair a recording. */
-export const REPAIRS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover', csv: '', tum: '' };
+export const REPAIRS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover | sqlite3 NEW.db3', csv: '', tum: '' };
 
 export const english = {
   place: (file: string, line: number, topic: string) =>

@@ -77,7 +77,8 @@ class Rosbag2 implements Container {
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
     this.#usableBytes = this.#pageSize - view.getUint8(20);
     if (this.#usableBytes < 480) throw notRosbag2();
-    this.cutShort = view.getUint32(28) * this.#pageSize > this.#source.size;
+    // Behind the stated end are pages of a transaction that was never finished.
+    this.cutShort = view.getUint32(28) > 0 && view.getUint32(28) * this.#pageSize !== this.#source.size;
     const tablesByName = new Map<string, Table>();
     await this.#eachRow({ root: 1, columns: [] }, async (row) => {
       const bytes = await this.#wholeRow(row);
@@ -120,7 +121,9 @@ class Rosbag2 implements Container {
 
   /** Passes on the rows of a table in the order of their numbers. Damaged pages are skipped. */
   async #eachRow({ root }: Table, each: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
-    const leafPages = await this.#leavesOf(root);
+    // In an incomplete file the pages that lead to the messages may be missing. Pages of other tables fail then.
+    const isSearched = this.cutShort && root === this.#messages.root;
+    const leafPages = isSearched ? Array.from({ length: this.#source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
     for (const [i, number] of leafPages.entries()) {
       if (!this.#hasPage(number)) continue;
       try {
@@ -131,7 +134,7 @@ class Rosbag2 implements Container {
         }
       } catch (error) {
         if (error instanceof LogError) throw error;
-        this.damage.set(number, reasonOf(error));
+        if (!isSearched) this.damage.set(number, reasonOf(error));
       }
       if (onProgress?.((i + 1) / leafPages.length)) return;
     }

@@ -149,7 +149,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--odometry', example('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
     [
       [example('odometry'), fileWith('lidar_odom.csv', readFileSync(example('reference')))],
-      'odometry.csv: there are 2 logs of odometry and 0 of the reference; give one of each for a drive. Choose with --odometry and --reference.\n',
+      'odometry.csv: the odometry is in odometry.csv, lidar_odom.csv, and the reference in no file; give one of each for a drive. Choose with --odometry and --reference.\n',
     ],
     [[...ARGS, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
     [[...ARGS, '--json', '--yaml'], '--json excludes --yaml: give one or the other.'],

@@ -120,7 +120,7 @@ test('several recordings are drives of their own, or give one log each', async (
   assert.deepEqual(await unpairedNames('a.csv', 'b.csv'), [['a.csv'], ['b.csv']]);
   assert.deepEqual(await unpairedNames('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
   assert.match(await sentenceOf(unpairedNames('a.csv', 'b.csv', 'c.csv', 'd.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
-  assert.match(await sentenceOf(unpairedNames('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: there are 2 logs of odometry and 1 of the reference; /);
+  assert.match(await sentenceOf(unpairedNames('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: the odometry is in odom1\.csv, odom2\.csv, and the reference in truth\.csv; /);
   // A log may be ambiguous in one role only.
   const twoBodies = recording({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
   const odometryTable = recording({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });

@@ -140,7 +140,7 @@ export const german: Words = {
     correction: (name, other, score, factor) => `${CORRECTIONS[name](other, factor)}. Damit stimmen die Bewegungen überein (Korrelation ${comma(score, 2)}).`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; Namen wie odom1.csv, truth1.csv, odom2.csv, … sagen es, oder eine Auswahl.',
-    unpaired: (odometry, reference) => `es sind ${odometry} Logs der Odometrie und ${reference} der Referenz; gebraucht wird je eines für eine Fahrt.`,
+    unpaired: (odometry, reference) => `die Odometrie ist in ${odometry || 'keiner Datei'}, und die Referenz in ${reference || 'keiner Datei'}; gebraucht wird je eines für eine Fahrt.`,
     noGroup: (groups) => `es ist eine Tabelle, und keine Gruppe ihrer Spalten heißt so; sie hat ${groups}.`,
     noPoses: (series) => `es gibt nur Befehle, ${series}; eine Referenz braucht Posen.`,
     sameDrive: (other) => `es ist die Fahrt von ${other}; gebraucht wird jede Fahrt nur einmal.`,

@@ -67,9 +67,10 @@ export function planDrives(all: Recording[], wishes: Wishes = {}): LogPlan {
     // If a recording also has the missing log, but it is not clear which one it is, the error about that choice is more helpful.
     for (const { recording } of longer) attempt(() => bothLogsOf(recording, wishes), ({ ask }) => ask?.what !== 'series');
     const [first] = longer;
+    const namesOf = (parts: RecordingChoice[]) => listing(parts.map(({ recording }) => recording.name));
     const isSameFile = recordings.length === 2 && recordings[0].name === recordings[1].name;
     const ask = { what: 'roles' as const, choices: [] };
-    throw new LogError({ file: first.recording.name }, (say) => (isSameFile ? say.givenTwice : say.unpaired(odometry.length, reference.length)), isSameFile ? undefined : ask);
+    throw new LogError({ file: first.recording.name }, (say) => (isSameFile ? say.givenTwice : say.unpaired(namesOf(odometry), namesOf(reference))), isSameFile ? undefined : ask);
   }
   return plan;
 }

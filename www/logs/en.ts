@@ -152,7 +152,7 @@ export const english = {
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
     /** Errors of several recordings. */
     noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
-    unpaired: (odometry: number, reference: number) => `there are ${odometry} logs of odometry and ${reference} of the reference; give one of each for a drive.`,
+    unpaired: (odometry: string, reference: string) => `the odometry is in ${odometry || 'no file'}, and the reference in ${reference || 'no file'}; give one of each for a drive.`,
     noGroup: (groups: string) => `it is a table, and no group of its columns has this name; it has ${groups}.`,
     noPoses: (series: string) => `it has commands only, ${series}; a reference needs poses.`,
     sameDrive: (other: string) => `it is the drive of ${other}; give each drive once.`,

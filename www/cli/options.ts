@@ -211,12 +211,16 @@ function parseArguments(args: string[]) {
     return parseArgs({ args, options: OPTIONS, allowPositionals: true });
   } catch (error) {
     const { code, message } = error as NodeJS.ErrnoException;
-    const [, name] = (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION' && /'--?([^']*)'/.exec(message)) || [];
-    if (name === undefined) throw new UsageError(message.replaceAll('\n', ' '));
-    const argumentIndex = args.findIndex((arg) => arg.replace(/^-+|=.*/g, '') === name);
-    const value = /=(.*)/.exec(args[argumentIndex])?.[1] ?? args[argumentIndex + 1];
-    const argumentHint = nearestOptions(name) || (isPath(value) ? `files need no option, as in calibrate ${shellQuoted(value)}, ` : '');
-    throw new UsageError(`unknown option --${cut(name)}; ${argumentHint}--help lists all.`);
+    const name = /'(?:-\w, )?--?([^' ]*)/.exec(message)?.[1] ?? '';
+    const given = args.find((arg) => arg.replace(/=.*/, '') === `--${name}`) ?? args.find((arg) => /^-[^-]/.test(arg) && arg.includes(name)) ?? '';
+    const value = /=(.*)/.exec(given)?.[1] ?? args[args.indexOf(given) + 1] ?? '';
+    if (code === 'ERR_PARSE_ARGS_INVALID_OPTION_VALUE') {
+      const dashHint = /^-[^-]/.test(value) ? `; one that begins with a dash follows “=”, as in --${name}=${shellQuoted(value)}` : '';
+      throw new UsageError(message.includes('does not take') ? `--${name} takes no value.` : `--${name} needs a value${dashHint}.`);
+    }
+    const givenName = given.replace(/^-+|=.*/g, '');
+    const nameHint = givenName.length === 1 ? 'options have whole names, as in --rule nav2, ' : nearestOptions(givenName);
+    throw new UsageError(`unknown option ${cut(given.replace(/=.*/, ''))}; ${nameHint || (isPath(value) ? `files need no option, as in calibrate ${shellQuoted(value)}, ` : '')}--help lists all.`);
   }
 }
 

@@ -53,6 +53,9 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
 }
 
 async function calibrate({ inputs, wishes, fit, output, plot }: CalibrateArguments, { load, print, complain, onProgress, isColored = false, now = new Date() }: CliEnvironment, onSkip: (error: LogError) => void): Promise<number> {
+  const motion = await load();
+  // The core checks the options first. Errors in options are reported before the files are read.
+  calibrateDrives(motion, fit, []);
   const roleByRecording = new Map();
   const recordings = [];
   for (const kind of ['recording', 'odometry', 'reference'] as const) {
@@ -72,7 +75,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: CalibrateArgumen
   // The summary is shown even if the fit is refused.
   if (output === 'text') print(logSummaries(logs));
   if (output === 'yaml') complain(logSummaries(logs));
-  const calibration = calibrateDrives(await load(), fit, drives);
+  const calibration = calibrateDrives(motion, fit, drives);
   const result: CalibrationResult = { calibration, options: fit, logs, start, begins: drives.map(({ odometry }) => odometry.data.t[0]), date: now.toISOString().slice(0, 10) };
   if (plot !== undefined) await saveFile(plot, drivesSvg(drives, calibration));
   const isUnusableLog = calibration.recommended === null;
@@ -97,7 +100,9 @@ function calibrateDrives(motion: any, fit: CalibrateArguments['fit'], drives: Dr
     return motion.calibrate({ ...fit, ...logOf(drives) });
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
+    const optionError = withOption(error.message);
+    if (optionError === undefined && drives.length === 0) return undefined;
     const logNames = drives.flatMap(({ odometry, reference }) => [odometry.name, reference.name]);
-    throw new UsageError(withOption(error.message) ?? `${new Intl.ListFormat('en').format(logNames)}: ${error.message}.`);
+    throw new UsageError(optionError ?? `${new Intl.ListFormat('en').format(logNames)}: ${error.message}.`);
   }
 }

@@ -45,6 +45,8 @@ export async function serve(directory, { port, base = '/', headers = {} } = {}) 
 
 /** @returns {number | undefined} */
 function wantedPort() {
+  const [argument] = process.argv.slice(2);
+  if (argument !== undefined) throw new Missing(`npm start has no options (got "${argument}"): PORT selects a port, as in PORT=9000 npm start.`);
   const portText = process.env.PORT;
   if (portText === undefined || portText === '') return undefined;
   if (!/^\d+$/.test(portText) || Number(portText) > 65535) {

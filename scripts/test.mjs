@@ -154,15 +154,17 @@ const PARTS = {
   },
   node: {
     async prepare(more) {
+      const command = nodeTests('tests/node', more);
       await ensureBuilt();
-      return programJob(nodeTests('tests/node', more));
+      return programJob(command);
     },
     counts: COUNT_PATTERNS.node,
   },
   package: {
     async prepare(more) {
+      const command = nodeTests('tests/package', more);
       await ensureBuilt();
-      return programJob(nodeTests('tests/package', more), { CHROME: (await testBrowser()).chrome });
+      return programJob(command, { CHROME: (await testBrowser()).chrome });
     },
     counts: COUNT_PATTERNS.node,
   },
@@ -268,6 +270,8 @@ function inBrowser(runner, { chrome, driver }) {
 function nodeTests(directory, more) {
   const files = filesOf(directory).filter((path) => /\.test\.[jt]s$/.test(path) && (NIGHTLY || !path.endsWith('.nightly.test.js')));
   const namedFiles = files.filter((path) => more.some((each) => !each.startsWith('-') && path.includes(each)));
+  const unknownName = more.find((each, i) => !each.startsWith('-') && !more[i - 1]?.startsWith('-') && !files.some((path) => path.includes(each)));
+  if (unknownName !== undefined) throw new Missing(`"${unknownName}" is in no name of a test file; ${directory} has ${files.map((path) => path.slice(directory.length + 1)).join(', ')}.`);
   const nodeOptions = more.filter((each) => !namedFiles.some((path) => path.includes(each)));
   // Node runs every test of a parent that matches, and the parent of all is called "<root>".
   const tierOptions = NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];

@@ -77,9 +77,9 @@ export class Renderer extends FigureController {
     else if (this.host.isAwaited) this.requestFrame();
   }
 
-  /** Allows the views to zoom in and recenter, for a scene that the reader or the page has chosen. */
-  releaseViews() {
-    for (const { view } of this.host.pictures) view.release();
+  /** Allows the views to zoom in and recenter, for a scene that the reader or the page has chosen: see `View.release`. */
+  releaseViews(minFill?: number) {
+    for (const { view } of this.host.pictures) view.release(minFill);
   }
 
   /** Requests a frame, in which a visible figure draws all pictures. */

@@ -61,8 +61,8 @@ export class State extends FigureController {
     host.runtime.replace(machine);
     host.settings.reset();
     host.machineChanged();
+    host.renderer.releaseViews(1);
     this.#showState(wholeState);
-    host.renderer.requestFrame();
   }
 
   /** Applies a preset, as a change by the reader. */
@@ -70,7 +70,7 @@ export class State extends FigureController {
     const { host } = this;
     host.player?.stop();
     host.settings.forgetRefusal();
-    host.renderer.releaseViews();
+    host.renderer.releaseViews(1);
     for (const [name, { ofPreset, opening }] of Object.entries(this.#fields)) if (ofPreset) this.own[name] = opening;
     Object.assign(host, { preset });
     host.gesture.complete();
@@ -94,7 +94,6 @@ export class State extends FigureController {
   /** Shows a state of the machine, by default the opening state. */
   #showState(state?: Values) {
     const { host } = this;
-    host.renderer.releaseViews();
     host.cloud?.introduce(state);
     this.#openingState ??= { ...host.snapshot(), ...(host.cloud && { shown: 0, playing: true }) };
     host.refresh();

@@ -8,7 +8,7 @@ import { clamp } from '../ui/clamp.ts';
 /** Axis-aligned part of a view's world. */
 export type Extent = { xMin: number, yMin: number, xMax: number, yMax: number };
 
-/** Minimum fraction of a released view that its content fills. Below it the view zooms in. */
+/** Fraction of a view that its content fills at least after a change by the page. Below it the view zooms in. */
 const MIN_FILL = 0.45;
 
 /** Margin around the content of a view, relative to its size. */
@@ -27,8 +27,8 @@ export class View {
   #target: Extent | undefined;
   /** Part of the world that the view has to show, also after a change of the canvas size. */
   #neededRoom: Extent | undefined;
-  /** True if the next fit may also zoom in and recenter. */
-  #isReleased = false;
+  /** Fraction of the view that its content has to fill after the next fit. With 0 the view only zooms out. */
+  #minFill = 0;
   /** True after the view has zoomed out. The picture resets it. */
   widened = false;
   /** Limits of the extent. A larger extent is centred on them. */
@@ -66,9 +66,9 @@ export class View {
     return this.#target !== undefined;
   }
 
-  /** Allows the next fit to zoom in and recenter. */
-  release() {
-    this.#isReleased = true;
+  /** Lets the next fit zoom in and recenter if the content fills less than a fraction of the view: with 1 in any case. */
+  release(minFill = MIN_FILL) {
+    this.#minFill = Math.max(this.#minFill, minFill);
   }
 
   /** Resets the view, so that the next fit takes effect without an animation. */
@@ -127,11 +127,11 @@ export class View {
   fit(needed: Extent) {
     const { width, height } = this;
     const isResized = this.#isSnug && (width !== this.#fittedSize.width || height !== this.#fittedSize.height);
-    const [kept, isReleased] = [isResized ? undefined : this.#target, this.#isReleased];
+    const [kept, minFill] = [isResized ? undefined : this.#target, this.#minFill];
     this.#fittedSize = { width, height };
-    this.#isReleased = false;
-    if (kept && (isReleased ? this.#isSuitable(kept, needed) : isInside(needed, kept))) return;
-    this.widened = kept !== undefined && !isReleased;
+    this.#minFill = 0;
+    if (kept && isInside(needed, kept) && this.#fillOf(kept, needed) >= minFill) return;
+    this.widened = kept !== undefined && minFill === 0;
     const padded = this.#isSnug ? needed : extentWithMargin(needed);
     this.#neededRoom = kept && this.widened ? extentAround([padded.xMin, padded.yMin, padded.xMax, padded.yMax], 2, kept) : padded;
     this.#target = this.#coveringExtent(this.#neededRoom);
@@ -151,10 +151,10 @@ export class View {
     return this.extent !== target;
   }
 
-  /** Returns true if an extent contains the needed part of the world, and is filled enough by it. */
-  #isSuitable(shown: Extent, needed: Extent) {
+  /** Returns the fraction of an extent that the needed part of the world fills. */
+  #fillOf(shown: Extent, needed: Extent) {
     const fractions = [(needed.xMax - needed.xMin) / (shown.xMax - shown.xMin), (needed.yMax - needed.yMin) / (shown.yMax - shown.yMin)];
-    return isInside(needed, shown) && Math[this.#hasEqualScales ? 'max' : 'min'](...fractions) >= MIN_FILL;
+    return Math[this.#hasEqualScales ? 'max' : 'min'](...fractions);
   }
 
   /** Returns an extent around `room`, moved into the limits. Its size is rounded unless the view is snug. Equal scales determine its aspect ratio. */

@@ -85,8 +85,8 @@ export class MorphView extends View {
     for (const end of this.ends) end.resize(width, height);
   }
 
-  release() {
-    for (const end of this.ends) end.release();
+  release(minFill?: number) {
+    for (const end of this.ends) end.release(minFill);
   }
 
   forget() {

@@ -91,7 +91,7 @@ impl NoiseKind {
         let Variance(b2) = b2;
         match self {
             Self::Normal => -0.5 * libm::expm1(-2.0 * b2),
-            // Below, the difference would lose more digits than the next term of the series: b⁶, of b².
+            // The series in b, without its term b⁶. For a smaller variance, rounding of the difference below would be larger.
             Self::Triangular if b2 < 1e-5 => b2 * (1.0 - 0.8 * b2),
             Self::Triangular => {
                 let cosine = sinc(SQRT_6 * b2.sqrt());

@@ -190,9 +190,9 @@ fn rounding_of_sums(Measured { mean, cov, .. }: &Measured) -> impl Fn(usize, usi
 }
 
 fn assert_misses(misses: &Misses, steps: usize) {
-    let Misses { told, first, last, end, error } = *misses;
+    let Misses { decidable, first, last, end, error } = *misses;
     assert_eq!(first.is_some(), last.is_some(), "{misses:?}");
-    assert!(told || first.is_none(), "{misses:?}");
+    assert!(decidable || first.is_none(), "{misses:?}");
     let are_in_order = 1 <= first.unwrap_or(1) && first <= last && last.unwrap_or(1) as usize <= steps;
     assert!(are_in_order && !end.is_infinite() && (error.is_nan() || error >= 0.0), "{misses:?}");
 }

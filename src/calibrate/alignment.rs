@@ -37,8 +37,9 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
     let overlap = to.min(end) - from.max(start);
     let finest_step = FINEST_STEP.max(0.5 * odometry.median_period()).max((to - from) / MAX_SAMPLES);
     let scan = |range: [f64; 2], step: f64| best_match(odometry, reference, range, finest_step.max(step));
-    let near = if overlap < min_overlap { None } else { scan([-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], 0.0) };
-    if let Some((offset, _)) = near.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
+    let near_match =
+        if overlap < min_overlap { None } else { scan([-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], 0.0) };
+    if let Some((offset, _)) = near_match.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
         return Some(offset);
     }
     let range = [start - to + min_overlap, end - from - min_overlap];
@@ -49,7 +50,7 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
         step = finest_step.max(step / 50.0);
         far_match = scan(nearby_range, step);
     }
-    match [near, far_match] {
+    match [near_match, far_match] {
         [Some((offset, correlation)), Some((_, farther))] if farther - correlation < MIN_CORRELATION_GAIN => {
             Some(offset)
         }

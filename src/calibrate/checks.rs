@@ -253,16 +253,16 @@ fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
 fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     // Sizes and differences of the turns, and of the drives.
     let [mut turns, mut drives] = [const { [Vec::new(), Vec::new()] }; 2];
-    let add_motion = |[sizes, differences]: &mut [Vec<f64>; 2], size: f64, difference: f64, least: f64| {
-        if size > least {
+    let add_motion = |[sizes, differences]: &mut [Vec<f64>; 2], size: f64, difference: f64, min_size: f64| {
+        if size > min_size {
             sizes.push(size);
             differences.push(difference);
         }
     };
     for leg in &sample.legs {
-        let (expected, seen) = (systematic.expected(sample.options.model, leg), systematic.motion(leg));
-        let difference = libm::hypot(seen.x() - expected.x(), seen.y() - expected.y());
-        add_motion(&mut turns, turn(&expected), (seen.theta() - expected.theta()).abs(), MIN_TURN_ANGLE);
+        let (expected, measured) = (systematic.expected(sample.options.model, leg), systematic.motion(leg));
+        let difference = libm::hypot(measured.x() - expected.x(), measured.y() - expected.y());
+        add_motion(&mut turns, turn(&expected), (measured.theta() - expected.theta()).abs(), MIN_TURN_ANGLE);
         add_motion(&mut drives, distance(&expected), difference, MIN_DRIVE_DISTANCE);
     }
     let median_ratio = |[mut sizes, mut differences]: [Vec<f64>; 2]| {
@@ -324,9 +324,9 @@ impl PathPair {
 /// Returns the checks of the innovations: correlation of neighbours and tails.
 pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
     let standardized = fits.iter().filter(|fit| !fit.is_outlier).flat_map(|fit| fit.standardized);
-    let standardized: Vec<f64> = standardized.filter(|each| !each.is_nan()).collect();
+    let standardized: Vec<f64> = standardized.filter(|residual| !residual.is_nan()).collect();
     let count = standardized.len() as f64;
-    let moment = |power: i32| standardized.iter().map(|each| each.powi(power)).sum::<f64>() / count;
+    let moment = |power: i32| standardized.iter().map(|residual| residual.powi(power)).sum::<f64>() / count;
     let kurtosis = moment(4) / moment(2).powi(2);
     let correlation_limit = NEGLIGIBLE_CORRELATION.max(MAX_STD_ERRORS / count.sqrt());
     // Kurtosis of a normal sample has variance 24/n.
@@ -385,8 +385,8 @@ pub(super) fn scale_checks(fit: &Fit, std_factor: f64) -> (Vec<Check>, ErrorMask
         }
         let mut worst = (0.0, NEGLIGIBLE_SCALE_DIFFERENCE);
         let mut compare = |in_first: &dyn Fn(usize) -> bool| {
-            let [first_group, second_group] =
-                [true, false].map(|which| scale_of(fit, scale, |leg| in_first(leg) == which));
+            let [first_group, second_group] = [true, false]
+                .map(|is_first_group| scale_of(fit, scale, |leg| in_first(leg) == is_first_group));
             if let Some(([a, a_std], [b, b_std])) = first_group.zip(second_group) {
                 let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE
                     .max(MAX_SCALE_STD_ERRORS * std_factor * libm::hypot(a_std, b_std));

@@ -69,14 +69,14 @@ impl Sample {
             return Self::new(legs.to_vec(), estimated, options);
         }
         let blocks = MAX_LEGS / LEGS_PER_BLOCK;
-        let mut kept = Vec::with_capacity(MAX_LEGS);
+        let mut sampled_legs = Vec::with_capacity(MAX_LEGS);
         for block in 0..blocks {
             let from = block * (legs.len() - LEGS_PER_BLOCK) / (blocks - 1);
-            kept.extend_from_slice(&legs[from..from + LEGS_PER_BLOCK]);
-            let start = kept.len() - LEGS_PER_BLOCK;
-            kept[start].follows = false;
+            sampled_legs.extend_from_slice(&legs[from..from + LEGS_PER_BLOCK]);
+            let start = sampled_legs.len() - LEGS_PER_BLOCK;
+            sampled_legs[start].follows = false;
         }
-        Self::new(kept, estimated, options)
+        Self::new(sampled_legs, estimated, options)
     }
 
     fn observe(&mut self, corrected: &Systematic, position_std: f64) {
@@ -115,13 +115,13 @@ impl Sample {
         let mut parameters = Parameters::zeros();
         for (component, alphas) in self.options.model.component_alphas().into_iter().enumerate() {
             let alpha_of = |observation: &Observation| {
-                let [first, second] = observation.coefficients[component];
-                observation.residuals[component].powi(2) / (first + second)
+                let [by_first, by_second] = observation.coefficients[component];
+                observation.residuals[component].powi(2) / (by_first + by_second)
             };
             let mut leg_alphas: Vec<f64> =
                 self.observations.iter().map(alpha_of).filter(|ratio| ratio.is_finite()).collect();
             let alpha = (median(&mut leg_alphas) / MEDIAN_SQUARE).clamp(1e-8, 10.0);
-            alphas.iter().for_each(|each| parameters[*each] = alpha.max(parameters[*each]));
+            alphas.iter().for_each(|index| parameters[*index] = alpha.max(parameters[*index]));
         }
         let Options { position_std, yaw_std, .. } = self.options;
         parameters[POSITION_VARIANCE] = position_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
@@ -165,13 +165,13 @@ impl<'a> Log<'a> {
 
     /// Cuts all drives into legs. `clock_offset` (s) is the offset of the first drive.
     pub fn legs(&self, options: &Options, clock_offset: f64) -> (Vec<Leg>, LostLegs) {
-        let (mut all, mut lost) = (Vec::new(), LostLegs::default());
+        let (mut legs, mut lost) = (Vec::new(), LostLegs::default());
         for (index, drive) in self.drives.iter().enumerate() {
-            let (offset, first) = (clock_offset + self.offsets[index] - self.clock_offset(), all.len());
-            drive.cut(options.legs, offset, &mut all, &mut lost);
-            all[first..].iter_mut().for_each(|leg| leg.drive = index);
+            let (offset, first_leg) = (clock_offset + self.offsets[index] - self.clock_offset(), legs.len());
+            drive.cut(options.legs, offset, &mut legs, &mut lost);
+            legs[first_leg..].iter_mut().for_each(|leg| leg.drive = index);
         }
-        (all, lost)
+        (legs, lost)
     }
 
     /// Moves the reference poses of a leg by a change of the clock offset. `clock_offset` is the new offset of the first drive. A leg that

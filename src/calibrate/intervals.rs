@@ -91,7 +91,7 @@ fn profile_end(
     let estimate = maximum.parameters[parameter];
     let excess_root = |distance: f64| {
         let value_along = |ridge: &Parameters| {
-            let parameters = (maximum.parameters + ridge * distance).map(|each| each.max(0.0));
+            let parameters = (maximum.parameters + ridge * distance).map(|parameter| parameter.max(0.0));
             residuals.least_squares(&parameters).log_likelihood
         };
         let best_value = ridges.iter().map(value_along).fold(f64::NEG_INFINITY, f64::max);

@@ -183,7 +183,7 @@ impl Drive<'_> {
     /// Adds the legs of this drive to `legs`, and the numbers of omitted legs to `lost`. Each leg begins where the previous one ended.
     pub(super) fn cut(&self, length: LegLength, clock_offset: f64, legs: &mut Vec<Leg>, lost: &mut LostLegs) {
         let Self { odometry, reference } = *self;
-        // Reading at which the present leg began, and its start if the reference has a pose there.
+        // Time and odometry pose at the start of the present leg, and the reference there, if it has a pose.
         let mut start: Option<((f64, SE2), Option<End>)> = None;
         let (mut follows_previous, mut pause_seen) = (false, false);
         for (sample, (time, pose)) in odometry.samples().enumerate() {

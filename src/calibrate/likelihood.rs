@@ -378,7 +378,8 @@ impl Residuals {
         let (mut gram, mut cross) = (WideMatrix::<PARAMETER_COUNT>::ZERO, WideMatrix::<ERROR_COUNT>::ZERO);
         let (mut mean, mut pose) = (WideMatrix::<3>::ZERO, Vector3::zeros());
         let alphas = self.model.component_alphas();
-        for (((term, follows), innovation), [own, start, end]) in self.terms().zip(innovations).zip(projected)
+        for (((term, follows), innovation), [projected_noise, start, end]) in
+            self.terms().zip(innovations).zip(projected)
         {
             if !follows {
                 (mean, pose) = (WideMatrix::ZERO, *start);
@@ -387,10 +388,10 @@ impl Residuals {
             for k in 0..3 {
                 let row = columns.row_mut(k);
                 for (alpha, factor) in alphas[k].into_iter().zip(term.coefficients[k]) {
-                    row[alpha] += factor * own[k];
+                    row[alpha] += factor * projected_noise[k];
                 }
-                for (by, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
-                    row[variance] += term.start[(k, by)] * pose[by] + term.end[(k, by)] * end[by];
+                for (axis, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
+                    row[variance] += term.start[(k, axis)] * pose[axis] + term.end[(k, axis)] * end[axis];
                 }
             }
             columns = columns.with_added(&mean.left_multiplied(&-term.start));
@@ -408,11 +409,11 @@ impl Residuals {
 
 /// Multiplies the columns of a matrix by the numbers of a vector.
 #[inline(always)]
-fn scaled_columns(matrix: &Matrix3<f64>, by: &Vector3<f64>) -> Matrix3<f64> {
+fn scaled_columns(matrix: &Matrix3<f64>, factors: &Vector3<f64>) -> Matrix3<f64> {
     let mut scaled = *matrix;
     for column in 0..3 {
         for row in 0..3 {
-            scaled[(row, column)] *= by[column];
+            scaled[(row, column)] *= factors[column];
         }
     }
     scaled

@@ -33,7 +33,8 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask
         let Some(step) = scoring_step(&parameters, &expansion, free) else { break };
         let mut accepted = None;
         for halving in 0..=MAX_HALVINGS {
-            let candidate = (parameters + step * 0.5_f64.powi(halving as i32)).map(|each| each.max(0.0));
+            let candidate =
+                (parameters + step * 0.5_f64.powi(halving as i32)).map(|parameter| parameter.max(0.0));
             let filtered = residuals.filtered(&candidate);
             if filtered.least_squares.log_likelihood > expansion.log_likelihood() {
                 accepted = Some((candidate, residuals.expansion(filtered)));

@@ -143,8 +143,8 @@ fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_li
         let residuals = [bearing_error, length_error, wrap_angle(turn_residual - bearing_error)];
         (residuals, [first, along, second], bearing_row)
     } else {
-        let both = [first[0] + second[0], first[1] + second[1]];
-        ([f64::NAN, ahead - trans, turn_residual], [[0.0; 2], along, both], RowVector3::zeros())
+        let turn_coefficients = [first[0] + second[0], first[1] + second[1]];
+        ([f64::NAN, ahead - trans, turn_residual], [[0.0; 2], along, turn_coefficients], RowVector3::zeros())
     };
     let forward_row = RowVector3::new(cos, sin, 0.0);
     let jacobian =

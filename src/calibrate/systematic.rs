@@ -90,13 +90,13 @@ impl Systematic {
     pub(super) fn initial_mount_yaw(legs: &[Leg]) -> f64 {
         let (mut cos_sum, mut sin_sum, mut total) = (0.0, 0.0, 0.0);
         for leg in legs {
-            let [odometry_motion, reference_motion] = [leg.odometry, leg.reference].map(|[from, to]| {
+            let [odometry_motion, measured] = [leg.odometry, leg.reference].map(|[from, to]| {
                 let motion = from.between(&to);
                 Vector2::new(motion.x(), motion.y())
             });
-            cos_sum += odometry_motion.dot(&reference_motion);
-            sin_sum += odometry_motion.y * reference_motion.x - odometry_motion.x * reference_motion.y;
-            total += odometry_motion.norm() * reference_motion.norm();
+            cos_sum += odometry_motion.dot(&measured);
+            sin_sum += odometry_motion.y * measured.x - odometry_motion.x * measured.y;
+            total += odometry_motion.norm() * measured.norm();
         }
         let yaw = libm::atan2(sin_sum, cos_sum);
         if yaw.abs() > MIN_INITIAL_YAW && libm::hypot(cos_sum, sin_sum) > MIN_RESULTANT * total {
@@ -133,12 +133,12 @@ impl Systematic {
     /// Returns the Jacobians of the base's motion with respect to the errors of the reference at the leg's start and end. An error is a
     /// small motion (x, y, θ) in the frame of the reference there.
     pub(super) fn reference_jacobians(&self, leg: &Leg) -> [Matrix3<f64>; 2] {
-        let seen = leg.reference[0].between(&leg.reference[1]);
-        let [mount, turned] = [self.mount_yaw, seen.theta()].map(rotation_matrix);
+        let measured = leg.reference[0].between(&leg.reference[1]);
+        let [mount, turned] = [self.mount_yaw, measured.theta()].map(rotation_matrix);
         let arm = turned * Vector2::from(self.lever_arm);
         // Displacement of the base for each rad by which the reference's heading at the end is too large.
         let by_lever = Vector2::new(arm.y, -arm.x);
-        let by_turn = mount * Vector2::new(-seen.y(), seen.x());
+        let by_turn = mount * Vector2::new(-measured.y(), measured.x());
         let jacobian = |place: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
             Matrix3::new(place.m11, place.m12, heading.x, place.m21, place.m22, heading.y, 0.0, 0.0, turn)
         };

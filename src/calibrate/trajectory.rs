@@ -148,7 +148,7 @@ impl Trajectory {
 
     /// Returns the index of the sample nearest to a time (s). None if it is further away than half of the shortest pause.
     pub(super) fn nearest(&self, time: f64) -> Option<usize> {
-        let next = self.times.partition_point(|each| *each < time);
+        let next = self.times.partition_point(|row_time| *row_time < time);
         let distance = |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
         let previous = next.saturating_sub(1);
         let nearest = if distance(previous) < distance(next) { previous } else { next };
@@ -182,7 +182,7 @@ impl Trajectory {
     // Not inlined, because the code for arcs is long.
     #[inline(never)]
     pub(super) fn interpolated(&self, time: f64) -> Option<(SE2, f64)> {
-        let after = self.times.partition_point(|each| *each < time);
+        let after = self.times.partition_point(|row_time| *row_time < time);
         let (time_after, pose) = (*self.times.get(after)?, self.poses[after]);
         if time_after == time {
             return Some((pose, 1.0));

@@ -20,13 +20,13 @@ use std::ops::Range;
 pub(super) struct Window {
     /// log of (expected motion)⁻¹ (motion that the reference measured).
     error: Vector3<f64>,
-    wheels: Matrix3<f64>,
-    reference: Matrix3<f64>,
+    wheel_covariance: Matrix3<f64>,
+    reference_covariance: Matrix3<f64>,
 }
 
 impl Window {
     fn squared_distance(&self, inflation: f64) -> f64 {
-        let covariance = self.wheels * inflation + self.reference;
+        let covariance = self.wheel_covariance * inflation + self.reference_covariance;
         covariance.try_inverse().map_or(f64::INFINITY, |inverse| self.error.dot(&(inverse * self.error)))
     }
 }
@@ -41,34 +41,43 @@ impl Sample {
         parameters: &Parameters,
     ) -> Vec<Window> {
         let empty_window = (0.0, SE2::identity(), Matrix3::zeros());
-        let (mut windows, mut first) = (Vec::new(), range.start);
-        let (mut driven_distance, mut expected, mut wheels) = empty_window;
+        let (mut windows, mut first_leg) = (Vec::new(), range.start);
+        let (mut driven_distance, mut expected, mut wheel_covariance) = empty_window;
         for leg in range {
             let Some(covariance) = covariances[leg] else {
-                first = leg + 1;
+                first_leg = leg + 1;
                 continue;
             };
-            if leg == first || !self.legs[leg].follows {
-                (driven_distance, expected, wheels) = empty_window;
-                first = leg;
+            if leg == first_leg || !self.legs[leg].follows {
+                (driven_distance, expected, wheel_covariance) = empty_window;
+                first_leg = leg;
             }
             let expected_motion = &self.observations[leg].expected;
             let to_leg_end = expected_motion.inverse().adjoint();
-            wheels = to_leg_end * wheels * to_leg_end.transpose() + covariance;
+            wheel_covariance = to_leg_end * wheel_covariance * to_leg_end.transpose() + covariance;
             expected = expected * *expected_motion;
             driven_distance += distance(expected_motion);
             if driven_distance >= length {
-                let (seen, reference) = self.reference_motion(first, leg, parameters);
-                windows.push(Window { error: seen.boxminus(&expected), wheels, reference });
-                first = leg + 1;
+                let (measured, reference_covariance) = self.reference_motion(first_leg, leg, parameters);
+                windows.push(Window {
+                    error: measured.boxminus(&expected),
+                    wheel_covariance,
+                    reference_covariance,
+                });
+                first_leg = leg + 1;
             }
         }
         windows
     }
 
     /// Returns the motion that the reference saw over several legs, and the covariance of its error in the frame of their end.
-    fn reference_motion(&self, first: usize, last: usize, parameters: &Parameters) -> (SE2, Matrix3<f64>) {
-        let [start, end] = [first, last].map(|leg| &self.legs[leg]);
+    fn reference_motion(
+        &self,
+        first_leg: usize,
+        last_leg: usize,
+        parameters: &Parameters,
+    ) -> (SE2, Matrix3<f64>) {
+        let [start, end] = [first_leg, last_leg].map(|leg| &self.legs[leg]);
         let window = Leg {
             reference: [start.reference[0], end.reference[1]],
             interpolation_variances: [start.interpolation_variances[0], end.interpolation_variances[1]],
@@ -156,12 +165,13 @@ pub(super) struct Recommendation {
 }
 
 /// Fits each half of the log, compares each half with the fit to the other one, and finds the inflation that windows need.
-pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Recommendation {
+pub(super) fn recommend(fit: &Fit, whole_log: &Sample, alphas: &[Option<f64>]) -> Recommendation {
     let half_ranges = |count: usize| [0..count / 2, count / 2..count];
     let count = fit.sample.legs.len();
     let residuals = half_ranges(count).map(|half| fit.sample.inlier_residuals(half));
-    let fitted = |half: &Residuals| maximize(half, fit.maximum.parameters, &fit.maximum.free).parameters;
-    let by_other_half = [fitted(&residuals[1]), fitted(&residuals[0])];
+    let parameters_of =
+        |half: &Residuals| maximize(half, fit.maximum.parameters, &fit.maximum.free).parameters;
+    let by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut within_count, mut compared_count) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&by_other_half) {
         compared_count += residuals.len();
@@ -177,13 +187,13 @@ pub(super) fn recommend(fit: &Fit, all: &Sample, alphas: &[Option<f64>]) -> Reco
     let expected_coverage = coverage_range(compared_count, scale_std);
     let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected_coverage)];
     // Windows of the whole log, each under the fit to the other half.
-    let halves = half_ranges(all.legs.len());
+    let halves = half_ranges(whole_log.legs.len());
     let held_out = || halves.iter().cloned().zip(&by_other_half);
     let covariances: Vec<Option<Matrix3<f64>>> = held_out()
-        .flat_map(|(half, parameters)| half.map(|leg| all.wheel_covariance(leg, parameters)))
+        .flat_map(|(half, parameters)| half.map(|leg| whole_log.wheel_covariance(leg, parameters)))
         .collect();
     let windows = WINDOW_LENGTHS.map(|length| {
-        let windows_of_half = |(half, parameters)| all.windows(half, length, &covariances, parameters);
+        let windows_of_half = |(half, parameters)| whole_log.windows(half, length, &covariances, parameters);
         held_out().flat_map(windows_of_half).collect::<Vec<_>>()
     });
     let inflation = required_inflation(&windows[0]);

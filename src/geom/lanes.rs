@@ -80,10 +80,10 @@ impl Trigonometry {
         if !any_beyond(x, MAX_REDUCED) {
             return Circle { sinc, sin, cos };
         }
-        let lane_by_lane = |of: f64x4, scalar: fn(f64) -> f64| {
+        let lane_by_lane = |vector_results: f64x4, scalar: fn(f64) -> f64| {
             from_lanes(|i| {
                 let angle = x.to_array()[i];
-                if angle.abs() > MAX_REDUCED { scalar(angle) } else { of.to_array()[i] }
+                if angle.abs() > MAX_REDUCED { scalar(angle) } else { vector_results.to_array()[i] }
             })
         };
         Circle {
@@ -210,7 +210,7 @@ fn whole_half_circles(x: f64x4) -> f64x4 {
 /// Returns x − kπ.
 #[inline(always)]
 fn without_half_circles(x: f64x4, half_circles: f64x4) -> f64x4 {
-    PI_PARTS.iter().fold(x, |rest, part| rest - half_circles * *part)
+    PI_PARTS.iter().fold(x, |remainder, part| remainder - half_circles * *part)
 }
 
 /// Coefficients of sin √z/√z, from the lowest power up. Those after the 1 fit (sin √z/√z − 1)/z on [0, π²/4] by Remez's exchange,

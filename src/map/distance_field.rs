@@ -186,8 +186,12 @@ impl FieldBuilder {
         };
         if size > 1 && min_distance <= UNDIVIDED_DISTANCE * radius + uncertainty / BLOCK_UNCERTAINTY {
             let reach = max_distance + 2.0 * radius + self.slack;
-            self.candidates
-                .extend(self.measured.iter().filter(|(least, _)| *least <= reach).map(|(_, near)| *near));
+            self.candidates.extend(
+                self.measured
+                    .iter()
+                    .filter(|(lower_bound, _)| *lower_bound <= reach)
+                    .map(|(_, candidate)| *candidate),
+            );
             let range = [range[1], self.candidates.len()];
             let half_size = size / 2;
             for [column, row] in [[half_size, half_size], [0, half_size], [half_size, 0], [0, 0]] {
@@ -233,31 +237,31 @@ impl FieldBuilder {
         open.extend_from_slice(&candidates[from..to]);
         let mut upper = f64::INFINITY;
         let mut measured_count = 0;
-        while let Some(near) = open.pop() {
+        while let Some(candidate) = open.pop() {
             measured_count += 1;
             if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * size * size {
                 return None;
             }
             let distance_to_wall = |wall: usize| tree.line(wall).squared_distance(point).sqrt();
-            let least = match near {
+            let lower_bound = match candidate {
                 Candidate::Wall(wall) => distance_to_wall(wall as usize),
                 Candidate::Node(node) => tree.node(node as usize).lower_bound(point),
             };
-            if least > upper + max_excess {
+            if lower_bound > upper + max_excess {
                 continue;
             }
-            if least < upper {
-                upper = upper.min(match near {
-                    Candidate::Wall(_) => least,
+            if lower_bound < upper {
+                upper = upper.min(match candidate {
+                    Candidate::Wall(_) => lower_bound,
                     Candidate::Node(node) => distance_to_wall(tree.distinct_walls(node as usize).start),
                 });
             }
             if size == 1 && upper <= uncertainty {
                 return Some([0.0, upper]);
             }
-            match near {
+            match candidate {
                 Candidate::Node(node)
-                    if least < upper - uncertainty
+                    if lower_bound < upper - uncertainty
                         || tree.node(node as usize).thickness > 0.5 * max_excess =>
                 {
                     if tree.is_leaf(node as usize) {
@@ -268,10 +272,10 @@ impl FieldBuilder {
                         open.extend([2 * node, 2 * node + 1].map(Candidate::Node));
                     }
                 }
-                _ => measured.push((least, near)),
+                _ => measured.push((lower_bound, candidate)),
             }
         }
-        Some([measured.iter().map(|(least, _)| *least).fold(upper, f64::min), upper])
+        Some([measured.iter().map(|(lower_bound, _)| *lower_bound).fold(upper, f64::min), upper])
     }
 
     fn centre(&self, first: [usize; 2], size: usize) -> [f64; 2] {
@@ -284,5 +288,5 @@ impl FieldBuilder {
 /// Returns a bound on the rounding error of these coordinates, m.
 #[inline(never)]
 pub(super) fn rounding_bound(coordinates: &[f64]) -> f64 {
-    1e-12 * coordinates.iter().fold(0.0, |most: f64, coordinate| most.max(coordinate.abs()))
+    1e-12 * coordinates.iter().fold(0.0, |largest: f64, coordinate| largest.max(coordinate.abs()))
 }

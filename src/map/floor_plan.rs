@@ -325,8 +325,8 @@ impl Sweep<'_> {
             return true;
         }
         let distances = lower_bounds.to_array();
-        let least = distances.into_iter().fold(f64::INFINITY, f64::min);
-        if field.upper_bound(least) <= self.clearance - piece.error {
+        let min_lower_bound = distances.into_iter().fold(f64::INFINITY, f64::min);
+        if field.upper_bound(min_lower_bound) <= self.clearance - piece.error {
             return false;
         }
         // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Walls near it are measured.

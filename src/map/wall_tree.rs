@@ -50,7 +50,7 @@ impl WallTree {
             // The root is always visited, and has no sibling.
             nodes: vec![Node { hull: PreparedSegment::POINT, thickness: f64::INFINITY, all_equal: false }; 2],
             depth: leaf_count.ilog2(),
-            slack: 1e-9 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs())),
+            slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
         };
         for parent in 1..leaf_count {
             tree.divide_in_half(parent);
@@ -68,11 +68,11 @@ impl WallTree {
         let walls = &mut self.walls[range.clone()];
         let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
         for wall in &*walls {
-            for ([least, most], place) in ranges.iter_mut().zip(sort_keys(wall)) {
-                (*least, *most) = (min_of(*least, place), max_of(*most, place));
+            for ([min, max], place) in ranges.iter_mut().zip(sort_keys(wall)) {
+                (*min, *max) = (min_of(*min, place), max_of(*max, place));
             }
         }
-        let widths = ranges.map(|[least, most]| most - least);
+        let widths = ranges.map(|[min, max]| max - min);
         let axis = (1..4).fold(0, |widest, axis| if widths[axis] > widths[widest] { axis } else { widest });
         select_smallest(walls, middle - range.start, axis);
     }
@@ -87,9 +87,9 @@ impl WallTree {
         let mut extents = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
             for ([x, y], [back, right, front, left]) in axes.iter().zip(&mut extents) {
-                let (along, off) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
-                (*back, *right) = (min_of(*back, along), min_of(*right, off));
-                (*front, *left) = (max_of(*front, along), max_of(*left, off));
+                let (along, across) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
+                (*back, *right) = (min_of(*back, along), min_of(*right, across));
+                (*front, *left) = (max_of(*front, along), max_of(*left, across));
             }
         }
         let mut narrowest = (f64::INFINITY, PreparedSegment::POINT);

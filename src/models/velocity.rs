@@ -150,9 +150,9 @@ impl MotionModel for VelocityModel {
             ])
         };
         // Nine standard deviations reach every turn whose Gaussian density is above the rounding of the sum.
-        let nearest = ((u.omega * u.dt - shortest_turn) / TAU).round();
-        let most = self.windings(u);
-        let arcs: f64 = (-most..=most).map(|k| density(nearest + f64::from(k))).sum();
+        let nearest_winding = ((u.omega * u.dt - shortest_turn) / TAU).round();
+        let max_windings = self.windings(u);
+        let arcs: f64 = (-max_windings..=max_windings).map(|k| density(nearest_winding + f64::from(k))).sum();
 
         let last_turn = step.theta() - shortest_turn;
         let dt2 = u.dt * u.dt;

@@ -121,12 +121,12 @@ impl PolarMotion {
         let limit = self.integration_limit(by_bearing, turn_after);
         let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
         let last_turn_nodes = self.nodes(turn_after, NO_BREAKS);
-        for first in self.nodes(deviation, NO_BREAKS) {
-            let bearing = bearing + deviation * first.value;
+        for bearing_node in self.nodes(deviation, NO_BREAKS) {
+            let bearing = bearing + deviation * bearing_node.value;
             let chord = if self.is_arc { sinc(bearing) } else { 1.0 };
-            for last in &last_turn_nodes {
-                let excess_turn = by_bearing * first.value + turn_after * last.value;
-                let weight = first.weight * last.weight;
+            for turn_node in &last_turn_nodes {
+                let excess_turn = by_bearing * bearing_node.value + turn_after * turn_node.value;
+                let weight = bearing_node.weight * turn_node.weight;
                 if excess_turn.abs() > limit {
                     continue;
                 }

@@ -54,8 +54,8 @@ pub struct FirstPass {
     reference: Reference,
     scale: JacobianScale,
     sums: Sums<16>,
-    /// Sums over arcs that are not regular. The regular values of those arcs are subtracted, because the sums of the unit
-    /// noise include them.
+    /// Corrections for irregular arcs, which are not the driven ones (see `Drive::end_points`). Each adds the values
+    /// of its arc, and subtracts those of the driven arc, which are in the sums of the unit noise.
     irregular: PairSums,
     /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these
     /// products. One logarithm for each block takes hardly any time. On average the factors are above e⁻¹, and the
@@ -93,8 +93,8 @@ impl FirstPass {
     /// Multiplies the products by the Jacobians of four poses.
     #[inline(always)]
     pub fn multiply(&mut self, poses: &FourPoses, arcs: &FourArcs) {
-        let lane_product = |of: f64x4| {
-            let [low, high] = halves(of);
+        let lane_product = |lanes: f64x4| {
+            let [low, high] = halves(lanes);
             low * high
         };
         let (chart, arc) = (lane_product(poses.sinc), lane_product(arcs.sinc));
@@ -106,13 +106,13 @@ impl FirstPass {
     /// Multiplies the products by the Jacobians of the poses for which `mask` has all bits set.
     #[inline(never)]
     pub fn multiply_some(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
-        let masked_or_one = |of: f64x4| mask.bitselect(of, f64x4::splat(1.0));
+        let masked_or_one = |values: f64x4| mask.bitselect(values, f64x4::splat(1.0));
         let [chart, length, arc] = [poses.sinc, arcs.length, arcs.sinc].map(masked_or_one);
         self.multiply(&FourPoses { sinc: chart, ..*poses }, &FourArcs { length, sinc: arc, ..*arcs });
     }
 
-    /// Corrects the sums for arcs that are not regular: adds their values, and subtracts the values `regular`, which the sums
-    /// of the unit noise include.
+    /// Corrects the sums for irregular arcs: adds their values, and subtracts the values `regular` of the driven arcs, which
+    /// the sums of the unit noise include.
     #[inline(never)]
     pub fn add_irregular(&mut self, arcs: &FourArcs, regular: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference;
@@ -330,6 +330,6 @@ impl SecondPass {
 /// Wraps differences of angles to [−π, π]. The differences must be within [−3π, 3π].
 #[inline(always)]
 fn wrapped_difference(turn: f64x4) -> f64x4 {
-    let far = turn.abs().simd_gt(f64x4::splat(PI));
-    if any_lane_set(far) { far.bitselect(turn - f64x4::splat(TAU).copysign(turn), turn) } else { turn }
+    let is_far = turn.abs().simd_gt(f64x4::splat(PI));
+    if any_lane_set(is_far) { is_far.bitselect(turn - f64x4::splat(TAU).copysign(turn), turn) } else { turn }
 }

@@ -154,7 +154,7 @@ fn interval_to_js(interval: Option<[f64; 2]>) -> JsValue {
 }
 
 fn intervals_to_js(intervals: &[Option<[f64; 2]>]) -> JsValue {
-    intervals.iter().map(|each| interval_to_js(*each)).collect::<Array>().into()
+    intervals.iter().map(|interval| interval_to_js(*interval)).collect::<Array>().into()
 }
 
 fn estimate_to_js(Estimate { value, interval }: &Estimate) -> JsValue {

@@ -91,7 +91,7 @@ macro_rules! cloud {
                 Ok(self.0.add_samples(count as usize))
             }
 
-            /// Number of samples that are added within a few milliseconds.
+            /// Number of samples that `addSamples` adds within a few milliseconds.
             #[wasm_bindgen(getter)]
             pub fn block(&self) -> usize {
                 self.0.block()

@@ -78,7 +78,7 @@ impl ArcAnatomy {
         let (start, next) = (self.settings.start(), self.settings.next());
         let Stats { commanded, inverted, driven, .. } = self.stats();
         let xi = next.boxminus(&start);
-        let pose_on_lie_path = |i: usize, of: usize| start.boxplus(xi * (i as f64 / of as f64));
+        let pose_on_lie_path = |i: usize, count: usize| start.boxplus(xi * (i as f64 / count as f64));
         let position_of = |pose: SE2| [pose.x(), pose.y()];
         let tick_segment = |i: usize| {
             let pose = pose_on_lie_path(i, LIE_TICKS);

@@ -28,7 +28,7 @@ fn subsample_groups([a, b, c]: &[f64x4; 3]) -> usize {
     let squared_distances = *a * *a + *b * *b + *c * *c;
     let distance_class = [FAR_SQUARE, FARTHEST_SQUARE]
         .iter()
-        .filter(|least| any_lane_set(squared_distances.simd_gt(f64x4::splat(**least))))
+        .filter(|threshold| any_lane_set(squared_distances.simd_gt(f64x4::splat(**threshold))))
         .count();
     SUBSAMPLE_GROUPS[distance_class]
 }

@@ -137,11 +137,12 @@ impl Cloud {
                 self.drive.unbent(&motions, &self.positions[group], morph)
             }
         };
-        let (full, remaining) = (shown / LANES, shown % LANES);
-        (0..full).for_each(|group| see(points_of_group(group)));
+        let (full_groups, remaining) = (shown / LANES, shown % LANES);
+        (0..full_groups).for_each(|group| see(points_of_group(group)));
         if remaining > 0 {
             let lane_mask = from_lanes(|lane| if lane < remaining { ALL_BITS_SET } else { 0.0 });
-            see(points_of_group(full).map(|points| lane_mask.bitselect(points, f64x4::splat(f64::INFINITY))));
+            see(points_of_group(full_groups)
+                .map(|points| lane_mask.bitselect(points, f64x4::splat(f64::INFINITY))));
         }
     }
 }

@@ -25,16 +25,16 @@ pub fn density(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32> {
     counts
 }
 
-/// Paints a density, one pixel for each cell: ramp[255·√(count/most)], transparent for empty cells. With the square
+/// Paints a density, one pixel for each cell: ramp[255·√(count/max_count)], transparent for empty cells. With the square
 /// root the sparse ends of a cloud stay visible.
 pub fn paint(counts: &[u32], ramp: &Ramp) -> Vec<[u8; 4]> {
-    let most = counts.iter().copied().max().unwrap_or(0);
-    counts.iter().map(|count| if *count == 0 { [0; 4] } else { ramp[ramp_step(*count, most)] }).collect()
+    let max_count = counts.iter().copied().max().unwrap_or(0);
+    counts.iter().map(|count| if *count == 0 { [0; 4] } else { ramp[ramp_step(*count, max_count)] }).collect()
 }
 
-/// Returns the step of a ramp for a count: 255·√(count/most).
+/// Returns the step of a ramp for a count: 255·√(count/max_count).
 #[inline(always)]
-pub fn ramp_step(count: u32, most: u32) -> usize {
-    let relative_root = (f64::from(count) / f64::from(most)).sqrt();
+pub fn ramp_step(count: u32, max_count: u32) -> usize {
+    let relative_root = (f64::from(count) / f64::from(max_count)).sqrt();
     ((RAMP_STEPS - 1) as f64 * relative_root + 0.5) as usize % RAMP_STEPS
 }

@@ -33,7 +33,7 @@ js_structs! {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Misses {
         /// True if there is a spread, and enough robots to establish a miss.
-        pub told: bool,
+        pub decidable: bool,
         /// First step with a miss; null (None) if there is none, or if it cannot be established.
         pub first: Option<u32>,
         /// Last step with a miss.
@@ -86,25 +86,26 @@ fn smallest_spread(settings: &Settings) -> Vector3<f64> {
     Vector3::new(length, length, NO_SPREAD)
 }
 
-fn variance_ratio(cov: &Matrix3<f64>, measured: &Measured, least: &Vector3<f64>) -> Vector3<f64> {
+fn variance_ratio(cov: &Matrix3<f64>, measured: &Measured, smallest_spread: &Vector3<f64>) -> Vector3<f64> {
     Vector3::from_fn(|i, _| {
         let variance = measured.cov[(i, i)];
-        if variance > least[i] * least[i] { cov[(i, i)] / variance } else { f64::NAN }
+        if variance > smallest_spread[i] * smallest_spread[i] { cov[(i, i)] / variance } else { f64::NAN }
     })
 }
 
 fn misses_of(ratios: &[Vector3<f64>], measured: &[Measured], axis: usize) -> Misses {
-    let known = || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
-    let told = known().next().is_some()
-        && known().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
-    let is_miss = |ratio: &Vector3<f64>| told && (ratio[axis] - 1.0).abs() > TOLERANCE;
+    let defined_ratios =
+        || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
+    let decidable = defined_ratios().next().is_some()
+        && defined_ratios().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
+    let is_miss = |ratio: &Vector3<f64>| decidable && (ratio[axis] - 1.0).abs() > TOLERANCE;
     let step_number = |index: usize| index as u32 + 1;
     let [end, error] = match (ratios.last(), measured.last()) {
         (Some(ratio), Some(measured)) => [ratio[axis] - 1.0, ratio[axis] * measured.relative_error[axis]],
         _ => [f64::NAN; 2],
     };
     Misses {
-        told,
+        decidable,
         first: ratios.iter().position(is_miss).map(step_number),
         last: ratios.iter().rposition(is_miss).map(step_number),
         end,

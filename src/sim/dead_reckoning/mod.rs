@@ -56,7 +56,7 @@ pub struct Stats {
     /// Predicted covariance after the selected step; null (None) if the recursion has none.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]
     pub predicted: ByRecursion<Option<Covariance>>,
-    /// Misses of along, lateral and heading.
+    /// Steps at which a prediction is off, for the components along, lateral and heading.
     pub misses: ByRecursion<[Misses; 3]>,
 }
 
@@ -291,7 +291,7 @@ fn by_recursion<T>(of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
 
 /// Returns the index of a recursion in [`RECURSIONS`].
 fn index_of_recursion(order: Compounding) -> usize {
-    RECURSIONS.iter().position(|each| *each == order).unwrap_or_default()
+    RECURSIONS.iter().position(|recursion| *recursion == order).unwrap_or_default()
 }
 
 /// Returns the 2σ ellipse of ξ along and lateral.

@@ -91,9 +91,9 @@ impl Settings {
     pub(super) fn has_same_rollouts(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
         // −0 equals 0, but leads to other signs of zeros in the results.
-        let sign_bits = |of: &Self| {
-            let VelocityCmd { v, omega, dt } = of.command;
-            ([v, omega, dt].map(f64::is_sign_negative), of.alphas.map(f64::is_sign_negative))
+        let sign_bits = |settings: &Self| {
+            let VelocityCmd { v, omega, dt } = settings.command;
+            ([v, omega, dt].map(f64::is_sign_negative), settings.alphas.map(f64::is_sign_negative))
         };
         Self { step, compounding, samples, ..*self } == *other && sign_bits(self) == sign_bits(other)
     }
@@ -133,12 +133,12 @@ pub const PRESETS: [Preset; 4] = [
 ];
 
 const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], steps: u32, heading: f64) -> Preset {
-    let [h, last] = [heading, heading / 4.0];
+    let [h, last_turn] = [heading, heading / 4.0];
     Preset {
         name,
         command: VelocityCmd { v, omega, dt },
         steps,
         step: steps,
-        alphas: [0.02, 0.02, h, h, last, last],
+        alphas: [0.02, 0.02, h, h, last_turn, last_turn],
     }
 }

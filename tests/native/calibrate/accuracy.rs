@@ -43,16 +43,16 @@ struct Study {
     /// For each α the ratios of fitted and true value, sorted.
     ratios: Vec<Vec<f64>>,
     /// For each α the number of 95 % intervals that hold the true value.
-    held: Vec<usize>,
-    errors_held: [usize; ERROR_COUNT],
+    covered: Vec<usize>,
+    errors_covered: [usize; ERROR_COUNT],
     /// Standard deviations of the reference, sorted.
     stds: [Vec<f64>; 2],
-    stds_held: [usize; 2],
+    stds_covered: [usize; 2],
     logs: usize,
 }
 
 /// Returns 1 if an interval holds a value, and otherwise 0.
-fn count_held(interval: Option<[f64; 2]>, value: f64) -> usize {
+fn count_covered(interval: Option<[f64; 2]>, value: f64) -> usize {
     usize::from(interval.is_some_and(|[low, high]| (low..=high).contains(&value)))
 }
 
@@ -60,10 +60,10 @@ fn study(model: Model, scenario: &Scenario, logs: usize) -> Study {
     let count = model.alphas();
     let mut study = Study {
         ratios: vec![Vec::new(); count],
-        held: vec![0; count],
-        errors_held: [0; ERROR_COUNT],
+        covered: vec![0; count],
+        errors_covered: [0; ERROR_COUNT],
         stds: [Vec::new(), Vec::new()],
-        stds_held: [0; 2],
+        stds_covered: [0; 2],
         logs,
     };
     for seed in 0..logs as u64 {
@@ -72,24 +72,24 @@ fn study(model: Model, scenario: &Scenario, logs: usize) -> Study {
         let calibration = calibrated(&sim);
         for (alpha, truth) in ALPHAS.into_iter().enumerate().take(count) {
             study.ratios[alpha].extend(calibration.alphas[alpha].map(|fitted| fitted / truth));
-            study.held[alpha] += count_held(calibration.intervals[alpha], truth);
+            study.covered[alpha] += count_covered(calibration.intervals[alpha], truth);
         }
-        for (error, held) in SystematicError::ALL.into_iter().zip(&mut study.errors_held) {
+        for (error, covered) in SystematicError::ALL.into_iter().zip(&mut study.errors_covered) {
             let interval = calibration.interval_of(error);
             let extended = interval.map(|[low, high]| [low - NEGLECTED_TERMS, high + NEGLECTED_TERMS]);
-            *held += count_held(extended, sim.errors.get(error));
+            *covered += count_covered(extended, sim.errors.get(error));
         }
         for (index, noise) in calibration.reference_noise.iter().enumerate() {
             study.stds[index].push(noise.value);
-            study.stds_held[index] += count_held(Some(noise.interval), sim.reference_stds[index]);
+            study.stds_covered[index] += count_covered(Some(noise.interval), sim.reference_stds[index]);
         }
     }
-    study.ratios.iter_mut().chain(&mut study.stds).for_each(|each| each.sort_unstable_by(f64::total_cmp));
+    study.ratios.iter_mut().chain(&mut study.stds).for_each(|sample| sample.sort_unstable_by(f64::total_cmp));
     let medians: Vec<f64> = study.ratios.iter().map(|ratios| median(ratios)).collect();
-    let Study { held, errors_held, stds_held, .. } = &study;
+    let Study { covered, errors_covered, stds_covered, .. } = &study;
     let stds = [0, 1].map(|index| median(&study.stds[index]));
     println!(
-        "{}, {model:?}: {medians:.3?}, held {held:?}, σ {stds:.4?} {stds_held:?}, errors {errors_held:?}",
+        "{}, {model:?}: {medians:.3?}, covered {covered:?}, σ {stds:.4?} {stds_covered:?}, errors {errors_covered:?}",
         scenario.name
     );
     study
@@ -112,10 +112,10 @@ fn three_standard_errors(share: f64, logs: usize) -> f64 {
 }
 
 /// Reports a fraction of intervals that hold the truth, if it is outside of 92 to 98 % by more than three standard errors.
-fn wrong_coverage(what: &str, held: usize, logs: usize) -> Option<String> {
-    let share = held as f64 / logs as f64;
+fn wrong_coverage(name: &str, covered: usize, logs: usize) -> Option<String> {
+    let share = covered as f64 / logs as f64;
     let allowed = 0.92 - three_standard_errors(0.92, logs)..=0.98 + three_standard_errors(0.98, logs);
-    (!allowed.contains(&share)).then(|| format!("{held} of {logs} intervals hold {what}"))
+    (!allowed.contains(&share)).then(|| format!("{covered} of {logs} intervals hold {name}"))
 }
 
 /// Reports α's whose medians are off by more than the bias and three standard errors, and α's with wrong intervals.
@@ -126,9 +126,9 @@ fn wrong_alphas(model: Model, scenario: &Scenario, study: &Study) -> Vec<String>
         let is_off = ratios.len() < study.logs || (median_ratio - 1.0).abs() > scenario.bias + 3.0 * std;
         let wrong_median = is_off
             .then(|| format!("median of {name} in {} logs: {median_ratio:.3} ± {std:.3}", ratios.len()));
-        [wrong_median, wrong_coverage(&name, study.held[alpha], study.logs)]
+        [wrong_median, wrong_coverage(&name, study.covered[alpha], study.logs)]
     };
-    let reports = (0..study.held.len()).flat_map(wrong_alpha).flatten();
+    let reports = (0..study.covered.len()).flat_map(wrong_alpha).flatten();
     reports.map(|report| format!("{}, {model:?}: {report}", scenario.name)).collect()
 }
 
@@ -186,7 +186,7 @@ fn alphas_are_right_with_an_unstated_noise_of_5_mm_and_2_mrad() {
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_are_right_with_an_unstated_noise_of_20_mm_and_20_mrad() {
     assert_right_in_every_model(&COARSE_REFERENCE, |study| {
-        [0, 1].map(|which| wrong_std(study, which, 0.02)).concat()
+        [0, 1].map(|component| wrong_std(study, component, 0.02)).concat()
     });
 }
 
@@ -195,7 +195,7 @@ fn alphas_are_right_with_an_unstated_noise_of_20_mm_and_20_mrad() {
 fn alphas_and_errors_are_right_with_five_systematic_errors() {
     assert_right_in_every_model(&SYSTEMATIC_ERRORS, |study| {
         let wrong_error = |error: SystematicError| {
-            wrong_coverage(&format!("{error:?}"), study.errors_held[error as usize], study.logs)
+            wrong_coverage(&format!("{error:?}"), study.errors_covered[error as usize], study.logs)
         };
         SystematicError::ALL.into_iter().filter_map(wrong_error).collect()
     });

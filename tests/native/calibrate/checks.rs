@@ -163,12 +163,12 @@ fn calibrated_with_scales(sim: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -
 fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     let sim = good_log(600, 12);
     let [odometry, reference] = sim.log();
-    let noisy = |std: f64| {
+    let jittered = |std: f64| {
         let mut rng = seeded(12);
         let mut noise = || NoiseKind::Normal.sample(Variance(std * std), &mut rng);
         with_poses(&odometry, |pose| SE2::new(pose.x() + noise(), pose.y() + noise(), pose.theta()))
     };
-    let ahead = with_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));
+    let shifted = with_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));
     let passes = |odometry: &Trajectory, model: Model| {
         let calibration =
             calibrated_log(&[odometry.clone(), reference.clone()], &Options { model, ..sim.options() });
@@ -177,9 +177,9 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         check.inspect(|check| assert_eq!(check.passed, check.message().is_empty())).map(|check| check.passed)
     };
     let [table, omni] = [OdometryRule::Table, OdometryRule::Omni].map(Model::Odometry);
-    assert_eq!([passes(&noisy(0.01), NAV2), passes(&ahead, NAV2)], [Some(false); 2]);
-    assert_eq!([passes(&noisy(1e-3), table), passes(&noisy(1e-3), NAV2)], [Some(false), Some(true)]);
-    assert_eq!([passes(&ahead, omni), passes(&ahead, Model::Velocity)], [None; 2]);
+    assert_eq!([passes(&jittered(0.01), NAV2), passes(&shifted, NAV2)], [Some(false); 2]);
+    assert_eq!([passes(&jittered(1e-3), table), passes(&jittered(1e-3), NAV2)], [Some(false), Some(true)]);
+    assert_eq!([passes(&shifted, omni), passes(&shifted, Model::Velocity)], [None; 2]);
 }
 
 /// Asserts that a check fails because a systematic error is not constant, and that the error is not corrected.

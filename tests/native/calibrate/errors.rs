@@ -76,29 +76,29 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
 
 #[test]
 fn trajectories_without_a_common_time_are_refused() {
-    let refused = |odometry: &Trajectory, reference: &Trajectory| {
+    let result_of = |odometry: &Trajectory, reference: &Trajectory| {
         calibrate(&[Drive { odometry, reference }], &options_of(NAV2))
             .map(|calibration| calibration.systematic)
     };
-    let delayed = |log: &Trajectory, by: f64| trajectory(log.samples().map(|(time, pose)| (time + by, pose)));
+    let delayed = |log: &Trajectory, s: f64| trajectory(log.samples().map(|(time, pose)| (time + s, pose)));
     let [odometry, _] = Simulation::of(NAV2, 500, 6).log();
     let [_, other_reference] = Simulation::of(NAV2, 500, 7).log();
-    assert_eq!(refused(&odometry, &delayed(&other_reference, 1e6)), Err(CalibrateError::NoCommonTime));
+    assert_eq!(result_of(&odometry, &delayed(&other_reference, 1e6)), Err(CalibrateError::NoCommonTime));
     // Straight drives have no turns to align by. Their clocks are assumed equal, provided that the times overlap.
     let straight_drive = |from: f64| {
         let rows = (0..1000).map(f64::from);
         trajectory(rows.map(|row| (from + 0.1 * row, SE2::new(0.05 * row, 0.0, 0.0))))
     };
-    assert_eq!(refused(&straight_drive(0.0), &straight_drive(70.0)).map(|found| found.clock_offset), Ok(0.0));
-    assert_eq!(refused(&straight_drive(0.0), &straight_drive(100.0)), Err(CalibrateError::NoCommonTime));
+    assert_eq!(result_of(&straight_drive(0.0), &straight_drive(70.0)).map(|fit| fit.clock_offset), Ok(0.0));
+    assert_eq!(result_of(&straight_drive(0.0), &straight_drive(100.0)), Err(CalibrateError::NoCommonTime));
 }
 
 #[test]
 fn too_few_legs_are_refused() {
     let simulation = Simulation::of(Model::Velocity, 7, 1);
     let [odometry, reference] = simulation.log();
-    let refused = calibrate(&[Drive { odometry: &odometry, reference: &reference }], &simulation.options());
-    assert!(matches!(refused, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
+    let result = calibrate(&[Drive { odometry: &odometry, reference: &reference }], &simulation.options());
+    assert!(matches!(result, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
 }
 
 /// A mount yaw of 0.07 rad changes each rotation of a leg by 0.07 rad. On legs of a quarter of a metre that looks like an α₂ of 0.08,
@@ -108,11 +108,11 @@ fn too_few_legs_are_refused() {
 fn an_error_that_is_not_corrected_is_noise_of_the_wheels_or_of_the_reference() {
     let simulation = simulation_with_errors(NAV2, 600, Systematic { mount_yaw: 0.07, ..Systematic::NONE });
     let log = simulation.log();
-    let exact = Options { position_std: Some(0.0), yaw_std: Some(0.0), ..simulation.options() };
+    let exact_reference = Options { position_std: Some(0.0), yaw_std: Some(0.0), ..simulation.options() };
     let fit_as_is =
         |options: Options| calibrated_log(&log, &Options { correct: [Some(false); 6], ..options });
     let [corrected, estimated, uncorrected] =
-        [calibrated_log(&log, &exact), fit_as_is(simulation.options()), fit_as_is(exact)];
+        [calibrated_log(&log, &exact_reference), fit_as_is(simulation.options()), fit_as_is(exact_reference)];
     let alpha2 = |calibration: &Calibration| calibration.alphas[1].expect("identifiable");
     let added_alpha2 = alpha2(&uncorrected) - alpha2(&corrected);
     assert!((0.05..0.2).contains(&added_alpha2), "{added_alpha2}");
@@ -122,7 +122,7 @@ fn an_error_that_is_not_corrected_is_noise_of_the_wheels_or_of_the_reference() {
     assert!((yaw / 0.07 - 1.0).abs() < 0.1, "{yaw}");
     // The mount yaw is reported also if it is not corrected.
     let [interval, other_interval] =
-        [&uncorrected, &corrected].map(|each| each.interval_of(SystematicError::MountYaw));
+        [&uncorrected, &corrected].map(|calibration| calibration.interval_of(SystematicError::MountYaw));
     assert_eq!(interval, other_interval);
     assert_eq!((uncorrected.corrected, uncorrected.is_corrected), (Systematic::NONE, [false; 6]));
 }

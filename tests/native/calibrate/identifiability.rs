@@ -81,7 +81,7 @@ fn each_drive_has_its_reason_for_every_model() {
 }
 
 fn assert_reasons(models: &[Model]) {
-    let (mut held_count, mut intervals) = (0, 0);
+    let (mut covered_count, mut intervals) = (0, 0);
     for &model in models {
         for IncompleteDrive { name, drive, odometry, velocity, complete } in &INCOMPLETE_DRIVES {
             let by_commands = model == Model::Velocity;
@@ -96,13 +96,13 @@ fn assert_reasons(models: &[Model]) {
             assert!(complete_calibration.not_identifiable.iter().all(Option::is_none), "{model:?} {name}");
             for (interval, truth) in complete_calibration.intervals.iter().zip(ALPHAS) {
                 let [low, high] = interval.expect("identifiable");
-                held_count += u32::from((low..=high).contains(&truth));
+                covered_count += u32::from((low..=high).contains(&truth));
                 intervals += 1;
             }
         }
     }
     // Three standard errors of a share of 0.95 are allowed.
-    let share = f64::from(held_count) / f64::from(intervals);
+    let share = f64::from(covered_count) / f64::from(intervals);
     let error = (0.95 * 0.05 / f64::from(intervals)).sqrt();
     assert!(share > 0.95 - 3.0 * error, "{share}");
 }

@@ -22,7 +22,7 @@ fn derivative(function: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     let column = |axis: usize| {
         let step = Vector3::from_fn(|k, _| if k == axis { H } else { 0.0 });
         let mut change = function(step) - function(-step);
-        change.iter_mut().for_each(|each| *each = wrap_angle(*each));
+        change.iter_mut().for_each(|angle| *angle = wrap_angle(*angle));
         change / (2.0 * H)
     };
     Matrix3::from_columns(&[0, 1, 2].map(column))
@@ -73,7 +73,7 @@ fn error_derivative(leg: &Leg, corrected: &Systematic, error: SystematicError) -
         let mut changed = *corrected;
         *changed.get_mut(error) += step;
         // Returns a reference that equals the odometry.
-        let mount = |of: &Systematic| SE2::new(of.lever_arm[0], of.lever_arm[1], of.mount_yaw);
+        let mount = |e: &Systematic| SE2::new(e.lever_arm[0], e.lever_arm[1], e.mount_yaw);
         let reference_motion = mount(corrected).inverse() * odometry_motion * mount(corrected);
         let motion = changed.base().inverse() * (reference_motion * changed.base());
         coordinates(&motion) - coordinates(&expected_motion(leg, &changed))
@@ -220,12 +220,15 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
     let calibration = |position_std: Option<f64>, yaw_std: Option<f64>| {
         calibrated_log(&log, &Options { correct: [Some(false); 6], position_std, yaw_std, ..sim.options() })
     };
-    let estimated = calibration(None, None);
-    let [position, yaw] = estimated.reference_noise.map(|std| std.value);
-    let at = |position: f64, yaw: f64| calibration(Some(position), Some(yaw)).log_likelihood;
-    let maximum = estimated.log_likelihood;
-    assert!((at(position, yaw) - maximum).abs() < 1e-3, "{} {maximum}", at(position, yaw));
+    let estimate = calibration(None, None);
+    let [position, yaw] = estimate.reference_noise.map(|std| std.value);
+    let value_at = |position: f64, yaw: f64| calibration(Some(position), Some(yaw)).log_likelihood;
+    let maximum = estimate.log_likelihood;
+    assert!((value_at(position, yaw) - maximum).abs() < 1e-3, "{} {maximum}", value_at(position, yaw));
     for factor in [0.8, 1.25] {
-        assert!(at(factor * position, yaw) < maximum && at(position, factor * yaw) < maximum, "{factor}");
+        assert!(
+            value_at(factor * position, yaw) < maximum && value_at(position, factor * yaw) < maximum,
+            "{factor}"
+        );
     }
 }

@@ -154,19 +154,19 @@ impl Simulation {
     }
 
     /// Returns the three unit noises of a leg, from those of the leg before it and the position in the log, from 0 to 1.
-    fn unit_noise(&self, fraction: f64, before: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
-        before.map(|before| {
-            let fresh = NoiseKind::Normal.sample(Variance(1.0), rng);
+    fn unit_noise(&self, fraction: f64, previous: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
+        previous.map(|previous| {
+            let draw = NoiseKind::Normal.sample(Variance(1.0), rng);
             match self.violation {
-                Violation::None => fresh,
+                Violation::None => draw,
                 Violation::Tails(freedom) => {
                     let normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
                     let square: f64 = (0..freedom).map(normal).map(|z| z * z).sum();
-                    fresh * f64::sqrt((freedom as f64 - 2.0) / square)
+                    draw * f64::sqrt((freedom as f64 - 2.0) / square)
                 }
-                Violation::Autoregressive(share) => share * before + (1.0 - share * share).sqrt() * fresh,
-                Violation::Times(times) => times * fresh,
-                Violation::Changing(deviation) => deviation(fraction) * fresh,
+                Violation::Autoregressive(share) => share * previous + (1.0 - share * share).sqrt() * draw,
+                Violation::Times(times) => times * draw,
+                Violation::Changing(deviation) => deviation(fraction) * draw,
             }
         })
     }

@@ -20,7 +20,7 @@ const GAUSS: [(f64, f64); 8] = [
     (0.960_289_856_497_536, 0.101_228_536_290_376),
 ];
 
-/// A box of (c, β, θ), cut into equal cells.
+/// A box of the coordinates (c, β, θ), defined at the top of this file. It is cut into equal cells.
 pub struct Grid {
     start: SE2,
     slope: f64,

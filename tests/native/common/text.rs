@@ -80,21 +80,23 @@ fn is_thousands(word: &str) -> bool {
 
 /// Returns the numbers between the parts of a sentence, if the text begins with that sentence.
 fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<Number>> {
-    let mut rest = text.strip_prefix(parts[0])?;
+    let mut remainder = text.strip_prefix(parts[0])?;
     parts[1..]
         .iter()
         .map(|part| {
             let in_number = |c: char| c.is_ascii_digit() || ['−', '.', THIN_SPACE].contains(&c);
-            let mut end = rest.find(|c| !in_number(c)).unwrap_or(rest.len());
+            let mut end = remainder.find(|c| !in_number(c)).unwrap_or(remainder.len());
             // Documents separate thousands by a plain space.
-            if rest[end..].starts_with(' ') && rest[end + 1..].split(' ').next().is_some_and(is_thousands) {
+            if remainder[end..].starts_with(' ')
+                && remainder[end + 1..].split(' ').next().is_some_and(is_thousands)
+            {
                 end += 4;
             }
             // The period at the end of a sentence is not a decimal point.
-            end -= usize::from(rest[..end].ends_with('.'));
-            let digits: String = rest[..end].replace('−', "-").replace([THIN_SPACE, ' '], "");
+            end -= usize::from(remainder[..end].ends_with('.'));
+            let digits: String = remainder[..end].replace('−', "-").replace([THIN_SPACE, ' '], "");
             let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
-            rest = rest[end..].strip_prefix(part)?;
+            remainder = remainder[end..].strip_prefix(part)?;
             Some(Number { value: digits.parse().ok()?, rounding: 0.5 * 10f64.powi(-decimals) })
         })
         .collect()

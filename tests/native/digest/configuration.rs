@@ -9,7 +9,7 @@ const CONFIGURATIONS: &str = include_str!("../../digest/configurations.json");
 
 /// Configuration of a widget.
 pub struct Configuration<'a> {
-    pub all: &'a Value,
+    pub document: &'a Value,
     pub widget: &'a str,
     pub name: &'a str,
     pub value: &'a Value,
@@ -20,11 +20,11 @@ pub fn parsed_configurations() -> Value {
 }
 
 /// Returns every configuration of every widget.
-pub fn configurations_of(all: &Value) -> impl Iterator<Item = Configuration<'_>> {
-    let widgets = all["widgets"].as_object().expect("widgets");
+pub fn configurations_of(document: &Value) -> impl Iterator<Item = Configuration<'_>> {
+    let widgets = document["widgets"].as_object().expect("widgets");
     widgets.iter().flat_map(move |(widget, entry)| {
         let configurations = entry["configurations"].as_object().expect("configurations");
-        configurations.iter().map(move |(name, value)| Configuration { all, widget, name, value })
+        configurations.iter().map(move |(name, value)| Configuration { document, widget, name, value })
     })
 }
 
@@ -53,9 +53,9 @@ impl Configuration<'_> {
     }
 
     pub fn grid(&self) -> Grid {
-        let bounds = self.value.get("bounds").unwrap_or(&self.all["widgets"][self.widget]["bounds"]);
+        let bounds = self.value.get("bounds").unwrap_or(&self.document["widgets"][self.widget]["bounds"]);
         let [x_min, y_min, x_max, y_max] = numbers_of(bounds);
-        let size = |key| self.all["picture"][key].as_u64().expect("a size") as usize;
+        let size = |key| self.document["picture"][key].as_u64().expect("a size") as usize;
         Grid { min: [x_min, y_min], max: [x_max, y_max], columns: size("columns"), rows: size("rows") }
     }
 }

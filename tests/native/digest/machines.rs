@@ -74,12 +74,12 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
     }
     let mut machine = MapSqueeze::new(configuration.settings(defaults)).expect("a valid setting");
     if let Some(name) = configuration.value.get("map") {
-        let map = &configuration.all["maps"][name.as_str().expect("a name")];
+        let map = &configuration.document["maps"][name.as_str().expect("a name")];
         match map.get("plan") {
             Some(plan) => machine.set_plan(read_plan(plan)),
-            None => {
-                machine.set_grid(read_map(map, &configuration.all["images"])).expect("not too many walls")
-            }
+            None => machine
+                .set_grid(read_map(map, &configuration.document["images"]))
+                .expect("not too many walls"),
         }
     }
     let (plan, stats, noise) = (machine.plan(), machine.stats(), machine.settings().noise());
@@ -127,8 +127,9 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
     .map(<(_, _, _)>::from);
     let measured = each_step(&|k| machine.measured()[k].cov.diagonal());
     let relative_errors = each_step(&|k| machine.measured()[k].relative_error);
-    let misses = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order]
-        .map(|axes| axes.map(|Misses { told, first, last, end, error }| (told, first, last, end, error)));
+    let misses = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order].map(|axes| {
+        axes.map(|Misses { decidable, first, last, end, error }| (decidable, first, last, end, error))
+    });
     let predictions = (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
     let statistics =
         (stats.n, (stats.measured.mean, stats.measured.cov), predictions, <(_, _, _)>::from(misses));

@@ -33,12 +33,12 @@ fn the_printed_table_loses_p_for_centres_to_the_right() {
     let [speed]: [Number; 1] =
         page().numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
     for name in ["right", "reverse"] {
-        let printed = Settings { printed: true, ..preset(name) };
-        let Stats { factors, share, inverted, .. } = stats(printed);
+        let settings = Settings { printed: true, ..preset(name) };
+        let Stats { factors, share, inverted, .. } = stats(settings);
         assert!(inverted.radius < 0.0 && share < 1e-15);
         // The estimated speed has the opposite sign of the command.
         speed.assert(-factors[0].estimate.abs(), 0.0);
-        assert!(factors[0].estimate * printed.command.v < 0.0);
+        assert!(factors[0].estimate * settings.command.v < 0.0);
         // Contours of equal score: with the unsigned radius of the printed table they stay near the start, with the signed one they do not.
         let reach = |settings: Settings| {
             let surface = ArcAnatomy::new(Settings { map: SurfaceKind::Prob, ..settings })
@@ -47,6 +47,6 @@ fn the_printed_table_loses_p_for_centres_to_the_right() {
                 .expect("a map");
             surface.prob.iter().flatten().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
         };
-        assert!(reach(printed) < 0.5 && reach(preset(name)) > 1.0, "{}", reach(printed));
+        assert!(reach(settings) < 0.5 && reach(preset(name)) > 1.0, "{}", reach(settings));
     }
 }

@@ -106,7 +106,7 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
         .collect();
     let robots: Vec<[bool; 2]> = machine.poses().map(|pose| is_inside([pose.x(), pose.y()])).collect();
     let density = |inside: [bool; 2]| {
-        let count = |all: &[[bool; 2]]| all.iter().filter(|each| **each == inside).count() as f64;
+        let count = |points: &[[bool; 2]]| points.iter().filter(|point| **point == inside).count() as f64;
         count(&robots) / (count(&cells) * STEP * STEP)
     };
     let ratio = density([false, true]) / density([true, false]);
@@ -117,31 +117,34 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
 fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
     page()
         .assert_says("In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:");
-    let gentle = preset("gentle");
-    let short =
-        Settings { command: VelocityCmd { dt: gentle.command.dt / 10.0, ..gentle.command }, ..gentle };
-    let [long, short] = [gentle, short].map(|settings| machine(Settings { samples: 10, ..settings }));
+    let long_drive = preset("gentle");
+    let short_drive = Settings {
+        command: VelocityCmd { dt: long_drive.command.dt / 10.0, ..long_drive.command },
+        ..long_drive
+    };
+    let [long_cloud, short_cloud] =
+        [long_drive, short_drive].map(|settings| machine(Settings { samples: 10, ..settings }));
     let size = |machine: &BananaMachine| {
         let cov = machine.table().exact.cov;
         (cov[(0, 0)] + cov[(1, 1)]).sqrt()
     };
-    assert!(size(&short) < 0.1 * size(&long), "{} {}", size(&short), size(&long));
+    assert!(size(&short_cloud) < 0.1 * size(&long_cloud), "{} {}", size(&short_cloud), size(&long_cloud));
 }
 
 #[test]
 fn the_predicted_skew_misses_under_the_odometry_model() {
     let [robots, standard_errors] =
         page().numbers("and the prediction misses: with # robots by more than # standard errors.");
-    let gentle = Settings { samples: robots.value as usize, ..preset("gentle") };
-    let mut velocity_alphas = gentle.velocity_alphas;
+    let settings = Settings { samples: robots.value as usize, ..preset("gentle") };
+    let mut velocity_alphas = settings.velocity_alphas;
     velocity_alphas[4..].fill(0.0);
     let relative_miss = |settings| {
         let machine = machine(settings);
         let figures = machine.figures();
         (figures.cross_track_skew - figures.gaussian_skew).abs() / figures.cross_track_skew_error
     };
-    assert!(relative_miss(Settings { velocity_alphas, ..gentle }) < MAX_STANDARD_ERRORS);
-    assert!(relative_miss(Settings { model: ModelKind::Odometry, ..gentle }) > standard_errors.value);
+    assert!(relative_miss(Settings { velocity_alphas, ..settings }) < MAX_STANDARD_ERRORS);
+    assert!(relative_miss(Settings { model: ModelKind::Odometry, ..settings }) > standard_errors.value);
 }
 
 #[test]

@@ -100,9 +100,10 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
 fn the_crossing_times_are_those_of_exercise_2() {
     let opening = machine(Settings { samples: 1, ..Settings::default() });
     let growth = opening.straight_growth();
-    let last = growth.durations.len() - 1;
-    let power = |of: &[f64]| (of[last] / of[0]).ln() / (growth.durations[last] / growth.durations[0]).ln();
-    let powers = [&growth.along_first_order, &growth.across_first_order].map(|of| power(of));
+    let end = growth.durations.len() - 1;
+    let power =
+        |stds: &[f64]| (stds[end] / stds[0]).ln() / (growth.durations[end] / growth.durations[0]).ln();
+    let powers = [&growth.along_first_order, &growth.across_first_order].map(|stds| power(stds));
     let h = 4.0 * opening.settings().heading_noise().expect("a level");
     let alphas = [0.02, 0.02, h, h, h / 4.0, h / 4.0];
     let doubled = machine(Settings { alphas, samples: 1, ..Settings::default() });
@@ -122,13 +123,13 @@ fn two_hundred_steps_miss_for_half_a_second() {
     page().assert_says(
         "In 200 steps nothing along the track is off by 5 %, and the lateral variance for half a second instead of three:",
     );
-    let [chapter, fine] = ["chapter", "fine"].map(preset);
-    assert_eq!(fine.settings().steps, 200);
-    assert!(steps_off(&exact_ratios(&fine, Compounding::Chapter, 0)).is_empty());
-    let missed = |machine: &DeadReckoning| {
+    let [chapter_drive, fine_drive] = ["chapter", "fine"].map(preset);
+    assert_eq!(fine_drive.settings().steps, 200);
+    assert!(steps_off(&exact_ratios(&fine_drive, Compounding::Chapter, 0)).is_empty());
+    let missed_time = |machine: &DeadReckoning| {
         let last = steps_off(&exact_ratios(machine, Compounding::Chapter, 1)).last().copied().unwrap_or(0);
         last as f64 * machine.settings().command.dt
     };
-    assert_eq!((2.0 * missed(&fine)).round() / 2.0, 0.5, "{}", missed(&fine));
-    assert_eq!(missed(&chapter).round(), 3.0, "{}", missed(&chapter));
+    assert_eq!((2.0 * missed_time(&fine_drive)).round() / 2.0, 0.5, "{}", missed_time(&fine_drive));
+    assert_eq!(missed_time(&chapter_drive).round(), 3.0, "{}", missed_time(&chapter_drive));
 }

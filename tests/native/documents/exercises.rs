@@ -39,11 +39,11 @@ fn error_of_arc_form(omega: f64, dt: f64) -> f64 {
 #[test]
 fn exercise_1_the_straight_line_branch() {
     let dt = 0.1;
-    let straight = |omega: f64| 0.5 * omega * dt * dt;
+    let line_error = |omega: f64| 0.5 * omega * dt * dt;
     // The error varies strongly with ω. Its mean over a tenth of a decade is compared.
     let ratio = |omega: f64| {
-        let near = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
-        (near.map(|omega| (error_of_arc_form(omega, dt) / straight(omega)).ln()).sum::<f64>() / 20.0).exp()
+        let rates = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
+        (rates.map(|omega| (error_of_arc_form(omega, dt) / line_error(omega)).ln()).sum::<f64>() / 20.0).exp()
     };
     let crossover =
         (0..400).map(|i| 1e-9 * 10f64.powf(f64::from(i) / 100.0)).find(|omega| ratio(*omega) < 1.0);
@@ -54,7 +54,7 @@ fn exercise_1_the_straight_line_branch() {
     let [line_printed, arc_printed, ratio_printed]: [Number; 3] = exercises_document().numbers(
         "the straight line is off by # nm, and the arc form by # nm. Switching so early costs # times",
     );
-    let (line_error, arc_error) = (straight(1e-6), error_of_arc_form(1e-6, dt));
+    let (line_error, arc_error) = (line_error(1e-6), error_of_arc_form(1e-6, dt));
     line_printed.assert(line_error / 1e-9, 0.0);
     arc_printed.assert(arc_error / 1e-9, 0.0);
     ratio_printed.assert(line_error / arc_error, 0.0);
@@ -96,10 +96,10 @@ fn exercise_4_each_alpha() {
         let end = machine.poses().next();
         (machine.table().exact, machine.poses().all(|pose| Some(pose) == end))
     };
-    let straight = preset("straight").command;
-    assert_eq!(straight.omega, 0.0);
-    assert!([3, 5].iter().all(|i| exact_and_is_point(*i, straight).1));
-    let turning = VelocityCmd { omega: 0.5, ..straight };
+    let straight_command = preset("straight").command;
+    assert_eq!(straight_command.omega, 0.0);
+    assert!([3, 5].iter().all(|i| exact_and_is_point(*i, straight_command).1));
+    let turning_command = VelocityCmd { omega: 0.5, ..straight_command };
     let [alpha, variance, skew]: [Number; 3] = [
         "Δt = 2 s as they are, with # for the one and 0",
         "headings spread with a variance of # rad²",
@@ -107,7 +107,7 @@ fn exercise_4_each_alpha() {
     ]
     .map(|sentence| exercises_document().numbers::<1>(sentence)[0]);
     assert_eq!(alpha.value, 0.09);
-    let [with_alpha4, with_alpha6] = [3, 5].map(|index| exact_and_is_point(index, turning).0);
+    let [with_alpha4, with_alpha6] = [3, 5].map(|index| exact_and_is_point(index, turning_command).0);
     variance.assert(with_alpha4.cov[(2, 2)], 0.0);
     variance.assert(with_alpha6.cov[(2, 2)], 0.0);
     skew.assert(with_alpha4.cross_track_skew, 0.0);

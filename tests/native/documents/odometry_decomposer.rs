@@ -11,7 +11,7 @@ fn figures(settings: Settings, rule: OdometryRule) -> RuleFigures {
 
 #[test]
 fn the_lever_grows_faster_than_the_drive() {
-    // The printed numbers are of the exact curve. Its tangent at the start is the contribution of the first rotation.
+    // The page states the exact standard deviation at the end, not lever arm times angle.
     let [deviation, lateral, growth] = page().numbers(
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
@@ -20,8 +20,8 @@ fn the_lever_grows_faster_than_the_drive() {
     deviation.assert(figures(settings, Table).deviations[0], 0.0);
     lateral.assert(stats.exact_cross_track, 0.0);
     let OdometryPose([x, y, theta]) = settings.to;
-    let twice_as_far = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
-    growth.assert(machine(twice_as_far).stats().exact_cross_track / stats.exact_cross_track, 0.0);
+    let long_drive = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
+    growth.assert(machine(long_drive).stats().exact_cross_track / stats.exact_cross_track, 0.0);
 }
 
 #[test]
@@ -29,13 +29,13 @@ fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
     let [of_table, of_localizers] =
         page().numbers("adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.");
     let deviations_of = |rule| figures(of_preset("reverse"), rule).deviations;
-    let [first, _, second, _] = deviations_of(Table);
-    of_table.assert(first, 0.0);
-    assert!(second > first);
+    let [rot1_deviation, _, rot2_deviation, _] = deviations_of(Table);
+    of_table.assert(rot1_deviation, 0.0);
+    assert!(rot2_deviation > rot1_deviation);
     for rule in [Nav2, Beluga] {
-        let [first, _, second, _] = deviations_of(rule);
-        of_localizers.assert(first, 0.0);
-        of_localizers.assert(second, 0.0);
+        let [rot1_deviation, _, rot2_deviation, _] = deviations_of(rule);
+        of_localizers.assert(rot1_deviation, 0.0);
+        of_localizers.assert(rot2_deviation, 0.0);
     }
 }
 

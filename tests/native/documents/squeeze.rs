@@ -114,12 +114,12 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
 fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     let shares = [2, 4, 8].map(|parts| share_in_parts(WALL, parts, 0.0));
     shares.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
-    let [one, two, four, eight, wedged_parts] = model_document().numbers(
+    let [at_1, at_2, at_4, at_8, wedged_parts] = model_document().numbers(
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
-    assert_printed(share_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), one);
-    shares.into_iter().zip([two, four, eight]).for_each(|(share, printed)| assert_printed(share, printed));
+    assert_printed(share_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), at_1);
+    shares.into_iter().zip([at_2, at_4, at_8]).for_each(|(share, printed)| assert_printed(share, printed));
     let [from_parts, to_parts, at_two, at_eight] =
         page().numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
     assert_eq!((from_parts.value, to_parts.value), (2.0, 8.0));
@@ -132,8 +132,8 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     assert!(!machine(settings(WALL, Sampler::SubStepped(12), 0.0)).gave_up());
     for parts in [16, 24, 32, 64] {
         for samples in [600, 10_000] {
-            let with_samples = Settings { samples, ..settings(WALL, Sampler::SubStepped(parts), 0.0) };
-            assert!(machine(with_samples).gave_up(), "{parts} parts");
+            let settings = Settings { samples, ..settings(WALL, Sampler::SubStepped(parts), 0.0) };
+            assert!(machine(settings).gave_up(), "{parts} parts");
         }
     }
 }

@@ -57,10 +57,10 @@ fn the_published_shares() {
         let mut rng = seeded(5);
         let draws: Vec<_> =
             (0..DRAWS).map(|_| endpoint.draw_tester(&command, &start).judge(unit_noise(&mut rng))).collect();
-        let accepted = draws.iter().filter(|draw| draw.end.free).count();
-        let through = draws.iter().filter(|draw| draw.end.free && !draw.path.free).count();
-        assert_share(name, accepted, DRAWS, acceptance);
-        assert_share(name, through, accepted, through_wall);
+        let accepted_count = draws.iter().filter(|draw| draw.end.free).count();
+        let through_wall_count = draws.iter().filter(|draw| draw.end.free && !draw.path.free).count();
+        assert_share(name, accepted_count, DRAWS, acceptance);
+        assert_share(name, through_wall_count, accepted_count, through_wall);
         assert!(draws.iter().all(|draw| draw.end.free || !draw.path.free), "the end is part of the path");
     }
 }

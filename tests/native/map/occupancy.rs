@@ -178,17 +178,17 @@ fn grid_of(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
 #[test]
 fn unknown_cells_are_free_or_blocked_as_set() {
     let mut rng = seeded(31_415);
-    let random: Vec<String> = (0..30)
+    let rows: Vec<String> = (0..30)
         .map(|_| (0..30).map(|_| ['#', '?', '.', '.', '.', '.'][(rng.next_u32() % 6) as usize]).collect())
         .collect();
     let with =
-        |from: &str, to: &str| -> Vec<String> { random.iter().map(|row| row.replace(from, to)).collect() };
+        |from: &str, to: &str| -> Vec<String> { rows.iter().map(|row| row.replace(from, to)).collect() };
     let plan = |rows: &[String], unknown| {
         let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
         FloorPlan::from_grid(grid_of(&rows, unknown)).expect("a small grid")
     };
     for (unknown, replaced) in [(Unknown::Blocked, with("?", "#")), (Unknown::Free, with("?", "."))] {
-        let (plan1, plan2) = (plan(&random, unknown), plan(&replaced, Unknown::Free));
+        let (plan1, plan2) = (plan(&rows, unknown), plan(&replaced, Unknown::Free));
         assert_eq!(plan1.walls(), plan2.walls(), "{unknown:?}");
         for _ in 0..2_000 {
             let start = SE2::new(
@@ -234,8 +234,8 @@ fn the_open_place_has_the_most_room() {
         assert!(plan.arc_free(&drive, 0.0).free && open_pose.theta().abs() < 0.5, "{open_pose:?}");
     }
     // A robot that just fits cannot move: the heading is then 0.
-    let tight = FloorPlan::from_grid(grid_of(&["###", "#.#", "###"], Unknown::Free)).expect("a small grid");
-    assert_eq!(tight.open_place(0.0499).expect("there is room").theta(), 0.0);
+    let room = FloorPlan::from_grid(grid_of(&["###", "#.#", "###"], Unknown::Free)).expect("a small grid");
+    assert_eq!(room.open_place(0.0499).expect("there is room").theta(), 0.0);
     // All cells are unknown: free or blocked, as the setting says.
     let unknown = grid_of(&["???", "???", "???"], Unknown::Free);
     let open_pose = FloorPlan::from_grid(unknown).expect("no walls").open_place(0.1).expect("there is room");

@@ -66,8 +66,8 @@ fn prob_is_the_tables_score() {
     for kind in NOISE_KINDS {
         for u in readings() {
             for _ in 0..200 {
-                let mut near = |value: f64| value + uniform(&mut rng, -0.4, 0.4);
-                let executed = delta(near(u.rot1), near(u.trans), near(u.rot2));
+                let mut perturbed = |value: f64| value + uniform(&mut rng, -0.4, 0.4);
+                let executed = delta(perturbed(u.rot1), perturbed(u.trans), perturbed(u.rot2));
                 let [r1, t, r2] = variances(&executed, f64::abs);
                 let expected = kind.prob(u.rot1 - executed.rot1, Variance(r1))
                     * kind.prob(u.trans - executed.trans, Variance(t))
@@ -87,19 +87,19 @@ fn zero_noise_gives_certainty_and_no_density() {
     let mut rng = seeded(93);
     let x = SE2::new(-1.0, 0.5, 2.0);
     for kind in NOISE_KINDS {
-        let noise_free = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: kind };
+        let noise_free_model = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: kind };
         for u in readings() {
             let end = u.apply(&x);
-            assert_eq!(noise_free.sample(&u, &x, &mut rng), end);
-            assert_eq!(noise_free.prob(&end, &u, &x), 1.0);
-            assert_eq!(noise_free.prob(&end.boxplus(Vector3::new(1e-3, 0.0, 0.0)), &u, &x), 0.0);
-            assert_eq!(noise_free.pose_density(&end, &u, &x), None);
+            assert_eq!(noise_free_model.sample(&u, &x, &mut rng), end);
+            assert_eq!(noise_free_model.prob(&end, &u, &x), 1.0);
+            assert_eq!(noise_free_model.prob(&end.boxplus(Vector3::new(1e-3, 0.0, 0.0)), &u, &x), 0.0);
+            assert_eq!(noise_free_model.pose_density(&end, &u, &x), None);
             assert!(model(kind).pose_density(&end, &u, &x).is_some());
             assert_eq!(model(kind).tangent_cov(&u), None, "noise of three legs is not one Gaussian in se(2)");
         }
-        let parked = delta(0.0, 0.0, 0.0);
-        assert_eq!(model(kind).sample(&parked, &x, &mut rng), x);
-        assert_eq!(model(kind).prob(&x, &parked, &x), 1.0);
+        let no_motion = delta(0.0, 0.0, 0.0);
+        assert_eq!(model(kind).sample(&no_motion, &x, &mut rng), x);
+        assert_eq!(model(kind).prob(&x, &no_motion, &x), 1.0);
     }
 }
 
@@ -184,7 +184,7 @@ fn a_reversing_robot_has_the_noise_of_its_turn() {
     assert!(back.rot1.abs() > 3.0 && back.rot2.abs() > 3.0, "{back:?}");
     let angle = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
     for kind in NOISE_KINDS {
-        let (plain, aware) = (model(kind), ReverseAware(model(kind)));
+        let (unaware, aware) = (model(kind), ReverseAware(model(kind)));
         let mut rng = seeded(110);
         let cloud: Vec<SE2> = (0..SAMPLES).map(|_| aware.sample(&back, &x, &mut rng)).collect();
         let (value, limit) = box_around(&back, &x, variances(&back, angle))
@@ -197,6 +197,6 @@ fn a_reversing_robot_has_the_noise_of_its_turn() {
         let expected =
             kind.prob(0.02, Variance(r1)) * kind.prob(0.05, Variance(t)) * kind.prob(0.03, Variance(r2));
         assert!((aware.prob(&executed.apply(&x), &back, &x) / expected - 1.0).abs() < 1e-9);
-        assert!(aware.prob(&back.apply(&x), &back, &x) > 50.0 * plain.prob(&back.apply(&x), &back, &x));
+        assert!(aware.prob(&back.apply(&x), &back, &x) > 50.0 * unaware.prob(&back.apply(&x), &back, &x));
     }
 }

@@ -29,38 +29,38 @@ fn variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
 #[test]
 fn the_variances_of_each_rule_match_its_source() {
     // The robot turns by 0.5, drives 2 m and turns back by 1. No angle is nearer to π than to 0, and the total turn is −0.5.
-    let in_a_bend = delta(0.5, 2.0, -1.0);
+    let bend = delta(0.5, 2.0, -1.0);
     // 0.1·0.25 + 0.2·4, 0.3·4 + 0.4·(0.25 + 1), 0.1·1 + 0.2·4.
-    let bend_by_turns = [0.825, 1.7, 0.9, 0.0];
+    let bend_variances = [0.825, 1.7, 0.9, 0.0];
     // 0.3·4 + 0.4·0.25, 0.1·0.25 + 0.2·4, 0.5·4 + 0.4·0.25.
-    let bend_by_strafe = [0.0, 1.3, 0.825, 2.1];
+    let omni_bend_variances = [0.0, 1.3, 0.825, 2.1];
     // The robot backs up by 1 m: both rotations are π − 3 without their half turns, and the total turn is 0.
-    let in_reverse = delta(3.0, 1.0, -3.0);
-    let reverse_by_half_turns = [1.1, 7.5, 1.1, 0.0];
-    let reverse_without_half_turns = [0.202004848, 0.316038784, 0.202004848, 0.0];
+    let backward_drive = delta(3.0, 1.0, -3.0);
+    let table_reverse_variances = [1.1, 7.5, 1.1, 0.0];
+    let nav2_reverse_variances = [0.202004848, 0.316038784, 0.202004848, 0.0];
     // A turn on the spot by more than a quarter turn.
-    let on_the_spot = delta(0.0, 0.0, 2.2);
+    let spin = delta(0.0, 0.0, 2.2);
     // The encoders jitter by half a centimetre, to the left and backwards, with a turn of 0.01 rad.
-    let at_rest = delta(2.0, 0.005, -1.99);
+    let jitter = delta(2.0, 0.005, -1.99);
     let cases = [
-        (Table, in_a_bend, bend_by_turns),
-        (Nav2, in_a_bend, bend_by_turns),
-        (Beluga, in_a_bend, bend_by_turns),
-        (Omni, in_a_bend, bend_by_strafe),
-        (Table, in_reverse, reverse_by_half_turns),
-        (Nav2, in_reverse, reverse_without_half_turns),
-        (Beluga, in_reverse, reverse_without_half_turns),
-        (Omni, in_reverse, [0.0, 0.3, 0.2, 0.5]),
-        (Table, on_the_spot, [0.0, 1.936, 0.484, 0.0]),
-        (Nav2, on_the_spot, [0.0, 0.35463869, 0.088659673, 0.0]),
-        (Beluga, on_the_spot, [0.0, 0.35463869, 0.088659673, 0.0]),
-        (Omni, on_the_spot, [0.0, 1.936, 0.484, 1.936]),
+        (Table, bend, bend_variances),
+        (Nav2, bend, bend_variances),
+        (Beluga, bend, bend_variances),
+        (Omni, bend, omni_bend_variances),
+        (Table, backward_drive, table_reverse_variances),
+        (Nav2, backward_drive, nav2_reverse_variances),
+        (Beluga, backward_drive, nav2_reverse_variances),
+        (Omni, backward_drive, [0.0, 0.3, 0.2, 0.5]),
+        (Table, spin, [0.0, 1.936, 0.484, 0.0]),
+        (Nav2, spin, [0.0, 0.35463869, 0.088659673, 0.0]),
+        (Beluga, spin, [0.0, 0.35463869, 0.088659673, 0.0]),
+        (Omni, spin, [0.0, 1.936, 0.484, 1.936]),
         // 0.1·4 + 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·(4 + 3.9601), 0.1·3.9601 + 0.2·2.5e-5.
-        (Table, at_rest, [0.400005, 3.1840475, 0.396015, 0.0]),
+        (Table, jitter, [0.400005, 3.1840475, 0.396015, 0.0]),
         // 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·1e-4, 0.1·1e-4 + 0.2·2.5e-5.
-        (Nav2, at_rest, [0.000005, 0.0000475, 0.000015, 0.0]),
-        (Beluga, at_rest, [0.000005, 0.0000475, 0.000015, 0.0]),
-        (Omni, at_rest, [0.0, 0.0000475, 0.000015, 0.0000525]),
+        (Nav2, jitter, [0.000005, 0.0000475, 0.000015, 0.0]),
+        (Beluga, jitter, [0.000005, 0.0000475, 0.000015, 0.0]),
+        (Omni, jitter, [0.0, 0.0000475, 0.000015, 0.0000525]),
     ];
     for (rule, reading, expected) in cases {
         for (computed, expected) in variances(rule, reading).into_iter().zip(expected) {

@@ -181,7 +181,7 @@ fn shared_fields(defaults: &mut impl Declared) -> Vec<&'static str> {
     shared
 }
 
-/// Appends the object of a setting, and those of its numbers.
+/// Appends the JavaScript object that describes a setting. A setting with several numbers has another object for each of them.
 fn describe(
     declaration: &Declaration,
     setting: Setting,

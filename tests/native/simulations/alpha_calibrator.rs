@@ -57,11 +57,11 @@ fn the_noise_of_the_reference_is_stated_or_estimated() {
         let machine = machine(Settings { position_std, yaw_std, ..Settings::default() });
         machine.calibration().reference_noise.map(|std| (std.value, std.interval[0] == std.interval[1]))
     };
-    let [estimated, yaw] = reference_noise(0.0, 0.003);
-    assert_eq!((estimated.1, yaw.1), (false, true));
+    let [position, yaw] = reference_noise(0.0, 0.003);
+    assert_eq!((position.1, yaw.1), (false, true));
     assert!((yaw.0 - 0.003).abs() < 1e-12, "{yaw:?}");
-    let [position, estimated] = reference_noise(0.004, 0.0);
-    assert_eq!((position.1, estimated.1), (true, false));
+    let [position, yaw] = reference_noise(0.004, 0.0);
+    assert_eq!((position.1, yaw.1), (true, false));
     assert!((position.0 - 0.004).abs() < 1e-12, "{position:?}");
 }
 
@@ -81,8 +81,8 @@ fn panels_are_means_of_squared_innovations() {
         .zip(leg_fits)
         .filter(|(_, fit)| !fit.is_outlier)
         .map(|(observation, fit)| {
-            let [first, _, second] = observation.reading;
-            let turns = first * first + second * second;
+            let [rot1, _, rot2] = observation.reading;
+            let turns = rot1 * rot1 + rot2 * rot2;
             let [variance, innovation] = [fit.stds[1].powi(2), fit.standardized[1] * fit.stds[1]];
             [turns, innovation * innovation - (variance - slope * turns)]
         })
@@ -94,7 +94,7 @@ fn panels_are_means_of_squared_innovations() {
         |i: usize| points.partition_point(|point| point[0] <= points[((i * size).min(points.len())) - 1][0]);
     for i in 0..8 {
         let bin = &points[if i == 0 { 0 } else { bin_end(i) }..bin_end(i + 1)];
-        let mean = |of: usize| bin.iter().map(|point| point[of]).sum::<f64>() / bin.len() as f64;
+        let mean = |axis: usize| bin.iter().map(|point| point[axis]).sum::<f64>() / bin.len() as f64;
         assert!((trans.x[i] - mean(0)).abs() < 1e-12 && (trans.y[i] - mean(1)).abs() < 1e-12, "bin {i}");
     }
     assert_eq!(trans.x.len(), 8);
@@ -145,9 +145,9 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     let variances =
         OdometryRule::Table.variances(&OdomDelta { rot1, trans, rot2 }, &alphas.map(|alpha| 4.0 * alpha));
     let count = view.outcomes.len() as f64;
-    let variance = |of: &dyn Fn(&[f64; 3]) -> f64| {
-        let mean = view.outcomes.iter().map(of).sum::<f64>() / count;
-        view.outcomes.iter().map(|outcome| (of(outcome) - mean).powi(2)).sum::<f64>() / count
+    let variance = |quantity: &dyn Fn(&[f64; 3]) -> f64| {
+        let mean = view.outcomes.iter().map(quantity).sum::<f64>() / count;
+        view.outcomes.iter().map(|outcome| (quantity(outcome) - mean).powi(2)).sum::<f64>() / count
     };
     let drive_variance = variance(&|[x, y, _]| libm::hypot(*x, *y));
     assert!(
@@ -200,14 +200,14 @@ fn the_model_and_the_rule_go_together() {
 #[test]
 fn a_restored_fit_is_the_fitted_one_to_the_last_bit() {
     let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
-    let fitted = machine(settings);
-    let mut restored = AlphaCalibrator::restored(settings, &fitted.saved()).expect("a fit");
+    let machine = machine(settings);
+    let mut restored = AlphaCalibrator::restored(settings, &machine.saved()).expect("a fit");
     // Residuals that a leg does not show are NaN, which equals nothing.
-    let results = |of: &AlphaCalibrator| {
-        let panels = [Driver::Turn, Driver::Way].map(|driver| of.panels(driver));
-        format!("{:?} {panels:?} {:?} {:?}", of.calibration(), of.leg(5), of.nearest([0.5, 1.0], 3.0))
+    let results = |fit: &AlphaCalibrator| {
+        let panels = [Driver::Turn, Driver::Way].map(|driver| fit.panels(driver));
+        format!("{:?} {panels:?} {:?} {:?}", fit.calibration(), fit.leg(5), fit.nearest([0.5, 1.0], 3.0))
     };
-    let before = results(&fitted);
+    let before = results(&machine);
     assert!(results(&restored) == before && restored.truth().is_none() && !restored.is_pending());
     // A new inflation changes only predictions. Another rule needs the log.
     restored.configure(Settings { inflation: 2.0, ..settings }).expect("allowed");

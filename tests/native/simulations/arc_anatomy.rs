@@ -148,8 +148,8 @@ fn without_noise_a_residual_is_zero_or_infinite() {
     let Stats { factors, prob, share, density, weakest, .. } = stats(settings);
     assert_eq!(factors.map(|factor| factor.deviations), [f64::NEG_INFINITY, 0.0, f64::INFINITY]);
     assert_eq!((prob, share, density, weakest), (0.0, 0.0, None, 0));
-    let reached = FinalPose { x: 1.0, y: 0.0, theta: 0.0 };
-    let Stats { factors, prob, share, .. } = stats(Settings { next: reached, ..settings });
+    let arc_end = FinalPose { x: 1.0, y: 0.0, theta: 0.0 };
+    let Stats { factors, prob, share, .. } = stats(Settings { next: arc_end, ..settings });
     assert_eq!(factors.map(|factor| factor.deviations), [0.0; 3]);
     assert_eq!((prob, share), (1.0, 1.0));
 }
@@ -183,20 +183,20 @@ fn the_twist_slips_sideways_when_there_is_a_last_turn() {
 
 #[test]
 fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
-    let straight = Settings { next: FinalPose { x: 2.0, y: 0.0, theta: 0.0 }, ..Settings::default() };
-    let machine = machine(straight);
+    let settings = Settings { next: FinalPose { x: 2.0, y: 0.0, theta: 0.0 }, ..Settings::default() };
+    let machine = machine(settings);
     let Stats { inverted, factors, .. } = machine.stats();
     assert_eq!((inverted.centre, inverted.radius, inverted.turn), (None, f64::INFINITY, 0.0));
     assert_eq!(factors[0].estimate, 2.0);
     let [mu, x, y, radius, turn, v, ..] = machine.table().lines;
     assert!([mu, x, y, radius].iter().all(|line| line.is_infinite()) && turn == 0.0 && v == 2.0);
     let nearest = FinalPose { x: f64::from_bits(1), y: 0.0, theta: 0.0 };
-    let nearly_staying = ArcAnatomy::new(Settings { next: nearest, ..straight }).expect("valid settings");
+    let nearly_staying = ArcAnatomy::new(Settings { next: nearest, ..settings }).expect("valid settings");
     assert!(nearly_staying.table().lines[0].is_infinite());
-    let back = stats(Settings { next: FinalPose { x: -2.0, y: 0.0, theta: 0.0 }, printed: true, ..straight });
+    let back = stats(Settings { next: FinalPose { x: -2.0, y: 0.0, theta: 0.0 }, printed: true, ..settings });
     assert_eq!(back.factors[0].estimate, -2.0);
     assert!(back.factors[1].estimate.to_bits() == 0, "a turn of −0");
-    let turn_on_spot = Settings { next: FinalPose { x: 0.0, y: 0.0, theta: 0.7 }, ..straight };
+    let turn_on_spot = Settings { next: FinalPose { x: 0.0, y: 0.0, theta: 0.7 }, ..settings };
     let Stats { factors, density, xi, .. } = stats(turn_on_spot);
     assert_eq!(factors.map(|factor| factor.estimate), [0.0, 0.7, 0.0]);
     assert_eq!((density, xi), (Some(f64::INFINITY), [0.0, 0.0, 0.7]));

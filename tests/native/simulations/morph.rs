@@ -85,8 +85,9 @@ fn outlines_keep_their_robots() {
         };
         let on_floor = inside(0.0);
         for morph in MORPHS {
-            for (now, floor) in inside(morph).iter().zip(&on_floor) {
-                let changed = now.iter().zip(floor).filter(|(now, floor)| now != floor).count();
+            for (robot_inside, floor) in inside(morph).iter().zip(&on_floor) {
+                let changed =
+                    robot_inside.iter().zip(floor).filter(|(inside, floor)| inside != floor).count();
                 assert!(changed <= 10, "{changed} robots at {morph}");
             }
         }
@@ -114,9 +115,9 @@ fn a_line_is_carried_whole_or_not_at_all() {
     };
     for morph in MORPHS {
         assert!(unbend_line(&circle(0.1), 0.3, morph).is_empty());
-        let unbent = unbend_line(&circle(0.7), 0.3, morph);
-        assert_eq!(unbent.len(), 129);
-        assert!(unbent.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.4), "{morph}");
+        let unbent_line = unbend_line(&circle(0.7), 0.3, morph);
+        assert_eq!(unbent_line.len(), 129);
+        assert!(unbent_line.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.4), "{morph}");
     }
     for (point, unbent) in circle(0.7).iter().zip(unbend_line(&circle(0.7), 0.3, 0.0)) {
         assert!(distance(*point, unbent) < 1e-12);

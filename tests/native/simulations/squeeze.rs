@@ -30,23 +30,23 @@ fn results(machine: &MapSqueeze) -> String {
 /// The sampler, conditioning and the map change which attempts are accepted, and no random number.
 #[test]
 fn changed_settings_move_no_sample() {
-    let endpoint = Settings { samples: 3000, ..Settings::default() };
-    let mut machine = machine(endpoint);
+    let settings = Settings { samples: 3000, ..Settings::default() };
+    let mut machine = machine(settings);
     let (old_results, cloud) = (results(&machine), poses(&machine));
     let verdicts = |machine: &MapSqueeze| -> Vec<[bool; 2]> {
         machine.attempts().iter().map(|Attempt { end_free, path_free, .. }| [*end_free, *path_free]).collect()
     };
     let outcomes = verdicts(&machine);
-    let accepted = |machine: &MapSqueeze| -> Vec<bool> {
+    let acceptances = |machine: &MapSqueeze| -> Vec<bool> {
         machine.attempts().iter().map(|attempt| attempt.accepted).collect()
     };
-    assert!(accepted(&machine).iter().zip(&outcomes).all(|(accepted, [end, _])| accepted == end));
-    machine.configure(Settings { sampler: Sampler::WholeArc, ..endpoint }).expect("valid");
-    assert!(accepted(&machine).iter().zip(&outcomes).all(|(accepted, [_, path])| accepted == path));
+    assert!(acceptances(&machine).iter().zip(&outcomes).all(|(accepted, [end, _])| accepted == end));
+    machine.configure(Settings { sampler: Sampler::WholeArc, ..settings }).expect("valid");
+    assert!(acceptances(&machine).iter().zip(&outcomes).all(|(accepted, [_, path])| accepted == path));
     assert_eq!((poses(&machine), verdicts(&machine)), (cloud.clone(), outcomes.clone()));
     assert_eq!(machine.tally().through_wall, 0);
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
-        machine.configure(Settings { conditioned: false, sampler, ..endpoint }).expect("valid");
+        machine.configure(Settings { conditioned: false, sampler, ..settings }).expect("valid");
         assert!((poses(&machine), verdicts(&machine)) == (cloud.clone(), outcomes.clone()), "{sampler:?}");
         assert_eq!(machine.tally().accepted, 3000, "no attempt is rejected");
         assert_eq!((machine.tally().draws, machine.tally().wall_tests), (3000, 0));
@@ -55,29 +55,29 @@ fn changed_settings_move_no_sample() {
     assert_eq!(poses(&machine), cloud);
     assert_eq!(machine.tally().through_wall, 3000);
     machine.set_plan(FloorPlan::apartment());
-    machine.configure(endpoint).expect("valid");
+    machine.configure(settings).expect("valid");
     assert_eq!(results(&machine), old_results, "and back again to the bit");
-    machine.configure(Settings { seed: 8, ..endpoint }).expect("valid");
+    machine.configure(Settings { seed: 8, ..settings }).expect("valid");
     assert!(poses(&machine).iter().zip(&cloud).all(|(a, b)| a != b), "a new seed changes it");
 }
 
 /// A rejected part is drawn again, which moves the parts after it. Without a rejection conditioning moves no sample.
 #[test]
 fn only_rejected_parts_move_samples() {
-    let in_four_parts = Settings { sampler: Sampler::SubStepped(4), samples: 500, ..Settings::default() };
-    let mut machine = machine(in_four_parts);
+    let settings = Settings { sampler: Sampler::SubStepped(4), samples: 500, ..Settings::default() };
+    let mut machine = machine(settings);
     machine.set_plan(FloorPlan::new(Vec::new(), [-50.0, -50.0, 50.0, 50.0]).expect("an open field"));
     let open_field = poses(&machine);
-    machine.configure(Settings { conditioned: false, ..in_four_parts }).expect("valid");
+    machine.configure(Settings { conditioned: false, ..settings }).expect("valid");
     assert!(poses(&machine) == open_field);
     machine.set_plan(FloorPlan::apartment());
     assert!(poses(&machine) == open_field, "without conditioning walls have no effect");
     let tally = machine.tally();
     assert_eq!((tally.accepted, tally.draws, tally.wall_tests), (500, 2000, 0));
-    machine.configure(in_four_parts).expect("valid");
+    machine.configure(settings).expect("valid");
     let moved_count = poses(&machine).iter().zip(&open_field).filter(|(a, b)| a != b).count();
-    let rejected = machine.tally().draws - 2000;
-    assert!(moved_count > 0 && moved_count <= rejected, "{moved_count} moved by {rejected} rejections");
+    let rejections = machine.tally().draws - 2000;
+    assert!(moved_count > 0 && moved_count <= rejections, "{moved_count} moved by {rejections} rejections");
 }
 
 #[test]
@@ -125,19 +125,20 @@ fn the_commanded_path_and_the_room_at_its_start() {
 
 #[test]
 fn the_product_of_samples_and_parts_is_limited() {
-    for (sampler, most) in [(Sampler::WholeArc, 1_000_000), (Sampler::SubStepped(4), 250_000)] {
+    for (sampler, max_samples) in [(Sampler::WholeArc, 1_000_000), (Sampler::SubStepped(4), 250_000)] {
         let refused = |samples| {
             Settings { samples, sampler, ..Settings::default() }.check().err().map(|error| error.field)
         };
-        assert_eq!([refused(most), refused(most + 1)], [None, Some("samples".to_owned())]);
+        assert_eq!([refused(max_samples), refused(max_samples + 1)], [None, Some("samples".to_owned())]);
     }
 }
 
 /// If no motion fits, the machine stops after a bounded number of draws and reports it. It goes on once the settings let the robot move.
 #[test]
 fn the_machine_stops_after_a_bounded_number_of_draws() {
-    let wedged = Settings { start: [2.1, 2.1, 0.0], sampler: Sampler::SubStepped(4), ..Settings::default() };
-    let mut machine = machine(wedged);
+    let settings =
+        Settings { start: [2.1, 2.1, 0.0], sampler: Sampler::SubStepped(4), ..Settings::default() };
+    let mut machine = machine(settings);
     assert!(!machine.gave_up());
     machine.set_plan(too_small_room());
     assert!(machine.gave_up());
@@ -149,7 +150,7 @@ fn the_machine_stops_after_a_bounded_number_of_draws() {
     assert!(machine.attempts().iter().all(|a| !(a.accepted || a.end_free || a.path_free)));
     assert_eq!(machine.add_samples(100), attempt_count, "it stops for good");
     assert_eq!(*machine.tally(), tally);
-    machine.configure(Settings { sampler: Sampler::Endpoint, ..wedged }).expect("valid");
+    machine.configure(Settings { sampler: Sampler::Endpoint, ..settings }).expect("valid");
     assert!(!machine.gave_up());
     assert_eq!((machine.attempts().len(), machine.tally().accepted), (600, 0));
     assert_eq!(machine.tally().acceptance_rate(1), 0.0);
@@ -158,7 +159,7 @@ fn the_machine_stops_after_a_bounded_number_of_draws() {
     for sampler in SAMPLERS {
         assert_eq!(machine.trial(sampler, 10).expect_err("no room").0.draws, MAX_DRAWS);
     }
-    machine.configure(wedged).expect("valid");
+    machine.configure(settings).expect("valid");
     assert!(machine.gave_up());
     machine.set_plan(FloorPlan::apartment());
     assert!(!machine.gave_up());

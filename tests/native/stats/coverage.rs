@@ -18,10 +18,10 @@ const LARGE_REPETITIONS: u64 = 3000;
 const ROBOTS: usize = 5000;
 
 /// Returns the share of repetitions in which an interval holds the exact value, for each of several intervals.
-fn shares<const N: usize>(repetitions: u64, mut held: impl FnMut(u64) -> [bool; N]) -> [f64; N] {
+fn shares<const N: usize>(repetitions: u64, mut covered_by: impl FnMut(u64) -> [bool; N]) -> [f64; N] {
     let mut counts = [0; N];
     for seed in 0..repetitions {
-        for (count, holds) in counts.iter_mut().zip(held(seed)) {
+        for (count, holds) in counts.iter_mut().zip(covered_by(seed)) {
             *count += u32::from(holds);
         }
     }
@@ -81,13 +81,13 @@ fn errors_of_the_banana_preset() {
 #[ignore = "nightly: thousands of clouds"]
 fn small_clouds_hold_the_exact_skew_as_often_as_printed() {
     let text = Text::in_document(include_str!("../../../doc/statistics.md"));
-    let [held_of_few, few, held_of_more, more] = text.numbers(
+    let [percent_of_few, few, percent_of_more, more] = text.numbers(
         "1.96 errors hold the exact one in # of 100 clouds of #, in # of #, and in 95 of 5000 and more",
     );
-    for (held, robots) in [(held_of_few, few), (held_of_more, more)] {
+    for (percent, robots) in [(percent_of_few, few), (percent_of_more, more)] {
         let settings = Settings { samples: robots.value as usize, ..preset("gentle") };
         let [skew, ..] = shares_within_errors(settings, REPETITIONS);
-        held.assert_percent(skew, 0.0);
+        percent.assert_percent(skew, 0.0);
     }
 }
 

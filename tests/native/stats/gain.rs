@@ -167,16 +167,17 @@ fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
         };
         let without_turn = floor_gains(0.0);
         assert!(without_turn.iter().all(|gain| gain.is_finite()), "{command:?}");
-        for last in [1e-9, 0.01, 0.3] {
-            for (gain, without_turn) in floor_gains(last).into_iter().zip(without_turn) {
+        for last_turn_alpha in [1e-9, 0.01, 0.3] {
+            for (gain, without_turn) in floor_gains(last_turn_alpha).into_iter().zip(without_turn) {
                 assert_close("floor", gain, without_turn, 1e-12);
             }
         }
     }
     // That holds also if headings spread over a full turn, where exponential coordinates are undefined.
-    let wide = machine(GENTLE, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
-    assert!(!wide.chart_holds());
-    let Figures { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } = wide.figures();
+    let wide_cloud = machine(GENTLE, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
+    assert!(!wide_cloud.chart_holds());
+    let Figures { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } =
+        wide_cloud.figures();
     assert!(gain.pose.is_nan() && error.pose.is_nan() && area_ratio.is_nan());
     assert_close(
         "floor",

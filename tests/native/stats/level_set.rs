@@ -127,7 +127,7 @@ fn contours_are_where_the_models_have_their_levels() {
 
 #[test]
 fn a_map_without_noise_is_empty() {
-    let noise_free = Settings { alphas: [0.0; 6], map: SurfaceKind::Prob, ..Settings::default() };
-    let Surface { shades, prob, density, .. } = surface(noise_free);
+    let settings = Settings { alphas: [0.0; 6], map: SurfaceKind::Prob, ..Settings::default() };
+    let Surface { shades, prob, density, .. } = surface(settings);
     assert!(shades.iter().all(|shade| *shade == 0) && prob.is_empty() && density.is_empty());
 }

@@ -40,5 +40,5 @@ function ratioCondition({ compounding }: DeadReckoningSettings, { n, predicted, 
   if (measured.cov.every((row) => row.every((entry) => Math.abs(entry) < Number.EPSILON ** 2))) return 'still';
   // Single components may have no variance, such as a heading without noise.
   if (predicted[compounding] === null || ratios.slice(-COMPONENTS.length).every(Number.isNaN)) return 'lost';
-  return misses[compounding].some(({ told, end }) => !told && !Number.isNaN(end)) ? 'few' : 'certain';
+  return misses[compounding].some(({ decidable, end }) => !decidable && !Number.isNaN(end)) ? 'few' : 'certain';
 }

@@ -92,9 +92,9 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
 }
 
 /** Returns the range of steps at which a recursion misses the measured variance, as text. */
-function missText({ told, first, last, end }: Misses) {
+function missText({ decidable, first, last, end }: Misses) {
   const { never, unknown, from } = words.reckoning.misses;
-  if (!told) return Number.isNaN(end) ? NO_VALUE : unknown;
+  if (!decidable) return Number.isNaN(end) ? NO_VALUE : unknown;
   return first === null || last === null ? never : from(first, last);
 }
 

@@ -189,7 +189,7 @@ test('one path given as both logs is refused, in another frame and in other file
   const spiralRow = (/** @type {number} */ i, scale = 1) => [i / 20, scale * i * 0.08 * Math.cos(i / 50), scale * i * 0.08 * Math.sin(i / 50), 0];
   const roundedFiles = (/** @type {number} */ digits, scale = 1, size = 1) => ({ 'odom.csv': table(400, (i) => spiralRow(i, size)), 'truth.csv': table(400, (i) => spiralRow(i, size * scale).map((value) => Number(value.toFixed(digits)))) });
   for (const digits of [2, 3, 4]) assert.equal(await sentenceOf(drivesOf(roundedFiles(digits))), refusalText);
-  // Other paths have a difference above the rounding, are not rounded, or are short.
+  // Not refused: paths that differ by more than the rounding, unrounded paths, and short ones.
   for (const [digits, scale, size] of [[2, 1.001], [9, 1.0001], [2, 1, 0.1]]) assert.equal((await drivesOf(roundedFiles(digits, scale, size))).length, 1);
   const commands = ['t,x,y,yaw,v,omega', ...Array.from({ length: 99 }, (_, i) => `${i / 20},${i / 40},0,0,0.5,0`)].join('\n');
   const [one, other] = await openRecordings([new File([commands], 'log.csv'), new File([commands], 'log.csv')]);

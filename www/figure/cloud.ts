@@ -218,7 +218,7 @@ export class Cloud extends FigureController {
     this.host.gesture.decide(() => ({ seed: this.host.motion.randomSeed() }));
   }
 
-  /** Runs an action of the reader on the growth, and sets `playing`. */
+  /** Runs the action of a button of the cloud, and sets `playing`. */
   #control(playing: boolean, act: () => void) {
     this.host.runtime.attempt(() => {
       if (!this.host.machine) return;

@@ -34,7 +34,7 @@ const JUMP_FACTOR = 8;
 /** Periods (s) after which clocks begin at 0 again: a day, a week of GPS, and 32-bit counters of an unstated unit, ms or µs. */
 const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 
-/** Minimum period in median steps. A clock that was set back might match a shorter period by chance. */
+/** Minimum period of a clock, in median steps of its times. A clock that was set back might match a shorter period by chance. */
 const MIN_PERIOD_STEPS = 500;
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */

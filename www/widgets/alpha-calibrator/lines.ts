@@ -1,4 +1,4 @@
-/** Lines for nav2_params.yaml, with numbers in the format of files in every language. */
+/** Lines for nav2_params.yaml. Their numbers have a decimal point in every language. */
 
 import type { Warning } from '../../logs/log.ts';
 

@@ -58,7 +58,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   #density = new Density();
   #places: Memo<Float64Array> = new Memo();
 
-  /** Morph that is shown, from the floor to exponential coordinates. */
+  /** Morph of the picture: 0 for the floor (x, y), 1 for exponential coordinates. */
   get morph(): number {
     return this.name === 'plane' ? 0 : 1;
   }
@@ -157,7 +157,7 @@ export class PlanePicture extends CloudPicture {
     ];
     for (const { view: of, there, names } of axesAtEnds) {
       context.globalAlpha = clamp(there, 0, 1);
-      // Until it is straight, `drawMorphGrid` draws the grid of exponential coordinates.
+      // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
       if (there > 0) drawAxes({ ...brush, view: of }, names, key, of === twist && morph < 1 ? 0 : undefined);
     }
     context.globalAlpha = 1;

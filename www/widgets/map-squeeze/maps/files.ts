@@ -1,4 +1,4 @@
-/** Map files of the reader: a JSON floor plan, or a pair of files as for ROS map_server. */
+/** Map files of the user: a JSON floor plan, or a pair of files as for ROS map_server. */
 
 import { limits } from '../../../settings.js';
 import type { MapSqueeze } from '../../../types.d.ts';

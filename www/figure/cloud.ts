@@ -176,7 +176,7 @@ export class Cloud extends FigureController {
     return this.index >= 0 && this.index < this.selectableCount;
   }
 
-  /** Number of selectable samples, including those that are still to be added. */
+  /** Number of samples that can be selected or pinned, including those that are still to be added. */
   get selectableCount() {
     return this.playing ? this.#samples : this.asked;
   }

@@ -125,10 +125,10 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return pinned ? this.#pinnedReading.of([pinned], () => readingOfSettings(this.motion, pinned)) : undefined;
   }
 
-  /** Pins the outlines and numbers for comparison, or removes those that are pinned. */
+  /** Pins the outlines and numbers for comparison, or removes those that are pinned. Those of a growing cloud are of all its robots. */
   #pin() {
-    const { config, shown } = this.currentReading;
-    this.gesture.choose('pinned', this.state.own.pinned ? null : { ...config, samples: Math.max(1, shown) });
+    const { config } = this.currentReading;
+    this.gesture.choose('pinned', this.state.own.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
   }
 
   get exportData() {

@@ -2,7 +2,7 @@ import { spawnSync } from 'node:child_process';
 import { expect, test as testWithWarnings } from '@playwright/test';
 import { recordingOf, transform } from '../mcap.js';
 import { caption, choose, chooseRecording, example, openCalibrator, recordingWith, rows, rowsOf, stats, tablesOf } from './calibrator-support.js';
-import { STILL, stateOf, takeEvents, test, unfold, untilSettled } from './support.js';
+import { STILL, drop, stateOf, takeEvents, test, unfold, untilSettled } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -48,7 +48,17 @@ test('two tables of a reader replace the simulated log, and a button brings it b
   const alert = widget.getByRole('alert');
   await choose(widget, { 'odom.csv': tables.odometry });
   await expect(alert).toHaveText(/^odom\.csv: it has the odometry only, .*; give the reference too\. Drop or choose the other file too,/);
-  await expect(widget.getByText('The result below is still that of the simulated log.')).toBeVisible();
+  // The α's on the screen are of another log, and are not copied until the reader says that these are wanted.
+  const otherResults = 'The results are still those of the simulated log, not of the files chosen last.';
+  await expect(widget.locator('.drop-zone .muted')).toContainText(otherResults);
+  await expect(widget.locator('.to-do')).toHaveText(otherResults);
+  const fitButton = widget.getByRole('button', { name: 'Fit for Nav2' });
+  await expect(fitButton).toBeDisabled();
+  await widget.getByRole('button', { name: 'Keep these results' }).click();
+  await expect(fitButton).toBeEnabled();
+  await expect(alert).toHaveCount(0);
+  await choose(widget, { 'odom.csv': tables.odometry });
+  await expect(alert).toHaveCount(1);
   await choose(widget, { 'truth.csv': tables.reference });
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
 });
@@ -184,8 +194,10 @@ test('a log without enough legs is refused, and the present log keeps its place 
   await untilSettled(widget);
   const captionBefore = await caption(widget).innerText();
   const { alphas } = await stats(widget);
-  const standingLog = 't,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n';
-  await choose(widget, { 'a.csv': standingLog, 'b.csv': standingLog });
+  const standingLog = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
+  await drop(widget.locator('.stage').first(), ['a.csv', 'b.csv'].map((name) => ({ name, buffer: standingLog })));
+  // The message is at one place only: where logs are dropped, as that is in sight.
+  await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.');
   await untilSettled(widget);
   expect(await caption(widget).innerText()).toBe(captionBefore);

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { mapFile, openSqueeze, pgmFile, pngFile, squeezeResults, yamlFile } from './squeeze-support.js';
-import { STILL, frames, pictureOf, pixelsOf, test, unfold } from './support.js';
+import { STILL, drop, frames, pictureOf, pixelsOf, test, unfold } from './support.js';
 
 /**
  * @typedef {import('./squeeze-support.js').MapFile} MapFile
@@ -30,24 +30,6 @@ const currentMapOf = (/** @type {Locator} */ widget) => widget.locator('.own-map
 async function choose(widget, files) {
   await unfold(widget);
   await widget.getByLabel('Choose map files').setInputFiles(files);
-}
-
-/** Drops files on a part of the widget. @param {Locator} part @param {MapFile[]} files */
-function drop(part, files) {
-  return part.evaluate(
-    (target, given) => {
-      const dataTransfer = new DataTransfer();
-      for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
-      const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
-      const [over, drop] = [event('dragover'), event('drop')];
-      target.dispatchEvent(over);
-      if (!over.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
-      target.dispatchEvent(drop);
-      if (!drop.defaultPrevented) throw new Error('The browser takes the file.');
-      if (target.closest('.dropping')) throw new Error('It is still marked.');
-    },
-    files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
-  );
 }
 
 test('a JSON floor plan takes the apartment’s place, and the robot finds room in it', async ({ page }) => {

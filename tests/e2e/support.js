@@ -376,6 +376,24 @@ export function readoutDetail(widget, name) {
   return widget.locator('.readouts div').filter({ hasText: name }).locator('dd.detail');
 }
 
+/** Drops files on a part of the widget. @param {Locator} part @param {{ name: string, buffer: Buffer }[]} files */
+export function drop(part, files) {
+  return part.evaluate(
+    (target, given) => {
+      const dataTransfer = new DataTransfer();
+      for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+      const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
+      const [over, drop] = [event('dragover'), event('drop')];
+      target.dispatchEvent(over);
+      if (!over.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
+      target.dispatchEvent(drop);
+      if (!drop.defaultPrevented) throw new Error('The browser takes the file.');
+      if (target.closest('.dropping')) throw new Error('It is still marked.');
+    },
+    files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
+  );
+}
+
 /**
  * Opens a page with a running Banana Machine, with all disclosures open.
  *

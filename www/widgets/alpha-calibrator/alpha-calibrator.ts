@@ -246,9 +246,9 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         <div class="fitted" part="readouts">
           <div class="buttons told">
             <p class="panel-title">${say.alphas.title(say.kinds[modelRuleOf(reading.fitted)])}</p>
-            ${copyButton(this)} ${startOverButton(this)}
+            ${copyButton(this, this.#opener.otherResults)} ${startOverButton(this)}
           </div>
-          <p class="to-do">${judgementOf(reading, this.warnings).toDo}</p>
+          <p class="to-do">${this.#opener.otherResults || judgementOf(reading, this.warnings).toDo}</p>
           ${alphaTable(reading)}
           <p class="muted reason">${reasonOf(reading)}</p>
           ${copyMessage(this)}

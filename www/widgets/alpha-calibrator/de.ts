@@ -217,7 +217,8 @@ export const de: typeof import('./en.ts').en = {
     present: (name) => `Aufzeichnung: ${name}.`,
     reading: 'Wird gelesen',
     refused: (message) => `Aufzeichnung abgelehnt: ${message}`,
-    still: (log) => `Das Ergebnis darunter gilt noch für: ${log}.`,
+    still: (log) => `Gezeigt wird noch: ${log}, nicht die zuletzt gewählten Dateien.`,
+    keep: 'Diese Ergebnisse behalten',
   },
   nav2: {
     title: 'Für Nav2',

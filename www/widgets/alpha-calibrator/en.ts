@@ -185,7 +185,8 @@ export const en = {
     present: (name) => `Log: ${name}.`,
     reading: 'Reading',
     refused: (message) => `Log refused: ${message}`,
-    still: (log) => `The result below is still that of ${log}.`,
+    still: (log) => `The results are still those of ${log}, not of the files chosen last.`,
+    keep: 'Keep these results',
   },
   nav2: {
     title: 'For Nav2',

@@ -23,12 +23,12 @@ function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
   return JSON.stringify(allResults, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 }
 
-/** Returns the button that copies the lines, or that which fits the model of Nav2 where the α's are of another one. */
-export function copyButton(figure: Figure) {
+/** Returns the button that copies the lines, or that which fits the model of Nav2 where the α's are of another one. `obstacle` disables it. */
+export function copyButton(figure: Figure, obstacle: string) {
   const say = words.calibrator.nav2;
-  if (!NAV2_RULES.includes(modelRuleOf(figure.reading.fitted))) return button(say.fit, () => figure.gesture.decide(settingsFor('nav2')), { title: say.fitTitle });
+  if (!NAV2_RULES.includes(modelRuleOf(figure.reading.fitted))) return button(say.fit, () => figure.gesture.decide(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || say.fitTitle });
   const yaml = yamlOf(figure);
-  return figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml, title: yaml ? say.label : say.none });
+  return figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? say.label : say.none) });
 }
 
 /** Returns the message of the button, which stands where it moves neither the button nor the table. */

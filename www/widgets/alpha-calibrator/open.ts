@@ -81,9 +81,20 @@ export class LogOpener extends FileOpener<Figure> {
 
   close() {
     this.#end();
+    this.forget();
+    this.host.open(null, []).then(() => this.host.gesture.complete());
+  }
+
+  /** Drops the chosen files, as the reader asked. */
+  forget() {
     this.chosen = this.#loneLogFiles = this.refusal = undefined;
     this.#dropZone.style.minHeight = '';
-    this.host.open(null, []).then(() => this.host.gesture.complete());
+    this.host.requestUpdate();
+  }
+
+  /** Text that says whose results are shown while the chosen files are refused; empty otherwise. */
+  get otherResults() {
+    return this.refusal === undefined || isStopped(this.refusal) ? '' : words.calibrator.own.still(this.host.logName);
   }
 
   get #dropZone() {
@@ -192,14 +203,11 @@ export class LogOpener extends FileOpener<Figure> {
   /** Shows why a log was refused, and what to choose. */
   async refuse(error: Error & Partial<LogError & LogFailure>) {
     if (isStopped(error)) return;
-    this.refusal = error;
     const { ask, file, place } = error;
     const { chosen } = this;
     const asked = ask && chosen && { file: file ?? place?.file ?? '', ask };
     if (asked && !chosen.questions.some((each) => each.file === asked.file && each.ask.what === ask.what)) chosen.questions.push(asked);
-    this.host.requestUpdate();
-    await this.host.updateComplete;
-    if (!(asked && this.reader?.focusChooser(this.host, asked))) await this.showRefusal();
+    await super.refuse(error, () => asked && this.reader?.focusChooser(this.host, asked));
   }
 
   /** Cancels reading, and starts again. */
@@ -253,7 +261,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
       ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.close())}</p>` : nothing}
     ${opener.note}
-    ${opener.complaint ? html`<p class="muted">${say.still(figure.logName)}</p>` : nothing}
+    ${opener.otherResults ? html`<p class="muted">${opener.otherResults} ${button(say.keep, () => opener.forget())}</p>` : nothing}
   </div>`;
 }
 

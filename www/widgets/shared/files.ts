@@ -1,4 +1,4 @@
-/** Files of the reader, chosen or dropped on a figure. A disclosure shows the result, and a notice says why dropped files were refused. */
+/** Files of the reader, chosen or dropped on a figure. An element of the figure shows the result, or a notice if that is out of sight. */
 
 import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
@@ -11,7 +11,8 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   abstract id: string;
   /** Error by which the latest files were refused; undefined if they were not. */
   refusal: unknown;
-  #isDropped = false;
+  /** True if the latest files were dropped out of sight of their message. A notice shows the message then. */
+  #isFar = false;
   /** Number of the latest attempt. Results of earlier ones are ignored. */
   #latestAttempt = 0;
 
@@ -31,7 +32,8 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
 
   get note() {
     const { complaint } = this;
-    return html`<p class="note" id="refusal" role=${this.host.notice.isShown ? nothing : 'alert'} ?hidden=${complaint === ''}>${complaint}</p>`;
+    const isInNotice = this.#isFar && this.host.notice.isShown;
+    return html`<p class="note" id="refusal" role=${this.#isFar ? nothing : 'alert'} ?hidden=${complaint === '' || isInNotice}>${complaint}</p>`;
   }
 
   /** Ignores the result of the latest attempt. */
@@ -53,27 +55,26 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     return isLatest();
   }
 
-  async refuse(error: unknown) {
+  /** Shows why files were refused. `focusAnswer` moves the focus to a control that answers the refusal, and returns true if there is one. */
+  async refuse(error: unknown, focusAnswer: () => boolean | undefined = () => false) {
+    const { host } = this;
     this.refusal = error;
-    this.host.requestUpdate();
-    await this.showRefusal();
+    const box = this.#note?.parentElement?.getBoundingClientRect();
+    this.#isFar &&= !box || box.bottom < 0 || box.top > innerHeight;
+    host.requestUpdate();
+    await host.updateComplete;
+    if (focusAnswer()) return;
+    if (this.#isFar) host.notice.show(this.complaint);
+    else this.#note?.scrollIntoView({ block: 'nearest' });
   }
 
-  /** Shows why files were refused; for dropped files, near the place of the drop. */
-  async showRefusal() {
-    if (this.#isDropped) this.host.notice.show(this.complaint);
-    await this.host.updateComplete;
-    if (!this.#isDropped) this.#statusElement?.querySelector('.note')?.scrollIntoView({ block: 'nearest' });
-  }
-
-  /** Element that says which files are open or why they were refused; null until the figure has been drawn. */
-  get #statusElement() {
-    return this.host.renderRoot.querySelector(`#${this.id}`);
+  get #note() {
+    return this.host.renderRoot.querySelector(`#${this.id} .note`);
   }
 
   /** Opens files that the reader has chosen or dropped. */
   take(files: File[], isDropped: boolean = false) {
-    this.#isDropped = isDropped;
+    this.#isFar = isDropped;
     this.host.notice.show('');
     this.choose(files);
   }
@@ -95,8 +96,8 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     if (!event.dataTransfer?.types.includes('Files')) return;
     // The browser would otherwise navigate to the file.
     event.preventDefault();
-    // The disclosure shows the result.
-    if (this.#statusElement instanceof HTMLDetailsElement) this.#statusElement.open = true;
+    const result = this.host.renderRoot.querySelector(`#${this.id}`);
+    if (result instanceof HTMLDetailsElement) result.open = true;
     droppedFiles(event.dataTransfer).then((files) => this.take(files, true));
   };
 

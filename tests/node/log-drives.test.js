@@ -234,6 +234,8 @@ test('a log that does not follow the other one names the correction that makes i
     [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored relative to its heading and to /],
     [([t, x, y, yaw]) => [t, -x, y, yaw], /its x axis is mirrored /],
     [([t, x, y, yaw]) => [t, x, y, -yaw], /its heading has the wrong sign,/],
+    // Compass headings.
+    [([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw], /its heading has the wrong sign,/],
     [([t, x, y, yaw]) => [t, y, x, yaw], /its x and y are swapped;/],
     [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
     [([t, x, y, yaw]) => [t, x, y, yaw * degree], /its headings are in radians and were read as degrees;/, 'angleUnit'],

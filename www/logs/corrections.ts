@@ -68,8 +68,9 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   const { score, length: factor, angle } = bestAgreementOf(plainMotions, step, true);
   const triedCorrections = score >= AGREEMENT ? [] : ALL_CORRECTIONS.map(([name, at]) => {
     const correctedMotions = { ...plainMotions, [at]: motionsOf(logs[at], from, step, stepCount, POSE_CORRECTIONS[name]) };
-    // A correction of the wrong log can give both logs the same error. The robot then does not drive along its heading in either log.
-    return { name, at, factor, ...bestAgreementOf(correctedMotions, step), straight: forwardness(correctedMotions.odometry) + forwardness(correctedMotions.reference) };
+    // Compass headings grow clockwise from north.
+    // A correction of the wrong log can give both logs the same error. The robot then drives in all directions in both logs.
+    return { name, at, factor, ...bestAgreementOf(correctedMotions, step, name === 'mirroredYaw'), straight: forwardness(correctedMotions.odometry) + forwardness(correctedMotions.reference) };
   });
   const minScore = Math.max(MIN_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
   const best = greatest(triedCorrections.filter((each) => each.score >= minScore && isPlausible(each.length) && isPlausible(each.angle)), (each) => each.score + each.straight);
@@ -136,12 +137,13 @@ function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count
   return { score: Math.min(drive.correlation, turn.correlation), length: drive.scale, angle: turn.scale };
 }
 
-/** Returns the degree to which a robot drives along its heading: 1 if always, 0 if in all directions. */
+/** Returns the degree to which a robot drives at a constant angle to its heading: 1 if always, 0 if in all directions. */
 function forwardness(motions: Motion[]): number {
-  let [along, all] = [0, 0];
+  let [along, across, all] = [0, 0, 0];
   for (const [forward, left] of motions) {
     along += forward ** 2 - left ** 2;
+    across += 2 * forward * left;
     all += forward ** 2 + left ** 2;
   }
-  return all === 0 ? 1 : along / all;
+  return all === 0 ? 1 : Math.hypot(along, across) / all;
 }

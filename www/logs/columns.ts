@@ -3,7 +3,7 @@
 import { LogError, cut, listing, type Place } from './log-error.ts';
 import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
 
-export type Field = 't' | 'seconds' | 'nanoseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child';
+export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
 
 interface Column {
   /** Index, from 0. */
@@ -17,7 +17,7 @@ interface Column {
 
 export interface Clock {
   name: string;
-  /** Column of times, or columns of seconds and nanoseconds. */
+  /** Column of times, or columns of seconds and of their fraction, in ns or the unit of its name. */
   columns: [Column] | [Column, Column];
   unit?: TimeUnit;
 }
@@ -50,7 +50,8 @@ const HEADER = '(?:header\\.)?';
 const FIELD_PATTERNS: [Field, string[]][] = [
   ['child', ['child\\.frame\\.id']],
   ['frame', [`${HEADER}frame\\.id`]],
-  ['nanoseconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:nano?secs?|nsecs?|nanoseconds?)`, '(?:nano?secs?|nsecs?|nanoseconds?)']],
+  ['source', ['topic(?:\\.name)?', '(?:robot|agent|vehicle|body|object|subject|tag|tracker)(?:\\.?(?:id|name))?', 'id']],
+  ['subseconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:nano?|n|micro|u)(?:secs?|seconds?)`, '(?:nano?|n|micro|u|milli|m)(?:secs?|seconds?)']],
   ['seconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
   ['t', [`${HEADER}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)|millis|micros|nanos', 't']],
   ['qx', ['q\\..*\\.x', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?x`]],
@@ -60,9 +61,9 @@ const FIELD_PATTERNS: [Field, string[]][] = [
   ['omega', [`${TWIST}(?:angular|ang)\\.(?:vel(?:ocity)?\\.)?z`, 'omega(?:\\.z)?|ω', '(?:yaw|turn|heading)\\.?(?:rate|vel(?:ocity)?)|wz?', '(?:angular|ang)(?:\\.?(?:vel(?:ocity)?|speed|rate))?', 'vel(?:ocity)?\\.(?:yaw|theta)']],
   ['v', [`${TWIST}(?:linear|lin)\\.(?:vel(?:ocity)?\\.)?x`, 'vx?', '(?:linear|lin|forward|fwd)?\\.?(?:vel(?:ocity)?|speed)(?:\\.x)?|linear|lin']],
   ['yaw', [`${POSE}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading|gier(?:winkel)?)(?:\\.angle)?`, 'θ|ψ|psi|phi']],
-  ['x', ['p\\..*\\.x', 'east(?:ing)?', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?x`, `${POSE}x`]],
-  ['y', ['p\\..*\\.y', 'north(?:ing)?', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?y`, `${POSE}y`]],
-  ['z', ['p\\..*\\.z', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?z`, `${POSE}z`]],
+  ['x', ['p\\..*\\.x', 'east(?:ing)?', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?x`, `${POSE}x(?:\\.?pos(?:ition)?)?`]],
+  ['y', ['p\\..*\\.y', 'north(?:ing)?', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?y`, `${POSE}y(?:\\.?pos(?:ition)?)?`]],
+  ['z', ['p\\..*\\.z', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?z`, `${POSE}z(?:\\.?pos(?:ition)?)?`]],
 ];
 
 /**
@@ -100,7 +101,7 @@ const EMPTY_UNIT = /^(|-|1|quat(ernion)?|unitless|none)$/;
 
 /** Unit at the end of a name: in brackets, or as MATLAB converts a name such as "x [m]". */
 const UNIT_IN_BRACKETS = /\s*[[({]([^\])}]*)[\])}]\s*$/;
-const UNIT_AT_END = /[._ ]+((?:m|mm|cm|rad|deg)[._ /]s|[^._ /]+)_?$/;
+const UNIT_AT_END = /(?:[._ ]+|\s*\/\s*|\s+in\s+)((?:m|mm|cm|rad|deg)[._ /]s|[^._ /]+)_?$/;
 
 function unitOf(text: string): ParsedUnit | undefined {
   const lowerText = text.trim().toLowerCase().replace(/^dps$/, 'deg/s');
@@ -109,6 +110,8 @@ function unitOf(text: string): ParsedUnit | undefined {
   const [, of, unit] = UNIT_WORDS.find(([pattern]) => pattern.test(isRate ? withoutPerSecond : lowerText)) ?? [];
   return of && unit ? { of, unit, isRate } : undefined;
 }
+
+export const isUnit = (text: string) => unitOf(text) !== undefined;
 
 /** Quantity of each field, and true if it is a rate. */
 const UNITS_OF: Partial<Record<Field, [ParsedUnit['of'], boolean]>> = {
@@ -137,7 +140,7 @@ function readName(name: string): ColumnMeaning | undefined {
   // Times of rostopic are always in nanoseconds, also the small times of a simulation.
   if (wholeMeaning?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...wholeMeaning, unit: 'ns' };
   // Clocks of microcontrollers are named after their unit.
-  if (wholeMeaning) return { ...wholeMeaning, ...(/millis$/.test(dottedPath) ? { unit: 'ms' } : /micros$/.test(dottedPath) ? { unit: 'us' } : /nanos$/.test(dottedPath) ? { unit: 'ns' } : {}) };
+  if (wholeMeaning) return { ...wholeMeaning, ...(/m(illi)?secs?$|millis(econds?)?$/.test(dottedPath) ? { unit: 'ms' } : /u(secs?|seconds?)$|micros(ec.*)?$/.test(dottedPath) ? { unit: 'us' } : /nanos$/.test(dottedPath) ? { unit: 'ns' } : {}) };
   const [last, word] = UNIT_AT_END.exec(bare) ?? [];
   const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
   const reading = last !== undefined && unit ? fieldOf(dottedName(bare.slice(0, -last.length))) : undefined;
@@ -205,11 +208,11 @@ export function groupsOf(names: string[], isTime: (at: number) => boolean = () =
 }
 
 /** Returns the clocks of a group. The stamp of the message comes first, because the other clock may be the time of recording. */
-function clocksOf({ columns: { seconds, nanoseconds }, times }: Group): Clock[] {
+function clocksOf({ columns: { seconds, subseconds }, times }: Group): Clock[] {
   const singleClocks = times.toSorted((one, other) => one.rank - other.rank).map((column) => ({ name: column.name, columns: [column], ...unitOfClock(column) }) as Clock);
-  if (seconds && nanoseconds) return [{ name: `${seconds.name}, ${nanoseconds.name}`, columns: [seconds, nanoseconds], unit: 's' }, ...singleClocks];
+  if (seconds && subseconds) return [{ name: `${seconds.name}, ${subseconds.name}`, columns: [seconds, subseconds], unit: 's' }, ...singleClocks];
   if (singleClocks.length > 0) return singleClocks;
-  return [...(seconds ? [{ name: seconds.name, columns: [seconds], unit: 's' } as Clock] : []), ...(nanoseconds ? [{ name: nanoseconds.name, columns: [nanoseconds], unit: 'ns' } as Clock] : [])];
+  return [...(seconds ? [{ name: seconds.name, columns: [seconds], unit: 's' } as Clock] : []), ...(subseconds ? [{ name: subseconds.name, columns: [subseconds], unit: 'ns', ...unitOfClock(subseconds) } as Clock] : [])];
 }
 
 const unitOfClock = ({ unit }: Column) => (unit === undefined ? {} : { unit: unit as TimeUnit });
@@ -257,7 +260,7 @@ export function layoutOf(group: Group | undefined, names: string[], place: Place
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {
     const [firstColumn, secondColumn] = [columns[field], twice[field]];
-    if (firstColumn && secondColumn) throw new LogError(place, (say) => say.twice(field, cut(firstColumn.name), cut(secondColumn.name)));
+    if (firstColumn && secondColumn) throw new LogError(place, (say) => say.twice(field, cut(firstColumn.name), cut(secondColumn.name)), ask);
   }
   const readColumns = fields.map((field) => columns[field] as Column);
   const [lengthUnit, ...others] = new Set((takesCommands ? readColumns.slice(0, 1) : readColumns.slice(0, 2)).map(({ unit }) => unit));

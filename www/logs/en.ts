@@ -97,10 +97,11 @@ export const english = {
     kitti: 'rows of 12 numbers are poses of KITTI, which have no times; add them from its times.txt with kitti_poses_and_timestamps_to_trajectory.py of evo, and give the TUM file that it writes.',
     euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
     tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or choose the columns.',
-    mixed: (frames: string) => `the rows are of several frames (${frames}); keep those of one.`,
+    mixed: (frames: string) => `the rows are of several frames, topics or robots (${frames}); keep those of one.`,
     unknownUnit: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is s, ms, us or ns, m, cm or mm, and rad or deg.`,
+    turns: (metres: number) => `poses of two paths take turns, ${metres.toPrecision(2)} m apart: of two robots, or of two nodes that publish one topic; keep those of one.`,
     manyBad: (bad: number, rows: number, percent: number) => `${bad} of ${rows} rows have text in place of a number, or too few cells; at most ${percent} % of the rows may.`,
-    number: (column: string, value: string) => `${column} is “${value}”; expected is a number${/^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
+    number: (column: string, value: string) => `${column} is “${value}”; expected is a number${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' without separators of thousands' : /^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
     rows: (most: number) => `there are more rows; expected are at most ${most}.`,
     far: (value: number, most: number, message: number) =>
       `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-most} to ${most}, in m, rad and s.`,

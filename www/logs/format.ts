@@ -1,6 +1,6 @@
 /** Format of a table: encoding, separator, preamble and header, from its first lines. */
 
-import { type Group, groupsOf, isHeader } from './columns.ts';
+import { type Group, groupsOf, isHeader, isUnit } from './columns.ts';
 import { LogError, cut, type Place } from './log-error.ts';
 import { dateOf, numberOf } from './numbers.ts';
 import { unitOfSize } from './units.ts';
@@ -86,6 +86,7 @@ export function carmenCells(line: string): string[] {
   return cells[0] === 'FLASER' ? [cells[0], ...cells.slice(2 + Number(cells[1]))] : cells;
 }
 
+const THOUSANDS = /^\s*[+-]?[1-9]\d{0,2},\d{3}\s*$/;
 const DECIMAL_COMMA = /^\s*[+-]?\d*,\d+(e[+-]?\d+)?\s*$/i;
 const isNumber = (cell: string) => cell.trim() !== '' && (numberOf(cell) !== undefined || DECIMAL_COMMA.test(cell) || dateOf(cell) !== undefined);
 
@@ -104,7 +105,7 @@ function separatorOf(lines: string[]): string {
     const cellRows = lines.map((line) => cellsOf(line, separator));
     return cellRows.filter(isDataRow).flat().filter(isNumber).length || cellRows.flat().length / 1e6;
   };
-  return [';', '\t', ',', ' '].map((separator) => ({ separator, score: scoreOf(separator) })).reduce((best, each) => (each.score > best.score ? each : best)).separator;
+  return [';', '\t', ',', '|', ' '].map((separator) => ({ separator, score: scoreOf(separator) })).reduce((best, each) => (each.score > best.score ? each : best)).separator;
 }
 
 /**
@@ -128,7 +129,9 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   const cells = (line: string) => cellsOf(line, separator);
   const first = textLines.find(({ line }, i) => isDataRow(cells(line)) && (i + 1 === textLines.length || isDataRow(cells(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cells(line)));
   const rows = first ? textLines.filter(({ number }) => number >= first.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];
-  const hasCommas = (separator !== ',' || rows.some((_, i) => textLines[i].line.includes('"'))) && rows.flat().some((cell) => DECIMAL_COMMA.test(cell));
+  // Between commas, a comma in quotes may also separate thousands.
+  const isDecimal = (cell: string) => DECIMAL_COMMA.test(cell) && (separator !== ',' || !THOUSANDS.test(cell));
+  const hasCommas = (separator !== ',' || rows.every((row) => !row.some((cell) => /^[+-]?\d*\.\d+$/.test(cell)))) && rows.flat().some(isDecimal);
   const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
   const commonFormat = { name: 'csv' as const, separator, hasCommas, firstLine: first?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
   const errorPlace = { file, line: first?.number ?? filledLines[0].number };
@@ -146,7 +149,8 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
 
   const header = headerOf(linesAbove, separator, rowWidth, rows[0]);
   if (header) {
-    const { names, number } = header;
+    const { number } = header;
+    const names = withUnits(header.names, linesAbove.filter((each) => each.number > number).map(({ line }) => cells(line)));
     // Rows with decimal commas between commas have more cells than the header.
     if (rowWidth > names.length) throw new LogError({ file, line: first?.number }, (say) => say.wide(rowWidth, names.length, number));
     const groups = columnGroups(names, rows[0]);
@@ -160,6 +164,12 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   if (rowWidth === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(errorPlace, (say) => say.twists);
   const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
   throw new LogError(errorPlace, (say) => say.noHeader(rowWidth, cut(first.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
+}
+
+/** Adds the units of a row below the header to the names. */
+function withUnits(names: string[], below: string[][]): string[] {
+  const units = below.map((row) => row.map((cell) => cell.replaceAll(/[\s"[\](){}]/g, ''))).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
+  return names.map((name, i) => (units && isUnit(units[i]) && !/[\])}]$/.test(name) ? `${name} [${units[i]}]` : name));
 }
 
 /** Groups columns. A column without a name has times if its first cell is a date or a fraction. A whole number there is a row number. */

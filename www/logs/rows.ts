@@ -1,6 +1,6 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
-import { min } from 'd3-array';
+import { min, range } from 'd3-array';
 import { LogError, type Place } from './log-error.ts';
 import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
 import { LATE, SET_BACK, STRAY, repeatFactor, sortRows } from './order.ts';
@@ -36,6 +36,12 @@ const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 
 /** Minimum period of a clock, in median steps of its times. A clock that was set back might match a shorter period by chance. */
 const MIN_PERIOD_STEPS = 500;
+
+/** Two paths whose poses take turns: minimum distance (m), minimum number of far poses, and maximum number of rows until a path goes on. */
+const [MIN_PATH_DISTANCE, MIN_TURNS, MAX_TURN_ROWS] = [0.05, 20, 8];
+
+/** Maximum fraction of far poses that are still far then. */
+const MAX_TURN_FRACTION = 0.2;
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
 const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
@@ -139,6 +145,8 @@ export class Rows {
     const columns = { ...times, a, b, c };
     const units = judgeUnits(this.#logPlace, kind, columns, assumed, options);
     const { start, t } = columns;
+    const pathDistance = kind === 'poses' ? distanceOfPaths(a, b) : 0;
+    if (pathDistance > 0) throw new LogError(this.#logPlace, (say) => say.turns(pathDistance));
     const { breaks, jumped, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = [
@@ -334,6 +342,18 @@ export class Rows {
     const dropped = (this.#dropped[cause] ??= { count: 0, first: line });
     dropped.count += 1;
   }
+}
+
+/**
+ * Returns the distance (m) of two paths whose poses take turns, as of two robots in one log; 0 for a single path. The sign is that many poses
+ * are far from the next one, and near one a few rows later.
+ */
+function distanceOfPaths(x: Float64Array, y: Float64Array): number {
+  const distancesOver = (rows: number) => sample(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
+  const longStep = quantile(distancesOver(1), 0.9);
+  const countOfLong = (rows: number) => distancesOver(rows).filter((distance) => distance > longStep / 2).length;
+  const isTurn = (rows: number) => countOfLong(rows) < MAX_TURN_FRACTION * countOfLong(1);
+  return longStep > MIN_PATH_DISTANCE && countOfLong(1) >= MIN_TURNS && range(2, MAX_TURN_ROWS + 1).some(isTurn) ? longStep : 0;
 }
 
 /** Returns a function that checks for a jump between a row and the one before it. */

@@ -240,7 +240,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
   await expect(widget.getByText('Copied.')).toHaveCount(0);
 });
 
-  test('the button that copies the code to embed says that the code has no map of the reader, which a link has @nightly', async ({ page }) => {
+  test('the button that copies the code to embed says that the code has no map of the reader, which a link has unless it is too large @nightly', async ({ page }) => {
     const widget = await mount(page, 'map-squeeze');
     await widget.getByText('Numbers and data').click();
     await widget.getByRole('button', { name: 'Copy embed code' }).click();
@@ -251,6 +251,19 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await expect(widget.getByText('Copied.')).toContainText('Your map is not in it');
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
+    // Cells that cannot be compressed.
+    await widget.evaluate((element) => {
+      const bits = Array.from({ length: 1_000_000 }, () => String.fromCharCode(256 * Math.random())).join('');
+      const unknown = btoa(bits);
+      const occupied = btoa('\0'.repeat(bits.length));
+      Object.assign(element, { map: { columns: 4000, rows: 2000, resolution: 0.05, origin: [0, 0, 0], occupied, unknown } });
+    });
+    await widget.getByRole('button', { name: 'Copy link' }).click();
+    await expect(widget.getByText('Copied.')).toContainText('Your map is too large for a link and is not in it');
+    const [state, fragment] = [await stateOf(widget), await fragmentOf(widget)];
+    await page.goto('about:blank');
+    const copy = await mount(page, 'map-squeeze', { attributes: 'seed="3"', fragment });
+    expect(await stateOf(copy)).toEqual({ ...state, map: null, start: await property(await mount(page, 'map-squeeze'), 'start') });
   });
 });
 

@@ -318,7 +318,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   }
 
   /**
-   * Returns the address of this page with the present state.
+   * Returns the address of this page with the present state, but without a map that would make it too long.
    * @public
    */
   async shareLink(): Promise<string> {

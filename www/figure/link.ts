@@ -7,7 +7,12 @@ import { packJson, unpack } from './packing.ts';
 import { words } from '../messages/registry.ts';
 import { FigureController } from './controller.ts';
 
+/** Maximum length of a packed state. Firefox opens addresses of up to 1 MiB, other browsers up to 2 MiB and more. */
+const MAX_LENGTH = 1_000_000;
+
 export class Link extends FigureController {
+  /** True if the latest packed state lacks the reader's map, because the address would be too long with it. */
+  lacksMap = false;
   /** Tokens of the latest read and write of the address. Results of earlier reads and writes are dropped. */
   #latestRead = {};
   #latestWrite = {};
@@ -78,8 +83,12 @@ export class Link extends FigureController {
     return addressWith(keyOf(this.host), await this.#pack(), !isAnchor(fragmentParts()[0]));
   }
 
-  #pack() {
-    return packJson(this.host.getState() ?? {});
+  async #pack() {
+    const state = this.host.getState() ?? {};
+    const packedState = await packJson(state);
+    this.lacksMap = packedState.length > MAX_LENGTH;
+    // The start pose belongs to the map.
+    return this.lacksMap ? packJson({ ...state, map: undefined, start: undefined }) : packedState;
   }
 }
 

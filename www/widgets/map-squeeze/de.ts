@@ -30,6 +30,7 @@ export const de: typeof import('./en.ts').en = {
   unknown: { free: 'frei', blocked: 'gesperrt' },
   views: { whole: 'ganze Karte', close: 'aus der Nähe' },
   robotAndMap: 'Roboter und Karte',
+  mapNotInLink: 'Ihre Karte ist zu groß für einen Link und nicht dabei: Es öffnet sich die Wohnung.',
   mapNotInCode: 'Ihre Karte ist nicht dabei: Geben Sie sie der Eigenschaft map; sonst öffnet sich die Wohnung.',
   condition: 'Stichproben mit der Karte prüfen',
   headline: {

@@ -32,6 +32,7 @@ export const en = {
   unknown: { free: 'free', blocked: 'blocked' },
   views: { whole: 'whole map', close: 'close-up' },
   robotAndMap: 'Robot and map',
+  mapNotInLink: 'Your map is too large for a link and is not in it: the figure opens with the apartment.',
   mapNotInCode: 'Your map is not in it: give it to the property map, or the figure opens with the apartment.',
   condition: 'Check samples against the map',
   headline: {

@@ -118,6 +118,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
         ...Object.values(bits).map((bit) => Math.sign(verdicts[i] & bit)),
       ],
       count: verdicts.length,
+      notInLink: this.link.lacksMap ? words.squeeze.mapNotInLink : '',
       notInCode: this.map ? words.squeeze.mapNotInCode : '',
     };
   }

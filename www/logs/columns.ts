@@ -60,7 +60,7 @@ const FIELD_PATTERNS: [Field, string[]][] = [
   ['qw', ['q\\..*\\.w', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?w`]],
   ['omega', [`${TWIST}(?:angular|ang)\\.(?:vel(?:ocity)?\\.)?z`, 'omega(?:\\.z)?|ω', '(?:yaw|turn|heading)\\.?(?:rate|vel(?:ocity)?)|wz?', '(?:angular|ang)(?:\\.?(?:vel(?:ocity)?|speed|rate))?', 'vel(?:ocity)?\\.(?:yaw|theta)']],
   ['v', [`${TWIST}(?:linear|lin)\\.(?:vel(?:ocity)?\\.)?x`, 'vx?', '(?:linear|lin|forward|fwd)?\\.?(?:vel(?:ocity)?|speed)(?:\\.x)?|linear|lin']],
-  ['yaw', [`${POSE}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading|gier(?:winkel)?)(?:\\.angle)?`, 'θ|ψ|psi|phi']],
+  ['yaw', [`${POSE}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading|gier(?:winkel)?)(?:\\.angle)?`, 'θ|ψ|psi|phi|orientation']],
   ['x', ['p\\..*\\.x', 'east(?:ing)?', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?x`, `${POSE}x(?:\\.?pos(?:ition)?)?`]],
   ['y', ['p\\..*\\.y', 'north(?:ing)?', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?y`, `${POSE}y(?:\\.?pos(?:ition)?)?`]],
   ['z', ['p\\..*\\.z', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?z`, `${POSE}z(?:\\.?pos(?:ition)?)?`]],

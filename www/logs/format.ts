@@ -187,7 +187,7 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
     const isComment = /^#|^%(?!time)/.test(textLine) || textLine !== line.trim();
     const commentText = textLine.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
     // A commented header may have another separator than the rows.
-    const possibleCells = [cellsOf(commentText, separator), ...(isComment ? [commentText.split(/[\s,;]+(?![[(])/)] : [])];
+    const possibleCells = [cellsOf(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}|\t/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
     const names = possibleCells.find((each) => each.length === width) ?? possibleCells[0];
     if (!isHeader(names)) continue;
     const fieldNames = columnGroups(names, row).flatMap(({ columns }) => Object.keys(columns));

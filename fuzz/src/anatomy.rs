@@ -70,13 +70,13 @@ fn assert_results(machine: &ArcAnatomy) {
         assert!(deviation.is_finite() || factor.deviation == 0.0, "{factor:?}");
     }
     assert!(prob >= 0.0 && (0.0..=1.0).contains(&share), "p = {prob}, {share} of its highest");
-    let all_noisy = factors.iter().all(|factor| factor.deviation > 0.0);
-    assert!(density.is_some() == all_noisy && density.is_none_or(|density| density >= 0.0), "{density:?}");
+    let all_factors_noisy = factors.iter().all(|factor| factor.deviation > 0.0);
+    assert!(density.is_some() == all_factors_noisy && density.is_none_or(|density| density >= 0.0), "{density:?}");
     assert!(settings.printed || driven == inverted, "{driven:?} {inverted:?}");
 
     let (start, next) = poses(settings);
     let largest_extent =
-        [start.x(), start.y(), next.x(), next.y()].iter().fold(0.0, |most: f64, at| most.max(at.abs()));
+        [start.x(), start.y(), next.x(), next.y()].iter().fold(0.0, |largest: f64, at| largest.max(at.abs()));
     let distance_to_next = |[x, y]: [f64; 2]| (x - next.x()).hypot(y - next.y());
     // With a signed radius, both the inverted arc and the constant twist lead to the final position.
     let arc_ends = [[inverted.end[0], inverted.end[1]], position_at(machine, 1.0)];

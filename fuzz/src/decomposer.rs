@@ -140,7 +140,7 @@ fn assert_results(machine: &OdometryDecomposer) {
     let [x, y, _] = settings.to.0;
     let [.., end] = machine.linkage();
     let distance_to_end = (end.x() - x).hypot(end.y() - y);
-    let largest_coordinate = settings.from.0.iter().chain(&settings.to.0).fold(0.0, |most: f64, at| most.max(at.abs()));
+    let largest_coordinate = settings.from.0.iter().chain(&settings.to.0).fold(0.0, |largest: f64, at| largest.max(at.abs()));
     assert!(distance_to_end <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * largest_coordinate, "{end:?} for {settings:?}: {distance_to_end}");
 
     // Asserts that a machine depends on its settings only, and not on earlier calls.

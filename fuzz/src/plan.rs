@@ -56,7 +56,7 @@ pub fn read_plan(input: &mut Input) -> Option<FloorPlan> {
     let are_valid_bounds = bounds.iter().all(|bound| bound.abs() <= 1e6)
         && [right - left, top - bottom].iter().all(|side| (0.01..=1e5).contains(side));
     // The edge has a tolerance for rounding.
-    let edge_tolerance = 1e-12 * bounds.iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
+    let edge_tolerance = 1e-12 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs()));
     let is_outside = |[x, y]: [f64; 2]| {
         !(left - edge_tolerance..=right + edge_tolerance).contains(&x) || !(bottom - edge_tolerance..=top + edge_tolerance).contains(&y)
     };
@@ -160,6 +160,6 @@ fn depth_inside(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
 /// Tolerance for rounding in m, as `FloorPlan` has it at the edge of a map: some thousand units in the last place of the
 /// largest number.
 fn rounding_error(plan: &FloorPlan, arc: &Arc, clearance: f64) -> f64 {
-    let largest_coordinate = plan.bounds().iter().fold(0.0, |most: f64, bound| most.max(bound.abs()));
+    let largest_coordinate = plan.bounds().iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs()));
     1e-12 * (largest_coordinate + arc.length.abs() + clearance)
 }

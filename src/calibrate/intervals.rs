@@ -167,18 +167,18 @@ pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<N
         if marginal >= MIN_INFORMATION {
             return Some(NotIdentifiable::Collinear);
         }
-        let by_turn = model.grows_with_turn(alpha);
+        let uses_turn = model.grows_with_turn(alpha);
         let uses_alpha = |observation: &&Observation| {
             let is_observed =
                 |k: usize| model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan();
             let motion = &observation.expected;
             let moves =
-                if by_turn { turn(motion) > MIN_TURN_ANGLE } else { distance(motion) > MIN_DRIVE_DISTANCE };
+                if uses_turn { turn(motion) > MIN_TURN_ANGLE } else { distance(motion) > MIN_DRIVE_DISTANCE };
             moves && (0..3).any(is_observed)
         };
         Some(match sample.observations.iter().filter(uses_alpha).count() {
             count if count >= MIN_MOVING_LEGS => NotIdentifiable::ReferenceTooNoisy,
-            _ if by_turn => NotIdentifiable::InsufficientRotation,
+            _ if uses_turn => NotIdentifiable::InsufficientRotation,
             _ => NotIdentifiable::InsufficientTranslation,
         })
     };

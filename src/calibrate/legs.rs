@@ -190,7 +190,7 @@ impl Drive<'_> {
             if odometry.has_break_before(sample) && start.take().is_some() {
                 lost.across_breaks += 1;
             }
-            let Some(((start_time, start_pose), start_end)) = start else {
+            let Some(((start_time, start_pose), leg_start)) = start else {
                 start = Some(((time, pose), self.end_at(sample, clock_offset)));
                 (follows_previous, pause_seen) = (false, false);
                 continue;
@@ -200,12 +200,12 @@ impl Drive<'_> {
             if !length.is_complete(&ends, time - start_time) {
                 continue;
             }
-            let end_end = self.end_at(sample, clock_offset);
-            let (Some(from), Some(to)) = (start_end, end_end) else {
+            let leg_end = self.end_at(sample, clock_offset);
+            let (Some(from), Some(to)) = (leg_start, leg_end) else {
                 // The leg stays open until it is too long: the reference may come back.
-                if start_end.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+                if leg_start.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
                     lost.without_reference += 1;
-                    (start, follows_previous) = (Some(((time, pose), end_end)), false);
+                    (start, follows_previous) = (Some(((time, pose), leg_end)), false);
                 }
                 continue;
             };
@@ -214,7 +214,7 @@ impl Drive<'_> {
                 continue;
             }
             start = Some(((time, pose), Some(to)));
-            let (has_paused, did_follow) =
+            let (has_paused, had_followed) =
                 (std::mem::take(&mut pause_seen), std::mem::replace(&mut follows_previous, true));
             let motion = from.odometry.between(&to.odometry);
             if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
@@ -233,7 +233,7 @@ impl Drive<'_> {
                     velocities: [from.velocity, to.velocity],
                     reference: [from.reference, to.reference],
                     interpolation_variances: [from.interpolation_variance, to.interpolation_variance],
-                    follows: did_follow,
+                    follows: had_followed,
                     drive: 0,
                 });
             }

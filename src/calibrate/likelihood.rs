@@ -131,9 +131,10 @@ impl Expansion {
 impl Term {
     pub fn new(model: Model, leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
         let residuals = observation.residuals;
-        let by_error = observation.jacobian * corrected.motion_jacobian(model, leg, &observation.expected);
+        let error_jacobian =
+            observation.jacobian * corrected.motion_jacobian(model, leg, &observation.expected);
         // Squares of huge numbers would overflow: such a leg is not used.
-        if residuals.iter().chain(&by_error).any(|entry| entry.abs() > MAX_ENTRY) {
+        if residuals.iter().chain(&error_jacobian).any(|entry| entry.abs() > MAX_ENTRY) {
             let [start, end] = [Matrix3::zeros(); 2];
             return Self {
                 columns: WideMatrix::ZERO,
@@ -146,10 +147,12 @@ impl Term {
         let observed = residuals.map(|residual| !residual.is_nan());
         let columns = WideMatrix::from_fn(|k, column| match column {
             RESIDUAL_COLUMN if observed[k] => residuals[k],
-            0..RESIDUAL_COLUMN => by_error[(k, column)],
+            0..RESIDUAL_COLUMN => error_jacobian[(k, column)],
             _ => 0.0,
         });
-        let [start, end] = corrected.reference_jacobians(leg).map(|by_error| observation.jacobian * by_error);
+        let [start, end] = corrected
+            .reference_jacobians(leg)
+            .map(|reference_jacobian| observation.jacobian * reference_jacobian);
         Self { columns, coefficients: observation.coefficients, observed, start, end }
     }
 }
@@ -245,9 +248,9 @@ impl Residuals {
                 (mean, prior) = initial_state;
             }
             let columns = term.columns.with_added(&mean.left_multiplied(&-term.start));
-            let by_end = scaled_columns(&term.end, &reference_variances);
+            let scaled_end = scaled_columns(&term.end, &reference_variances);
             let mut covariance = product(&product(&term.start, &prior), &term.start.transpose())
-                + product(&by_end, &term.end.transpose());
+                + product(&scaled_end, &term.end.transpose());
             let wheels = self.model.wheel_variances(&term.coefficients, parameters);
             for k in 0..3 {
                 covariance[(k, k)] += wheels[k] + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
@@ -258,7 +261,7 @@ impl Residuals {
                 log_det += libm::log(det.max(f64::MIN_POSITIVE));
                 det = 1.0;
             }
-            let gain = product(&by_end.transpose(), &weight);
+            let gain = product(&scaled_end.transpose(), &weight);
             gram.add_product(&columns, &columns.left_multiplied(&weight));
             mean = columns.left_multiplied(&gain);
             prior = Matrix3::from_diagonal(&reference_variances)

@@ -137,13 +137,16 @@ impl Systematic {
         let [mount, turned] = [self.mount_yaw, measured.theta()].map(rotation_matrix);
         let arm = turned * Vector2::from(self.lever_arm);
         // Displacement of the base for each rad by which the reference's heading at the end is too large.
-        let by_lever = Vector2::new(arm.y, -arm.x);
-        let by_turn = mount * Vector2::new(-measured.y(), measured.x());
+        let lever_derivative = Vector2::new(arm.y, -arm.x);
+        let turn_derivative = mount * Vector2::new(-measured.y(), measured.x());
         let jacobian = |place: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
             Matrix3::new(place.m11, place.m12, heading.x, place.m21, place.m22, heading.y, 0.0, 0.0, turn)
         };
         let [start, end] = leg.interpolation_variances.map(f64::sqrt);
-        [jacobian(-mount, -by_turn - by_lever, -1.0) * start, jacobian(mount * turned, by_lever, 1.0) * end]
+        [
+            jacobian(-mount, -turn_derivative - lever_derivative, -1.0) * start,
+            jacobian(mount * turned, lever_derivative, 1.0) * end,
+        ]
     }
 
     /// Returns the Jacobian, with respect to [`SystematicError::ALL`], of the motion by the reference minus the motion by the odometry.

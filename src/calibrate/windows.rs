@@ -188,13 +188,13 @@ pub(super) fn recommend(fit: &Fit, whole_log: &Sample, alphas: &[Option<f64>]) -
     let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected_coverage)];
     // Windows of the whole log, each under the fit to the other half.
     let halves = half_ranges(whole_log.legs.len());
-    let held_out = || halves.iter().cloned().zip(&by_other_half);
-    let covariances: Vec<Option<Matrix3<f64>>> = held_out()
+    let halves_with_parameters = || halves.iter().cloned().zip(&by_other_half);
+    let covariances: Vec<Option<Matrix3<f64>>> = halves_with_parameters()
         .flat_map(|(half, parameters)| half.map(|leg| whole_log.wheel_covariance(leg, parameters)))
         .collect();
     let windows = WINDOW_LENGTHS.map(|length| {
         let windows_of_half = |(half, parameters)| whole_log.windows(half, length, &covariances, parameters);
-        held_out().flat_map(windows_of_half).collect::<Vec<_>>()
+        halves_with_parameters().flat_map(windows_of_half).collect::<Vec<_>>()
     });
     let inflation = required_inflation(&windows[0]);
     let coverages: Vec<WindowCoverage> =

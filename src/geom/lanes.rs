@@ -106,9 +106,9 @@ impl Trigonometry {
     pub fn any_half_turn(&self, half: f64x4, near: f64) -> HalfTurn {
         let mut wrapped_half = without_half_circles(half, whole_half_circles(half - near));
         if any_beyond(half - near, MAX_REDUCED) {
-            let by_scalar = |half: f64| near + 0.5 * wrap_angle(2.0 * (half - near));
+            let wrapped_near = |half: f64| near + 0.5 * wrap_angle(2.0 * (half - near));
             let is_far = (half - near).abs().simd_gt(f64x4::splat(MAX_REDUCED));
-            wrapped_half = is_far.bitselect(from_lanes(|i| by_scalar(half.to_array()[i])), wrapped_half);
+            wrapped_half = is_far.bitselect(from_lanes(|i| wrapped_near(half.to_array()[i])), wrapped_half);
         }
         let Circle { sinc, sin, cos } = self.any_circle(wrapped_half);
         HalfTurn { half: wrapped_half, cotangent: cos / sinc, sinc, sin, cos }

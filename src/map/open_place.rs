@@ -112,7 +112,7 @@ impl<'a> SquareRaster<'a> {
 
     /// Returns the heading in which the robot gets furthest over free squares.
     fn heading_of_longest_path(&self, [x, y]: [f64; 2], fits: impl Fn(&[f64; 2]) -> bool) -> f64 {
-        let (mut most_steps, mut heading) = (0, 0.0);
+        let (mut max_steps, mut heading) = (0, 0.0);
         for i in 0..HEADING_COUNT {
             let tried_heading = TAU * f64::from(i) / f64::from(HEADING_COUNT);
             let (sin, cos) = libm::sincos(tried_heading);
@@ -121,8 +121,8 @@ impl<'a> SquareRaster<'a> {
                 .map(|length| [x + length * cos, y + length * sin])
                 .take_while(|point| self.is_free_at(*point) && fits(point))
                 .count();
-            if free_steps > most_steps {
-                (most_steps, heading) = (free_steps, tried_heading);
+            if free_steps > max_steps {
+                (max_steps, heading) = (free_steps, tried_heading);
             }
         }
         heading

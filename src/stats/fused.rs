@@ -258,9 +258,9 @@ impl SecondPass {
         let theta_sin = poses.half_sin * poses.half_cos * 2.0;
         let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
         let s = (theta_sin * cos - theta_cos * sin) & mask;
-        let one_if_counted = f64x4::splat(1.0) & mask;
-        let in_ellipse = self.ellipse.contains_four(poses.x, poses.y) & one_if_counted;
-        let in_contour = self.twist_ellipse.contains_four(poses.along, poses.half * 2.0) & one_if_counted;
+        let lane_counts = f64x4::splat(1.0) & mask;
+        let in_ellipse = self.ellipse.contains_four(poses.x, poses.y) & lane_counts;
+        let in_contour = self.twist_ellipse.contains_four(poses.along, poses.half * 2.0) & lane_counts;
         let d2 = d * d;
         let d3 = d2 * d;
         let [ad, ad2, d4, d5, d6] = [a * d, a * d2, d2 * d2, d2 * d3, d3 * d3];

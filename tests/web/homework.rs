@@ -21,13 +21,13 @@ const VALUES: &str = "{
     back: { x: 0.1, y: -2.4, theta: 0.55 }, reverse: { rot1: 3, trans: 1, rot2: -3 },
 }";
 const COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
-const CONTROL: OdomDelta = OdomDelta { rot1: 0.2, trans: 1.0, rot2: 0.3 };
+const READING: OdomDelta = OdomDelta { rot1: 0.2, trans: 1.0, rot2: 0.3 };
 const REVERSE: OdomDelta = OdomDelta { rot1: 3.0, trans: 1.0, rot2: -3.0 };
-const VELOCITY: VelocityModel = VelocityModel {
+const VELOCITY_MODEL: VelocityModel = VelocityModel {
     alphas: VelocityAlphas([0.02, 0.03, 0.04, 0.05, 0.01, 0.02]),
     noise: NoiseKind::Triangular,
 };
-const ODOMETRY: OdometryModel =
+const ODOMETRY_MODEL: OdometryModel =
     OdometryModel { alphas: OdomAlphas([0.1, 0.05, 0.02, 0.03]), noise: NoiseKind::Normal };
 
 fn start() -> SE2 {
@@ -49,6 +49,10 @@ fn coordinates(pose: &SE2) -> [f64; 3] {
 fn draws<M: MotionModel>(model: &M, control: &M::Control) -> Vec<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
     (0..5).flat_map(|_| coordinates(&model.sample(control, &start(), &mut rng))).collect()
+}
+
+fn scores<M: MotionModel>(model: &M, next: &SE2, control: &M::Control) -> (f64, Option<f64>) {
+    (model.prob(next, control, &start()), model.pose_density(next, control, &start()))
 }
 
 fn rows_of(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
@@ -109,28 +113,19 @@ fn models_score_and_draw_as_in_rust() {
             .map(([model, next, control]) =>
                 [model.prob(next, control, it.start), model.poseDensity(next, control, it.start)])",
     );
-    assert_eq!(
-        velocity,
-        (VELOCITY.prob(&next(), &COMMAND, &start()), VELOCITY.pose_density(&next(), &COMMAND, &start()))
-    );
-    assert_eq!(
-        odometry,
-        (ODOMETRY.prob(&next(), &CONTROL, &start()), ODOMETRY.pose_density(&next(), &CONTROL, &start()))
-    );
-    let model = ReverseAware(ODOMETRY);
-    assert_eq!(
-        aware,
-        (model.prob(&behind(), &REVERSE, &start()), model.pose_density(&behind(), &REVERSE, &start()))
-    );
-    assert!(aware.0 > 10.0 * ODOMETRY.prob(&behind(), &REVERSE, &start()), "the option has an effect");
+    assert_eq!(velocity, scores(&VELOCITY_MODEL, &next(), &COMMAND));
+    assert_eq!(odometry, scores(&ODOMETRY_MODEL, &next(), &READING));
+    let model = ReverseAware(ODOMETRY_MODEL);
+    assert_eq!(aware, scores(&model, &behind(), &REVERSE));
+    assert!(aware.0 > 10.0 * ODOMETRY_MODEL.prob(&behind(), &REVERSE, &start()), "the option has an effect");
 
     assert_eq!(
         it.get::<Vec<f64>>("it.velocity.sample(it.command, it.start, 5, 9)"),
-        draws(&VELOCITY, &COMMAND)
+        draws(&VELOCITY_MODEL, &COMMAND)
     );
     assert_eq!(
         it.get::<Vec<f64>>("it.odometry.sample(it.control, it.start, 5, 9)"),
-        draws(&ODOMETRY, &CONTROL)
+        draws(&ODOMETRY_MODEL, &READING)
     );
     assert_eq!(it.get::<Vec<f64>>("it.aware.sample(it.reverse, it.start, 5, 9)"), draws(&model, &REVERSE));
     it.assert("it.aware.sample(it.reverse, it.start, 5, 9) instanceof Float64Array");
@@ -141,7 +136,7 @@ fn models_score_and_draw_as_in_rust() {
 
 #[wasm_bindgen_test]
 fn covariances_are_propagated_as_in_rust() {
-    let noise = TangentNoiseModel::from_velocity(&VELOCITY, &COMMAND).expect("a covariance");
+    let noise = TangentNoiseModel::from_velocity(&VELOCITY_MODEL, &COMMAND).expect("a covariance");
     let twist = TangentNoiseModel::twist(&COMMAND);
     let it = Object::new(VALUES);
     for (word, order) in [

@@ -63,9 +63,9 @@ settings! {
 /// Descriptions of the attributes `alpha1`, `alpha2`, …, which a native test writes to `www/settings.js`.
 #[cfg(not(target_arch = "wasm32"))]
 pub const ALPHA_SENTENCES: [&str; 6] = {
-    let (of_present, of_velocity) =
+    let (present_model, velocity_model) =
         ("Noise parameter of the present model.", "Noise parameter of the velocity model.");
-    [of_present, of_present, of_present, of_present, of_velocity, of_velocity]
+    [present_model, present_model, present_model, present_model, velocity_model, velocity_model]
 };
 
 impl Settings {

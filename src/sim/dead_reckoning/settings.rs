@@ -64,8 +64,8 @@ pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."
 
 impl Settings {
     fn heading_noise_level(&mut self) -> NoiseLevel<'_, 4> {
-        let [_, _, of_heading @ ..] = &mut self.alphas;
-        NoiseLevel(of_heading)
+        let [_, _, heading_alphas @ ..] = &mut self.alphas;
+        NoiseLevel(heading_alphas)
     }
 
     /// Returns the level of the heading noise; None if α₃ to α₆ are not in the ratios of a level.

@@ -97,9 +97,9 @@ fn legs_that_hardly_move_are_not_compared() {
 #[test]
 fn few_legs_are_questionable_and_fewer_unusable() {
     assert_fails(EnoughLegs, &calibrated(&good_log(80, 3)));
-    let few_legs = calibrated(&good_log(25, 3));
-    assert!(failed_checks(&few_legs).contains(&EnoughLegs));
-    assert_unusable(&few_legs, "25 legs");
+    let few_legs_fit = calibrated(&good_log(25, 3));
+    assert!(failed_checks(&few_legs_fit).contains(&EnoughLegs));
+    assert_unusable(&few_legs_fit, "25 legs");
 }
 
 /// The reference is missing during 30 s of each 90 s.

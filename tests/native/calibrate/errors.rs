@@ -183,18 +183,18 @@ fn four_drives_tell_as_much_as_one_that_is_as_long() {
         .map(|(offset, seed)| simulation_with_clock(offset, 300, seed).log())
         .collect();
     let drives: Vec<Drive> = logs.iter().map(|[odometry, reference]| Drive { odometry, reference }).collect();
-    let of_four_drives = calibrate(&drives, &options_of(NAV2)).expect("legs enough");
-    let of_one_drive = calibrated(&simulation_with_clock(0.0, 1200, 20));
-    assert!(of_four_drives.legs.len() > 1190, "{}", of_four_drives.legs.len());
+    let four_drives = calibrate(&drives, &options_of(NAV2)).expect("legs enough");
+    let one_drive = calibrated(&simulation_with_clock(0.0, 1200, 20));
+    assert!(four_drives.legs.len() > 1190, "{}", four_drives.legs.len());
     for (alpha, truth) in ALPHAS.into_iter().enumerate().take(4) {
         let width = |calibration: &Calibration| {
             let [low, high] = calibration.intervals[alpha].expect("identifiable");
             (high - low) / calibration.alphas[alpha].expect("identifiable")
         };
-        let ratio = width(&of_four_drives) / width(&of_one_drive);
+        let ratio = width(&four_drives) / width(&one_drive);
         assert!((ratio - 1.0).abs() < 0.3, "α{}: {ratio}", alpha + 1);
         // Standard errors are at most 9 %; four of them are allowed.
-        let ratio_to_truth = of_four_drives.alphas[alpha].expect("identifiable") / truth;
+        let ratio_to_truth = four_drives.alphas[alpha].expect("identifiable") / truth;
         assert!((ratio_to_truth - 1.0).abs() < 0.36, "α{}: {ratio_to_truth}", alpha + 1);
     }
 }

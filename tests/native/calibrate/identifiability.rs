@@ -84,15 +84,15 @@ fn assert_reasons(models: &[Model]) {
     let (mut covered_count, mut intervals) = (0, 0);
     for &model in models {
         for IncompleteDrive { name, drive, odometry, velocity, complete } in &INCOMPLETE_DRIVES {
-            let by_commands = model == Model::Velocity;
-            let expected: &[_] = if by_commands { velocity } else { odometry };
+            let uses_commands = model == Model::Velocity;
+            let expected: &[_] = if uses_commands { velocity } else { odometry };
             let calibration = calibrated_drive(model, *drive);
             assert_eq!(calibration.not_identifiable, expected[..model.alphas()], "{model:?} {name}");
             for (k, reason) in calibration.not_identifiable.iter().enumerate() {
                 let is_estimated = [calibration.alphas[k].is_some(), calibration.intervals[k].is_some()];
                 assert_eq!(is_estimated, [reason.is_none(); 2], "{model:?} {name}: α{}", k + 1);
             }
-            let complete_calibration = calibrated_drive(model, complete[usize::from(by_commands)]);
+            let complete_calibration = calibrated_drive(model, complete[usize::from(uses_commands)]);
             assert!(complete_calibration.not_identifiable.iter().all(Option::is_none), "{model:?} {name}");
             for (interval, truth) in complete_calibration.intervals.iter().zip(ALPHAS) {
                 let [low, high] = interval.expect("identifiable");

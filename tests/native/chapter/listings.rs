@@ -79,13 +79,14 @@ fn a_readers_velocity_model_is_the_crates() {
     let x = SE2::new(2.0, -1.0, 0.4);
     let (mut rng1, mut rng2) = (SmallRng::seed_from_u64(7), SmallRng::seed_from_u64(7));
     for _ in 0..1000 {
-        let (by_radius, by_chord) =
+        let (pose, expected_pose) =
             (reader.sample(&COMMAND, &x, &mut rng1), ours.sample(&COMMAND, &x, &mut rng2));
         // A small ω̂ loses digits: the radius v̂/ω̂ multiplies the rounding of two sines, 2e-16 each.
-        let bound = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &by_chord, 1.0).omega_hat.abs());
-        assert!((by_radius.x() - by_chord.x()).abs() < bound && (by_radius.y() - by_chord.y()).abs() < bound);
-        assert!((by_radius.theta() - by_chord.theta()).abs() < 1e-15 * 4.0);
-        let [prob, expected] = [reader.prob(&by_chord, &COMMAND, &x), ours.prob(&by_chord, &COMMAND, &x)];
+        let bound = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &expected_pose, 1.0).omega_hat.abs());
+        assert!((pose.x() - expected_pose.x()).abs() < bound && (pose.y() - expected_pose.y()).abs() < bound);
+        assert!((pose.theta() - expected_pose.theta()).abs() < 1e-15 * 4.0);
+        let [prob, expected] =
+            [reader.prob(&expected_pose, &COMMAND, &x), ours.prob(&expected_pose, &COMMAND, &x)];
         assert!((prob - expected).abs() <= 1e-14 * expected);
     }
     assert_eq!(reader.tangent_cov(&COMMAND), ours.tangent_cov(&COMMAND));

@@ -33,16 +33,16 @@ fn assert_printed(value: f64, printed: f64, decimals: i32, what: &str) {
 
 #[test]
 fn the_arc_and_the_exponential_map_end_at_the_printed_pose() {
-    let noise_free = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
-    let by_arc = noise_free.sample(&U, &SE2::identity(), &mut SmallRng::seed_from_u64(0));
-    let by_exp = SE2::exp(&Vector3::new(U.v * U.dt, 0.0, U.omega * U.dt));
-    for end in [by_arc, by_exp] {
+    let model = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
+    let arc_end = model.sample(&U, &SE2::identity(), &mut SmallRng::seed_from_u64(0));
+    let twist_end = SE2::exp(&Vector3::new(U.v * U.dt, 0.0, U.omega * U.dt));
+    for end in [arc_end, twist_end] {
         assert_relative_eq!(end.x(), 0.958_851_077_208, epsilon = 1e-12);
         assert_relative_eq!(end.y(), 0.244_834_876_219, epsilon = 1e-12);
         assert_eq!(end.theta(), 0.5);
     }
-    assert_relative_eq!(by_arc.x(), 2.0 * 0.5f64.sin(), epsilon = 1e-15);
-    assert_relative_eq!(by_arc.y(), 2.0 * (1.0 - 0.5f64.cos()), epsilon = 1e-15);
+    assert_relative_eq!(arc_end.x(), 2.0 * 0.5f64.sin(), epsilon = 1e-15);
+    assert_relative_eq!(arc_end.y(), 2.0 * (1.0 - 0.5f64.cos()), epsilon = 1e-15);
 }
 
 #[test]

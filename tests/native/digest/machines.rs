@@ -115,18 +115,18 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
     }
     let machine = DeadReckoning::new(configuration.settings(defaults)).expect("a valid setting");
     let (settings, stats) = (machine.settings(), machine.stats());
-    let each_step = |value: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
+    let values_by_step = |value: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
         (0..machine.measured().len()).flat_map(|k| <[f64; 3]>::from(value(k))).collect()
     };
     let none = Vector3::repeat(f64::NAN);
     let [ratios, predicted] = [
-        RECURSIONS.map(|order| each_step(&|k| machine.comparison(order).ratios[k])),
+        RECURSIONS.map(|order| values_by_step(&|k| machine.comparison(order).ratios[k])),
         RECURSIONS
-            .map(|order| each_step(&|k| machine.predicted(order)[k].map_or(none, |cov| cov.diagonal()))),
+            .map(|order| values_by_step(&|k| machine.predicted(order)[k].map_or(none, |cov| cov.diagonal()))),
     ]
     .map(<(_, _, _)>::from);
-    let measured = each_step(&|k| machine.measured()[k].cov.diagonal());
-    let relative_errors = each_step(&|k| machine.measured()[k].relative_error);
+    let measured = values_by_step(&|k| machine.measured()[k].cov.diagonal());
+    let relative_errors = values_by_step(&|k| machine.measured()[k].relative_error);
     let misses = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order].map(|axes| {
         axes.map(|Misses { decidable, first, last, end, error }| (decidable, first, last, end, error))
     });

@@ -21,10 +21,10 @@ fn the_last_turn_explains_the_low_probability() {
     deviations.assert(factors[2].deviations, 0.0);
     share_of_factor.assert_percent(factors[2].share, 0.0);
     share_of_product.assert_percent(share, 0.0);
-    let [share_left] =
+    let [remaining_share] =
         page().numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
     let Stats { factors, share, .. } = stats(without_wedge(Settings::default()));
-    share_left.assert_percent(share, 0.0);
+    remaining_share.assert_percent(share, 0.0);
     assert!((factors[2].share - 1.0).abs() < 1e-12);
 }
 

@@ -75,13 +75,13 @@ fn the_variances_of_each_rule_match_its_source() {
 #[test]
 fn nav2_and_beluga_disagree_at_a_centimetre_alone() {
     let reading = |trans| delta(1.0, trans, -0.4);
-    for (trans, of_nav2, of_beluga) in [
+    for (trans, nav2_rot1, beluga_rot1) in [
         (MAX_SPIN_DISTANCE.next_down(), 0.0, 0.0),
         (MAX_SPIN_DISTANCE, 1.0, 0.0),
         (MAX_SPIN_DISTANCE.next_up(), 1.0, 1.0),
     ] {
         let rot1_of = |rule: OdometryRule| rule.legs(&reading(trans)).rot1;
-        assert_eq!([rot1_of(Nav2), rot1_of(Beluga)], [of_nav2, of_beluga], "{trans}");
+        assert_eq!([rot1_of(Nav2), rot1_of(Beluga)], [nav2_rot1, beluga_rot1], "{trans}");
         for rule in OdometryRule::ALL {
             let OdomDelta { rot1, rot2, .. } = rule.legs(&reading(trans));
             assert!((rot1 + rot2 - 0.6).abs() < 1e-15, "{rule:?} loses a turn");

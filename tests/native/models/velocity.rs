@@ -18,7 +18,7 @@ fn command(v: f64, omega: f64, dt: f64) -> VelocityCmd {
     VelocityCmd { v, omega, dt }
 }
 
-fn noise_free(u: &VelocityCmd, x: &SE2) -> SE2 {
+fn noise_free_end(u: &VelocityCmd, x: &SE2) -> SE2 {
     model(WITHOUT_LAST_TURN, NoiseKind::Normal).apply_noise(u, x, [0.0; 3])
 }
 
@@ -44,7 +44,7 @@ fn prob_falls_off_as_the_noise_does() {
         let model = model(WITH_LAST_TURN, kind);
         for u in commands().into_iter().filter(|u| u.v != 0.0) {
             for x in starts() {
-                let peak = model.prob(&noise_free(&u, &x), &u, &x);
+                let peak = model.prob(&noise_free_end(&u, &x), &u, &x);
                 for control in 0..3 {
                     for sign in [1.0, -1.0] {
                         let mut unit = [0.0; 3];
@@ -65,7 +65,7 @@ fn zero_noise_gives_certainty_and_no_density() {
         let noise_free_model = model(VelocityAlphas([0.0; 6]), kind);
         for u in commands() {
             for x in starts() {
-                let end = noise_free(&u, &x);
+                let end = noise_free_end(&u, &x);
                 assert_eq!(noise_free_model.sample(&u, &x, &mut rng), end);
                 assert_eq!(noise_free_model.prob(&end, &u, &x), 1.0);
                 assert_eq!(noise_free_model.prob(&end.boxplus(Vector3::new(0.0, 0.0, 1e-3)), &u, &x), 0.0);
@@ -135,7 +135,7 @@ fn the_pose_density_divides_by_the_jacobian() {
 /// multiples of √6 deviations, lie on bounds of cells. A turn changes the bearing by half of it.
 fn box_around(model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> Grid {
     let [v, omega, gamma] = model.variances(u).map(|b2| 2.0 * (6.0 * b2.0).sqrt() * u.dt);
-    Grid::new(x, &noise_free(u, x), 2.0, [v, 0.5 * omega, gamma], [8; 3])
+    Grid::new(x, &noise_free_end(u, x), 2.0, [v, 0.5 * omega, gamma], [8; 3])
 }
 
 /// With noise as large as the motion, robots also drive backwards and turn by more than a circle. The v̂ of a spin has either sign.

@@ -182,16 +182,16 @@ fn the_nearest_leg_is_the_one_that_leads_by() {
 #[test]
 fn the_model_and_the_rule_go_together() {
     use motion::sim::settings::Rules;
-    let settled_by = |change: fn(&mut Settings), named: &str| {
+    let settings_after = |change: fn(&mut Settings), named: &str| {
         let before = Settings::default();
         let mut settings = before;
         change(&mut settings);
         settings.settle(&before, &[named]);
         settings
     };
-    assert_eq!(settled_by(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
-    assert_eq!(settled_by(|s| s.rule = OdometryRule::Omni, "rule").model, Model::Omnidirectional);
-    assert_eq!(settled_by(|s| s.rule = OdometryRule::Nav2, "rule").model, Model::Odometry);
+    assert_eq!(settings_after(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
+    assert_eq!(settings_after(|s| s.rule = OdometryRule::Omni, "rule").model, Model::Omnidirectional);
+    assert_eq!(settings_after(|s| s.rule = OdometryRule::Nav2, "rule").model, Model::Odometry);
     let omni_odometry = Settings { model: Model::Odometry, rule: OdometryRule::Omni, ..Settings::default() };
     let refusal = AlphaCalibrator::new(omni_odometry).expect_err("they do not").to_string();
     assert_eq!(refusal, "rule is omni; allowed is thrun, nav2 or beluga");

@@ -79,8 +79,8 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
         let (_, next) = poses(&settings);
         let Stats { commanded, driven, last_turn, .. } = stats(settings);
         assert!(wrap_angle(driven.end[2] + last_turn - next.theta()).abs() < 1e-13, "{settings:?}");
-        let [as_commanded, as_driven, _] = machine(settings).poses_at(1.0);
-        for (robot, bend) in [(as_commanded, commanded), (as_driven, driven)] {
+        let [commanded_end, driven_end, _] = machine(settings).poses_at(1.0);
+        for (robot, bend) in [(commanded_end, commanded), (driven_end, driven)] {
             assert_eq!([robot.x(), robot.y()], bend.end[..2], "{settings:?}");
         }
     }

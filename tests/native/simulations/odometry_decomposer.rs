@@ -76,9 +76,9 @@ fn the_linkage_is_the_reading() {
         }
     }
     // Without noise every ghost is the linkage itself.
-    let noise_free = machine(Settings { alphas: [0.0; 5], ..Settings::default() });
-    assert_eq!(noise_free.ghosts(7), [noise_free.linkage(); 7]);
-    assert_eq!(noise_free.ghosts(usize::MAX).len(), 500);
+    let noise_free_machine = machine(Settings { alphas: [0.0; 5], ..Settings::default() });
+    assert_eq!(noise_free_machine.ghosts(7), [noise_free_machine.linkage(); 7]);
+    assert_eq!(noise_free_machine.ghosts(usize::MAX).len(), 500);
     let opening = machine(Settings::default());
     for (ghost, pose) in opening.ghosts(20).iter().zip(opening.poses()) {
         assert_eq!(ghost[3], *pose);

@@ -190,8 +190,8 @@ fn degenerate_clouds_give_nan() {
     }
     let along =
         VelocityModel { alphas: VelocityAlphas([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
-    let noise_free = VelocityModel { alphas: VelocityAlphas([0.0; 6]), ..along };
-    assert!(ExactMoments::of_velocity(&noise_free, &U).cross_track_skew.is_nan());
+    let noise_free_model = VelocityModel { alphas: VelocityAlphas([0.0; 6]), ..along };
+    assert!(ExactMoments::of_velocity(&noise_free_model, &U).cross_track_skew.is_nan());
     assert!(ExactMoments::of_velocity(&along, &VelocityCmd { omega: 0.0, ..U }).cross_track_skew.is_nan());
 }
 

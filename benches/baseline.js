@@ -64,10 +64,10 @@ export class Baseline {
     const centre = [mean.x, mean.y, mean.l, mean.t];
     const scales = [...centre, ...whiteningOf(cartesian.cov, 1), ...whiteningOf(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
     const [perX, perY] = [columns / (view.xMax - view.xMin), rows / (view.yMax - view.yMin)];
-    const [inEllipse, inTilted, square, cube, most] = countCells(
+    const [inEllipse, inTilted, square, cube, maxCount] = countCells(
       this.cloud, this.counts, scales, [(noiseFree.x - view.xMin) * perX, perX, (view.yMax - noiseFree.y) * perY, perY, columns, rows],
     );
-    this.#paint(ramp, most);
+    this.#paint(ramp, maxCount);
     return {
       stats: {
         n,

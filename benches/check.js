@@ -45,5 +45,5 @@ export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, 
 /** Returns every number by its path. @param {object | number} value @param {string[]} path @returns {[string, number][]} */
 function numbersByPath(value, ...path) {
   if (typeof value === 'number') return [[path.join('.'), value]];
-  return Object.entries(value).flatMap(([key, each]) => numbersByPath(each, ...path, key));
+  return Object.entries(value).flatMap(([key, member]) => numbersByPath(member, ...path, key));
 }

@@ -24,7 +24,7 @@ const FRAME_MS = 16.7;
 
 /** Returns the report as text. @param {Results} results */
 export function report({ ranOn, quick, node, chromium, start, drags }) {
-  const slowest = drags.reduce((most, drag) => (quantileOf(drag.picture) > quantileOf(most.picture) ? drag : most));
+  const slowest = drags.reduce((slowestSoFar, drag) => (quantileOf(drag.picture) > quantileOf(slowestSoFar.picture) ? drag : slowestSoFar));
   const byRuntime = (/** @type {(measured: Measured) => number[]} */ of) => ({ Node: of(node), Chromium: of(chromium) });
   const refreshOf = (/** @type {number} */ samples) => (/** @type {Measured} */ { refresh }) => refresh.find((row) => row.samples === samples) ?? refresh[0];
   const ratios = (/** @type {Measured['refresh'][number]} */ { core, baseline }) => baseline.map((value, turn) => value / core[turn]);

@@ -189,15 +189,15 @@ async function optimize(path, passes = OPTIMIZER_PASSES) {
 function boundNames(name) {
   const module = new WebAssembly.Module(readFileSync(pathOf(`build/${name}.wasm`)));
   return {
-    imports: WebAssembly.Module.imports(module).map((each) => [each.module, each.name, each.name]),
-    exports: WebAssembly.Module.exports(module).map((each) => [each.name, each.name]),
+    imports: WebAssembly.Module.imports(module).map((entry) => [entry.module, entry.name, entry.name]),
+    exports: WebAssembly.Module.exports(module).map((entry) => [entry.name, entry.name]),
   };
 }
 
 /** Shortens the names in the module, which saves some 2 kB on the wire. @param {string} name of the core @returns {Promise<Names>} */
 async function shortNames(name) {
   const { imports, exports } = JSON.parse(await optimize(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
-  return { exports, imports: imports.map((/** @type {string[]} */ [, each, short]) => ['a', each, short]) };
+  return { exports, imports: imports.map((/** @type {string[]} */ [, name, short]) => ['a', name, short]) };
 }
 
 /**
@@ -222,11 +222,11 @@ async function writeGlue(name, glueNames) {
   const missingChange = name === 'motion' && glueChanges.find(([pattern]) => !script.match(pattern));
   if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, as scripts/build.mjs takes it to have.`);
   const changedGlue = glueChanges.reduce((text, [pattern, instead]) => text.replace(pattern, instead), script);
-  const names = [...script.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, each]) => each);
+  const names = [...script.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, exportName]) => exportName);
   const { build: bundled } = await import('esbuild');
   const gluePlugin = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents: changedGlue })) };
   const { outputFiles } = await bundled({
-    stdin: { contents: `export { ${[...names, ...glueNames.imports.map(([, each]) => each), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: pathOf(`build/bound/${name}`) },
+    stdin: { contents: `export { ${[...names, ...glueNames.imports.map(([, name]) => name), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: pathOf(`build/bound/${name}`) },
     bundle: true,
     format: 'esm',
     write: false,
@@ -234,12 +234,12 @@ async function writeGlue(name, glueNames) {
     plugins: [gluePlugin],
   });
   const shortNameOf = new Map(glueNames.exports);
-  const exportOf = (/** @type {string} */ each) => shortNameOf.get(each) ?? (() => { throw new Error(`The core of ${name} does not export ${each}.`); })();
+  const exportOf = (/** @type {string} */ exportName) => shortNameOf.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
   const body = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, key) => `wasm.${exportOf(key)}`);
   const lines = [
     'export default async (module) => {',
     body,
-    `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, each, key]) => `${key}: ${each}`)} } });`,
+    `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, name, key]) => `${key}: ${name}`)} } });`,
     '__wbg_set_wasm(exports);',
     `exports.${exportOf('__wbindgen_start')}();`,
     `return { ${names} };`,

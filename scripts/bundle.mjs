@@ -338,7 +338,7 @@ async function widgetLoaders() {
 /** Returns the declarations of settings without their documentation, which no page shows. */
 function shortDeclarations() {
   const omittedKeys = ['sentence', 'nullable'];
-  const asJson = (/** @type {unknown} */ value) => JSON.stringify(value, (key, each) => (omittedKeys.includes(key) ? undefined : each));
+  const asJson = (/** @type {unknown} */ value) => JSON.stringify(value, (key, member) => (omittedKeys.includes(key) ? undefined : member));
   return Object.entries(declared)
     .map(([name, value]) => `export const ${name} = ${asJson(value)};\n`)
     .join('');
@@ -361,7 +361,7 @@ const REPLACED_PASSAGES = {
   // The library contains the module as text. Strict content security policies forbid the fetch that reads it.
   'zstddec-stream.mjs': [
     ['typeof fetch !== "undefined"', 'false'],
-    ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (each) => each.charCodeAt(0))'],
+    ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (character) => character.charCodeAt(0))'],
   ],
   'lit-html.js': [
     // The Trusted Types policy gets its own name, because the page may have a Lit that needs Lit's. Without a policy only rendering fails.

@@ -91,7 +91,7 @@ export const classComments = once(async () => {
   const { schemaVersion, modules } = await cli({ argv, cwd: ROOT, noWrite: true });
   /** @type {any[]} */
   const declarations = modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);
-  return { schemaVersion, classes: new Map(declarations.map((each) => [each.name, each])) };
+  return { schemaVersion, classes: new Map(declarations.map((declaration) => [declaration.name, declaration])) };
 });
 
 /** Returns a description without the line ends of its comment. @param {string} text */
@@ -146,10 +146,10 @@ async function widgetOf(tag) {
     .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: oneLine(description), readonly, type: type.text }));
   const properties = [...groupFields, ...Object.entries(propertyTable).map(documentedItem), ...classFields];
   const elementFields = Object.keys(own).map((name) => {
-    const { type, description } = /** @type {Named} */ ([...attributeList, ...properties].find((each) => each.name === name) ?? {});
+    const { type, description } = /** @type {Named} */ ([...attributeList, ...properties].find((item) => item.name === name) ?? {});
     return { name, type, description };
   });
-  const state = new Map([...wholeSettings.map(fieldOf), ...elementFields, ...Object.entries(stateTable).map(documentedItem)].map((each) => [each.name, each]));
+  const state = new Map([...wholeSettings.map(fieldOf), ...elementFields, ...Object.entries(stateTable).map(documentedItem)].map((item) => [item.name, item]));
   for (const { name, type } of state.values()) if (!type) throw new Error(`${tag}: nothing says what ${name} is in its state.`);
   return { tag, machine: pascalCase(tag), attributes: attributeList, properties, state: [...state.values()] };
 }

@@ -119,7 +119,7 @@ function truePoses(motion, readPoses, seed) {
     for (let i = fromRow + 1; i <= end; i++) {
       const legShare = (i - fromRow) / (end - fromRow);
       const smoothShare = legShare * legShare * (3 - 2 * legShare);
-      trueDrive.push(se2.boxplus(se2.compose(trueStart, motionTo(scaledPose(readPoses[i]))), legError.map((each) => smoothShare * each)));
+      trueDrive.push(se2.boxplus(se2.compose(trueStart, motionTo(scaledPose(readPoses[i]))), legError.map((component) => smoothShare * component)));
     }
   }
   model.free();

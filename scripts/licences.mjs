@@ -46,7 +46,7 @@ export function licences(packages) {
   for (const { name, version, licence, directory } of packages) {
     const licenceFiles = readdirSync(directory).filter((file) => /^(licen[cs]e|copying)/i.test(file));
     // MIT is the shortest licence of several to choose from.
-    const licenceFile = licenceFiles.find((each) => /mit/i.test(each)) ?? licenceFiles[0];
+    const licenceFile = licenceFiles.find((file) => /mit/i.test(file)) ?? licenceFiles[0];
     if (licenceFile === undefined) throw new Error(`${name} ${version} (${licence}) comes without the text of its licence.`);
     const text = readFileSync(join(directory, licenceFile), 'utf8').replaceAll('\r', '').trim();
     packagesOfText.set(text, [...(packagesOfText.get(text) ?? []), `${name} ${version} (${licence})`]);

@@ -36,7 +36,7 @@ export async function elementsModule() {
   const { classes } = await classComments();
   const widgetClasses = (await widgets()).map(({ tag, machine, attributes, properties }) => {
     const documentedFields = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
-    const traits = documentedFields.filter(({ readonly }) => !readonly).map((each) => ({ ...each, trait: traitOf(each, tag) }));
+    const traits = documentedFields.filter(({ readonly }) => !readonly).map((field) => ({ ...field, trait: traitOf(field, tag) }));
     const globalTraits = GLOBAL_ATTRIBUTES.map((/** @type {string} */ name) => ({ name, trait: OPTIONAL_TRAITS.Unicode, description: `As the attribute \`${name}\` of HTML.` }));
     return { machine, tag, sentence: oneLine(classes.get(`${machine}Element`).description), traits: [...traits, ...globalTraits] };
   });

@@ -82,7 +82,7 @@ function renderedPage({ Marked }, document, documents) {
         return address ? `<a href="${relativeLink(page, escapedHtml(address))}">${code}</a>` : code;
       },
       code({ text, lang }) {
-        const figures = lang === 'html' ? (text.match(FIGURE_RE) ?? []).filter((each) => !each.includes('[') && !shown.has(each)) : [];
+        const figures = lang === 'html' ? (text.match(FIGURE_RE) ?? []).filter((figure) => !figure.includes('[') && !shown.has(figure)) : [];
         for (const figure of figures) shown.add(figure);
         return `<pre><code>${escapedHtml(text)}</code></pre>\n${figures.join('\n')}\n`;
       },

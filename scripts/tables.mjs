@@ -11,7 +11,7 @@ const TABLES = {
   attributes: (_, widgets) =>
     widgets
       .map(({ tag, attributes }) => {
-        const rows = attributes.map((each) => [codeHtml(each.name), valuesHtml(each), proseHtml(each.withoutRange)]);
+        const rows = attributes.map((attribute) => [codeHtml(attribute.name), valuesHtml(attribute), proseHtml(attribute.withoutRange)]);
         return tableHtml(tag, 'attribute', codeHtml(`<${tag}>`), ['attribute', 'values', 'description'], rows);
       })
       .join('\n\n'),
@@ -20,7 +20,7 @@ const TABLES = {
     itemTable(elements, 'method', 'Methods', ['method', 'description'], ({ members }) =>
       members
         .filter(({ kind }) => kind === 'method')
-        .map(({ name, parameters = [], description }) => ({ name: `${name}(${parameters.map((each) => each.name).join(', ')})`, description })),
+        .map(({ name, parameters = [], description }) => ({ name: `${name}(${parameters.map((parameter) => parameter.name).join(', ')})`, description })),
     ),
   slots: (elements) => itemTable(elements, 'slot', 'Slots', ['slot', 'content'], ({ slots }) => slots),
   properties: (elements) => itemTable(elements, 'property', 'Custom properties', ['property', 'description'], ({ cssProperties }) => cssProperties),

@@ -197,7 +197,7 @@ const LANES = [
  * @returns {Promise<boolean>} whether all is well
  */
 async function runParts(args) {
-  const [partName, ...moreArguments] = args.filter((each) => each !== '--all');
+  const [partName, ...moreArguments] = args.filter((argument) => argument !== '--all');
   if (partName !== undefined && !Object.hasOwn(PARTS, partName)) {
     throw new Missing(`"${partName}" is no part of the tests: \`npm test -- PART\` takes ${Object.keys(PARTS).join(', ')}.`);
   }
@@ -231,7 +231,7 @@ async function outcomeOf(name, more) {
     progress(name);
     start = Date.now();
     const { ok, output, timedOut } = await job();
-    const totalOf = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, each]) => sum + Number(each), 0);
+    const totalOf = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, count]) => sum + Number(count), 0);
     const tally = counts && { passed: totalOf(counts.passed), failed: totalOf(counts.failed), skipped: totalOf(counts.skipped) };
     const noTests = tally !== undefined && tally.passed + tally.failed === 0;
     const note = timedOut ? `ended after ${TIME_LIMIT} s` : noTests ? 'no test ran' : undefined;
@@ -269,10 +269,10 @@ function inBrowser(runner, { chrome, driver }) {
  */
 function nodeTests(directory, more) {
   const files = filesOf(directory).filter((path) => /\.test\.[jt]s$/.test(path) && (NIGHTLY || !path.endsWith('.nightly.test.js')));
-  const namedFiles = files.filter((path) => more.some((each) => !each.startsWith('-') && path.includes(each)));
-  const unknownName = more.find((each, i) => !each.startsWith('-') && !more[i - 1]?.startsWith('-') && !files.some((path) => path.includes(each)));
+  const namedFiles = files.filter((path) => more.some((argument) => !argument.startsWith('-') && path.includes(argument)));
+  const unknownName = more.find((argument, i) => !argument.startsWith('-') && !more[i - 1]?.startsWith('-') && !files.some((path) => path.includes(argument)));
   if (unknownName !== undefined) throw new Missing(`"${unknownName}" is in no name of a test file; ${directory} has ${files.map((path) => path.slice(directory.length + 1)).join(', ')}.`);
-  const nodeOptions = more.filter((each) => !namedFiles.some((path) => path.includes(each)));
+  const nodeOptions = more.filter((argument) => !namedFiles.some((path) => path.includes(argument)));
   // Node runs every test of a parent that matches, and the parent of all is called "<root>".
   const tierOptions = NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
   // With its default number of processes a core stays idle.

@@ -81,7 +81,7 @@ async function figureType([{ attributes }]) {
     const parameterTexts = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);
     return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeIn(kind === 'method' ? result : { type }), description: oneLine(description), readonly };
   });
-  const commonFields = attributes.filter(({ name }) => name in COMMON_ATTRS).map(({ property, ...each }) => ({ ...each, name: property ?? each.name }));
+  const commonFields = attributes.filter(({ name }) => name in COMMON_ATTRS).map(({ property, ...rest }) => ({ ...rest, name: property ?? rest.name }));
   const events = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
     const text = type?.text ?? 'Event';
     return { name, type: text === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : text, description: oneLine(description) };
@@ -108,7 +108,7 @@ async function elementTypes({ tag, machine, attributes, properties, state }) {
   const element = `FigureElement<${machine}State, ${machine}['stats']>`;
   const widgetField = { name: 'widget', type: `'${tag}'`, description: '' };
   // Members of every figure are in FigureElement.
-  const ownFields = attributes.filter(({ name }) => !(name in COMMON_ATTRS)).map((each) => ({ ...each, isText: true }));
+  const ownFields = attributes.filter(({ name }) => !(name in COMMON_ATTRS)).map((attribute) => ({ ...attribute, isText: true }));
   return (
     `${asInterface(`${machine}State`, [widgetField, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +

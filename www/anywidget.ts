@@ -136,7 +136,7 @@ function jsonValue(value: unknown): unknown {
   if (typeof value === 'number') return Number.isFinite(value) ? value : null;
   if (typeof value !== 'object' || value === null) return value;
   if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value as ArrayLike<unknown>, jsonValue);
-  return Object.fromEntries(Object.entries(value).map(([key, each]) => [key, jsonValue(each)]));
+  return Object.fromEntries(Object.entries(value).map(([key, member]) => [key, jsonValue(member)]));
 }
 
 export default { render };

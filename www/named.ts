@@ -9,7 +9,7 @@ export const GLOBAL_ATTRIBUTES = ['dir', 'lang'];
 
 /** Creates a widget that is not in a page yet. Throws an error that lists the allowed names. */
 export function elementNamed(name: unknown): HTMLElement {
-  const tag = TAGS.find((each) => each === name);
+  const tag = TAGS.find((candidate) => candidate === name);
   if (tag) return document.createElement(tag);
   throw new Error(`widget is ${name === null || name === undefined ? 'missing' : JSON.stringify(name)}; allowed is ${TAGS.join(' or ')}`);
 }

@@ -36,7 +36,7 @@ export async function enterState(figure: Figure, values: Record<string, unknown>
 
 async function tryOut(button: HTMLElement) {
   const figure = figureOf(button);
-  for (const each of button.closest('article')?.querySelectorAll('[data-try]') ?? []) each.removeAttribute('aria-current');
+  for (const triedButton of button.closest('article')?.querySelectorAll('[data-try]') ?? []) triedButton.removeAttribute('aria-current');
   await enterState(figure, JSON.parse(button.dataset.try ?? '{}'));
   button.setAttribute('aria-current', 'true');
   const unmarkButton = () => button.removeAttribute('aria-current');

@@ -42,7 +42,7 @@ pub fn run(bytes: &[u8]) {
         Ok(calibration) => assert_calibration(&calibration, &options),
         Err(CalibrateError::TooFewLegs { legs }) => assert!(legs < MIN_LEGS),
         Err(CalibrateError::NoCommonTime) => {
-            let [odometry_span, reference_span] = [&odometry, &reference].map(|each| each.span().expect("a row at least"));
+            let [odometry_span, reference_span] = [&odometry, &reference].map(|log| log.span().expect("a row at least"));
             assert!(odometry_span[1] < reference_span[0] || reference_span[1] < odometry_span[0], "{odometry_span:?} {reference_span:?}");
         }
     }

@@ -21,7 +21,7 @@ test('a refusal and long work are shown one above the other', async ({ page }) =
   });
   const boxes = widget.locator('.notice > div');
   await expect(boxes).toHaveCount(2);
-  const [progressBox, messageBox] = await boxes.evaluateAll((each) => each.map((box) => box.getBoundingClientRect()));
+  const [progressBox, messageBox] = await boxes.evaluateAll((boxElements) => boxElements.map((box) => box.getBoundingClientRect()));
   expect(messageBox.bottom).toBeLessThanOrEqual(progressBox.top);
 });
 

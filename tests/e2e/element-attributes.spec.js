@@ -174,7 +174,7 @@ testEach('code to embed opens the settings of a state, with its attributes in an
       await Promise.all(loaded);
       // A log is fitted in the frames after the state.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
-      const configs = [element, embedded, reordered].map((each) => /** @type {AnyElement} */ (each).machine.config);
+      const configs = [element, embedded, reordered].map((figure) => /** @type {AnyElement} */ (figure).machine.config);
       for (const box of boxes) box.remove();
       return configs;
     }, /** @type {any} */ (state));
@@ -247,7 +247,7 @@ test('properties that are null or undefined are the defaults @nightly', async ({
     }
     return valueLists;
   }, /** @type {any} */ (randomStates(1)[figure]));
-  for (const each of valuesAfterNull) expect(each).toEqual(defaults);
+  for (const values of valuesAfterNull) expect(values).toEqual(defaults);
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 

@@ -37,9 +37,9 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
     await page.setViewportSize({ width, height: 900 });
     await frames(page);
     const widths = await page.locator(figure).evaluateAll((all) =>
-      all.map((each) => [/** @type {HTMLElement} */ (each.closest('section')).dataset.box ?? '', each.getBoundingClientRect().width]));
+      all.map((figure) => [/** @type {HTMLElement} */ (figure.closest('section')).dataset.box ?? '', figure.getBoundingClientRect().width]));
     expect(widths).toHaveLength(cases.length);
-    return widths.filter(([, each]) => Number(each) > width + 0.5 || Number(each) < Math.min(PREFERRED_WIDTH, width) - 0.5);
+    return widths.filter(([, figureWidth]) => Number(figureWidth) > width + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, width) - 0.5);
   };
   for (const script of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
     await showPage(page, cases.join(''), { head, script });
@@ -53,10 +53,10 @@ const boxesOf = (page, name, em) =>
   page.locator(name).evaluate(
     (element, size) => {
       const origin = element.getBoundingClientRect();
-      return [...(element.shadowRoot?.querySelectorAll('.surface *') ?? [])].map((each) => {
-        const { left, top, width, height } = each.getBoundingClientRect();
+      return [...(element.shadowRoot?.querySelectorAll('.surface *') ?? [])].map((child) => {
+        const { left, top, width, height } = child.getBoundingClientRect();
         const numbers = [left - origin.left, top - origin.top, width, height].map((pixels) => pixels / size);
-        return { part: `${each.localName}.${each.getAttribute('class')}`, numbers };
+        return { part: `${child.localName}.${child.getAttribute('class')}`, numbers };
       });
     },
     em,

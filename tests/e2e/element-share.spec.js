@@ -88,7 +88,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   await showPage(page, body);
   const figureOf = (/** @type {import('@playwright/test').Page} */ of, /** @type {number} */ i) => of.locator('banana-machine').nth(i);
   const tops = (/** @type {import('@playwright/test').Page} */ of) =>
-    of.locator('banana-machine').evaluateAll((all) => all.map((each) => Math.round(each.getBoundingClientRect().top)));
+    of.locator('banana-machine').evaluateAll((all) => all.map((figure) => Math.round(figure.getBoundingClientRect().top)));
   /** @type {string[]} */
   const links = [];
   for (const i of [0, 1]) {

@@ -49,7 +49,7 @@ async function coloursOf(widget, roles) {
 const paperOf = async (widget) => hex((await coloursOf(widget, ['paper']))[0]);
 
 /** @param {number[]} channels */
-const hex = (channels) => `#${channels.map((each) => each.toString(16).padStart(2, '0')).join('')}`;
+const hex = (channels) => `#${channels.map((channel) => channel.toString(16).padStart(2, '0')).join('')}`;
 
 /** Returns the contrast of two colours by WCAG. @param {number[]} one @param {number[]} other */
 function contrast(one, other) {
@@ -236,7 +236,7 @@ test('no control has custom properties of its own, which extensions that darken 
   await unfold(widget);
   expect(await widget.locator('.machine [style*="--"]').count()).toBe(0);
   const thumbs = await widget.getByRole('slider').evaluateAll((all) =>
-    all.filter((each) => each.matches('input')).map((each) => getComputedStyle(each).getPropertyValue('--thumb')));
+    all.filter((slider) => slider.matches('input')).map((slider) => getComputedStyle(slider).getPropertyValue('--thumb')));
   expect(thumbs.length).toBeGreaterThan(3);
   expect(thumbs).not.toContain('');
 });

@@ -220,7 +220,7 @@ function faultsOf(page, name) {
     const failure = element.shadowRoot.querySelector('.failure');
     if (failure || !element.machine) return [`it shows ${failure?.textContent ?? 'nothing'}`];
     const faults = [...element.shadowRoot.querySelectorAll('dd, td, output, .typed, .note, .caption')]
-      .map((each) => each.value ?? each.textContent)
+      .map((field) => field.value ?? field.textContent)
       .filter((text) => /NaN|Infinity|undefined|\[object/.test(text))
       .map((text) => `it says ${text}`);
 

@@ -66,10 +66,10 @@ testEach('Tab leads to every handle and control of a figure, once, and beyond', 
   const widget = await showUnfolded(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
   await widget.evaluate((element) => {
     const root = /** @type {ShadowRoot} */ (element.shadowRoot);
-    const stops = [...root.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((each) => {
-      const { type, name, checked } = /** @type {HTMLInputElement} */ (each);
+    const stops = [...root.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((stop) => {
+      const { type, name, checked } = /** @type {HTMLInputElement} */ (stop);
       // The field of a slider is reached from the slider, and other radio buttons of a group from the selected one.
-      if (each.matches(':disabled, .typed, [tabindex="-1"]') || !each.checkVisibility({ visibilityProperty: true })) return false;
+      if (stop.matches(':disabled, .typed, [tabindex="-1"]') || !stop.checkVisibility({ visibilityProperty: true })) return false;
       return type !== 'radio' || checked || !root.querySelector(`input[name="${name}"]:checked`);
     });
     Object.assign(window, { stops });
@@ -83,7 +83,7 @@ testEach('Tab leads to every handle and control of a figure, once, and beyond', 
   }, name);
   const [count, names] = await page.evaluate(() => {
     const stops = /** @type {Element[]} */ (Reflect.get(window, 'stops'));
-    return [stops.length, stops.map((each) => each.outerHTML.slice(0, 120))];
+    return [stops.length, stops.map((stop) => stop.outerHTML.slice(0, 120))];
   });
   expect(count).toBeGreaterThan(10);
   do {
@@ -133,8 +133,8 @@ test('sliders speak their value with its unit, and nothing is announced while on
   const { config } = await bananaReadings(widget);
   await page.mouse.up();
   await expect(status).toContainText(`v = ${config.command.v.toFixed(2).replace('-', '−')} m/s`);
-  for (const each of await widget.locator('input[type=range]').all()) {
-    expect(await each.getAttribute('aria-valuetext')).toMatch(/\d/);
+  for (const slider of await widget.locator('input[type=range]').all()) {
+    expect(await slider.getAttribute('aria-valuetext')).toMatch(/\d/);
   }
 });
 
@@ -340,7 +340,7 @@ test('the help of a slider covers no slider of its group, and no outline crosses
         const help = /** @type {Element} */ (row.querySelector('.effect')).getBoundingClientRect();
         // The outline of a thumb ends 4 px outside it, and a thumb has the radius 0.525 rem.
         return [.../** @type {Element} */ (row.closest('fieldset, .controls')).querySelectorAll('.slider input[type=range]')]
-          .map((each) => each.getBoundingClientRect())
+          .map((control) => control.getBoundingClientRect())
           .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > help.top && (top + bottom) / 2 < help.bottom)
           .map(() => slider.id);
       });

@@ -36,7 +36,7 @@ export async function check(browser, site) {
     await page.screenshot({ path: join(ROOT, `test-results/embeddings/${[site.name, serving.name, name].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
     await context.close();
   }
-  const unexplained = [...new Set(messages)].filter((message) => !definition.allowed?.some((each) => each.message.test(message)));
+  const unexplained = [...new Set(messages)].filter((message) => !definition.allowed?.some((allowedMessage) => allowedMessage.message.test(message)));
   if (unexplained.length > 0) failures.push(`console: ${unexplained.join('\n')}`);
   else passed++;
   return { passed, failures };

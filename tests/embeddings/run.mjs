@@ -37,12 +37,12 @@ async function outcomesOf(browser, name) {
     const { directory, tools } = await prepareExample(name, definition);
     progress(`${name}: building`);
     await definition.build?.(directory, tools);
-    for (const each of definition.servings) {
-      serving = each.name;
+    for (const currentServing of definition.servings) {
+      serving = currentServing.name;
       progress(`${name}: ${serving}`);
-      const { url, stop } = await each.serve(directory, tools);
+      const { url, stop } = await currentServing.serve(directory, tools);
       try {
-        const { passed, failures } = await check(browser, { name, definition, serving: each, url });
+        const { passed, failures } = await check(browser, { name, definition, serving: currentServing, url });
         addOutcome(serving, passed, failures);
       } finally {
         await stop();

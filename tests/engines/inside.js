@@ -41,12 +41,12 @@ export async function untilSettled(tag) {
   const sampleCount = () => figure.stats?.n ?? figure.stats?.attempts ?? figure.stats?.drawn ?? 0;
   while (sampleCount() !== samples && performance.now() < end) await nextFrame();
   const layout = () => JSON.stringify([figure.pictures.map((/** @type {any} */ { view }) => view.extent), firstCanvasOf(tag).getBoundingClientRect()]);
-  let last = layout();
-  for (let still = 0; still < STILL_FRAMES && performance.now() < end; still++) {
+  let lastLayout = layout();
+  for (let stillFrames = 0; stillFrames < STILL_FRAMES && performance.now() < end; stillFrames++) {
     await nextFrame();
-    const now = layout();
-    if (now !== last) still = 0;
-    last = now;
+    const currentLayout = layout();
+    if (currentLayout !== lastLayout) stillFrames = 0;
+    lastLayout = currentLayout;
   }
   return { stats: sampleCount(), samples };
 }

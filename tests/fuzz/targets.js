@@ -90,7 +90,7 @@ async function logIsRead(read) {
     return false;
   }
   const { t, breaks, ...values } = log.data;
-  assert.ok(t.length > 1 && t.every((each, i) => Number.isFinite(each) && each > (t[i - 1] ?? -1)));
+  assert.ok(t.length > 1 && t.every((time, i) => Number.isFinite(time) && time > (t[i - 1] ?? -1)));
   for (const column of Object.values(values)) assert.ok(column.length === t.length && column.every(Number.isFinite));
   const { rows, dropped } = log.summary;
   assert.equal(Object.values(dropped).reduce((sum, { count }) => sum + count, t.length), rows);

@@ -97,7 +97,7 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
 });
 
 test('legs of the simulated log are those that the settings open with', () => {
-  const config = Object.fromEntries(settings['alpha-calibrator'].map((each) => [each.key, each.default]));
+  const config = Object.fromEntries(settings['alpha-calibrator'].map((setting) => [setting.key, setting.default]));
   assert.deepEqual(SIMULATED_LEGS, { distance: config.distance, angle: config.angle });
   const hasTruth = (/** @type {object} */ change) => truthApplies(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...change } }));
   assert.deepEqual([hasTruth({}), hasTruth({ distance: 0.3 }), hasTruth({ angle: 0.3 }), hasTruth({ duration: 1 }), hasTruth({ rule: 'nav2' })], [true, false, false, false, false]);

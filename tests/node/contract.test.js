@@ -82,8 +82,8 @@ test('a machine opens with the settings that www/settings.js declares', async ()
   const motion = await (await freshModule()).load();
   for (const [tag, declared] of Object.entries(settings)) {
     const Machine = motion[tag.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase())];
-    const fields = (/** @type {string} */ group) => declared.filter((each) => each.in === group).map(({ key, field = key, default: value }) => [field, value]);
-    const ownSettings = declared.filter((each) => !each.in && !each.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fields(key)) : value]);
+    const fields = (/** @type {string} */ group) => declared.filter((setting) => setting.in === group).map(({ key, field = key, default: value }) => [field, value]);
+    const ownSettings = declared.filter((setting) => !setting.in && !setting.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fields(key)) : value]);
     assert.deepEqual(new Machine().config, Object.fromEntries(ownSettings), tag);
   }
 });

@@ -19,8 +19,8 @@ const EXCLUDED_EXPORTS = new Set(['VelocityModel', 'OdometryModel', 'invertArc',
 /** Classes of the machines in core.js, by tag name. @type {Map<string, any>} */
 const classes = new Map(
   Object.entries(motion)
-    .filter(([name, each]) => 'free' in (each.prototype ?? {}) && !EXCLUDED_EXPORTS.has(name))
-    .map(([name, each]) => [name.replace(/\B[A-Z]/g, '-$&').toLowerCase(), each]),
+    .filter(([name, exported]) => 'free' in (exported.prototype ?? {}) && !EXCLUDED_EXPORTS.has(name))
+    .map(([name, exported]) => [name.replace(/\B[A-Z]/g, '-$&').toLowerCase(), exported]),
 );
 
 const golden = textOf('tests/digest/golden.txt');
@@ -44,14 +44,14 @@ test('every widget and every class of the core has configurations, and every fun
 });
 
 for (const [tag, { configurations }] of Object.entries(configurationList.widgets)) {
-  const valuesOf = (/** @type {string} */ key) => new Set(Object.values(configurations).map((each) => JSON.stringify(each.settings[key])));
+  const valuesOf = (/** @type {string} */ key) => new Set(Object.values(configurations).map((configuration) => JSON.stringify(configuration.settings[key])));
 
   test(`configurations of ${tag} take every setting, every word and every preset`, () => {
     for (const { key, type, words, nullable, default: opening, in: group } of settings[tag]) {
       if (group) continue;
       const takenValues = valuesOf(key);
       const allowed = type === 'boolean' ? [true, false] : (words ?? []);
-      for (const each of allowed) assert.ok(takenValues.has(JSON.stringify(each)) || each === opening, `${key}: ${each}`);
+      for (const value of allowed) assert.ok(takenValues.has(JSON.stringify(value)) || value === opening, `${key}: ${value}`);
       const otherValues = [...takenValues].filter((value) => value !== undefined && value !== JSON.stringify(opening));
       assert.ok(otherValues.length > 0, `${key} is never set`);
       if (nullable && opening !== null && type !== 'number') assert.ok(takenValues.has('null'), `${key}: null`);

@@ -59,7 +59,7 @@ test('readers of logs import neither the page, nor Node, nor the core', () => {
   const readerFiles = Object.entries(metafile.inputs).filter(([path]) => path.startsWith('www/logs/'));
   assert.ok(readerFiles.length > 5, `${readerFiles.length} files`);
   for (const [path, { imports }] of readerFiles) {
-    for (const each of imports) assert.match(each.path, /^(www\/logs\/|node_modules\/)/, `${path} imports ${each.path}`);
+    for (const imported of imports) assert.match(imported.path, /^(www\/logs\/|node_modules\/)/, `${path} imports ${imported.path}`);
   }
 });
 

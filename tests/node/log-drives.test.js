@@ -30,7 +30,7 @@ const recording = (series, more, frames = []) => ({
   format: 'mcap',
   series: Object.entries(series).map(([name, of]) => {
     const [type, kind] = TYPE_AND_KIND[of];
-    return { name, type, kind, count: 9, ...(kind === 'transforms' && { frames: frames.map((each) => ({ parent: each.split(' ')[0], child: each.split(' ')[1] })) }) };
+    return { name, type, kind, count: 9, ...(kind === 'transforms' && { frames: frames.map((pair) => ({ parent: pair.split(' ')[0], child: pair.split(' ')[1] })) }) };
   }),
   read: () => Promise.reject(new Error('not read')),
   ...more,

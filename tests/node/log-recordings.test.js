@@ -146,7 +146,7 @@ test('a transform that never changes holds from the beginning, and a moving one 
   const messagesWith = (/** @type {(i: number) => number} */ mountX) => Array.from({ length: 60 }, (_, i) => [
     transform(i / 10, 'world', 'marker', i / 20, 0, 0),
     ...(i % 3 === 0 && i >= 30 ? [transform(i / 10, 'marker', 'base', mountX(i), 0, 0)] : []),
-  ].map((each) => ({ topic: '/tf', type: TF, t: i / 10, message: { transforms: [each] } }))).flat();
+  ].map((transform) => ({ topic: '/tf', type: TF, t: i / 10, message: { transforms: [transform] } }))).flat();
   const resultWith = async (/** @type {(i: number) => number} */ mountX) => {
     const { start, data, summary } = await readLog(mcapFile(await recordingOf(messagesWith(mountX))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
@@ -178,7 +178,7 @@ test('other recordings are refused', async () => {
   assert.equal(await refusal({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
   assert.equal(await refusal({}, drive().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
   // These messages claim to be odometry, and are too short.
-  const shortMessages = odomMessages(3, () => ({ data: 'x' })).map((each) => ({ ...each, type: 'std_msgs/msg/String', schema: ODOMETRY }));
+  const shortMessages = odomMessages(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY }));
   assert.match(await refusal({}, shortMessages), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
 });
 

@@ -147,7 +147,7 @@ const READABLE_TABLES = [
 for (const { name, text, kind = 'poses', start = 0, series = [''], choice, options, says } of READABLE_TABLES) {
   test(`reads ${name}`, async () => {
     const [recording] = await openRecordings([new File([text], 'run.csv')], options);
-    assert.deepEqual(recording.series.map((each) => each.name), series);
+    assert.deepEqual(recording.series.map((entry) => entry.name), series);
     const [log] = await recording.read([{ series: '', ...choice }]);
     const { t, ...columns } = /** @type {any} */ (log.data);
     assert.equal(log.kind, kind);

@@ -24,7 +24,7 @@ test('a jamb goes along its wall, up to the other jamb and down to a stub', () =
   const grip = gripOf('to');
   assert.ok(grip);
   assert.deepEqual(grip.axis, [0, 1]);
-  assert.deepEqual(grip.range.map((each) => Number(each.toFixed(9))), [-1.45, 0.95]);
+  assert.deepEqual(grip.range.map((limit) => Number(limit.toFixed(9))), [-1.45, 0.95]);
   assert.deepEqual([...movedWalls(WALLS, grip, 0.5).subarray(LOWER_WALL, LOWER_WALL + 4)], [3, 0, 3, 2]);
 });
 

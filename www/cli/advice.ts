@@ -14,7 +14,7 @@ export function optionAdvice({ ask, message }: LogError): string {
   const optionText = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
   if (what in UNITS) {
     const [usualUnit, ...otherUnits] = UNITS[what as keyof typeof UNITS];
-    const otherUnit = choices.find((each) => each !== usualUnit) ?? otherUnits[otherUnits.length - 1];
+    const otherUnit = choices.find((unit) => unit !== usualUnit) ?? otherUnits[otherUnits.length - 1];
     return ` Choose with ${optionText}, as in ${optionText} ${otherUnit}; if odometry and reference differ, with --odometry FILE --reference FILE ${optionText} ${usualUnit},${otherUnit}.`;
   }
   const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];

@@ -48,14 +48,14 @@ export async function inspect(given: GivenRecording[], stated: [name: string, va
 async function contentsOf(recording: Recording, onProgress?: (share: number | undefined) => void): Promise<Contents> {
   const { name, format } = recording;
   // Each chain of transforms that could be a log has its own entry.
-  const seriesEntries = recording.series.flatMap((each) => {
-    const possibleUses: { choice?: Choice; uses: string[] }[] = usesOfSeries(recording, each.name);
-    return (possibleUses.length > 0 ? possibleUses : [{ uses: [] }]).map((use) => ({ ...each, ...use }));
+  const seriesEntries = recording.series.flatMap((entry) => {
+    const possibleUses: { choice?: Choice; uses: string[] }[] = usesOfSeries(recording, entry.name);
+    return (possibleUses.length > 0 ? possibleUses : [{ uses: [] }]).map((use) => ({ ...entry, ...use }));
   });
   const { logs, reasons } = await readLogs(recording, seriesEntries.flatMap(({ choice }) => choice ?? []), onProgress);
-  const series = seriesEntries.map(({ name: its, type, count, uses, choice }) => {
+  const series = seriesEntries.map(({ name: seriesName, type, count, uses, choice }) => {
     const log = choice && logs.get(choice);
-    const seriesLabel = choice?.frames ? `${its} (${framesText(choice.frames)})` : its;
+    const seriesLabel = choice?.frames ? `${seriesName} (${framesText(choice.frames)})` : seriesName;
     return { name: seriesLabel, type, rows: log?.summary.rows ?? count, uses, ...(log && { summary: log.summary, sentences: summarySentences(log, english.found) }) };
   });
   return { name, format, series, refused: reasons };
@@ -64,8 +64,8 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
 /** Returns the contents as text. */
 export function inspectionText({ recordings, missing, command }: Inspected): string {
   const contentLines = recordings.flatMap(({ name, format, series, refused }) => {
-    const tableRows = series.map(({ name: its, type, rows: count, uses, summary }) => [its || '(all columns)', isTable({ format }) ? cut(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
-    const summaryLines = series.flatMap(({ name: its, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : its ? `${its}: ${line}` : line)));
+    const tableRows = series.map(({ name: seriesName, type, rows: count, uses, summary }) => [seriesName || '(all columns)', isTable({ format }) ? cut(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
+    const summaryLines = series.flatMap(({ name: seriesName, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : seriesName ? `${seriesName}: ${line}` : line)));
     return [`${name}: ${FORMAT_NAMES[format] ?? format}`, ...[...alignRows([[isTable({ format }) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...tableRows]), ...summaryLines].map((line) => `  ${line}`), ...refused];
   });
   return [...contentLines, ...(missing ? [missing] : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
@@ -73,15 +73,15 @@ export function inspectionText({ recordings, missing, command }: Inspected): str
 
 /** Returns the logs that can be read from a series (several for transforms), each with texts about its possible roles. */
 function usesOfSeries(recording: Recording, name: string): { choice: Choice; uses: string[] }[] {
-  if (!readableSeries(recording).some((each) => each.name === name)) return [];
+  if (!readableSeries(recording).some((series) => series.name === name)) return [];
   const usesByFrames = new Map<string, { choice: Choice; uses: string[] }>();
   const addUses = (role: Role, kind?: 'commands') => {
-    for (const { series, frames, kind: its } of candidates(recording, role, { kind }).flat()) {
-      if (series !== name || (kind && its !== kind)) continue;
+    for (const { series, frames, kind: candidateKind } of candidates(recording, role, { kind }).flat()) {
+      if (series !== name || (kind && candidateKind !== kind)) continue;
       const useText = role === 'odometry' ? `odometry${kind ? ' (commands)' : ''}` : `reference${isLocalizer(name, frames) ? ' (a localizer)' : ''}`;
       const framesKey = frames ? framesText(frames) : '';
       const knownUse = usesByFrames.get(framesKey) ?? { choice: { series, ...(frames && { frames }) }, uses: [] };
-      if (!knownUse.uses.some((each) => each.startsWith(role))) knownUse.uses.push(useText);
+      if (!knownUse.uses.some((use) => use.startsWith(role))) knownUse.uses.push(useText);
       usesByFrames.set(framesKey, knownUse);
     }
   };
@@ -95,13 +95,13 @@ function usesOfSeries(recording: Recording, name: string): { choice: Choice; use
 async function readLogs(recording: Recording, choices: Choice[], onProgress?: (share: number) => void): Promise<{ logs: Map<Choice, Log>; reasons: string[] }> {
   const logs = new Map<Choice, Log>();
   const reasons: string[] = [];
-  const readTogether = async (some: Choice[]) => {
+  const readTogether = async (choicesToRead: Choice[]) => {
     try {
-      for (const [i, log] of (await recording.read(some, onProgress)).entries()) logs.set(some[i], log);
+      for (const [i, log] of (await recording.read(choicesToRead, onProgress)).entries()) logs.set(choicesToRead[i], log);
     } catch (error) {
       if (!(error instanceof LogError)) throw error;
-      if (some.length === 1) reasons.push(`${error.message}${optionAdvice(error)}`);
-      else for (const one of some) await readTogether([one]);
+      if (choicesToRead.length === 1) reasons.push(`${error.message}${optionAdvice(error)}`);
+      else for (const one of choicesToRead) await readTogether([one]);
     }
   };
   if (choices.length > 0) await readTogether(choices);
@@ -114,7 +114,7 @@ export const byOrder = ({ unpaired: { odometry: [first], reference: [second] } }
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
 function nextCommand(given: GivenRecording[], stated: [name: string, value: string][]): Pick<Inspected, 'command' | 'missing'> {
-  const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => shellQuoted(given.find((each) => each.recording === recording)?.path ?? recording.name);
+  const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => shellQuoted(given.find((file) => file.recording === recording)?.path ?? recording.name);
   const unitOptions = stated.map(([name, value]) => `--${name} ${shellQuoted(value)}`);
   const command = (...options: string[]) => ['npx motion-widgets calibrate', ...new Set(options), ...unitOptions, '--rule nav2'].join(' ');
   const paths = given.map(({ recording }) => quotedPath({ recording }));
@@ -132,13 +132,13 @@ function nextCommand(given: GivenRecording[], stated: [name: string, value: stri
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
     const reason = error.message;
-    const role = error.ask?.role ?? ROLES.find((each) => given.some(({ recording }) => candidates(recording, each).some(({ length }) => length > 0)));
+    const role = error.ask?.role ?? ROLES.find((candidateRole) => given.some(({ recording }) => candidates(recording, candidateRole).some(({ length }) => length > 0)));
     // The odometry is chosen first.
     const openRoles = error.ask?.role === 'reference' ? ['reference'] : ROLES;
     switch (error.ask?.what) {
       case 'other': return { missing: reason, ...(role && { command: command(`--${role} ${quotedPath(given[0])}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') }) };
-      case 'series': return { missing: reason, command: command(...paths, ...openRoles.map((each) => `--${each}-topic NAME`)) };
-      case 'frames': return { missing: reason, command: command(...paths, ...openRoles.map((each) => `--${each}-frames PARENT,CHILD`)) };
+      case 'series': return { missing: reason, command: command(...paths, ...openRoles.map((openRole) => `--${openRole}-topic NAME`)) };
+      case 'frames': return { missing: reason, command: command(...paths, ...openRoles.map((openRole) => `--${openRole}-frames PARENT,CHILD`)) };
       default: return { missing: reason };
     }
   }

@@ -114,14 +114,14 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
   const { values, positionals: [command, ...paths] } = parseArguments(args);
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
-  const columns = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((each) => each.trim());
+  const columns = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((column) => column.trim());
   const openAs = (role?: Role, names = columns('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
   if (command === 'inspect') {
     const allPaths = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
     if (allPaths.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
     const uselessOption = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
     if (uselessOption !== undefined) throw new UsageError(`--${uselessOption} is an option of calibrate; inspect has ${listOfAlternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
-    const stated = Object.entries(values).filter((each): each is [string, string] => typeof each[1] === 'string');
+    const stated = Object.entries(values).filter((entry): entry is [string, string] => typeof entry[1] === 'string');
     return { command, inputs: allPaths.map((path) => ({ path, open: openAs() })), stated, isJson: values.json ?? false };
   }
   if (command !== 'calibrate') {
@@ -153,7 +153,7 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
     if (values[`${role}-columns`] !== undefined && !values[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
   }
   const wishOf = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
-  const inputsOf = (all: string[], role?: Role) => all.map((path) => ({ path, open: openAs(role, role && columns(`${role}-columns`)) }));
+  const inputsOf = (paths: string[], role?: Role) => paths.map((path) => ({ path, open: openAs(role, role && columns(`${role}-columns`)) }));
   return {
     command,
     inputs: { recording: inputsOf(recording), odometry: inputsOf(odometry, 'odometry'), reference: inputsOf(reference, 'reference') },
@@ -174,20 +174,20 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
 
 /** Returns the units that the options state for a log. If an option has two units, the role of the log selects one. */
 function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?: string }, role: Role | undefined): OpenOptions {
-  return Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((of) => {
-    const givenUnits = values[`${of}-unit`];
+  return Object.fromEntries((['time', 'length', 'angle'] as const).flatMap((quantity) => {
+    const givenUnits = values[`${quantity}-unit`];
     if (givenUnits === undefined) return [];
     const unitNames = givenUnits.split(',').map((unit) => unit.trim());
-    if (unitNames.length > 2 || !unitNames.every((unit) => (UNITS[`${of}Unit`] as readonly string[]).includes(unit))) {
-      throw new UsageError(`--${of}-unit must be ${listOfAlternatives(UNITS[`${of}Unit`])}, or two of these for odometry and reference (got “${cut(givenUnits)}”).`);
+    if (unitNames.length > 2 || !unitNames.every((unit) => (UNITS[`${quantity}Unit`] as readonly string[]).includes(unit))) {
+      throw new UsageError(`--${quantity}-unit must be ${listOfAlternatives(UNITS[`${quantity}Unit`])}, or two of these for odometry and reference (got “${cut(givenUnits)}”).`);
     }
-    if (unitNames.length > 1 && !role) throw new UsageError(`--${of}-unit ${cut(givenUnits)} has two units; give the files with --odometry and --reference.`);
-    return [[`${of}Unit`, role === 'reference' ? unitNames.at(-1) : unitNames[0]]];
+    if (unitNames.length > 1 && !role) throw new UsageError(`--${quantity}-unit ${cut(givenUnits)} has two units; give the files with --odometry and --reference.`);
+    return [[`${quantity}Unit`, role === 'reference' ? unitNames.at(-1) : unitNames[0]]];
   }));
 }
 
 /** Returns an object without keys that are undefined. */
-const withoutUndefined = <T extends object>(all: T): T => Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined)) as T;
+const withoutUndefined = <T extends object>(object: T): T => Object.fromEntries(Object.entries(object).filter(([, value]) => value !== undefined)) as T;
 
 const listOfAlternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
 
@@ -243,7 +243,7 @@ function nearestOptions(name: string): string {
 
 function parseFrames(name: string, value: string | undefined): Frames | undefined {
   if (value === undefined) return undefined;
-  const [parent, child, ...excessNames] = value.split(',').map((each) => each.trim());
+  const [parent, child, ...excessNames] = value.split(',').map((name) => name.trim());
   if (parent && child && excessNames.length === 0) return { parent, child };
   throw new UsageError(`--${name} must be a parent and a child frame, as in map,base_link (got “${cut(value)}”).`);
 }

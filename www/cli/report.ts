@@ -65,7 +65,7 @@ export function reportText({ calibration, options, logs, start, begins, date }: 
     '',
     ...alphaTable(calibration, model),
     '',
-    ...alignRows([['', 'value', '95 %', ''], ...noiseRows(calibration, options), ...SYSTEMATIC_ROWS.map((each) => systematicRow(each, calibration)), persistenceRow(calibration)]),
+    ...alignRows([['', 'value', '95 %', ''], ...noiseRows(calibration, options), ...SYSTEMATIC_ROWS.map((row) => systematicRow(row, calibration)), persistenceRow(calibration)]),
     '',
     ...alignRows([['check', 'value', 'expected', ''], ...checks.map(checkRow)]),
     ...failedChecks.map(({ name, message }) => `${name}: ${message}`),
@@ -120,7 +120,7 @@ function alphaTable({ alphas, intervals, notIdentifiable, recommended, diagnosti
   // Driving differently does not help if the reference is of another drive, or has other units.
   const referenceMatches = diagnostics.checks.every(({ name, passed }: any) => passed || name !== 'reference-matches');
   const advice = !referenceMatches ? [] : (Object.keys(lacking) as (keyof typeof lacking)[]).flatMap((reason) => {
-    const alphaNames = notIdentifiable.flatMap((each: string | null, i: number) => (each === reason ? [`alpha${i + 1}`] : []));
+    const alphaNames = notIdentifiable.flatMap((reasonOfAlpha: string | null, i: number) => (reasonOfAlpha === reason ? [`alpha${i + 1}`] : []));
     const { lack, drive } = adviceOf(lacking, model, reason);
     return alphaNames.length ? [`${new Intl.ListFormat('en').format(alphaNames)} not identifiable: ${lack}; ${drive}`] : [];
   });
@@ -140,11 +140,11 @@ function systematicRow([key, name, unit]: [string, string, string], { systematic
   const { value, interval, constant, corrected } = systematicErrors[key];
   const [values, intervals] = Array.isArray(value) ? [value, interval] : [[value], [interval]];
   if (values.includes(null)) return [name, 'not identifiable'];
-  const list = (print: (one: any, its: Interval) => string) => values.map((one: any, i: number) => print(one, intervals[i])).join(', ');
+  const list = (print: (value: any, interval: Interval) => string) => values.map((value: any, i: number) => print(value, intervals[i])).join(', ');
   return [
     name,
-    list((one, its) => fixed(one, its) + (unit && ` ${unit}`)),
-    list((_, its) => formatInterval(its)),
+    list((value, interval) => fixed(value, interval) + (unit && ` ${unit}`)),
+    list((_, interval) => formatInterval(interval)),
     `${corrected ? 'corrected' : 'not corrected'}${constant ? '' : ', not a constant'}`,
   ];
 }
@@ -166,7 +166,7 @@ function windowRow({ length, count, coverage, nees }: any): string[] {
 function outlierLines({ count, times, outliers }: any, begins: number[]): string[] {
   const outlierLegs = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
   const timeTexts = outlierLegs.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
-    const driveBegin = Math.max(...begins.filter((each) => each <= times[2 * leg]));
+    const driveBegin = Math.max(...begins.filter((begin) => begin <= times[2 * leg]));
     return `${(times[2 * leg] - driveBegin).toFixed(2)} s${begins.length > 1 ? ` of drive ${begins.indexOf(driveBegin) + 1}` : ''}`;
   }).join(', ');
   return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${count} legs, at ${timeTexts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];

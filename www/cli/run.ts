@@ -62,7 +62,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: CalibrateArgumen
     for (const input of inputs[kind]) {
       const openedRecordings = await recordingsOf(input, onSkip);
       recordings.push(...openedRecordings);
-      if (kind !== 'recording') for (const each of openedRecordings) roleByRecording.set(each, kind);
+      if (kind !== 'recording') for (const recording of openedRecordings) roleByRecording.set(recording, kind);
     }
   }
   const plan = planDrives(recordings, { ...wishes, roles: roleByRecording });

@@ -93,13 +93,13 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
   // This setting is a level, which scales several settings of the machine.
   if (of) return { ...plainProperty, get: (config) => levelOf(config[of], weights) };
   if (!group) return plainProperty;
-  const at = index ?? field;
+  const member = index ?? field;
   return {
     ...plainProperty,
     path: index !== undefined ? `${group}[${index}]` : field === key ? undefined : `${group}.${field}`,
-    get: (config) => config[group][at] ?? null,
+    get: (config) => config[group][member] ?? null,
     change: (value, { [group]: whole }) => {
-      if (index === undefined) return { [group]: { ...whole, [at]: value } };
+      if (index === undefined) return { [group]: { ...whole, [member]: value } };
       if (index < whole.length) return { [group]: whole.with(index, value) };
       throw refusalError(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${whole.length}`);
     },
@@ -130,14 +130,14 @@ export function presetPropertyOf(presets: readonly ({ name: string } & Record<st
   const presetNames = presets.map(({ name }) => name);
   const properties = propertiesOf(declared);
   const presetSettings = presets.map(({ name: _, ...given }) => {
-    const config = Object.entries(given).reduce((all, [key, value]) => ({ ...all, ...properties[key].change(value, all) }), defaultConfig(declared));
-    return Object.fromEntries(Object.entries(config).filter(([key]) => !KEPT_BY_PRESETS.includes(key)));
+    const presetConfig = Object.entries(given).reduce((config, [key, value]) => ({ ...config, ...properties[key].change(value, config) }), defaultConfig(declared));
+    return Object.fromEntries(Object.entries(presetConfig).filter(([key]) => !KEPT_BY_PRESETS.includes(key)));
   });
   return {
     converter: WORD_CONVERTER,
     covers: Object.keys(attributesIn(properties)).filter((key) => !KEPT_BY_PRESETS.includes(key)),
     words: presetNames,
-    get: (config) => presetNames[presetSettings.findIndex((each) => includesFields(config, each))] ?? null,
+    get: (config) => presetNames[presetSettings.findIndex((settings) => includesFields(config, settings))] ?? null,
     change: (name) => presetSettings[presetNames.indexOf(checkedWord('preset', name, presetNames))],
   };
 }

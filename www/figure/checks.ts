@@ -36,20 +36,20 @@ export function asObject(field: string, value: unknown, keys: readonly string[],
 }
 
 export function checkedWord<Word extends string>(field: string, value: unknown, allowed: readonly Word[]) {
-  const allowedWord = allowed.find((each) => each === value);
+  const allowedWord = allowed.find((word) => word === value);
   if (allowedWord !== undefined) return allowedWord;
   const ErrorClass = typeof value === 'string' ? RangeError : TypeError;
-  throw refusalError(field, value, allowed.map((each) => JSON.stringify(each)).join(' or '), ErrorClass);
+  throw refusalError(field, value, allowed.map((word) => JSON.stringify(word)).join(' or '), ErrorClass);
 }
 
-export function numberWithin(field: string, value: unknown, least: number, most: number, isWhole = false) {
-  const allowed = `${isWhole ? 'a whole number from ' : ''}${least} to ${most}`;
+export function numberWithin(field: string, value: unknown, min: number, max: number, isWhole = false) {
+  const allowed = `${isWhole ? 'a whole number from ' : ''}${min} to ${max}`;
   if (typeof value !== 'number') throw refusalError(field, value, allowed, TypeError);
-  if (!(value >= least && value <= most) || (isWhole && !Number.isInteger(value))) throw refusalError(field, value, allowed);
+  if (!(value >= min && value <= max) || (isWhole && !Number.isInteger(value))) throw refusalError(field, value, allowed);
   return value;
 }
 
-export const wholeNumber = (field: string, value: unknown, least: number, most: number) => numberWithin(field, value, least, most, true);
+export const wholeNumber = (field: string, value: unknown, min: number, max: number) => numberWithin(field, value, min, max, true);
 
 /** Returns the allowed names that the array contains, in the order of `allowed`. */
 export function checkedSubset(field: string, value: unknown, allowed: readonly string[]): string[] {

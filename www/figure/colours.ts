@@ -65,8 +65,8 @@ const MIN_CONTRAST = 4.55;
 /** Returns a node's element and its ancestors across shadow roots, the nearest first. */
 function ancestors(node: Node): Element[] {
   const elements = [];
-  let at: any = node;
-  for (; at; at = at.assignedSlot ?? at.parentNode ?? at.host) if (at.nodeType === 1) elements.push(at);
+  let ancestor: any = node;
+  for (; ancestor; ancestor = ancestor.assignedSlot ?? ancestor.parentNode ?? ancestor.host) if (ancestor.nodeType === 1) elements.push(ancestor);
   return elements;
 }
 
@@ -75,7 +75,7 @@ function surroundings(probe: Element): Surroundings {
   const { color, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
   const textColour = colourChannels(color);
   const isDarkByDefault = colorScheme === 'normal' && lightness(textColour) > 0.5;
-  const ancestorBackgrounds = ancestors(probe).map((each) => getComputedStyle(each).backgroundColor);
+  const ancestorBackgrounds = ancestors(probe).map((ancestor) => getComputedStyle(ancestor).backgroundColor);
   const backColour = colourChannels(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvas].reverse());
   const backgroundLightness = lightness(backColour);
   const isLegible = contrast(textColour, backColour) >= MIN_CONTRAST;

@@ -394,7 +394,7 @@ for (const [name, { property = name, words: allowed, nullable }] of Object.entri
     configurable: true,
     get(this: Figure) {
       if (!allowed) return this.hasAttribute(name);
-      return allowed.find((each) => each === this.getAttribute(name)) ?? (nullable ? null : allowed[0]);
+      return allowed.find((word) => word === this.getAttribute(name)) ?? (nullable ? null : allowed[0]);
     },
     set(this: Figure, value) {
       if (allowed) this.reflection.setAttribute(name, value);

@@ -19,14 +19,14 @@ export class Focus extends FigureController {
     const focusedControl = (this.host.renderRoot as ShadowRoot | undefined)?.activeElement;
     // The placeholder moves the focus itself.
     if (!focusedControl || focusedControl.matches('.reserved')) return;
-    for (let at = focusedControl as Element | null; at; at = at.parentElement) this.#focusPath.push(at);
+    for (let element = focusedControl as Element | null; element; element = element.parentElement) this.#focusPath.push(element);
   }
 
   hostUpdated() {
     const [heldControl, ...ancestors] = this.#focusPath;
     if (!heldControl || (heldControl.isConnected && heldControl.checkVisibility() && !heldControl.matches(':disabled'))) return;
-    for (const each of ancestors) {
-      const [nextControl] = each.isConnected ? focusableIn(each) : [];
+    for (const ancestor of ancestors) {
+      const [nextControl] = ancestor.isConnected ? focusableIn(ancestor) : [];
       if (!nextControl) continue;
       nextControl.focus({ preventScroll: true });
       return;

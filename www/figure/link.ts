@@ -52,7 +52,7 @@ export class Link extends FigureController {
   async #applyAddress() {
     const { host } = this;
     const token = (this.#latestRead = {});
-    const part = fragmentParts().find((each) => this.#isOwnPart(each));
+    const part = fragmentParts().find((fragmentPart) => this.#isOwnPart(fragmentPart));
     if (part === undefined) return;
     try {
       const state = await unpack(part.slice(part.indexOf('=') + 1));
@@ -105,7 +105,7 @@ function keyOf(element: Element): string {
 function addressWith(key: string, text: string, first: boolean = false): string {
   const part = `${key}=${text}`;
   const allParts = fragmentParts();
-  const partIndex = allParts.findIndex((each) => each.startsWith(`${key}=`));
+  const partIndex = allParts.findIndex((part) => part.startsWith(`${key}=`));
   const otherParts = allParts.filter((_, i) => i !== partIndex);
   const nextParts = first ? [part, ...otherParts] : partIndex < 0 ? [...allParts, part] : allParts.with(partIndex, part);
   // The address is complete, because a base element would change a relative one.

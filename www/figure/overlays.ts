@@ -9,13 +9,13 @@ import type { LineStyle } from '../scene/draw.ts';
 export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}, more: unknown = nothing) {
   const { overlays } = figure.state.own;
   const { overlays: names } = (words as any)[figure.definition.messageKey];
-  const all = Object.keys(styles);
+  const styleNames = Object.keys(styles);
   const allOverlays = figure.definition.attributes.overlays.words as string[];
   const setShown = (name: string, shown: boolean) =>
-    figure.gesture.choose('overlays', allOverlays.filter((each) => (each === name ? shown : overlays.includes(each))));
+    figure.gesture.choose('overlays', allOverlays.filter((overlay) => (overlay === name ? shown : overlays.includes(overlay))));
   const highlight = (name: string | null) => (figure.highlight = name);
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
-    ${all.map((name) => html`<span title=${notes[name] ?? nothing} @pointerenter=${() => highlight(name)} @pointerleave=${() => highlight(null)} @focusin=${() => highlight(name)} @focusout=${() => highlight(null)}>
+    ${styleNames.map((name) => html`<span title=${notes[name] ?? nothing} @pointerenter=${() => highlight(name)} @pointerleave=${() => highlight(null)} @focusin=${() => highlight(name)} @focusout=${() => highlight(null)}>
       ${toggle({
         label: html`${swatch(styles[name])}<span class=${notes[name] ? 'absent' : nothing}>${formatMarkup(names[name])}${notes[name] ? html`<span class="visually-hidden">: ${notes[name]}</span>` : nothing}</span>`,
         checked: overlays.includes(name),

@@ -33,8 +33,8 @@ export class Reflection extends FigureController {
     if (!this.#hasConnected) this.#takeUpLists(host);
     this.#hasConnected = true;
     for (const name of Object.keys(host)) {
-      for (let at = Object.getPrototypeOf(host); at !== HTMLElement.prototype; at = Object.getPrototypeOf(at)) {
-        if (!Object.getOwnPropertyDescriptor(at, name)?.set) continue;
+      for (let prototype = Object.getPrototypeOf(host); prototype !== HTMLElement.prototype; prototype = Object.getPrototypeOf(prototype)) {
+        if (!Object.getOwnPropertyDescriptor(prototype, name)?.set) continue;
         const assignedValue = host[name];
         delete host[name];
         host[name] = assignedValue;
@@ -202,7 +202,7 @@ export class Reflection extends FigureController {
       const text = texts.get(name) ?? null;
       if (text === null) continue;
       if (text !== defaultTexts.get(name) && !coveredNames.has(name)) attributes.push([name, text]);
-      covers?.forEach((each) => coveredNames.add(each));
+      covers?.forEach((coveredName) => coveredNames.add(coveredName));
     }
     return attributes;
   }

@@ -55,8 +55,8 @@ export function namesFor(recording: Recording, role: Role): string[] {
 export function candidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): Choice[][] {
   const isOfTable = isTable(recording);
   const useful = readableSeries(recording).filter(({ name }) => !GOAL_NAMES.test(name));
-  const poseSeries = useful.filter((each) => each.kind === 'poses');
-  const chains = useful.flatMap(({ name, frames = [] }) => likeliestFrames(frames, role).map((each) => ({ series: name, frames: each })));
+  const poseSeries = useful.filter((entry) => entry.kind === 'poses');
+  const chains = useful.flatMap(({ name, frames = [] }) => likeliestFrames(frames, role).map((pair) => ({ series: name, frames: pair })));
   if (role === 'reference') {
     const unfilteredPaths = poseSeries.filter(({ name }) => !FILTER_NAMES.test(name) && !ODOMETRY_NAMES[0].test(name));
     return [...tiersByName(poseSeries, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choicesOf(unfilteredPaths, 'poses'), ...(isOfTable && useful.length === 1 ? [choicesOf(poseSeries, 'poses')] : []), chains];
@@ -64,7 +64,7 @@ export function candidates(recording: Recording, role: Role, { kind }: { kind?: 
   // The type of the message is a sign that it is odometry.
   const wheelPaths = poseSeries.filter(({ name, type }) => !MEASUREMENT_NAMES.test(name) && !LOCALIZER_NAMES.test(name) && (isOfTable || /Odometry$/.test(type)));
   const poseTiers = [...tiersByName(wheelPaths, ODOMETRY_NAMES), choicesOf(wheelPaths), chains];
-  const commandSeries = useful.filter((each) => each.kind === 'commands' || (isOfTable && each.hasCommands));
+  const commandSeries = useful.filter((entry) => entry.kind === 'commands' || (isOfTable && entry.hasCommands));
   const commandTiers = [...tiersByName(commandSeries, COMMAND_NAMES, 'commands'), choicesOf(commandSeries, 'commands')];
   return kind === 'commands' ? [...commandTiers, ...poseTiers] : isOfTable ? [...poseTiers, ...commandTiers] : poseTiers;
 }
@@ -75,7 +75,7 @@ const tiersByName = (series: Series[], names: RegExp[], kind?: LogKind): Choice[
 
 /** Returns the likeliest pairs of frames for a role, by the names of the frames. */
 export function likeliestFrames(frames: Frames[], role: Role): Frames[] {
-  const firstNamed = (some: Frames[], names: RegExp[], end: keyof Frames) => names.map((name) => some.filter((each) => name.test(each[end]))).find(({ length }) => length);
+  const firstNamed = (candidates: Frames[], names: RegExp[], end: keyof Frames) => names.map((name) => candidates.filter((pair) => name.test(pair[end]))).find(({ length }) => length);
   const fixedParents = firstNamed(frames, FIXED_FRAMES[role], 'parent') ?? [];
   return firstNamed(fixedParents, BASE_FRAMES, 'child') ?? fixedParents;
 }

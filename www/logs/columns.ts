@@ -107,8 +107,8 @@ function unitOf(text: string): ParsedUnit | undefined {
   const lowerText = text.trim().toLowerCase().replace(/^dps$/, 'deg/s');
   const withoutPerSecond = lowerText.replace(PER_SECOND, '');
   const isRate = withoutPerSecond !== lowerText && withoutPerSecond !== '' && !/^(p|m|u|n)$/.test(lowerText.replace(/s$/, ''));
-  const [, of, unit] = UNIT_WORDS.find(([pattern]) => pattern.test(isRate ? withoutPerSecond : lowerText)) ?? [];
-  return of && unit ? { of, unit, isRate } : undefined;
+  const [, quantity, unit] = UNIT_WORDS.find(([pattern]) => pattern.test(isRate ? withoutPerSecond : lowerText)) ?? [];
+  return quantity && unit ? { of: quantity, unit, isRate } : undefined;
 }
 
 export const isUnit = (text: string) => unitOf(text) !== undefined;
@@ -172,17 +172,17 @@ function fieldOf(path: string): ColumnMeaning | undefined {
  * @param isTime checks whether a column without a name holds times
  * @returns groups in the order of their columns, without columns of other quantities
  */
-export function groupsOf(names: string[], isTime: (at: number) => boolean = () => false): Group[] {
+export function groupsOf(names: string[], isTime: (index: number) => boolean = () => false): Group[] {
   const groups = new Map<string, Group>();
-  for (const [at, name] of names.entries()) {
+  for (const [index, name] of names.entries()) {
     const isIndex = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
-    const reading: ColumnMeaning | undefined = isIndex ? (isTime(at) ? { field: 't', rank: 9, prefix: '' } : undefined) : readName(name);
+    const reading: ColumnMeaning | undefined = isIndex ? (isTime(index) ? { field: 't', rank: 9, prefix: '' } : undefined) : readName(name);
     if (!reading) continue;
     const { field, rank, prefix, unit } = reading;
     const group = groups.get(prefix) ?? { name: prefix, kind: null, hasCommands: false, columns: {}, twice: {}, times: [], clocks: [] };
     groups.set(prefix, group);
     // If there are headings in radians and degrees, those in radians were recorded, and those in degrees are derived.
-    const column = { at, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
+    const column = { at: index, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
     if (field === 't') group.times.push(column);
     const knownColumn = group.columns[field];
     if (!knownColumn || column.rank < knownColumn.rank) {
@@ -248,14 +248,14 @@ export interface Layout {
  * @throws {LogError} if a field is missing, or two columns can be the same field
  */
 export function layoutOf(group: Group | undefined, names: string[], place: Place, wanted: LogKind | undefined): Layout {
-  const all = listing(names.map((name) => name.trim()));
+  const columnNames = listing(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };
-  if (!group) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', all), ask);
+  if (!group) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', columnNames), ask);
   const { columns, twice, clocks } = group;
   const has = (...fields: Field[]) => fields.every((field) => columns[field]);
-  if (clocks.length === 0) throw new LogError(place, (say) => say.noTime(all), ask);
+  if (clocks.length === 0) throw new LogError(place, (say) => say.noTime(columnNames), ask);
   const takesCommands = group.hasCommands && wanted !== 'poses' && (wanted === 'commands' || group.kind === 'commands');
-  if (!takesCommands && !has('x', 'y')) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', all), ask);
+  if (!takesCommands && !has('x', 'y')) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', columnNames), ask);
   const headingFields: Field[] = has('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : has('yaw') ? ['yaw'] : has('qz', 'qw') ? ['qz', 'qw'] : [];
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {

@@ -73,7 +73,7 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
     return { name, at, factor, ...bestAgreementOf(correctedMotions, step, name === 'mirroredYaw'), straight: forwardness(correctedMotions.odometry) + forwardness(correctedMotions.reference) };
   });
   const minScore = Math.max(MIN_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
-  const best = greatest(triedCorrections.filter((each) => each.score >= minScore && isPlausible(each.length) && isPlausible(each.angle)), (each) => each.score + each.straight);
+  const best = greatest(triedCorrections.filter((tried) => tried.score >= minScore && isPlausible(tried.length) && isPlausible(tried.angle)), (tried) => tried.score + tried.straight);
   if (best) return best;
   if (score < MIN_SCORE) return undefined;
   if (!isPlausible(factor)) return { name: 'lengths', at: 'reference', score, factor };
@@ -102,8 +102,8 @@ function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: 
   const [odo, ref] = [withoutJumps(odometry), withoutJumps(reference)];
   let best: Agreement = { score: -1, length: 1, angle: 1 };
   for (let i = 0; i <= 2 * maxLag && best.score < AGREEMENT; i++) {
-    const found = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag, anyYaw);
-    if (found.score > best.score) best = found;
+    const agreement = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag, anyYaw);
+    if (agreement.score > best.score) best = agreement;
   }
   return best;
 }
@@ -139,11 +139,11 @@ function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count
 
 /** Returns the degree to which a robot drives at a constant angle to its heading: 1 if always, 0 if in all directions. */
 function forwardness(motions: Motion[]): number {
-  let [along, across, all] = [0, 0, 0];
+  let [along, across, total] = [0, 0, 0];
   for (const [forward, left] of motions) {
     along += forward ** 2 - left ** 2;
     across += 2 * forward * left;
-    all += forward ** 2 + left ** 2;
+    total += forward ** 2 + left ** 2;
   }
-  return all === 0 ? 1 : Math.hypot(along, across) / all;
+  return total === 0 ? 1 : Math.hypot(along, across) / total;
 }

@@ -41,7 +41,7 @@ export function planDrives(all: Recording[], wishes: Wishes = {}): LogPlan {
   const usableRecordings = all.filter((recording) => wishes.roles?.has(recording) || readableSeries(recording).length > 0);
   const recordings = usableRecordings.length > 0 ? usableRecordings : all;
   const unpaired: LogPlan['unpaired'] = { odometry: [], reference: [] };
-  const plan: LogPlan = { drives: [], unpaired, isByOrder: false, unused: all.filter((each) => !recordings.includes(each)).map(unusable) };
+  const plan: LogPlan = { drives: [], unpaired, isByOrder: false, unused: all.filter((recording) => !recordings.includes(recording)).map(unusable) };
   const unnamedRecordings: Recording[] = [];
   for (const recording of recordings) {
     const role = wishes.roles?.get(recording) ?? (recordings.length > 1 ? onlyRole(recording, wishes) : 'both');
@@ -120,7 +120,7 @@ function wishedChoice(recording: Recording, role: Role, wishes: Wishes): Choice 
   const { series, frames } = wishes[role] ?? {};
   const kind = role === 'reference' ? 'poses' : wishes.kind;
   const namedSeries = series === undefined
-    ? recording.series.find((each) => each.frames)
+    ? recording.series.find((entry) => entry.frames)
     : seriesNamed(recording.series, series);
   if (!namedSeries) {
     const names = namesFor(recording, role);
@@ -151,7 +151,7 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   const usableSeries = readableSeries(recording);
   if (usableSeries.length === 0) throw unusable(recording);
   const chains = usableSeries.filter(({ kind }) => kind === 'transforms');
-  if (chains.length === usableSeries.length) throw framesError(recording, chains.find((each) => each.frames) ?? chains[0], role);
+  if (chains.length === usableSeries.length) throw framesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
   if (role === 'reference' && usableSeries.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (say) => say.noPoses(describeSeries(usableSeries)));
   const positionSeries = usableSeries.filter(({ name, kind }) => kind === 'positions' && !GOAL_NAMES.test(name));
   if (positionSeries.length === usableSeries.length || (role === 'reference' && bestChoices.length === 0 && positionSeries.length > 0)) {

@@ -99,13 +99,13 @@ function isDataRow(cells: string[]): boolean {
 
 /** Returns the separator that splits lines into most numbers, or, if there are no numbers, into most cells. */
 function separatorOf(lines: string[]): string {
-  const declaredSeparator = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((each) => each !== undefined);
+  const declaredSeparator = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((found) => found !== undefined);
   if (declaredSeparator) return declaredSeparator;
   const scoreOf = (separator: string) => {
     const cellRows = lines.map((line) => cellsOf(line, separator));
     return cellRows.filter(isDataRow).flat().filter(isNumber).length || cellRows.flat().length / 1e6;
   };
-  return [';', '\t', ',', '|', ' '].map((separator) => ({ separator, score: scoreOf(separator) })).reduce((best, each) => (each.score > best.score ? each : best)).separator;
+  return [';', '\t', ',', '|', ' '].map((separator) => ({ separator, score: scoreOf(separator) })).reduce((best, candidate) => (candidate.score > best.score ? candidate : best)).separator;
 }
 
 /**
@@ -118,7 +118,7 @@ function separatorOf(lines: string[]): string {
 export function formatOf(lines: string[], file: string, columns: string[] | undefined): Format {
   const filledLines = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
-  const textLines = filledLines.filter((each) => !isComment(each));
+  const textLines = filledLines.filter((textLine) => !isComment(textLine));
   if (textLines.length === 0) throw new LogError({ file }, (say) => say.empty);
   const [, notation] = OTHER_NOTATIONS.find(([pattern]) => pattern.test(textLines[0].line)) ?? [];
   if (notation !== undefined) throw new LogError({ file }, (say) => say.noTable(notation));
@@ -174,8 +174,8 @@ function withUnits(names: string[], below: string[][]): string[] {
 
 /** Groups columns. A column without a name has times if its first cell is a date or a fraction. A whole number there is a row number. */
 function columnGroups(names: string[], row: string[] | undefined): Group[] {
-  return groupsOf(names, (at) => {
-    const cell = row?.[at]?.trim() ?? '';
+  return groupsOf(names, (index) => {
+    const cell = row?.[index]?.trim() ?? '';
     return dateOf(cell) !== undefined || /^\d+[.,]\d+$/.test(cell) || unitOfSize(Number(cell)) !== undefined;
   });
 }
@@ -188,11 +188,11 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
     const commentText = textLine.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
     // A commented header may have another separator than the rows.
     const possibleCells = [cellsOf(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}|\t/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
-    const names = possibleCells.find((each) => each.length === width) ?? possibleCells[0];
+    const names = possibleCells.find((cells) => cells.length === width) ?? possibleCells[0];
     if (!isHeader(names)) continue;
     const fieldNames = columnGroups(names, row).flatMap(({ columns }) => Object.keys(columns));
     if (isComment && (fieldNames.length < 3 || (names.length !== width && fieldNames.length < 4))) continue;
-    if (isComment || fieldNames.length > 0 || !above.some((each) => each.number < number && !/^\s*["#%]?sep=/i.test(each.line) && columnGroups(cellsOf(each.line, separator), row).length > 0)) {
+    if (isComment || fieldNames.length > 0 || !above.some((earlier) => earlier.number < number && !/^\s*["#%]?sep=/i.test(earlier.line) && columnGroups(cellsOf(earlier.line, separator), row).length > 0)) {
       return { names: names.map((name) => name.trim().replace(/^"(.*)"$/, '$1')), number };
     }
   }
@@ -205,8 +205,8 @@ function columnsByContent(rows: string[][]): string[] | undefined {
   const isQuaternion = (from: number) => Math.abs(Math.hypot(...row.slice(from, from + 4).map((cell) => Number(cell.replace(',', '.')))) - 1) < 0.1;
   if (row.length === TUM_COLUMNS.length && row.every(isNumber)) return TUM_COLUMNS;
   return ROS2_LAYOUTS.find((names) => {
-    const at = names.indexOf('pose.orientation.x');
-    return row.length === names.length && /^\d+$/.test(row[0].trim()) && /^\d{1,9}$/.test(row[1].trim()) && !isNumber(row[2]) && (at < 0 || isQuaternion(at));
+    const index = names.indexOf('pose.orientation.x');
+    return row.length === names.length && /^\d+$/.test(row[0].trim()) && /^\d{1,9}$/.test(row[1].trim()) && !isNumber(row[2]) && (index < 0 || isQuaternion(index));
   });
 }
 

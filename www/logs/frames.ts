@@ -74,7 +74,7 @@ export class FrameTree {
   /** Returns the frames above a frame, the nearest first. */
   #ancestors(frame: string): string[] {
     const ancestorFrames = new Set<string>([frame]);
-    for (const each of ancestorFrames) for (const { parent } of this.#linksByChild.get(each) ?? []) ancestorFrames.add(parent);
+    for (const frame of ancestorFrames) for (const { parent } of this.#linksByChild.get(frame) ?? []) ancestorFrames.add(parent);
     return [...ancestorFrames].slice(1);
   }
 }
@@ -121,7 +121,7 @@ export class Chain {
    *
    * @returns false if no transform ever changes
    */
-  poses(each: (reading: Sample, sample: TimedEdge) => void): boolean {
+  poses(onPose: (reading: Sample, sample: TimedEdge) => void): boolean {
     const transforms = new Map<string, Transform>();
     const movers = new Set<string>();
     const unknownLinks = new Set<string>();
@@ -143,7 +143,7 @@ export class Chain {
       unknownLinks.delete(sample.link);
       if (sample.link === nearestMovingLink) lastEdge = sample;
       if (!lastEdge || unknownLinks.size > 0) continue;
-      each(sampleOfPose(lastEdge.edge, this.#links.map((link) => transforms.get(link) as Transform).reduce(composeTransforms)), lastEdge);
+      onPose(sampleOfPose(lastEdge.edge, this.#links.map((link) => transforms.get(link) as Transform).reduce(composeTransforms)), lastEdge);
       lastEdge = undefined;
     }
     return true;

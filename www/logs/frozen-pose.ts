@@ -27,7 +27,7 @@ export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
   // Indices of later rows change when earlier ones are removed.
   const newIndices = new Uint32Array(t.length + 1);
   for (let i = 0; i < t.length; i++) newIndices[i + 1] = newIndices[i] + isKept[i];
-  const kept = newIndices[t.length];
+  const keptCount = newIndices[t.length];
   const movedBreaks = new Set([...breaks].map((row) => newIndices[row]));
   return {
     ...reference,
@@ -36,9 +36,9 @@ export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
       x: x.filter(isKeptRow),
       y: y.filter(isKeptRow),
       theta: theta.filter(isKeptRow),
-      breaks: Uint32Array.from(movedBreaks).filter((row) => row < kept).sort(),
+      breaks: Uint32Array.from(movedBreaks).filter((row) => row < keptCount).sort(),
     },
-    summary: { ...reference.summary, used: kept, dropped: { ...reference.summary.dropped, held: { count: t.length - kept, first: 0 } } },
+    summary: { ...reference.summary, used: keptCount, dropped: { ...reference.summary.dropped, held: { count: t.length - keptCount, first: 0 } } },
   };
 }
 

@@ -48,7 +48,7 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
   const sortedRows = allRows.toSorted((one, other) => t[one] - t[other] || one - other);
   // Parts of the log may have the same times, so that sorting makes the steps shorter. A log that is out of order everywhere has no parts.
   const orderedRows = stepsBack > MAX_STEPS_BACK * t.length ? sortedRows : allRows;
-  const medianStep = quantile(sample(t.length - 1, (i) => t[orderedRows[i + 1]] - t[orderedRows[i]]).filter((each) => each > 0), 0.5);
+  const medianStep = quantile(sample(t.length - 1, (i) => t[orderedRows[i + 1]] - t[orderedRows[i]]).filter((step) => step > 0), 0.5);
   const rankOfRow = new Uint32Array(t.length);
   for (let rank = 0; rank < t.length; rank++) rankOfRow[sortedRows[rank]] = rank;
   const isFarFromOthers = (i: number) => [t[sortedRows[rankOfRow[i] - 1]], t[sortedRows[rankOfRow[i] + 1]]].every((other) => !(Math.abs(other - t[i]) <= MAX_GAP_STEPS * medianStep));

@@ -106,7 +106,7 @@ export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] => WARNING_N
 /** Returns a log with its times in seconds after another start. */
 export function withStart(log: Log, start: number): Log {
   const startDifference = log.start - start;
-  return startDifference === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((each) => each + startDifference) } };
+  return startDifference === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((time) => time + startDifference) } };
 }
 
 /** Returns the logs of drives in the form that the core takes: arrays if there are several drives. */
@@ -132,23 +132,23 @@ export function isSamePath(one: Log, two: Log): boolean {
     const [dx, dy, cos, sin] = [x[to] - x[from], y[to] - y[from], Math.cos(theta[from]), Math.sin(theta[from])];
     return [cos * dx + sin * dy, cos * dy - sin * dx, theta[to] - theta[from]];
   };
-  const isRoundedTo = (step: number) => [poses, other].some(({ x, y }) => [x, y].every((all) => all.every((value) => Math.abs(value / step - Math.round(value / step)) < 1e-6)));
-  const step = ROUNDING_STEPS.find((each) => one.summary.distance > MIN_ROUNDED_LENGTH * each && isRoundedTo(each)) ?? 0;
+  const isRoundedTo = (step: number) => [poses, other].some(({ x, y }) => [x, y].every((coordinates) => coordinates.every((value) => Math.abs(value / step - Math.round(value / step)) < 1e-6)));
+  const step = ROUNDING_STEPS.find((candidate) => one.summary.distance > MIN_ROUNDED_LENGTH * candidate && isRoundedTo(candidate)) ?? 0;
   let [isMoved, isRounded] = [true, step > 0];
-  let first: [number, number] | undefined;
+  let firstRows: [number, number] | undefined;
   let [comparedRows, motion] = [0, 0];
   for (let i = 0; i < t.length; i += rowStride) {
     const j = bisectLeft(other.t, t[i] - 1e-6);
     if (!(Math.abs(other.t[j] - t[i]) <= 1e-6)) continue;
-    first ??= [i, j];
-    const [own, its] = [motionBetween(poses, first[0], i), motionBetween(other, first[1], j)];
-    const distance = Math.hypot(own[0], own[1]);
-    const turn = Math.abs(Math.sin((own[2] - its[2]) / 2));
-    isMoved &&= Math.hypot(own[0] - its[0], own[1] - its[1]) <= COPY_TOLERANCE * (1 + distance) && turn <= COPY_TOLERANCE;
+    firstRows ??= [i, j];
+    const [motionOfOne, motionOfTwo] = [motionBetween(poses, firstRows[0], i), motionBetween(other, firstRows[1], j)];
+    const distance = Math.hypot(motionOfOne[0], motionOfOne[1]);
+    const turn = Math.abs(Math.sin((motionOfOne[2] - motionOfTwo[2]) / 2));
+    isMoved &&= Math.hypot(motionOfOne[0] - motionOfTwo[0], motionOfOne[1] - motionOfTwo[1]) <= COPY_TOLERANCE * (1 + distance) && turn <= COPY_TOLERANCE;
     isRounded &&= Math.max(Math.abs(poses.x[i] - other.x[j]), Math.abs(poses.y[i] - other.y[j])) < 0.5 * step + COPY_TOLERANCE;
     if (!isMoved && !isRounded) return false;
     comparedRows += 1;
-    motion = Math.max(motion, distance, Math.abs(Math.sin(own[2] / 2)));
+    motion = Math.max(motion, distance, Math.abs(Math.sin(motionOfOne[2] / 2)));
   }
   return comparedRows >= MIN_EQUAL_ROWS && motion > MIN_MOTION;
 }

@@ -196,7 +196,7 @@ export class Rows {
     let [passedTime, firstLine] = [0, 0];
     for (const [row, step] of steps.entries()) {
       // A late row from before the reset leads back over it.
-      const period = step < 0 || passedTime > 0 ? periods.find((each) => Math.abs(Math.abs(step) - each) <= MIN_GAP_STEPS * medianStep) : undefined;
+      const period = step < 0 || passedTime > 0 ? periods.find((clockPeriod) => Math.abs(Math.abs(step) - clockPeriod) <= MIN_GAP_STEPS * medianStep) : undefined;
       if (period) {
         passedTime -= Math.sign(step) * period;
         firstLine ||= this.#number(row, LINE);
@@ -286,7 +286,7 @@ export class Rows {
       if (classes[i] === STRAY || classes[i] === SET_BACK) causes.set(row, classes[i] === STRAY ? 'stray' : 'setBack');
     });
     if (usedRows.length < this.#addedCount) for (const row of this.#rows) if (this.#isUnset(row)) causes.set(row, 'noStamp');
-    return { start, t: timesOf(rows), rows, late: classes.reduce((count, each) => count + Number(each === LATE), 0), causes };
+    return { start, t: timesOf(rows), rows, late: classes.reduce((count, rowClass) => count + Number(rowClass === LATE), 0), causes };
   }
 
   /** Returns the rows before which the path is unknown: after unusable rows, and where the clock was set back. Counts the dropped rows. */

@@ -66,8 +66,8 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
     format: format.name,
     series: allSeries,
     async read(choices, onProgress) {
-      const readersOfChoices = choices.map(({ series: wanted, kind }) => {
-        const chosenGroup = readableGroups.length === 1 && wanted === '' ? readableGroups[0] : format.groups[allSeries.findIndex(({ name }) => name === wanted)];
+      const readersOfChoices = choices.map(({ series: seriesName, kind }) => {
+        const chosenGroup = readableGroups.length === 1 && seriesName === '' ? readableGroups[0] : format.groups[allSeries.findIndex(({ name }) => name === seriesName)];
         const layout = layoutOf(chosenGroup, format.names, headerPlace, kind);
         const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
         const readerOf = (group: Group, upAxis?: 'Y' | 'Z') => new LogReader(name, source.name, format, group, upAxis ? layoutOf(group, format.names, headerPlace, kind) : layout, options, upAxis);
@@ -78,7 +78,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
         for (const reader of allReaders) reader.take(line, number, isOpen);
       });
       // The vertical axis is the one about which the robot turns, and along which it hardly moves.
-      return readersOfChoices.map((each) => (least(each.filter(({ isTilted }) => !isTilted), ({ rise }) => rise) ?? each[0]).end());
+      return readersOfChoices.map((readers) => (least(readers.filter(({ isTilted }) => !isTilted), ({ rise }) => rise) ?? readers[0]).end());
     },
   };
 }

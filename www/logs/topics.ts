@@ -51,8 +51,8 @@ async function listSeries(container: Container): Promise<Series[]> {
     const count = (readable.length ? readable : channels).reduce((sum, channel) => sum + channel.count, 0);
     return { name: topic, type: [...types].join(', '), kind: readable.length && types.size === 1 ? kindOf([...types][0]) : null, count };
   });
-  for (const each of series) {
-    if (each.kind !== 'transforms' || isStaticTopic({ topic: each.name, type: each.type })) continue;
+  for (const entry of series) {
+    if (entry.kind !== 'transforms' || isStaticTopic({ topic: entry.name, type: entry.type })) continue;
     const frameTree = new FrameTree();
     let messageCount = 0;
     const take = (message: Message) => {
@@ -64,8 +64,8 @@ async function listSeries(container: Container): Promise<Series[]> {
       }
     };
     await container.read(isStaticTopic, take);
-    await container.read(({ topic }) => topic === each.name, take, () => messageCount >= MAX_FRAME_MESSAGES);
-    each.frames = frameTree.candidates();
+    await container.read(({ topic }) => topic === entry.name, take, () => messageCount >= MAX_FRAME_MESSAGES);
+    entry.frames = frameTree.candidates();
   }
   return series.sort((one, other) => (one.name < other.name ? -1 : 1));
 }

@@ -107,15 +107,15 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, lengt
   const isMoving = speed > 0 || turn > 0;
   /** Checks that the rate and the speed of the robot are plausible with a unit. */
   const isPlausibleUnit = (unit: TimeUnit) => {
-    const speedsWithUnit = [speed, turn].map((each) => each * rateWithUnit(unit) * medianStep);
-    return isInRange(rateWithUnit(unit), USUAL_RATES) && (!isMoving || (speedsWithUnit.every((each) => each <= MAX_SPEED) && [...speedsWithUnit, raw * rateWithUnit(unit) * medianStep].some((each) => each >= MIN_SPEED)));
+    const speedsWithUnit = [speed, turn].map((rawSpeed) => rawSpeed * rateWithUnit(unit) * medianStep);
+    return isInRange(rateWithUnit(unit), USUAL_RATES) && (!isMoving || (speedsWithUnit.every((speedWithUnit) => speedWithUnit <= MAX_SPEED) && [...speedsWithUnit, raw * rateWithUnit(unit) * medianStep].some((speedWithUnit) => speedWithUnit >= MIN_SPEED)));
   };
   if (isPlausibleUnit(assumed.unit)) return assumed;
   const [unit, ...otherUnits] = units.filter(isPlausibleUnit);
   if (unit && otherUnits.length === 0 && isMoving) return { unit, by: 'rate' };
   // A robot that is too fast may have its lengths or headings in another unit.
   if (isInRange(rateWithUnit(assumed.unit), USUAL_RATES) && Math.max(speed, turn) > MAX_SPEED) return assumed;
-  return ask('timeUnit', rateWithUnit(assumed.unit), assumed.unit, units.filter((each) => isInRange(rateWithUnit(each), USUAL_RATES)));
+  return ask('timeUnit', rateWithUnit(assumed.unit), assumed.unit, units.filter((unit) => isInRange(rateWithUnit(unit), USUAL_RATES)));
 }
 
 /** Checks lengths by the speed of the robot, and by its acceleration. */
@@ -124,7 +124,7 @@ function checkLength(kind: LogKind, { t, a, b }: Columns, { unit, by }: Units['l
   const speed = kind === 'poses' ? speedOf(t, a, b, step) : quantile(sample(a.length, (i) => Math.abs(a[i])), 0.9);
   const speedInMetres = speed * METRES[unit];
   const isTooLively = speedInMetres > FAST && accelerationOf(kind, t, a, b, step) * METRES[unit] > MAX_ACCELERATION;
-  const plausibleUnits = UNITS.lengthUnit.filter((each) => isInRange(speed * METRES[each], [MIN_SPEED, MAX_SPEED]));
+  const plausibleUnits = UNITS.lengthUnit.filter((unit) => isInRange(speed * METRES[unit], [MIN_SPEED, MAX_SPEED]));
   // A unit in a name is doubted if the robot would be too slow with it, but would have a usual speed in metres.
   if (speedInMetres > MAX_SPEED || isTooLively || (by === 'name' && unit !== 'm' && speedInMetres < MIN_SPEED && speed > 0.1 && plausibleUnits.includes('m'))) {
     ask('lengthUnit', speedInMetres, unit, plausibleUnits.includes(unit) ? plausibleUnits : [...plausibleUnits, unit]);
@@ -180,7 +180,7 @@ function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: 
   }
   if (stepCount < MIN_STEPS) return undefined;
   // The mean resultant length is 1 if all differences are equal, and near 0 if they are random.
-  const [rad, deg] = UNITS.angleUnit.map((unit) => Math.max(...candidates.filter((each) => each.unit === unit).map(({ cosine, sine }) => Math.hypot(cosine, sine) / stepCount)));
+  const [rad, deg] = UNITS.angleUnit.map((unit) => Math.max(...candidates.filter((candidate) => candidate.unit === unit).map(({ cosine, sine }) => Math.hypot(cosine, sine) / stepCount)));
   if (Math.max(rad, deg) < 0.8 || Math.abs(rad - deg) < 0.3) return undefined;
   return rad > deg ? 'rad' : 'deg';
 }

@@ -125,11 +125,11 @@ function isTag(text: unknown) {
 
 /** Returns the nearest `lang` attribute of an element and its ancestors across shadow roots, in lower case, or an empty string. */
 function languageOf(element: Element): string {
-  for (let at = element as Element | undefined; at; ) {
-    const elementWithLang = at.closest('[lang]') as Element | null;
+  for (let host = element as Element | undefined; host; ) {
+    const elementWithLang = host.closest('[lang]') as Element | null;
     if (elementWithLang) return elementWithLang.getAttribute('lang')?.toLowerCase() ?? '';
-    const rootNode = at.getRootNode();
-    at = rootNode instanceof ShadowRoot ? rootNode.host : undefined;
+    const rootNode = host.getRootNode();
+    host = rootNode instanceof ShadowRoot ? rootNode.host : undefined;
   }
   return '';
 }

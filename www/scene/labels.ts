@@ -42,7 +42,7 @@ export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text
   const labelLeft = clamp(x - (0.5 - 0.5 * towards) * width, left + 3, Math.max(left + 3, right - width - 3));
   const [across, down] = [width / 2 + 2, BACKGROUND.half];
   const candidates = LABEL_SHIFTS.map((shift) => clamp(y + 2 * down * shift, top + 10, bottom - 10));
-  const isFreeAt = (at: number) => placed.every((other) => Math.abs(other.x - labelLeft - width / 2) >= other.across + across || Math.abs(other.y - at) >= other.down + down);
+  const isFreeAt = (candidateY: number) => placed.every((other) => Math.abs(other.x - labelLeft - width / 2) >= other.across + across || Math.abs(other.y - candidateY) >= other.down + down);
   const labelY = candidates.find(isFreeAt) ?? candidates[0];
   placed.push({ x: labelLeft + width / 2, y: labelY, across, down });
   context.fillStyle = palette.paper;

@@ -71,7 +71,7 @@ function visibleCells({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, r
     const cornerCells = viewCorners.map((corner) => clamp(corner[i], 0, count));
     return [Math.floor(Math.min(...cornerCells) / side) * side, Math.min(count, Math.ceil(Math.max(...cornerCells) / side) * side)];
   });
-  return [0, 1].flatMap((end) => cellRanges.map((each) => each[end]));
+  return [0, 1].flatMap((end) => cellRanges.map((range) => range[end]));
 }
 
 /** Returns the position of the corner of a cell, m. */

@@ -227,10 +227,10 @@ function pixelScale({ from, to, logarithmic }: Axis, first: number, last: number
   return (value) => clamp(first + ((toLinear(value) - start) * (last - first)) / (end - start), -FAR_OUTSIDE, FAR_OUTSIDE);
 }
 
-function axisLabels({ from, to, logarithmic }: Axis, most: number): [value: number, text: string][] {
-  if (!logarithmic) return ticks(from, to, most - 1).map((value, _, all) => [value, tick(value, all.length > 1 ? all[1] - all[0] : 1)]);
+function axisLabels({ from, to, logarithmic }: Axis, maxCount: number): [value: number, text: string][] {
+  if (!logarithmic) return ticks(from, to, maxCount - 1).map((value, _, values) => [value, tick(value, values.length > 1 ? values[1] - values[0] : 1)]);
   const [first, last] = [Math.ceil(Math.log10(from) - 1e-9), Math.floor(Math.log10(to) + 1e-9)];
-  const exponentStep = Math.max(1, Math.ceil((last - first + 1) / most));
+  const exponentStep = Math.max(1, Math.ceil((last - first + 1) / maxCount));
   const exponents = Array.from({ length: Math.floor((last - first) / exponentStep) + 1 }, (_, i) => first + i * exponentStep);
   return exponents.map((exponent) => [10 ** exponent, powerOfTen(exponent)]);
 }

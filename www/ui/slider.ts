@@ -256,7 +256,7 @@ export interface SliderRow extends Range {
 function stopPositions({ stops, value, input }: SliderRow): Partial<Range> {
   if (!stops) return {};
   const stopIndex = stops.findIndex((stop) => stop >= value);
-  return { min: 0, max: stops.length - 1, step: 1, value: stopIndex < 0 ? stops.length : stopIndex, input: (at) => input(stops[at]) };
+  return { min: 0, max: stops.length - 1, step: 1, value: stopIndex < 0 ? stops.length : stopIndex, input: (index) => input(stops[index]) };
 }
 
 interface Track extends Range {

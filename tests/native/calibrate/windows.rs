@@ -34,7 +34,7 @@ fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng)
         (0..SAMPLES).map(|_| composed(&mut legs.iter().map(&mut sample)).boxminus(&odom_motion)).collect();
     let mean = samples.iter().sum::<Vector3<f64>>() / SAMPLES as f64;
     let covariance =
-        samples.iter().map(|each| (each - mean) * (each - mean).transpose()).sum::<Matrix3<f64>>();
+        samples.iter().map(|sample| (sample - mean) * (sample - mean).transpose()).sum::<Matrix3<f64>>();
     let reference_motion = legs[0].reference[0].inverse() * legs[legs.len() - 1].reference[1];
     let deviation = reference_motion.boxminus(&odom_motion) - mean;
     let inverse = (covariance / SAMPLES as f64).try_inverse().expect("noise in all directions");

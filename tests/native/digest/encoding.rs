@@ -45,7 +45,7 @@ encode_as! {
 impl<T: Encode> Encode for [T] {
     fn encode(&self, bytes: &mut Vec<u8>) {
         self.len().encode(bytes);
-        self.iter().for_each(|each| each.encode(bytes));
+        self.iter().for_each(|item| item.encode(bytes));
     }
 }
 

@@ -24,8 +24,8 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
     let (reading, contours, table) = (machine.reading(), machine.contours(), machine.table());
     let figures = *machine.figures();
     let gain_fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
-    let values = |each: TableColumn| {
-        (each.mean, each.cov, each.cross_track_skew, gain_fields(each.likelihood_gain), each.area_ratio)
+    let values = |col: TableColumn| {
+        (col.mean, col.cov, col.cross_track_skew, gain_fields(col.likelihood_gain), col.area_ratio)
     };
     let stats = (
         figures.n,
@@ -98,7 +98,7 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
     );
     vec![
         Part::new("map", (plan.bounds(), flattened(walls.as_flattened()), grid)),
-        Part::new("poses", attempts.iter().flat_map(|each| coordinates(each.pose)).collect::<Vec<_>>()),
+        Part::new("poses", attempts.iter().flat_map(|attempt| coordinates(attempt.pose)).collect::<Vec<_>>()),
         Part::new("verdicts", attempts.iter().map(Attempt::verdict).collect::<Vec<_>>()),
         Part::new(
             "statistics",

@@ -170,8 +170,9 @@ fn exact_spreads_match_samples() {
                 .collect();
             let exact = [variances.cross_track(legs.trans, kind), variances.heading(rho)];
             for (k, exact) in exact.into_iter().enumerate() {
-                let mean =
-                    |power| outcomes.iter().map(|each| each[k].powi(power)).sum::<f64>() / SAMPLES as f64;
+                let mean = |power| {
+                    outcomes.iter().map(|outcome| outcome[k].powi(power)).sum::<f64>() / SAMPLES as f64
+                };
                 let (m2, m4) = (mean(2), mean(4));
                 let error = ((m4 - m2 * m2) / SAMPLES as f64).sqrt();
                 assert!(

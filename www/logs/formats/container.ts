@@ -37,7 +37,7 @@ export interface Container {
   /** Names of missing split files of the recording. */
   missing: string[];
   /** Passes on the messages of channels, block by block. Stops after a block if `onProgress` returns true. */
-  read(isWanted: (channel: Channel) => boolean, each: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void>;
+  read(isWanted: (channel: Channel) => boolean, onMessage: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void>;
 }
 
 /** Maximum size of a block in bytes. Recorders write one to four million. */

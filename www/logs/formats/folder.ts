@@ -34,11 +34,11 @@ export async function listedFiles(metadata: Source, sources: Source[]): Promise<
   const filesInFolder = sources.filter((source) => folderOf(source) === folderOf(metadata));
   // A decompressed file has no ".zstd" at the end of its name.
   const files = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
-  const found = files.filter((file) => file !== undefined);
-  const missing = fileNames.filter((_, i) => !files[i]);
-  if (found.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listing(fileNames)));
+  const foundFiles = files.filter((file) => file !== undefined);
+  const missingNames = fileNames.filter((_, i) => !files[i]);
+  if (foundFiles.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listing(fileNames)));
   const folder = baseName(folderOf(metadata).replace(/\/$/, ''));
-  return { name: folder || found[0].name, found, missing };
+  return { name: folder || foundFiles[0].name, found: foundFiles, missing: missingNames };
 }
 
 /** Returns a container with the messages of several containers, one after the other. */
@@ -53,10 +53,10 @@ export function joinedContainer(parts: Container[], missing: string[]): Containe
     get cutShort() {
       return parts.some(({ cutShort }) => cutShort);
     },
-    async read(isWanted: (channel: Channel) => boolean, each: (message: Message) => void, onProgress?: (share: number) => boolean | void) {
+    async read(isWanted: (channel: Channel) => boolean, onMessage: (message: Message) => void, onProgress?: (share: number) => boolean | void) {
       for (const [i, part] of parts.entries()) {
         let isStopped = false;
-        await part.read(isWanted, each, (share) => (isStopped = onProgress?.((i + share) / parts.length) === true));
+        await part.read(isWanted, onMessage, (share) => (isStopped = onProgress?.((i + share) / parts.length) === true));
         if (isStopped) return;
       }
     },

@@ -25,29 +25,29 @@ export async function unlz4(bytes: Uint8Array, size: number): Promise<Uint8Array
   assertValid(view.getUint32(0, true) === LZ4_MAGIC && (flags & VERSION) === VERSION_1 && !(flags & DICTIONARY));
   if (flags & (BLOCK_CHECKSUMS | CHECKSUM)) checksumHash ??= (await (await import('xxhash-wasm')).default()).h32Raw;
   const verifyChecksum = (part: Uint8Array, at: number) => assertValid(checksumHash?.(part) === view.getUint32(at, true));
-  const out = new Uint8Array(size);
+  const output = new Uint8Array(size);
   let filledBytes = 0;
   // Magic number, two bytes of flags, the size if there is one, and a checksum come first.
   for (let at = 7 + (flags & CONTENT_SIZE ? 8 : 0); ; ) {
     const blockWord = view.getUint32(at, true);
     if (blockWord === 0) {
-      if (flags & CHECKSUM) verifyChecksum(out, at + 4);
+      if (flags & CHECKSUM) verifyChecksum(output, at + 4);
       break;
     }
     const from = at + 4;
     const to = from + (blockWord & ~UNCOMPRESSED_BIT);
     assertValid(to <= bytes.length);
     if (blockWord & UNCOMPRESSED_BIT) {
-      out.set(bytes.subarray(from, to), filledBytes);
+      output.set(bytes.subarray(from, to), filledBytes);
       filledBytes += to - from;
     } else {
-      filledBytes = decompressBlock(bytes.subarray(from, to), out, filledBytes);
+      filledBytes = decompressBlock(bytes.subarray(from, to), output, filledBytes);
     }
     if (flags & BLOCK_CHECKSUMS) verifyChecksum(bytes.subarray(from, to), to);
     at = to + (flags & BLOCK_CHECKSUMS ? 4 : 0);
   }
   assertValid(filledBytes === size);
-  return out;
+  return output;
 }
 
 /** Appends a decompressed block to `out`, which has `filled` bytes, and returns the new number. */

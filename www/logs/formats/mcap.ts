@@ -71,8 +71,8 @@ class Mcap implements Container {
     if (!this.#channels.has(id)) this.#channels.set(id, { topic, type: this.#types.get(schemaId) ?? '', encoding: messageEncoding, publisher, count });
   }
 
-  async read(isWanted: IsWanted, each: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
-    if (!this.#chunks) return this.#readFromStart(isWanted, each, onProgress);
+  async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
+    if (!this.#chunks) return this.#readFromStart(isWanted, onMessage, onProgress);
     const wantedIds = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wantedIds.has(id)));
     const bytesAt = readAhead(this.#source);
@@ -82,13 +82,13 @@ class Mcap implements Container {
         if (chunkLength > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${chunkLength} bytes`);
         const bytes = await bytesAt(from, from + Number(chunkLength));
         if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
-        this.#readRecords(await recordsOf(bytes.subarray(RECORD_HEAD_BYTES)), isWanted, each);
+        this.#readRecords(await recordsOf(bytes.subarray(RECORD_HEAD_BYTES)), isWanted, onMessage);
       });
       if (onProgress?.((i + 1) / wantedChunks.length)) return;
     }
   }
 
-  async #readFromStart(isWanted: IsWanted, each: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async #readFromStart(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.#source;
     const bytesAt = readAhead(this.#source);
     this.cutShort = true;
@@ -105,7 +105,7 @@ class Mcap implements Container {
         await this.#attempt(at, async () => {
           if (recordLength > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${recordLength} bytes`);
           const record = await bytesAt(at, nextRecord);
-          this.#readRecords(recordHead[0] === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, each);
+          this.#readRecords(recordHead[0] === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
         });
       }
       at = nextRecord;
@@ -125,7 +125,7 @@ class Mcap implements Container {
     }
   }
 
-  #readRecords(bytes: Uint8Array, isWanted: IsWanted, each: OnMessage): void {
+  #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {
     const view = viewOf(bytes);
     for (let at = 0; at < bytes.length; ) {
       const nextRecord = at + RECORD_HEAD_BYTES + uint53(view, at + 1);
@@ -133,7 +133,7 @@ class Mcap implements Container {
       if (bytes[at] === MESSAGE) {
         const channel = this.#channels.get(view.getUint16(at + RECORD_HEAD_BYTES, true));
         if (channel && isWanted(channel)) {
-          each({ channel, ...stampAt(view, at + RECORD_HEAD_BYTES + 6), block: view, from: at + RECORD_HEAD_BYTES + 22, to: nextRecord });
+          onMessage({ channel, ...stampAt(view, at + RECORD_HEAD_BYTES + 6), block: view, from: at + RECORD_HEAD_BYTES + 22, to: nextRecord });
         }
       } else {
         const reader = new McapStreamReader({ noMagicPrefix: true });

@@ -152,7 +152,7 @@ class Rosbag implements Container {
     this.#channels.set(id, { topic: fields.text('topic'), type: connectionFields.text('type'), encoding: 'ros1', publisher, count: 0 });
   }
 
-  async read(isWanted: IsWanted, each: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.#source;
     const bytesAt = readAhead(this.#source);
     const wantedIds = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
@@ -177,7 +177,7 @@ class Rosbag implements Container {
         if (op === CONNECTION) this.#addConnection(fields, await bytesAt(from, at));
         if (op === CHUNK) {
           if (Math.max(bytes, fields.uint32('size')) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
-          await this.#readChunk(fields, await bytesAt(from, at), isWanted, each);
+          await this.#readChunk(fields, await bytesAt(from, at), isWanted, onMessage);
         } else if (wantedChunks) throw new RangeError('no chunk is there');
       } catch (error) {
         if (error instanceof LogError) throw error;
@@ -189,7 +189,7 @@ class Rosbag implements Container {
     }
   }
 
-  async #readChunk(chunk: HeaderFields, compressed: Uint8Array, isWanted: IsWanted, each: OnMessage): Promise<void> {
+  async #readChunk(chunk: HeaderFields, compressed: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): Promise<void> {
     const bytes = await this.#decompress(chunk.text('compression'), compressed, chunk.uint32('size'));
     const view = viewOf(bytes);
     for (let at = 0; at < bytes.length; ) {
@@ -198,7 +198,7 @@ class Rosbag implements Container {
       if (op === CONNECTION) this.#addConnection(fields, bytes.subarray(from, next));
       if (op === MESSAGE) {
         const channel = this.#channels.get(fields.uint32('conn'));
-        if (channel && isWanted(channel)) each({ channel, seconds: fields.uint32('time'), nanoseconds: fields.uint32('time', 4), block: view, from, to: next });
+        if (channel && isWanted(channel)) onMessage({ channel, seconds: fields.uint32('time'), nanoseconds: fields.uint32('time', 4), block: view, from, to: next });
       }
       at = next;
     }

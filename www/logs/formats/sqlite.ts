@@ -104,13 +104,13 @@ class Rosbag2 implements Container {
     });
   }
 
-  async read(isWanted: (channel: Channel) => boolean, each: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async read(isWanted: (channel: Channel) => boolean, onMessage: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void> {
     const wantedChannels = new Map([...this.#channels].filter(([, channel]) => isWanted(channel)));
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
     const passRow = (channel: Channel, bytes: Uint8Array) => {
       const stamp = BigInt(valueOf(bytes, timestamp) as bigint);
       const block = viewOf(valueOf(bytes, data) as Uint8Array);
-      each({ channel, seconds: Number(stamp / NS_PER_S), nanoseconds: Number(stamp % NS_PER_S), block, from: 0, to: block.byteLength });
+      onMessage({ channel, seconds: Number(stamp / NS_PER_S), nanoseconds: Number(stamp % NS_PER_S), block, from: 0, to: block.byteLength });
     };
     await this.#eachRow(this.#messages, (row) => {
       const channel = wantedChannels.get(valueOf(row.bytes, topicId));
@@ -120,7 +120,7 @@ class Rosbag2 implements Container {
   }
 
   /** Passes on the rows of a table in the order of their numbers. Damaged pages are skipped. */
-  async #eachRow({ root }: Table, each: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async #eachRow({ root }: Table, onRow: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
     // In an incomplete file the pages that lead to the messages may be missing. Pages of other tables fail then.
     const isSearched = this.cutShort && root === this.#messages.root;
     const leafPages = isSearched ? Array.from({ length: this.#source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
@@ -129,7 +129,7 @@ class Rosbag2 implements Container {
       try {
         const pageBytes = await this.#page(number);
         for (const cell of cellsOf(pageBytes, number, LEAF)) {
-          const pendingRow = each(this.#rowAt(pageBytes, cell));
+          const pendingRow = onRow(this.#rowAt(pageBytes, cell));
           if (pendingRow) await pendingRow;
         }
       } catch (error) {
@@ -146,7 +146,7 @@ class Rosbag2 implements Container {
     let levelPages = [root];
     for (let depth = 0; depth < MAX_DEPTH; depth++) {
       const nextLevel: number[] = [];
-      for (const number of levelPages.filter((each) => this.#hasPage(each))) {
+      for (const number of levelPages.filter((page) => this.#hasPage(page))) {
         // These pages are far from each other, so that reading ahead would be slow.
         const page = await bytesOf(this.#source, (number - 1) * this.#pageSize, number * this.#pageSize);
         if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF && nextLevel.length === 0) return levelPages;

@@ -22,9 +22,9 @@ export const loadZstd = () => zstdDecoder.init();
 /** Decompresses a block of known size; throws a RangeError if it has another size. */
 export function unzstd(bytes: Uint8Array, size: number): Uint8Array {
   // The decoder treats size 0 as unknown.
-  const out = size === 0 ? new Uint8Array() : zstdDecoder.decode(bytes, size);
-  if (out.length !== size) throw new RangeError('a compressed block is not what was written');
-  return out;
+  const output = size === 0 ? new Uint8Array() : zstdDecoder.decode(bytes, size);
+  if (output.length !== size) throw new RangeError('a compressed block is not what was written');
+  return output;
 }
 
 /** Decompresses a message; throws a RangeError if it is damaged. */

@@ -207,18 +207,18 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   get exportData() {
     const { fitted, legs } = this.currentReading;
     const missing = this.log ? words.calibrator.logNotInCopies : '';
-    const of = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
-    const columns = (whose: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${whose}_${end}_${key}`));
+    const entryOf = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
+    const columns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`));
     return {
       description: [pathText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
       settings: { log: this.log?.name ?? null, ...fitted },
       columns: [
         'begins_s', 'ends_s', ...columns('odometry'), ...columns('reference'), 'reading_1', 'reading_2', 'reading_3',
-        ...['residual', 'standardized', 'std'].flatMap((what) => NOISE_COMPONENTS[fitted.model].map((name) => `${what}_${name}`)), 'squared_mahalanobis', 'outlier',
+        ...['residual', 'standardized', 'std'].flatMap((statistic) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`)), 'squared_mahalanobis', 'outlier',
       ],
       row: (i: number) => [
-        ...of(legs.times, i, 2), ...of(legs.odometry, i, 6), ...of(legs.reference, i, 6), ...of(legs.readings, i, 3),
-        ...of(legs.residuals, i, 3), ...of(legs.standardized, i, 3), ...of(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
+        ...entryOf(legs.times, i, 2), ...entryOf(legs.odometry, i, 6), ...entryOf(legs.reference, i, 6), ...entryOf(legs.readings, i, 3),
+        ...entryOf(legs.residuals, i, 3), ...entryOf(legs.standardized, i, 3), ...entryOf(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
       ],
       count: legs.count,
       notInLink: missing,

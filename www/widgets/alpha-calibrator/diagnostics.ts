@@ -117,7 +117,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
     x: { name: axis, from: 0, to: axisEnd },
     y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(from), to: scaled(axisTop) },
     curves: [...slopeLines, { name: say.bins, role: 'ink', x: [], y: [] }],
-    points: x.map((at, i) => ({ role: 'ink' as const, x: at, y: scaled(y[i]), error: scaled(error[i]) })),
+    points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaled(y[i]), error: scaled(error[i]) })),
   };
 }
 

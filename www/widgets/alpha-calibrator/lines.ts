@@ -126,8 +126,8 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   const commentLines = noteTexts.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
   const fifthAlphaNote = alphas.length < 5 ? [`# ${say.fifth}`] : [];
   const updateTriggers = duration === undefined ? [`update_min_d: ${withDecimals(toText(distance ?? null))}`, `update_min_a: ${withDecimals(toText(angle ?? null))}`] : [];
-  const all = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaNote, ...updateTriggers];
-  return ['amcl:', '  ros__parameters:', ...all.map((line) => `    ${line}`)];
+  const parameterLines = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaNote, ...updateTriggers];
+  return ['amcl:', '  ros__parameters:', ...parameterLines.map((line) => `    ${line}`)];
 }
 
 export const failedOf = <Check extends { name: string, passed: boolean, message: string }>(checks: Check[]) => checks.filter(({ passed }) => !passed);
@@ -149,7 +149,7 @@ export function correctFirst({ recommended, systematicErrors }: any, say: Words,
 
 /** Lists the systematic errors that were corrected, in one text or none. */
 function correctionOf(systematicErrors: any): string[] {
-  const correctedErrors = Object.entries<any>(systematicErrors).filter(([, each]) => each.corrected);
+  const correctedErrors = Object.entries<any>(systematicErrors).filter(([, error]) => error.corrected);
   const errorList = correctedErrors.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => fixed(one, Array.isArray(value) ? interval[i] : interval)).join(', ')}`);
   return errorList.length ? [errorList.join('; ')] : [];
 }

@@ -25,7 +25,7 @@ export const labelOf = ({ series, frames }: Choice) => (frames ? `${series}: ${f
 /** Returns all options for a role. Each chain of transforms is a separate option. */
 function optionsOf(recording: Recording, role?: Role): [label: string, Choice][] {
   const usableSeries = readableSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
-  const choices = usableSeries.flatMap(({ name: series, kind, frames = [] }): Choice[] => (kind === 'transforms' ? frames.map((each) => ({ series, frames: each })) : [{ series }]));
+  const choices = usableSeries.flatMap(({ name: series, kind, frames = [] }): Choice[] => (kind === 'transforms' ? frames.map((pair) => ({ series, frames: pair })) : [{ series }]));
   return choices.map((choice) => [labelOf(choice) || recording.name, choice]);
 }
 
@@ -42,25 +42,25 @@ export function logChoosers(opener: LogOpener) {
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="topics">${roleChoosers} ${plan?.isByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
     ${questions.map((asked) => questionOf(opener, chosen, asked, say))}
-    ${[...skipped, ...(plan?.unused ?? [])].filter((each) => each !== opener.refusal).map((each) => html`<p class="muted">${say.choose.skipped(opener.explain(each))}</p>`)}
+    ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${say.choose.skipped(opener.explain(failure))}</p>`)}
   </div>`;
 }
 
 function selectField(id: string, label: string, value: string, options: [value: string, label: string][], choose: (value: string) => void, open: string) {
-  const all = options.some(([each]) => each === value) ? options : [['', open], ...options];
+  const allOptions = options.some(([optionValue]) => optionValue === value) ? options : [['', open], ...options];
   return html`<label>
     ${label}
     <select id=${id} aria-label=${label} aria-describedby="refusal" @change=${(event: Event) => choose((event.target as HTMLSelectElement).value)}>
-      ${all.map(([each, text]) => html`<option value=${each} .selected=${live(each === value || (value === '' && each === ''))}>${text}</option>`)}
+      ${allOptions.map(([optionValue, text]) => html`<option value=${optionValue} .selected=${live(optionValue === value || (value === '' && optionValue === ''))}>${text}</option>`)}
     </select>
   </label>`;
 }
 
 function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: ChosenFiles, role: Role, { choose: say }: LogWords) {
   const choiceByLabel = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
-  const [planned] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
-  const present = (wishes[role] as Choice | undefined) ?? planned?.choice ?? guessOf(recordings[0], role, opener.kind);
-  return selectField(`log-${role}`, say.roles[role], present ? labelOf(present) || (planned?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
+  const [plannedLog] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
+  const currentChoice = (wishes[role] as Choice | undefined) ?? plannedLog?.choice ?? guessOf(recordings[0], role, opener.kind);
+  return selectField(`log-${role}`, say.roles[role], currentChoice ? labelOf(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.change({ wishes: { ...wishes, [role]: choice } });
   }, say.open);
@@ -98,11 +98,11 @@ function questionOf(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQues
 function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | undefined, say: LogWords['choose']) {
   const { file, ask: { choices: [defaultNames = ''], columns = [] } } = asked;
   const assignedFields = answer ?? defaultNames.split(',');
-  const options = columns.map((cell, at): [string, string] => [String(at), say.column(at + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
+  const options = columns.map((cell, index): [string, string] => [String(index), say.column(index + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
   const takeColumns = (event: Event) => {
     event.preventDefault();
     const fieldNames = columns.map(() => '-');
-    for (const [field, at] of new FormData(event.target as HTMLFormElement)) if (at !== '') fieldNames[Number(at)] = String(field);
+    for (const [field, index] of new FormData(event.target as HTMLFormElement)) if (index !== '') fieldNames[Number(index)] = String(field);
     opener.answer(asked, { columns: fieldNames });
   };
   return html`<form id=${idOf(asked)} @submit=${takeColumns}>
@@ -113,7 +113,7 @@ function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | 
           ${say.fields[field]}
           <select name=${field} aria-label=${say.fields[field]} aria-describedby="refusal">
             <option value="">${say.none}</option>
-            ${options.map(([at, label]) => html`<option value=${at} ?selected=${assignedFields[Number(at)] === field}>${label}</option>`)}
+            ${options.map(([index, label]) => html`<option value=${index} ?selected=${assignedFields[Number(index)] === field}>${label}</option>`)}
           </select>
         </label>`)}
         <button type="submit" part="button">${say.read}</button>
@@ -159,24 +159,24 @@ function tableOf({ odometry, reference }: Drive, caption: string, { choose, foun
   const logs = [odometry, reference];
   const lines = logs.map((log) => summaryLines(log, found));
   const cell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
-  const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => lines.some((each) => each[label]?.length));
+  const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => lines.some((line) => line[label]?.length));
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
       <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
     </thead>
     <tbody>
-      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((each) => cell(each[label]))}</tr>`)}
+      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((line) => cell(line[label]))}</tr>`)}
     </tbody>
   </table>`;
 }
 
 /** Returns a picture of both paths, with the odometry aligned to the reference. */
 function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
-  const [driven, truth] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_POINTS)));
-  const odometryPath = alignedPath(driven, truth);
-  const all = [...odometryPath.poses, ...truth.poses];
-  const ranges = ([0, 1] as const).map((axis) => [Math.min(...all.map((pose) => pose[axis])), Math.max(...all.map((pose) => pose[axis]))]);
+  const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_POINTS)));
+  const odometryPath = alignedPath(drivenPath, referencePath);
+  const allPoses = [...odometryPath.poses, ...referencePath.poses];
+  const ranges = ([0, 1] as const).map((axis) => [Math.min(...allPoses.map((pose) => pose[axis])), Math.max(...allPoses.map((pose) => pose[axis]))]);
   const [width, height] = ranges.map(([low, high]) => high - low);
   const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
   const formatCoordinate = (value: number) => value.toFixed(1);
@@ -185,7 +185,7 @@ function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
   const sizesText = found.paths(fixed(width, 1), fixed(height, 1));
   return html`<figure class="paths">
     <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${sizesText}>
-      ${svg`<path class="reference" d=${pathData(truth)}></path><path class="odometry" d=${pathData(odometryPath)}></path>`}
+      ${svg`<path class="reference" d=${pathData(referencePath)}></path><path class="odometry" d=${pathData(odometryPath)}></path>`}
     </svg>
     <figcaption>${sizesText}</figcaption>
   </figure>`;

@@ -66,7 +66,7 @@ export class LogService {
     // A copied `File` has no path.
     const { recordings, skipped } = await this.#ask<{ recordings: Opened[]; skipped: PostedFailure[] }>('open', [files.map((file) => ({ file, path: file.path ?? '' })), answers]);
     this.isOpen = true;
-    return { recordings, skipped: skipped.map((each) => new LogFailure(each)) };
+    return { recordings, skipped: skipped.map((failure) => new LogFailure(failure)) };
   }
 
   /** Reads the drives of a plan for the opened recordings. The worker then has their logs. */
@@ -81,7 +81,7 @@ export class LogService {
   async calibrate(config: AlphaCalibratorSettings, log: CalibrationLog): Promise<Uint8Array> {
     this.stop();
     const odometry = [log.odometry].flat();
-    const hasWorkerLog = this.#heldOdometry?.length === odometry.length && odometry.every((each, i) => each === this.#heldOdometry?.[i]);
+    const hasWorkerLog = this.#heldOdometry?.length === odometry.length && odometry.every((log, i) => log === this.#heldOdometry?.[i]);
     this.#heldOdometry = undefined;
     const fit = await this.#ask<Uint8Array>('calibrate', [config, hasWorkerLog ? undefined : log]);
     this.#heldOdometry = odometry;

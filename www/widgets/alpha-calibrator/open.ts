@@ -145,10 +145,10 @@ export class LogOpener extends FileOpener<Figure> {
 
   #open(chosen: ChosenFiles) {
     this.chosen = { ...chosen, plan: undefined, drives: undefined, log: undefined };
-    const now = this.chosen;
+    const openedFiles = this.chosen;
     this.#restart(async (reader) => {
-      if (now.recordings.length === 0) Object.assign(now, await this.host.service.open(now.files, now.answers));
-      await this.#read(now, await this.#plan(now, reader), reader);
+      if (openedFiles.recordings.length === 0) Object.assign(openedFiles, await this.host.service.open(openedFiles.files, openedFiles.answers));
+      await this.#read(openedFiles, await this.#plan(openedFiles, reader), reader);
     });
   }
 
@@ -206,7 +206,7 @@ export class LogOpener extends FileOpener<Figure> {
     const { ask, file, place } = error;
     const { chosen } = this;
     const asked = ask && chosen && { file: file ?? place?.file ?? '', ask };
-    if (asked && !chosen.questions.some((each) => each.file === asked.file && each.ask.what === ask.what)) chosen.questions.push(asked);
+    if (asked && !chosen.questions.some((question) => question.file === asked.file && question.ask.what === ask.what)) chosen.questions.push(asked);
     await super.refuse(error, () => asked && this.reader?.focusChooser(this.host, asked));
   }
 

@@ -117,25 +117,25 @@ export function drawRings(brush: Painter, points: [number, number][]) {
  * lines would hide each other; as hairlines, each class covers an area in proportion to its number of legs.
  */
 function pathCoverage(view: Painter['view'], reference: Float64Array) {
-  const endSquares: Set<number> = new Set();
+  const occupiedSquares: Set<number> = new Set();
   let coveredLength = 0;
   for (let at = 0; at < reference.length; at += 6) {
     const [x, y] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
-    endSquares.add(squareOf(x, y, COARSE_SQUARE));
+    occupiedSquares.add(squareOf(x, y, COARSE_SQUARE));
     // Only one square's length of a leg counts for the square in which it ends.
     coveredLength += Math.min(COARSE_SQUARE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
   }
-  return (coveredLength * LINE_STYLES.likely.width) / (endSquares.size * COARSE_SQUARE ** 2);
+  return (coveredLength * LINE_STYLES.likely.width) / (occupiedSquares.size * COARSE_SQUARE ** 2);
 }
 
 /** Returns the path of the odometry as lines between the ends of its legs. */
 function* odometryLines(view: Painter['view'], ends: Float64Array) {
-  let [last, line] = [NaN, [] as number[][]];
+  let [previousSquare, line] = [NaN, [] as number[][]];
   for (let at = 0; at < ends.length; at += 2) {
     const legEnd = view.toPixel(ends[at], ends[at + 1]);
     const square = squareOf(...legEnd);
-    if (square === last) continue;
-    last = square;
+    if (square === previousSquare) continue;
+    previousSquare = square;
     line.push(legEnd);
     if (line.length <= LINES_PER_STROKE) continue;
     yield line;

@@ -27,9 +27,9 @@ const MARK_ROOM = 0.08;
  */
 export function cornersOf(reference: ArrayLike<number>, odometry: ArrayLike<number>): number[] {
   const box = extentAround(reference, 3);
-  const both = extentAround(odometry, 2, box);
+  const bothPaths = extentAround(odometry, 2, box);
   const room = Math.max(box.xMax - box.xMin, box.yMax - box.yMin) / 2;
-  return [Math.max(both.xMin, box.xMin - room), Math.max(both.yMin, box.yMin - room), Math.min(both.xMax, box.xMax + room), Math.min(both.yMax, box.yMax + room)];
+  return [Math.max(bothPaths.xMin, box.xMin - room), Math.max(bothPaths.yMin, box.yMin - room), Math.min(bothPaths.xMax, box.xMax + room), Math.min(bothPaths.yMax, box.yMax + room)];
 }
 
 /** The floor from above, in the frame of the reference. */

@@ -75,7 +75,7 @@ function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
  */
 function openingLegOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
   const isFullLeg = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
-  const worstLeg = squared.reduce((found, error, leg) => (outliers[leg] === 0 && isFullLeg(leg) && error > (squared[found] ?? -1) ? leg : found), -1);
+  const worstLeg = squared.reduce((worst, error, leg) => (outliers[leg] === 0 && isFullLeg(leg) && error > (squared[worst] ?? -1) ? leg : worst), -1);
   return worstLeg < 0 && squared.length > 0 ? 0 : worstLeg;
 }
 

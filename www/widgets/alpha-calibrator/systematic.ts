@@ -61,7 +61,7 @@ export function systematicTable(figure: Figure) {
       stackedTexts(values),
       html`<div class="between">${stackedTexts(halves.map((half) => `± ${half}`))}</div>`,
       errors[key].corrected ? say.corrected : errors[key].constant ? say.notCorrected : say.notConstant,
-      ...(truth ? [html`<div class="muted">${stackedTexts([truth[key]].flat().map((each) => fixed(each, 3)))}</div>`] : []),
+      ...(truth ? [html`<div class="muted">${stackedTexts([truth[key]].flat().map((component) => fixed(component, 3)))}</div>`] : []),
     ];
   });
   const columns = [say.what, say.value, say.interval, say.treatment, ...(truth ? [say.truth] : [])];
@@ -72,9 +72,9 @@ const stackedTexts = (texts: string[]) => texts.map((text) => html`<div>${text}<
 
 /** Formats an error with its significant digits: its values (two for a lever arm), and half the width of each interval. */
 function printedError({ value, interval }: SystematicError) {
-  const halfWidths = intervalsOf(interval).map((each) => each && (each[1] - each[0]) / 2);
+  const halfWidths = intervalsOf(interval).map((limits) => limits && (limits[1] - limits[0]) / 2);
   return {
-    values: [value].flat().flatMap((each, i) => (each === null ? [] : [fixed(each, decimalsOf(halfWidths[i]))])),
+    values: [value].flat().flatMap((component, i) => (component === null ? [] : [fixed(component, decimalsOf(halfWidths[i]))])),
     halves: halfWidths.flatMap((half) => (half === null ? [] : [fixed(half, decimalsOf(half))])),
   };
 }

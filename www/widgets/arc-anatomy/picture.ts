@@ -173,8 +173,8 @@ function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], 
 
 /** Returns the visible fraction of the line from a visible point to another point. */
 function visibleFraction({ left, right, top, bottom }: import('../../scene/view.ts').View['frame'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
-  const fractionAlong = (start: number, end: number, least: number, most: number) =>
-    end >= least && end <= most ? 1 : (clamp(end, least, most) - start) / (end - start);
+  const fractionAlong = (start: number, end: number, min: number, max: number) =>
+    end >= min && end <= max ? 1 : (clamp(end, min, max) - start) / (end - start);
   return Math.min(fractionAlong(fromX, x, left, right), fractionAlong(fromY, y, top, bottom));
 }
 

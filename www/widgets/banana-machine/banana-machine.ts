@@ -100,12 +100,12 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       overlays: shownOverlays,
       marked: this.#inspection,
       morph,
-      outlinesOf: (of: Reading) => outlinesAt(motion, of, morph),
+      outlinesOf: (reading: Reading) => outlinesAt(motion, reading, morph),
       callouts,
       ringsOf: () => confidenceRings(motion, reading),
       pinned,
-      pinnedAt: (at: number) =>
-        pinned ? Object.entries(outlinesAt(motion, pinned, at)).flatMap(([name, line]) => (shownOverlays[name] ? [...line] : [])) : [],
+      pinnedAt: (morph: number) =>
+        pinned ? Object.entries(outlinesAt(motion, pinned, morph)).flatMap(([name, line]) => (shownOverlays[name] ? [...line] : [])) : [],
       driving: this.cloud.driving,
       morphedEllipse: morph > 0 ? lineMorphOf(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
     };
@@ -139,7 +139,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       settings: config,
       notInCode: this.#pinned ? words.banana.pinNotInCode : '',
       columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
-      row: (i: number) => [poses, twists, executed].flatMap((each) => [...each.subarray(3 * i, 3 * i + 3)]),
+      row: (i: number) => [poses, twists, executed].flatMap((triples) => [...triples.subarray(3 * i, 3 * i + 3)]),
       count,
     };
   }
@@ -271,8 +271,8 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const { min, max, step } = sliderSpecs.omega;
     // The curve depends only on some of the settings.
     const curve = this.#skewCurve.of([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
-    const maxSkew = curve.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
-    const chartHeight = CHART_HEIGHTS.find((each) => each >= maxSkew) ?? maxSkew;
+    const maxSkew = curve.reduce((max, value) => Math.max(max, Math.abs(value) || 0), 0);
+    const chartHeight = CHART_HEIGHTS.find((height) => height >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];
     return plot({
       label: say.chart,

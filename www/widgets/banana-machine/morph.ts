@@ -56,7 +56,7 @@ const RING_SIZES = [0.5, 1, 1.5];
 /** Returns outlines, on the floor, of the Gaussian in exponential coordinates. The largest contains nearly the whole cloud. */
 export function confidenceRings(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: Reading) {
   if (contours.exponential.length === 0) return [];
-  return RING_SIZES.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((each) => size ** 2 * each)]), 0));
+  return RING_SIZES.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((entry) => size ** 2 * entry)]), 0));
 }
 
 /** Returns the commanded arc at a morph. */
@@ -136,8 +136,8 @@ const CHORDS_PER_LINE = 32;
 export function drawMorphGrid({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
   // The grid becomes visible early in the morph, and ends as the straight grid of the axes.
   context.globalAlpha = 0.7 * Math.min(1, 5 * morph);
-  const drawGridLine = (at: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
-    const [along, heading] = at(i / CHORDS_PER_LINE);
+  const drawGridLine = (pointAt: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
+    const [along, heading] = pointAt(i / CHORDS_PER_LINE);
     return view.toPixel(...morphedPoint([along, 0, heading], morph));
   }));
   strokePath(context, { colour: palette.rule, width: 1 }, () => {

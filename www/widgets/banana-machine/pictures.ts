@@ -152,17 +152,17 @@ export class PlanePicture extends CloudPicture {
     // One pair of axes fades out before the other fades in.
     const [floor, twist] = this.view.ends;
     const axesAtEnds = [
-      { view: floor, there: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
-      { view: twist, there: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
+      { view: floor, opacity: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
+      { view: twist, opacity: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
     ];
-    for (const { view: of, there, names } of axesAtEnds) {
-      context.globalAlpha = clamp(there, 0, 1);
+    for (const { view: axesView, opacity, names } of axesAtEnds) {
+      context.globalAlpha = clamp(opacity, 0, 1);
       // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
-      if (there > 0) drawAxes({ ...brush, view: of }, names, key, of === twist && morph < 1 ? 0 : undefined);
+      if (opacity > 0) drawAxes({ ...brush, view: axesView }, names, key, axesView === twist && morph < 1 ? 0 : undefined);
     }
     context.globalAlpha = 1;
     const cloudMiddle = morphedMiddle(scene, morph);
-    const outlinesInStyle = (of: Outlines) => PAINT_ORDER.filter(isDrawn).map((name) => ({ points: of[name], ...styles[name] }));
+    const outlinesInStyle = (outlinePoints: Outlines) => PAINT_ORDER.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...styles[name] }));
     const earlierReading = earlierReadingOf(brush, scene);
     const earlierOutlines = earlierReading ? outlinesInStyle(scene.outlinesOf(earlierReading)) : [];
     const callouts = [...scene.callouts];
@@ -187,9 +187,9 @@ export class PlanePicture extends CloudPicture {
       const [endX, endY] = outlines.command.slice(-2);
       drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       if (marked) {
-        const { pose, twist: at, path } = marked;
+        const { pose, twist: markedTwist, path } = marked;
         if (morph === 0) drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
-        const [x, y] = morph === 0 ? pose : morphedPoint(at, morph);
+        const [x, y] = morph === 0 ? pose : morphedPoint(markedTwist, morph);
         drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
       }
     });
@@ -238,12 +238,12 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
     addLine(context, [[toX, toY], [toX + TURN_LINE * finalDirection.x, toY + TURN_LINE * finalDirection.y]]);
   });
   // On the screen y points down.
-  const strokeTurn = (x: number, y: number, from: number, by: number) => strokePath(context, style, () => context.arc(x, y, TURN_RADIUS, -from, -from - by, by > 0));
+  const strokeTurn = (x: number, y: number, from: number, turn: number) => strokePath(context, style, () => context.arc(x, y, TURN_RADIUS, -from, -from - turn, turn > 0));
   strokeTurn(fromX, fromY, 0, rot1);
   strokeTurn(toX, toY, rot1, rot2);
   const labelTurn = (sub: string, atX: number, atY: number, heading: number) => {
-    const out = view.direction(heading);
-    drawLabel(brush, { x: atX + (TURN_LINE + 6) * out.x, y: atY + (TURN_LINE + 6) * out.y, towards: out.x < 0 ? -1 : 1, symbol: 'δ', sub, colour });
+    const labelDirection = view.direction(heading);
+    drawLabel(brush, { x: atX + (TURN_LINE + 6) * labelDirection.x, y: atY + (TURN_LINE + 6) * labelDirection.y, towards: labelDirection.x < 0 ? -1 : 1, symbol: 'δ', sub, colour });
   };
   labelTurn('rot1', fromX, fromY, rot1 / 2);
   labelTurn('rot2', toX, toY, rot1 + rot2 / 2);

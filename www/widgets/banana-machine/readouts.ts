@@ -67,14 +67,14 @@ export function markedRobot(figure: import('./banana-machine.ts').BananaMachineE
   const { shown } = figure.reading;
   const quantityHtml = (symbol: string, value: number, unit: string) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
-  const selected = inspection && (inspection.legs
+  const selectedHtml = inspection && (inspection.legs
     ? legNoise(inspection.legs, figure.reading.reading as import('../../types.d.ts').OdomDelta)
     : [
         quantityHtml('v̂', inspection.vHat, 'm/s'),
         quantityHtml('ω̂', inspection.omegaHat, 'rad/s'),
         quantityHtml('γ̂', inspection.gammaHat, 'rad/s'),
       ]);
-  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected });
+  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected: selectedHtml });
 }
 
 /** Returns the noise of each leg: the reading minus the executed motion, as Table 5.6 subtracts it. */
@@ -113,10 +113,10 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
   return figureTable({
     caption: say.caption,
     columns: [say.quantity, say.linearized, say.exact, say.measured],
-    rows: exampleRows.map(([name, of, withItsError]) => [
+    rows: exampleRows.map(([name, valueOf, withItsError]) => [
       name,
-      ...computedColumns.map((column) => significantText(of(column), COMPUTED_DIGITS)),
-      withItsError ?? significantText(of(measured), MEASURED_DIGITS),
+      ...computedColumns.map((column) => significantText(valueOf(column), COMPUTED_DIGITS)),
+      withItsError ?? significantText(valueOf(measured), MEASURED_DIGITS),
     ]),
   });
 }

@@ -63,7 +63,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   get exportData() {
     const { config } = this.currentReading;
     const { measured, relativeErrors, predicted } = this.machine as Machine;
-    const of = (triples: Float64Array, i: number) => triples.subarray(3 * i, 3 * i + 3);
+    const triple = (triples: Float64Array, i: number) => triples.subarray(3 * i, 3 * i + 3);
     return {
       description: planeText(this.reading),
       settings: config,
@@ -73,7 +73,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
         ...COMPONENTS.map((name) => `relative_error_${name}`),
         ...RECURSIONS.flatMap((recursion) => columnsOf(recursion.replace('-', '_'))),
       ],
-      row: (i: number) => [i + 1, ...of(measured, i), ...of(relativeErrors, i), ...RECURSIONS.flatMap((recursion) => [...of(predicted[recursion], i)])],
+      row: (i: number) => [i + 1, ...triple(measured, i), ...triple(relativeErrors, i), ...RECURSIONS.flatMap((recursion) => [...triple(predicted[recursion], i)])],
       count: config.steps,
     };
   }

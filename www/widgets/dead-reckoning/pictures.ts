@@ -40,7 +40,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     const shownOf = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
     const shownNames = shownOf(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineKeys(brush, OUTLINE_STYLES, shownOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
-    const linesOf = (of: Scene['outlines']) => shownNames.map((name) => ({ points: of[name], ...styles[name] }));
+    const linesOf = (outlines: Scene['outlines']) => shownNames.map((name) => ({ points: outlines[name], ...styles[name] }));
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       for (const milestone of milestones) drawMilestone(brush, milestone.poses);
@@ -118,7 +118,7 @@ const NOTICEABLE_RATIO = 1.05;
 
 /** Returns the text of the factors scale x : scale y and scale y : scale x. A factor that is too small to notice is the empty text. */
 export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
-  return [scaleX / scaleY, scaleY / scaleX].map((by) => (by > NOTICEABLE_RATIO ? significantText(by, by < 10 ? 2 : 1) : ''));
+  return [scaleX / scaleY, scaleY / scaleX].map((factor) => (factor > NOTICEABLE_RATIO ? significantText(factor, factor < 10 ? 2 : 1) : ''));
 }
 
 /** Returns the names of the axes. The factor of a stretched axis is in the upper name, because it would hide ticks near the lower one. */

@@ -105,8 +105,8 @@ export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
     caption: say.misses.caption,
     columns: [say.misses.component, ...RECURSIONS.map((recursion) => say.recursions[recursion])],
     rows: shownComponentsOf(overlays).flatMap((component) => {
-      const ofEach = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
-      return [[say.components[component], ...ofEach.map(missText)], [say.misses.endOf(say.components[component]), ...ofEach.map(endText)]];
+      const missesOfRecursions = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
+      return [[say.components[component], ...missesOfRecursions.map(missText)], [say.misses.endOf(say.components[component]), ...missesOfRecursions.map(endText)]];
     }),
   });
 }
@@ -116,6 +116,6 @@ export function markedRobot(figure: import('./dead-reckoning.ts').DeadReckoningE
   const { robot, markHint, markedAt } = words.reckoning;
   const { config: { step }, shown } = figure.reading;
   const poseAtStep = marked?.subarray(3 * (step - 1), 3 * step);
-  const selected = poseAtStep && [markedAt(fixed(poseAtStep[0], 3), fixed(poseAtStep[1], 3), fixed(poseAtStep[2], 3))];
-  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected });
+  const selectedText = poseAtStep && [markedAt(fixed(poseAtStep[0], 3), fixed(poseAtStep[1], 3), fixed(poseAtStep[2], 3))];
+  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected: selectedText });
 }

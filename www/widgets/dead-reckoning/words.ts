@@ -30,14 +30,14 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   if (recursionMisses.every(({ first }) => first === null)) return say.right(integer(n));
   // The component whose ratio is furthest from 1 at the end, and the one whose ratio is furthest from 1 at any step.
   const endAxis = indexOfGreatest(recursionMisses.map(({ end }, axis) => missIfShown(Math.abs(end), axis)));
-  const worstAxis = indexOfGreatest(curves.map(({ ratio }, axis) => missIfShown(ratio.reduce((most, value) => Math.max(most, Math.abs(value - 1) || 0), 0), axis)));
+  const worstAxis = indexOfGreatest(curves.map(({ ratio }, axis) => missIfShown(ratio.reduce((max, value) => Math.max(max, Math.abs(value - 1) || 0), 0), axis)));
   const ratioList = ratiosAtSteps(Array.from(curves[worstAxis].ratio));
   const [end, of] = [signedPercent(recursionMisses[endAxis].end), say.of[COMPONENTS[worstAxis]]];
   return endAxis === worstAxis ? say.wrong(of, ratioList, end) : say.worse(of, ratioList, end, say.of[COMPONENTS[endAxis]]);
 }
 
 /** Returns the index of the greatest miss; NaN is not a miss. */
-const indexOfGreatest = (misses: number[]): number => misses.reduce((most, miss, i) => (miss > (misses[most] || 0) ? i : most), 0);
+const indexOfGreatest = (misses: number[]): number => misses.reduce((greatest, miss, i) => (miss > (misses[greatest] || 0) ? i : greatest), 0);
 
 const ratiosAtSteps = (ratios: number[]) =>
   CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');

@@ -21,8 +21,8 @@ export function readingOf(machine: MapSqueeze) {
 }
 
 function posesByOutcome(poses: Float64Array, verdicts: Uint8Array) {
-  const posesOfOutcome = (wanted: number) => {
-    const indices = [...verdicts.keys()].filter((i) => outcomeIndex(verdicts[i]) === wanted);
+  const posesOfOutcome = (outcome: number) => {
+    const indices = [...verdicts.keys()].filter((i) => outcomeIndex(verdicts[i]) === outcome);
     return Float64Array.from(indices.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
   };
   return { rejected: posesOfOutcome(0), free: posesOfOutcome(1), through: posesOfOutcome(2) };

@@ -27,8 +27,8 @@ export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: 
 export function markedSample(figure: import('./map-squeeze.ts').MapSqueezeElement): import('lit').TemplateResult {
   const { cloud, reading: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;
-  const selected = cloud.isMarked ? verdictText(verdicts[cloud.index], config) : '';
-  return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, selected });
+  const selectedText = cloud.isMarked ? verdictText(verdicts[cloud.index], config) : '';
+  return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, selected: selectedText });
 }
 
 export function costTable({ costs, current }: CostMeter, steps: number) {

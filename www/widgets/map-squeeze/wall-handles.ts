@@ -44,13 +44,13 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     return this.#presentGrips.map((grip) => {
       if (!grip) return nothing;
       const [x, y] = this.#pointOf(grip);
-      const now = x * grip.axis[0] + y * grip.axis[1];
+      const position = x * grip.axis[0] + y * grip.axis[1];
       return this.#handleOf(grip).element({
         name: grip.part === 'side' ? say.wall : say.jamb,
         keys: say.keys,
         title: grip.part === 'side' ? say.wallTitle : say.jambTitle,
-        range: grip.range.map((each) => now + each),
-        now,
+        range: grip.range.map((limit) => position + limit),
+        now: position,
         text: `x = ${fixed(x, 2)} m, y = ${fixed(y, 2)} m`,
       });
     });
@@ -68,9 +68,9 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   place(view: View) {
-    const planAndView = [this.host.picture.plan, view.extent, view.frame];
-    if (planAndView.some((each, i) => each !== this.#shownInputs[i])) this.#placeHandles(view);
-    this.#shownInputs = planAndView;
+    const inputs = [this.host.picture.plan, view.extent, view.frame];
+    if (inputs.some((input, i) => input !== this.#shownInputs[i])) this.#placeHandles(view);
+    this.#shownInputs = inputs;
   }
 
   #placeHandles(view: View) {
@@ -78,33 +78,33 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const placedHandles = this.#presentGrips.filter((grip) => grip !== undefined).map((grip) => {
       const handleElement = root.querySelector(`.handle.${handleName(grip)}`) as HTMLElement | null;
       const gripPoint = grip.part === 'side' ? this.#middleIn(grip, view) : this.#gripOf(grip, view);
-      const at = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
+      const pixel = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
       const { left, right, top, bottom } = view.frame;
-      const isShown = at !== undefined && at[0] > left && at[0] < right && at[1] > top && at[1] < bottom;
+      const isShown = pixel !== undefined && pixel[0] > left && pixel[0] < right && pixel[1] > top && pixel[1] < bottom;
       if (handleElement) {
         handleElement.style.visibility = isShown ? '' : 'hidden';
         if (grip.part === 'side') handleElement.style.rotate = `${Math.atan(grip.axis[0] / grip.axis[1])}rad`;
       }
-      if (isShown) this.#handleOf(grip).place(root, at[0], at[1]);
+      if (isShown) this.#handleOf(grip).place(root, pixel[0], pixel[1]);
       return { name: handleName(grip), element: isShown ? handleElement : null };
     });
     const presentHandles = placedHandles.filter(({ element }) => element);
     const tabHandle = presentHandles.find(({ name }) => name === this.#currentName) ?? presentHandles[0];
-    for (const each of presentHandles) (each.element as HTMLElement).tabIndex = each === tabHandle ? 0 : -1;
+    for (const handle of presentHandles) (handle.element as HTMLElement).tabIndex = handle === tabHandle ? 0 : -1;
   }
 
   #handleOf(grip: Grip) {
     const gripName = handleName(grip);
     // The wall may be missing in a new plan, until its handle is removed.
-    const callWithGrip = <Result>(use: (present: Grip) => Result) => {
-      const present = this.#presentGrips.find((each) => each && handleName(each) === gripName);
-      return present && use(present);
+    const callWithGrip = <Result>(use: (currentGrip: Grip) => Result) => {
+      const currentGrip = this.#presentGrips.find((candidate) => candidate && handleName(candidate) === gripName);
+      return currentGrip && use(currentGrip);
     };
     const handle = this.#handles.get(gripName) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${gripName}`, {
       view: () => this.host.picture.view,
-      at: () => callWithGrip((present) => this.#pointOf(present)),
-      drag: (x, y) => callWithGrip((present) => this.#move(present, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
-      key: (event) => callWithGrip((present) => this.#onKey(event, present)) ?? false,
+      at: () => callWithGrip((currentGrip) => this.#pointOf(currentGrip)),
+      drag: (x, y) => callWithGrip((currentGrip) => this.#move(currentGrip, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
+      key: (event) => callWithGrip((currentGrip) => this.#onKey(event, currentGrip)) ?? false,
       commit: () => this.host.gesture.commit(),
     });
     this.#handles.set(gripName, handle);
@@ -172,7 +172,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const { xMin, yMin, xMax, yMax } = view.extent;
     const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     const [dx, dy] = [x1 - x, y1 - y];
-    const fractionAtEnd = (part: Grip['part']) => (this.#presentGrips.some((each) => each?.wall === wall && each.part === part) ? 2 * this.#inward(grip, view) : 0);
+    const fractionAtEnd = (part: Grip['part']) => (this.#presentGrips.some((otherGrip) => otherGrip?.wall === wall && otherGrip.part === part) ? 2 * this.#inward(grip, view) : 0);
     let [from, to] = [fractionAtEnd('from'), 1 - fractionAtEnd('to')];
     for (const [at, delta, least, most] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
       if (!delta) continue;

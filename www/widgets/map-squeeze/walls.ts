@@ -68,7 +68,7 @@ export function wallGrips({ bounds, walls }: Plan): (Grip | undefined)[] {
     const wallDirection = [(x1 - x0) / wallLength, (y1 - y0) / wallLength];
     const wallNormal = [-wallDirection[1], wallDirection[0]];
     const isOuterWall = [0, 1].some((i) => [bounds[i], bounds[i + 2]].some((bound) => walls[wall + i] === bound && walls[wall + i + 2] === bound));
-    const endGrips: [part: 'from' | 'to', end: number[], axis: number[]][] = [['from', [x0, y0], wallDirection.map((each) => -each)], ['to', [x1, y1], wallDirection]];
+    const endGrips: [part: 'from' | 'to', end: number[], axis: number[]][] = [['from', [x0, y0], wallDirection.map((component) => -component)], ['to', [x1, y1], wallDirection]];
     for (const [part, end, axis] of endGrips) {
       const maxMove = Math.min(moveRange(bounds, [end], axis)[1], freeDistance(walls, wall, end, axis));
       const range = [Math.min(0, MIN_GAP - wallLength), Math.max(0, maxMove)];
@@ -90,7 +90,7 @@ function isFreeEnd(walls: Float64Array, wall: number, [x, y]: readonly number[])
 function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
   let [minMove, maxMove] = [-Infinity, Infinity];
   for (const point of points) {
-    for (const i of [0, 1].filter((each) => Math.abs(axis[each]) > TOUCH_DISTANCE)) {
+    for (const i of [0, 1].filter((k) => Math.abs(axis[k]) > TOUCH_DISTANCE)) {
       const limits = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - point[i]) / axis[i]).sort((a, b) => a - b);
       [minMove, maxMove] = [Math.max(minMove, limits[0]), Math.min(maxMove, limits[1])];
     }
@@ -106,8 +106,8 @@ function freeDistance(walls: Float64Array, wall: number, [x, y]: readonly number
     const wallEnds = [k, k + 2].map((i) => [(walls[i] - x) * ux + (walls[i + 1] - y) * uy, (walls[i + 1] - y) * ux - (walls[i] - x) * uy]);
     const [[ahead, left], [further, right]] = wallEnds;
     if (Math.min(left, right) > TOUCH_DISTANCE || Math.max(left, right) < -TOUCH_DISTANCE) continue;
-    const at = Math.abs(right - left) < TOUCH_DISTANCE ? Math.min(ahead, further) : ahead - (left * (further - ahead)) / (right - left);
-    if (at > 0) free = Math.min(free, at - MIN_GAP);
+    const distance = Math.abs(right - left) < TOUCH_DISTANCE ? Math.min(ahead, further) : ahead - (left * (further - ahead)) / (right - left);
+    if (distance > 0) free = Math.min(free, distance - MIN_GAP);
   }
   return free;
 }
@@ -115,9 +115,9 @@ function freeDistance(walls: Float64Array, wall: number, [x, y]: readonly number
 /** Returns the walls with one of them moved along an axis. Walls that end on a wall that moves sideways follow it, if they only get longer or shorter. */
 export function movedWalls(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
   const moved = walls.slice();
-  const moveEnd = (at: number) => {
-    moved[at] = walls[at] + distance * ux;
-    moved[at + 1] = walls[at + 1] + distance * uy;
+  const moveEnd = (index: number) => {
+    moved[index] = walls[index] + distance * ux;
+    moved[index + 1] = walls[index + 1] + distance * uy;
   };
   if (part !== 'to') moveEnd(wall);
   if (part !== 'from') moveEnd(wall + 2);

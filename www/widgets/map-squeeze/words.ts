@@ -35,9 +35,9 @@ const MIN_NEARLY_ALL = 0.95;
 /** Returns a share between 0 and 1 as a simple fraction. */
 function fractionOf(share: number): [few: number, of: number] {
   if (share < MAX_ONE_IN_N) return [1, Number((1 / share).toPrecision(2))];
-  const simpleFractions = DENOMINATORS.map((of) => [clamp(Math.round(share * of), 1, of - 1), of] as [number, number]);
+  const simpleFractions = DENOMINATORS.map((denominator) => [clamp(Math.round(share * denominator), 1, denominator - 1), denominator] as [number, number]);
   const roundingError = ([few, of]: [number, number]) => Math.abs(few / of - share);
-  return simpleFractions.reduce((best, each) => (roundingError(each) < roundingError(best) - 1e-9 ? each : best));
+  return simpleFractions.reduce((best, fraction) => (roundingError(fraction) < roundingError(best) - 1e-9 ? fraction : best));
 }
 
 /** Returns the headline: the share of accepted motions that went through a wall. */

@@ -101,10 +101,10 @@ export class LegsPicture extends OutcomesPicture {
     const maxTurnRadius = MAX_ARC_SHARE * Math.min(right - left, bottom - top);
     const boxAtScale = (scale: number) => {
       const radii = turnRadii({ scaleX: scale });
-      const arcCorners = [legs.rot1, legs.rot2].flatMap((by, i) => {
+      const arcCorners = [legs.rot1, legs.rot2].flatMap((turn, i) => {
         const pivot = poseIn(linkage, 2 * i);
         const radius = Math.min(radii[i], maxTurnRadius) / scale;
-        return turnDirections(pivot.theta, by).flatMap((theta) => [pivot.x + radius * Math.cos(theta), pivot.y + radius * Math.sin(theta)]);
+        return turnDirections(pivot.theta, turn).flatMap((theta) => [pivot.x + radius * Math.cos(theta), pivot.y + radius * Math.sin(theta)]);
       });
       return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
@@ -162,8 +162,8 @@ export class LegsPicture extends OutcomesPicture {
       colour,
     });
     // The point of an arc that is nearest to the labels, and inside the axes.
-    const leaderEnd = ({ x, y, theta }: Pose, by: number, reach: number) => {
-      const endCandidates = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * by }, reach)[1])
+    const leaderEnd = ({ x, y, theta }: Pose, turn: number, radius: number) => {
+      const endCandidates = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * turn }, radius)[1])
         .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))
         .sort((one, other) => one.y - other.y);
       return endCandidates.find((place) => place.y > view.frame.top) ?? endCandidates[endCandidates.length - 1];

@@ -88,7 +88,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     const view = this.#view();
     const root = this.host.renderRoot;
     const [[x, y], [turnX, turnY]] = view.ray(config[this.#setting], turnDistance(view, radius));
-    const clampToPicture = (at: number, size: number) => clamp(at, EDGE_MARGIN, size - EDGE_MARGIN);
+    const clampToPicture = (coordinate: number, size: number) => clamp(coordinate, EDGE_MARGIN, size - EDGE_MARGIN);
     this.#bodyHandle.place(root, x, y, Math.max(MIN_BODY_SIZE, 2 * radius * view.scaleX));
     this.#turn.place(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }

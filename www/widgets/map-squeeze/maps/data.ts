@@ -44,7 +44,7 @@ function flatWalls(walls: unknown) {
   if (!Array.isArray(walls) || walls.length > MAX_WALLS) return walls;
   const wallNumbers = new Float64Array(4 * walls.length);
   for (const [i, wall] of walls.entries()) {
-    if (!Array.isArray(wall) || wall.length !== 4 || !wall.every((each) => typeof each === 'number')) return walls;
+    if (!Array.isArray(wall) || wall.length !== 4 || !wall.every((coordinate) => typeof coordinate === 'number')) return walls;
     wallNumbers.set(wall, 4 * i);
   }
   return wallNumbers;
@@ -78,7 +78,7 @@ function renamingFields(keys: string[], take: () => void) {
     take();
   } catch (refused) {
     const renamedError = withFieldRenamed(refused, 'occupied', 'image');
-    const fieldKey = keys.find((each) => renamedError instanceof Error && renamedError.message.startsWith(each));
+    const fieldKey = keys.find((key) => renamedError instanceof Error && renamedError.message.startsWith(key));
     throw fieldKey === undefined ? renamedError : withFieldRenamed(renamedError, `map.${fieldKey}`, fieldKey);
   }
 }

@@ -72,10 +72,10 @@ async function bytesOf(file: File, most: number) {
   }
 }
 
-const textOf = async (file: File, most: number) => new TextDecoder().decode(await bytesOf(file, most));
+const textOf = async (file: File, maxBytes: number) => new TextDecoder().decode(await bytesOf(file, maxBytes));
 
-function checkSize(name: string, size: number, most: number) {
-  if (size > most) throw new MapFileError(name, (say, file) => say.long(file, size, most));
+function checkSize(name: string, size: number, maxBytes: number) {
+  if (size > maxBytes) throw new MapFileError(name, (say, file) => say.long(file, size, maxBytes));
 }
 
 /** Shortens a text that a sentence quotes. */

@@ -25,7 +25,7 @@ const useLayout = onServer ? useEffect : useLayoutEffect;
 
 /**
  * Writer of the props of a React component to its element. It writes a prop only if its value has changed since the last rendering:
- * a list in JSX is another object each time, and would undo changes of the reader. React itself only writes attributes on a server. On the
+ * a list in JSX is another object each time, and would undo changes of the user. React itself only writes attributes on a server. On the
  * page its choice of attributes or properties would depend on its version, and on the time at which the element is defined.
  */
 class Figure {
@@ -51,7 +51,7 @@ class Figure {
     if (!previousProps && element.stats) this.catchUp(element, props);
     for (const [name, attribute] of Object.entries(this.names.attributes)) {
       const text = this.text(name, props);
-      // Attributes sent by the server are kept at first: the reader may have changed the figure since.
+      // Attributes sent by the server are kept at first: the user may have changed the figure since.
       if (previousProps ? text === this.text(name, previousProps) : text === null || element.hasAttribute(attribute)) continue;
       if (text === null) element.removeAttribute(attribute);
       else element.setAttribute(attribute, text);

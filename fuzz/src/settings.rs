@@ -1,4 +1,4 @@
-//! Changes settings to any values, in the way in which a reader changes them.
+//! Changes settings to any values, in the way in which a user changes them.
 
 use super::input::Input;
 use motion::sim::settings::{Allowed, Group, Rules, Setting, SettingsError};

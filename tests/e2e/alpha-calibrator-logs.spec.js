@@ -25,7 +25,7 @@ test('a refusal and long work are shown one above the other', async ({ page }) =
   expect(messageBox.bottom).toBeLessThanOrEqual(progressBox.top);
 });
 
-test('two tables of a reader replace the simulated log, and a button brings it back', async ({ page }) => {
+test('two tables of a user replace the simulated log, and a button brings it back', async ({ page }) => {
   const widget = await openCalibrator(page);
   const tables = await tablesOf(widget);
   await choose(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
@@ -48,7 +48,7 @@ test('two tables of a reader replace the simulated log, and a button brings it b
   const alert = widget.getByRole('alert');
   await choose(widget, { 'odom.csv': tables.odometry });
   await expect(alert).toHaveText(/^odom\.csv: it has the odometry only, .*; give the reference too\. Drop or choose the other file too,/);
-  // The α's on the screen are of another log, and are not copied until the reader says that these are wanted.
+  // The α's on the screen are of another log, and are not copied until the user says that these are wanted.
   const otherResults = 'The results are still those of the simulated log, not of the files chosen last.';
   await expect(widget.locator('.drop-zone .muted')).toContainText(otherResults);
   await expect(widget.locator('.to-do')).toHaveText(otherResults);
@@ -63,7 +63,7 @@ test('two tables of a reader replace the simulated log, and a button brings it b
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
 });
 
-test('results are those of the command line, to the last bit, and a recording whose topics the reader chooses gives them too', async ({ page }) => {
+test('results are those of the command line, to the last bit, and a recording whose topics the user chooses gives them too', async ({ page }) => {
   const widget = await openCalibrator(page);
   await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
   await expect(caption(widget)).toHaveText(/odometry\.csv, reference\.csv[.,]/);
@@ -121,7 +121,7 @@ test('with the velocity model the commands of a file are used, with other models
   await selectModel('velocity', 'omega');
 });
 
-test('a reader chooses among the transforms of a recording @nightly', async ({ page }) => {
+test('a user chooses among the transforms of a recording @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
     rowsOf(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, parent, child, x, y, yaw)] } }));
@@ -136,7 +136,7 @@ test('a reader chooses among the transforms of a recording @nightly', async ({ p
   await expect(caption(widget)).toHaveText(/of tf\.mcap, .*\/tf: map → base_link[.,]/);
 });
 
-test('files of several drives are read together, and a reader assigns roles that their names do not tell @nightly', async ({ page }) => {
+test('files of several drives are read together, and a user assigns roles that their names do not tell @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const halvesOf = (/** @type {'odometry' | 'reference'} */ name) => {
     const [header, ...lines] = example(name).trim().split('\n');
@@ -230,7 +230,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
     for (const type of ['longtask', 'layout-shift']) observer.observe({ type });
     Object.assign(window, { entries });
   });
-  // The worker starts while the reader chooses files.
+  // The worker starts while the user chooses files.
   await Promise.all([page.waitForEvent('worker'), page.waitForEvent('filechooser'), widget.getByText('choose files').click()]);
   const startTime = await chooseLong(widget);
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/, { timeout: 20_000 });

@@ -29,7 +29,7 @@ export const rows = (/** @type {Locator} */ widget) => widget.locator('table.alp
 export const section = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
 export const stats = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.stats);
 
-/** Returns two tables of the simulated drive, as a reader's files have them. @param {Locator} widget */
+/** Returns two tables of the simulated drive, as a user's files have them. @param {Locator} widget */
 export const tablesOf = (widget) =>
   widget.evaluate((element) => {
     const { legs } = /** @type {AlphaCalibratorElement} */ (element).machine;
@@ -38,11 +38,11 @@ export const tablesOf = (widget) =>
     return { odometry: table(legs.odometry), reference: table(legs.reference) };
   });
 
-/** Chooses a recording, as a reader does. @param {Locator} widget @param {string} name @param {Buffer} buffer */
+/** Chooses a recording, as a user does. @param {Locator} widget @param {string} name @param {Buffer} buffer */
 export const chooseRecording = (widget, name, buffer) =>
   widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
 
-/** Chooses tables, as a reader does. @param {Locator} widget @param {Record<string, string>} files */
+/** Chooses tables, as a user does. @param {Locator} widget @param {Record<string, string>} files */
 export async function choose(widget, files) {
   await widget.locator('#log-files').setInputFiles(Object.entries(files).map(([name, text]) => ({ name, mimeType: 'text/csv', buffer: Buffer.from(text) })));
 }

@@ -43,7 +43,7 @@ test('a drag fires input at each step and one change at its end, composed, with 
   expect(recorded.some(([name]) => name === 'stats')).toBe(true);
 });
 
-/** Actions of a reader other than dragging, with all folds open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
+/** Actions of a user other than dragging, with all folds open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
 const READER_ACTIONS = {
   'banana-machine': [
     ['preset', (widget) => widget.getByRole('button', { name: 'Hard arc' }).click()],

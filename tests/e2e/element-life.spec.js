@@ -195,7 +195,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   expect(heights).toEqual([height, height]);
 });
 
-test('a figure keeps what the reader did in the moment before it was removed @nightly', async ({ page, figure }) => {
+test('a figure keeps what the user did in the moment before it was removed @nightly', async ({ page, figure }) => {
   const { slider, at, values: [value] } = FIGURE_FACTS[figure];
   const widget = await mount(page, figure);
   const stateAfter = await widget.evaluate(async (element, [id, to]) => {

@@ -115,6 +115,6 @@ test('a state in part keeps the share of samples that are shown, and the mark th
       return [shown, playing, marked];
     });
   });
-  // A cloud that was complete stays complete, and does not play for readers who prefer reduced motion.
+  // A cloud that was complete stays complete, and does not play for users who prefer reduced motion.
   expect(states).toEqual([[100, false, 50], [100, false, 50], [50, false, null], [30, false, null], [300, false, null], [300, false, null]]);
 });

@@ -26,7 +26,7 @@ const YAML_FIELDS = { image: 'room.pgm', resolution: 0.05, origin: '[0.0, 0.0, 0
 const errorMessageOf = (/** @type {Locator} */ widget) => widget.locator('.own-map [role=alert]');
 const currentMapOf = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
 
-/** Chooses files, as a reader does. @param {Locator} widget @param {MapFile[]} files */
+/** Chooses files, as a user does. @param {Locator} widget @param {MapFile[]} files */
 async function choose(widget, files) {
   await unfold(widget);
   await widget.getByLabel('Choose map files').setInputFiles(files);
@@ -53,7 +53,7 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
 });
 
-test('presets keep the map of the reader, and buttons lead to the apartment and back', async ({ page }) => {
+test('presets keep the map of the user, and buttons lead to the apartment and back', async ({ page }) => {
   const widget = await openSqueeze(page);
   await choose(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
@@ -80,7 +80,7 @@ test('presets keep the map of the reader, and buttons lead to the apartment and 
   await expect(widget.getByRole('button', { name: 'Back to room.json' })).toHaveCount(0);
 });
 
-test('unknown cells are hatched, and free or blocked as the reader chooses', async ({ page }) => {
+test('unknown cells are hatched, and free or blocked as the user chooses', async ({ page }) => {
   const widget = await openSqueeze(page);
   await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
   // A corridor of 4 m × 1 m, whose right half is unknown.

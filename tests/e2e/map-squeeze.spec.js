@@ -283,7 +283,7 @@ test('walls are moved by keyboard from one stop of Tab, and their handles are na
   expect(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.classList.contains('handle') ?? false)).toBe(false);
 });
 
-test('the picture has a description, and a reader’s change is announced', async ({ page }) => {
+test('the picture has a description, and a user’s change is announced', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { stats } = await squeezeResults(widget);
   const canvas = widget.locator('canvas.plane');

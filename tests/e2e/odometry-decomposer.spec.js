@@ -142,7 +142,7 @@ test('the spread against the drive has the outcomes beside the curve', async ({ 
 
 test('the path is scrubbed, and is played to its end and again from its beginning', async ({ page }) => {
   const widget = await openDecomposer(page, 'phase="2.8"');
-  // Readers who prefer reduced motion have no button.
+  // Users who prefer reduced motion have no button.
   await expect(widget.locator('.playable button')).toHaveCount(0);
   await slider(widget, 'progress of the motion').press('Home');
   const { robot, config } = await resultsOf(widget);

@@ -3,7 +3,7 @@ import { STILL, frames, test, untilReady } from './support.js';
 
 /** @import { Locator, Page } from '@playwright/test' */
 
-// The chapter's exercises 4, 5 and 7 on the page, by keyboard only: a reader predicts the answer, and then reveals it.
+// The chapter's exercises 4, 5 and 7 on the page, by keyboard only: a user predicts the answer, and then reveals it.
 test.use(STILL);
 
 /** Opens the page at the section of a figure. @param {Page} page @param {string} section */

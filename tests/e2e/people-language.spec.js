@@ -26,7 +26,7 @@ function messagesOf(catalogue, path = '') {
   );
 }
 
-/** Returns all texts of a figure that a reader sees or hears. @param {import('@playwright/test').Locator} widget */
+/** Returns all texts of a figure that a user sees or hears. @param {import('@playwright/test').Locator} widget */
 function textsOf(widget) {
   return widget.evaluate((element) => {
     const root = /** @type {ShadowRoot} */ (element.shadowRoot);

@@ -28,7 +28,7 @@ export default {
   pages: { first: '/', second: '/sensors' },
   go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).click(),
   dark: (page, on) => page.emulateMedia({ colorScheme: on ? 'dark' : 'light' }),
-  // Next keeps the pages that the reader has left in the document, but hides them.
+  // Next keeps the pages that the user has left in the document, but hides them.
   expected: [
     { selector: 'main:visible banana-machine >> nth=0', properties: { omega: 0.8, samples: 20000, alphas: [0.1, 0.05, 0.05, 0.1, 0.01, 0.01] } },
     { selector: 'main:visible banana-machine >> nth=1', properties: { omega: 0, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0] } },

@@ -1,5 +1,5 @@
 /**
- * Checks of every browser engine: the bits of the results, and the reactions of the page to a reader.
+ * Checks of every browser engine: the bits of the results, and the reactions of the page to a user.
  *
  * @module
  */
@@ -15,7 +15,7 @@ import { machineState } from './inside.js';
 
 /** @typedef {import('./browsers.mjs').Engine} Engine */
 
-/** Number of steps of a drag, because a reader's hand does not jump either. */
+/** Number of steps of a drag, because a user's hand does not jump either. */
 const STEPS = 8;
 
 /** A picture with at most so many colours counts as blank: lines, letters and a cloud have many shades. */

@@ -107,7 +107,7 @@ test('several recordings are drives of their own, or give one log each', async (
   assert.deepEqual([unpaired.odometry[0].choice.series, unpaired.reference[0].choice.series], ['/odom', '/mocap']);
   const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([withBothLogs, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
   assert.deepEqual([drives.length, unpairedOdometry.choice.series], [0, '/odom']);
-  // A recording that has neither odometry nor a reference is left out, unless the reader chose it as one of the two.
+  // A recording that has neither odometry nor a reference is left out, unless the user chose it as one of the two.
   const camera = recording({ '/image': 'text' }, { name: 'camera.mcap' });
   const { drives: [drive], unused } = planDrives([camera, withBothLogs]);
   assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [withBothLogs, ['camera.mcap: the topics are /image (String); exp']]);

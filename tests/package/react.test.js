@@ -142,7 +142,7 @@ test('what the server has sent is taken over, before its elements are there', as
   assert.deepEqual(consoleMessages, []);
 });
 
-test('a list in JSX, and a page that is rendered at every figure, leave what the reader does', async () => {
+test('a list in JSX, and a page that is rendered at every figure, leave what the user does', async () => {
   await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({}));
   await untilComplete();

@@ -1,4 +1,4 @@
-// Sizes of the files that a page loads before a reader uses its widgets.
+// Sizes of the files that a page loads before a user uses its widgets.
 
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
@@ -29,7 +29,7 @@ function chunkWith(source) {
   return loadedWith(chunk[0]);
 }
 
-/** Returns the scripts that a page with some widgets loads before a reader uses them. @param {string[]} tags @param {string} core */
+/** Returns the scripts that a page with some widgets loads before a user uses them. @param {string[]} tags @param {string} core */
 const scriptsOf = (tags, core) =>
   [...new Set([...loadedWith('dist/external.js'), ...tags.flatMap((tag) => chunkWith(`www/widgets/${tag}/${tag}.ts`)), ...chunkWith(`build/${core}.js`)])];
 

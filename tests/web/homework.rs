@@ -1,4 +1,4 @@
-//! Models, arcs and SE(2): functions that readers call in exercises.
+//! Models, arcs and SE(2): functions that users call in exercises.
 
 use crate::support::{Object, assert_near, get};
 use motion::geom::se2::SE2;

@@ -78,7 +78,7 @@ export class Cloud extends FigureController {
     return !this.playing && (this.#latest.shown >= this.asked || this.#gaveUp(this.#latest));
   }
 
-  /** Starts the growth, or shows a state; readers who prefer reduced motion see the complete cloud. */
+  /** Starts the growth, or shows a state; users who prefer reduced motion see the complete cloud. */
   introduce(state?: Values) {
     this.playing = state ? state.playing : true;
     this.#goalCount = state && state.shown < this.#samples ? state.shown : Infinity;

@@ -78,7 +78,7 @@ export function editableSlider(figure: Figure, symbol: string, { min, max: most,
   });
 }
 
-/** Parses a number that the reader typed. Returns undefined for a text that is refused, and shows the reason. */
+/** Parses a number that the user typed. Returns undefined for a text that is refused, and shows the reason. */
 function parseEntered({ settings }: Figure, key: string, name: string, text: string, { min, max, unit, type }: AllowedNumbers) {
   const isInteger = type === 'whole';
   const number = parseNumber(text, unit, isInteger);
@@ -203,7 +203,7 @@ interface SampleFieldOptions {
   hint: string;
 }
 
-/** Returns the field with the number of the selected sample. Refused text stays until the reader corrects or leaves it. */
+/** Returns the field with the number of the selected sample. Refused text stays until the user corrects or leaves it. */
 export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, selected, hint }: SampleFieldOptions) {
   const { cloud, settings } = figure;
   const refusalText = settings.refusalOf('marked');

@@ -37,7 +37,7 @@ addEnglish(en);
 /**
  * Figure with one simulation object of the core. A widget defines its machine, readings, pictures, HTML and export.
  *
- * Attributes and properties have the values that the figure shows, also after changes by the reader, and set them; properties accept texts.
+ * Attributes and properties have the values that the figure shows, also after changes by the user, and set them; properties accept texts.
  * A value out of range causes an `error` event that names the field, the value and what is allowed, and the last valid value stays;
  * `setState` throws.
  *
@@ -50,8 +50,8 @@ addEnglish(en);
  * @fires load - The figure is ready.
  * @fires {ErrorEvent} error - A value was refused, the core failed and was restarted, or the figure cannot run; `message` gives the
  *   reason. The event does not bubble; unless its default is prevented, the console shows the message too.
- * @fires input - The reader has changed something, and may continue.
- * @fires change - A change by the reader is complete.
+ * @fires input - The user has changed something, and may continue.
+ * @fires change - A change by the user is complete.
  * @fires {CustomEvent} stats - The statistics have changed; `detail` has them.
  * @csspart picture - Canvas with its handles.
  * @csspart caption - Sentences below a picture.
@@ -326,7 +326,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   }
 
   /**
-   * Returns HTML that shows the figure in its present state on another page. State without an attribute, such as the reader's map, is lost.
+   * Returns HTML that shows the figure in its present state on another page. State without an attribute, such as the user's map, is lost.
    * @public
    */
   embedCode(): string {

@@ -40,7 +40,7 @@ export async function moveFocusInto(figure: Figure, origin: EventTarget | null) 
   // Waits for the controls, which are rendered after the first picture.
   while (figure.renderer.opening) await new Promise(requestAnimationFrame);
   await figure.updateComplete;
-  // After the removal of the focused placeholder, the focus is on the body unless the reader has moved it.
+  // After the removal of the focused placeholder, the focus is on the body unless the user has moved it.
   if (!figure.machine || document.activeElement !== document.body) return;
   const focusable = focusableIn(figure.renderRoot);
   // With Shift+Tab the focus comes from an element below the figure.

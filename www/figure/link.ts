@@ -11,7 +11,7 @@ import { FigureController } from './controller.ts';
 const MAX_LENGTH = 1_000_000;
 
 export class Link extends FigureController {
-  /** True if the latest packed state lacks the reader's map, because the address would be too long with it. */
+  /** True if the latest packed state lacks the user's map, because the address would be too long with it. */
   lacksMap = false;
   /** Tokens of the latest read and write of the address. Results of earlier reads and writes are dropped. */
   #latestRead = {};

@@ -62,13 +62,13 @@ export class Notice extends FigureController {
     return this.#sentenceText !== '';
   }
 
-  /** Shows a sentence until the reader closes it; an empty one hides it. */
+  /** Shows a sentence until the user closes it; an empty one hides it. */
   show(sentence: string) {
     this.#sentenceText = sentence;
     this.host.requestUpdate();
   }
 
-  /** Shows work that takes long, until it ends. `stop` is called if the reader stops it. */
+  /** Shows work that takes long, until it ends. `stop` is called if the user stops it. */
   async during(work: Promise<unknown>, stop: () => void) {
     const { host } = this;
     const workEnded = new AbortController();

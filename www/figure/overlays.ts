@@ -1,4 +1,4 @@
-/** Lines and marks that a reader can hide: their state, and the legend that toggles them. */
+/** Lines and marks that a user can hide: their state, and the legend that toggles them. */
 
 import { html, nothing, svg } from 'lit';
 import { words } from '../messages/registry.ts';

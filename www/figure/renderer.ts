@@ -22,7 +22,7 @@ const MAX_TIME_STEP_MS = 100;
 
 let reducedMotionQuery: MediaQueryList | undefined;
 
-/** Returns true if the reader prefers reduced motion. */
+/** Returns true if the user prefers reduced motion. */
 export const prefersReducedMotion = () => (reducedMotionQuery ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
 
 export class Renderer extends FigureController {
@@ -77,7 +77,7 @@ export class Renderer extends FigureController {
     else if (this.host.isAwaited) this.requestFrame();
   }
 
-  /** Allows the views to zoom in and recenter, for a scene that the reader or the page has chosen: see `View.release`. */
+  /** Allows the views to zoom in and recenter, for a scene that the user or the page has chosen: see `View.release`. */
   releaseViews(minFill?: number) {
     for (const { view } of this.host.pictures) view.release(minFill);
   }

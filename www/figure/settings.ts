@@ -10,9 +10,9 @@ export class Settings extends FigureController {
   stale: boolean | undefined;
   /** Cache of the settings in effect; undefined until the machine is asked. */
   #present: Values | undefined;
-  /** Changes of the reader that wait for the next frame. */
+  /** Changes of the user that wait for the next frame. */
   #pending: Values = {};
-  /** Message about the text that the reader typed last, if it was refused, and the setting's key. */
+  /** Message about the text that the user typed last, if it was refused, and the setting's key. */
   #refusal: { key: string, message: string } | undefined;
 
   /** Drops pending changes and stops the player, for another machine. */
@@ -47,7 +47,7 @@ export class Settings extends FigureController {
   }
 
   /**
-   * Changes settings in the next frame, as a change by the reader, so that a drag configures the machine once in each frame. State of the
+   * Changes settings in the next frame, as a change by the user, so that a drag configures the machine once in each frame. State of the
    * element is changed at once.
    */
   want(change: Values | ((wanted: Values) => Values)) {

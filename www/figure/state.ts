@@ -65,7 +65,7 @@ export class State extends FigureController {
     this.#showState(wholeState);
   }
 
-  /** Applies a preset, as a change by the reader. */
+  /** Applies a preset, as a change by the user. */
   choosePreset(preset: string) {
     const { host } = this;
     host.player?.stop();
@@ -81,7 +81,7 @@ export class State extends FigureController {
     this.goBack(this.#openingState);
   }
 
-  /** Restores a state, as a change by the reader. */
+  /** Restores a state, as a change by the user. */
   goBack(state: Values | undefined = this.#openingState) {
     const { gesture, runtime } = this.host;
     runtime.attempt(() => {

@@ -1,4 +1,4 @@
-/** Heights of the texts above the controls, so that a control stays in its place while the reader drags it. */
+/** Heights of the texts above the controls, so that a control stays in its place while the user drags it. */
 
 import { language } from '../messages/registry.ts';
 import { FigureController } from './controller.ts';

@@ -32,7 +32,7 @@ export interface Frames {
   child: string;
 }
 
-/** Prints frames for a reader. */
+/** Returns a pair of frames as text. */
 export const framesText = ({ parent, child }: Frames) => `${parent} → ${child}`;
 
 /** Returns frames in the form of an option. */

@@ -1,4 +1,4 @@
-/** Bet on a number: the reader predicts it, and the figure reveals it. */
+/** Bet on a number: the user predicts it, and the figure reveals it. */
 
 import type { Figure } from '../page.ts';
 

@@ -1,4 +1,4 @@
-/** Sketch of a cloud: the reader draws the expected cloud, and the robots of the figure then appear below the drawing. */
+/** Sketch of a cloud: the user draws the expected cloud, and the robots of the figure then appear below the drawing. */
 
 import { deviation } from 'd3-array';
 import type { Figure } from '../page.ts';

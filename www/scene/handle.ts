@@ -1,4 +1,4 @@
-/** Handle in a picture that the reader drags with a pointer or moves with keys. */
+/** Handle in a picture that the user drags with a pointer or moves with keys. */
 
 import { html, nothing } from 'lit';
 import { emOfPixels, pointOn } from './canvas.ts';
@@ -26,7 +26,7 @@ export interface HandleLabels {
   text: string;
   /** Text on the limit that the handle has reached, if any. */
   stop?: string | false;
-  /** Hint for a reader who has not used the handle yet, shown while the handle pulses once. */
+  /** Hint for a user who has not used the handle yet, shown while the handle pulses once. */
   hint?: string | false;
 }
 

@@ -129,7 +129,7 @@ export const sliderStyles = css`
     visibility: visible;
   }
 
-  /* The sentence about a refused value stays until the reader types again or changes a setting. */
+  /* The sentence about a refused value stays until the user types again or changes a setting. */
   .slider.refused .effect {
     visibility: visible;
     color: var(--accent);
@@ -306,7 +306,7 @@ export function track({ id, name, min, max, step, value, text, describedBy, keyd
   />`;
 }
 
-/** Keeps the text of a field while the reader types, because a slow picture is drawn after further keys. */
+/** Keeps the text of a field while the user types, because a slow picture is drawn after further keys. */
 const keepWhileTyping = directive(
   class extends Directive {
     render(shown: string) {

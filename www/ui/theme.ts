@@ -91,7 +91,7 @@ export const theme = css`
     color: var(--ink);
   }
 
-  /* In forced colours, background and text have the system colours that the reader has chosen, because browsers do not replace all colours
+  /* In forced colours, background and text have the system colours that the user has chosen, because browsers do not replace all colours
      of a page. The colours of the lines keep their hues. */
   @media (forced-colors: active) {
     .scheme-probe,

@@ -13,7 +13,7 @@ class Figure(anywidget.AnyWidget):
     """Figure on a page, with a trait for each of its settings.
 
     A trait that was not given is None until the figure is shown. From then on, each trait has the value of the figure,
-    also after a change by the reader. Setting a trait to None restores the opening value.
+    also after a change by the user. Setting a trait to None restores the opening value.
     """
 
     _settings: frozenset[str] = frozenset()

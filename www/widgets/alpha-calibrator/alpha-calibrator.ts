@@ -29,7 +29,7 @@ import { captionOf, judgementOf, legText, reasonOf, pathText } from './words.ts'
 import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
-/** Log of the reader or of the page, with the fit by the service, and the settings of the fit. */
+/** Log of the user or of the page, with the fit by the service, and the settings of the fit. */
 interface OpenedLog {
   log: CalibrationLog;
   /** Notes on the logs that make the α's doubtful. */
@@ -62,7 +62,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   service = new LogService('alpha-calibrator');
   #predictedLeg: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();
-  /** Log of the reader or of the page; null for the simulated log. */
+  /** Log of the user or of the page; null for the simulated log. */
   #givenLog: OpenedLog | null = null;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) =>
@@ -111,12 +111,12 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     return { ...reading, chosen: this.chosen, leg: this.predicted, overlays: this.state.own.overlays };
   }
 
-  /** Shows a leg, counted from 0, while the reader moves between legs. */
+  /** Shows a leg, counted from 0, while the user moves between legs. */
   look(leg: number) {
     this.settings.want({ leg });
   }
 
-  /** Shows a leg, counted from 0, that the reader has chosen. */
+  /** Shows a leg, counted from 0, that the user has chosen. */
   choose(leg: number) {
     this.look(leg);
     this.gesture.commit();

@@ -1,4 +1,4 @@
-/** Logs of the reader: chosen or dropped files, and reading them. */
+/** Logs of the user: chosen or dropped files, and reading them. */
 
 import { html, nothing } from 'lit';
 import { language, words } from '../../messages/registry.ts';
@@ -17,10 +17,10 @@ type LogError = import('../../logs/log-error.ts').LogError;
 
 type Reader = Awaited<ReturnType<typeof loadReader>>;
 
-/** Question about a file, which the reader has answered or has to answer. */
+/** Question about a file, which the user has answered or has to answer. */
 export interface OpenQuestion { file: string; ask: Question }
 
-/** Files with their recordings, the reader's choices, and the drives that were read by these choices. */
+/** Files with their recordings, the user's choices, and the drives that were read by these choices. */
 export interface ChosenFiles {
   files: File[];
   recordings: Recording[];
@@ -29,9 +29,9 @@ export interface ChosenFiles {
   /** Options of files by their names. */
   answers: Record<string, OpenOptions>;
   questions: OpenQuestion[];
-  /** Choices of the reader. Missing choices are guessed. */
+  /** Choices of the user. Missing choices are guessed. */
   wishes: Pick<Wishes, Role>;
-  /** Roles that the reader chose for recordings with one log, by the index of the recording. */
+  /** Roles that the user chose for recordings with one log, by the index of the recording. */
   roles: Map<number, Role>;
   /** Plan for reading the drives; undefined while a question is open. */
   plan?: LogPlan;
@@ -85,7 +85,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.open(null, []).then(() => this.host.gesture.complete());
   }
 
-  /** Drops the chosen files, as the reader asked. */
+  /** Drops the chosen files, as the user asked. */
   forget() {
     this.chosen = this.#loneLogFiles = this.refusal = undefined;
     this.#dropZone.style.minHeight = '';
@@ -120,7 +120,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.requestUpdate();
   }
 
-  /** Loads the module that reads logs, while the reader chooses files or drags them here. */
+  /** Loads the module that reads logs, while the user chooses files or drags them here. */
   enter = () => {
     loadReader().catch(() => {});
     this.host.service.start();

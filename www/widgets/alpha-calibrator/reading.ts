@@ -6,7 +6,7 @@ import type { AlphaCalibrator as Machine, CalibrationLegs, CalibrationLog } from
 export type Reading = ReturnType<typeof fitOf> & {
   /** True values of the simulated log. */
   truth: Machine['truth'];
-  /** Log of the reader or the page; null for the simulated one. */
+  /** Log of the user or the page; null for the simulated one. */
   log: CalibrationLog | null;
   /** Requested settings. */
   config: Machine['config'];

@@ -53,7 +53,7 @@ export class IntroducedCloud extends Cloud {
     for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });
   }
 
-  /** Ends the introduction when it is over, or when the reader does something else. */
+  /** Ends the introduction when it is over, or when the user does something else. */
   skip = () => {
     this.#phase = 'none';
     for (const event of ['pointerdown', 'keydown']) removeEventListener(event, this.skip, { capture: true });

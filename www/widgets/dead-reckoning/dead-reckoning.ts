@@ -45,7 +45,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   #rollout: Memo<Float64Array> = new Memo();
   #straightGrowth: Memo<Machine['straightGrowth']> = new Memo();
 
-  // The machine starts without robots: the reader sees them appear, and the first frame does not wait for them.
+  // The machine starts without robots: the user sees them appear, and the first frame does not wait for them.
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.DeadReckoning.empty(), state);
 
   withDerivedFields(present: Values, given: Values) {

@@ -1,4 +1,4 @@
-/** Map Squeeze's controls: start positions, command, noise, sampler, and maps of the reader. */
+/** Map Squeeze's controls: start positions, command, noise, sampler, and maps of the user. */
 
 import { html, nothing } from 'lit';
 import { settingCheckbox, radios, cloudControls, settingSlider, sliders } from '../../figure/controls.ts';
@@ -56,7 +56,7 @@ export function robotAndMap(figure: Figure, hasUnknown: boolean) {
     ${radioGroup(settings.view.name, 'view', views, figure.state.own.view, (view) => figure.gesture.choose('view', view))}`);
 }
 
-/** Returns the controls for a map of the reader's own, with the name and size of the present map. */
+/** Returns the controls for a map of the user's own, with the name and size of the present map. */
 export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpener, map: string) {
   const say = words.squeeze.own;
   const pasteMap = () => {

@@ -56,7 +56,7 @@ function* measureCost(machine: MapSqueeze, sampler: SamplerName, parts: number):
   }
 }
 
-/** Idle time before a measurement, ms, so that a reader who presses keys repeatedly does not wait. */
+/** Idle time before a measurement, ms, so that a user who presses keys repeatedly does not wait. */
 const IDLE_MS = 300;
 
 /** Measures the samplers one after the other when the figure is idle, and reports each. */

@@ -54,7 +54,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #path: Memo<Float64Array> = new Memo();
   /** Cache of the grid of a machine's map, whose copy takes long. */
   #grid: { of: Machine, grid: Cells | null } | undefined;
-  /** The reader's map that was left last, with the start pose in it. A button returns to this map. */
+  /** The user's map that was left last, with the start pose in it. A button returns to this map. */
   left: { map: MapData, start: Pose } | null = null;
   /** Free pose at which the robot was put last. */
   #freePose: Pose | undefined;
@@ -144,7 +144,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   /**
-   * A map of the reader's own; null for the apartment.
+   * A map of the user's own; null for the apartment.
    *
    * @public
    */
@@ -176,13 +176,13 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     return this.ask((machine) => machine.verdicts);
   }
 
-  /** Moves the robot to a pose in the current map, as the reader asked. */
+  /** Moves the robot to a pose in the current map, as the user asked. */
   go(start: Pose) {
     this.renderer.releaseViews();
     this.gesture.decide({ start });
   }
 
-  /** Moves the robot to free space, as the reader asked. */
+  /** Moves the robot to free space, as the user asked. */
   moveToFreePose() {
     this.runtime.attempt(() => {
       if (this.machine) this.go(this.#findFreePose(this.machine));
@@ -204,19 +204,19 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     return (this.#freePose = openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 });
   }
 
-  /** Leaves the reader's map, as the reader asked. The map is kept, so that the reader can return to it. */
+  /** Leaves the user's map, as the user asked. The map is kept, so that the user can return to it. */
   leaveMap() {
     this.runtime.attempt(() => this.#leaveOwnMap());
     this.go(OPENING_START);
   }
 
-  /** Returns to the reader's map, as it was left. */
+  /** Returns to the user's map, as it was left. */
   returnToMap() {
     const { left } = this;
     if (left) this.open({ ...ownMapOf(left.map), start: left.start });
   }
 
-  /** Puts the robot into a map of the reader. */
+  /** Puts the robot into a map of the user. */
   open(map: OwnMap & { start?: Pose }) {
     if (!this.machine) return;
     this.runtime.attempt(() => {
@@ -225,7 +225,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /** Makes the plan with moved walls a map of the reader. Few samples are drawn in the same frame; many are drawn when the walls rest. */
+  /** Makes the plan with moved walls a map of the user. Few samples are drawn in the same frame; many are drawn when the walls rest. */
   moveWalls(walls: Float64Array) {
     const { bounds } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
@@ -237,7 +237,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.renderer.requestFrame();
   }
 
-  /** Leaves the reader's map, if there is one. */
+  /** Leaves the user's map, if there is one. */
   #leaveOwnMap() {
     const { machine, map } = this;
     if (!machine) return;
@@ -272,7 +272,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.#adoptMap(newMap);
   }
 
-  /** Shows the map of the machine, which is the reader's or, for null, the apartment. */
+  /** Shows the map of the machine, which is the user's or, for null, the apartment. */
   #adoptMap(map: MapData | null) {
     this.state.own.map = map;
     this.machineChanged();

@@ -40,7 +40,7 @@ export const definition = definitionOf('map-squeeze', {
   preset: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   own: {
     view: { converter: WORD_CONVERTER, words: VIEW_NAMES, opening: 'close' },
-    /** Map of the reader; null for the apartment. A machine has checked it. */
+    /** Map of the user; null for the apartment. A machine has checked it. */
     map: { opening: null, check: (_, map) => map },
   },
 });

@@ -27,7 +27,7 @@ export function noiseModelTable(figure: Figure) {
   </div>`;
 }
 
-/** Returns a slider, with a play button unless the reader prefers reduced motion. */
+/** Returns a slider, with a play button unless the user prefers reduced motion. */
 export function playableSlider(figure: Figure, key: 'phase' | 'drift', legend: string) {
   const { player } = figure;
   const { plays } = words.decomposer;

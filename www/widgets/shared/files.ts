@@ -1,4 +1,4 @@
-/** Files of the reader, chosen or dropped on a figure. An element of the figure shows the result, or a notice if that is out of sight. */
+/** Files of the user, chosen or dropped on a figure. An element of the figure shows the result, or a notice if that is out of sight. */
 
 import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
@@ -22,7 +22,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   /** Returns the sentence about a refusal, in the present language. */
   abstract explain(refusal: any): string;
 
-  /** Runs when something is dragged over the figure, and while the reader chooses files. */
+  /** Runs when something is dragged over the figure, and while the user chooses files. */
   enter = () => {};
 
   /** Message about the latest files; empty if they were not refused. */
@@ -72,7 +72,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     return this.host.renderRoot.querySelector(`#${this.id} .note`);
   }
 
-  /** Opens files that the reader has chosen or dropped. */
+  /** Opens files that the user has chosen or dropped. */
   take(files: File[], isDropped: boolean = false) {
     this.#isFar = isDropped;
     this.host.notice.show('');

@@ -31,7 +31,7 @@ export class Player<Key extends string> extends FigureController {
     this.#key = undefined;
   }
 
-  /** Sets a value that the reader has chosen, and stops the animation. */
+  /** Sets a value that the user has chosen, and stops the animation. */
   put(key: Key, value: number) {
     this.stop();
     this.#setValue(key, value);

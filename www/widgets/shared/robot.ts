@@ -16,7 +16,7 @@ export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number
   return Math.max(34, radius * view.scaleX + 22);
 }
 
-/** Draws a robot that the reader can drag and turn, with a radius in metres. Labels that are drawn later avoid it. */
+/** Draws a robot that the user can drag and turn, with a radius in metres. Labels that are drawn later avoid it. */
 export function drawHeldRobot(brush: Brush, pose: Pose, radius: number, colour: string) {
   const { context, view, palette, placed } = brush;
   const [centre, turn] = view.ray(pose, turnDistance(view, radius));

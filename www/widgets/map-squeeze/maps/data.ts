@@ -1,4 +1,4 @@
-/** Maps as plain data, the form in which a state contains a map of the reader. */
+/** Maps as plain data, the form in which a state contains a map of the user. */
 
 import { asObject, refusalError, withFieldRenamed, wholeNumber } from '../../../figure/checks.ts';
 import { fromBase64, toBase64 } from '../../../figure/packing.ts';

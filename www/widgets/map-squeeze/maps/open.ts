@@ -1,4 +1,4 @@
-/** Opening maps of the reader: chosen, dropped or pasted. Shows why the latest one was refused. */
+/** Opening maps of the user: chosen, dropped or pasted. Shows why the latest one was refused. */
 
 import { instantiate } from '../../../core.ts';
 import { words } from '../../../messages/registry.ts';

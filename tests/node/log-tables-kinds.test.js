@@ -138,6 +138,12 @@ test('pauses and jumps are found, and a heading that wraps is no jump', async ()
   assert.equal((await readTable(circleTable())).summary.jumps.count, 0);
 });
 
+test('a clock that was set forward is noted, and a pause is none', async () => {
+  const notesOf = async (/** @type {(t: number) => number} */ clock, /** @type {number[]} */ lost = []) => (await readTable(['t,x,y,yaw', ...CIRCLE.filter((_, i) => !lost.includes(i)).map(([t, ...pose]) => [clock(t), ...pose])].join('\n'))).summary.notes;
+  assert.deepEqual(await notesOf((t) => t + (t > 20 ? 0.75 : 0)), [{ name: 'clockSet', values: [20, 0.8000000000000007] }]);
+  assert.deepEqual(await notesOf((t) => t, Array.from({ length: 15 }, (_, i) => 401 + i)), []);
+});
+
 test('units are guessed from two signs', async () => {
   const degrees = (/** @type {number} */ yaw) => (yaw * 180) / Math.PI;
   /** Tables and their units of time and angle. @type {[string, string, string][]} */

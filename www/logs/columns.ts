@@ -3,7 +3,7 @@
 import { LogError, cut, listing, type Place } from './log-error.ts';
 import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
 
-export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
+export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child';
 
 interface Column {
   /** Index, from 0. */
@@ -48,9 +48,8 @@ const HEADER = '(?:header\\.)?';
  * group. The first pattern that matches a name determines its field.
  */
 const FIELD_PATTERNS: [Field, string[]][] = [
-  ['child', ['child\\.frame\\.id']],
+  ['child', ['child\\.frame\\.id', '(?:topic|robot|agent|vehicle|body|object|subject|tag|tracker)(?:\\.?(?:id|name))?']],
   ['frame', [`${HEADER}frame\\.id`]],
-  ['source', ['topic(?:\\.name)?', '(?:robot|agent|vehicle|body|object|subject|tag|tracker)(?:\\.?(?:id|name))?', 'id']],
   ['subseconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:nano?|n|micro|u)(?:secs?|seconds?)`, '(?:nano?|n|micro|u|milli|m)(?:secs?|seconds?)']],
   ['seconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
   ['t', [`${HEADER}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)|millis|micros|nanos', 't']],

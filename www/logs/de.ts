@@ -182,6 +182,7 @@ export const german: Words = {
       cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
       noZone: 'Datumsangaben ohne Zeitzone gelten als UTC',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
+      clockSet: (time, seconds) => `${comma(time, 2)} s nach dem Beginn springen die Zeiten um ${comma(seconds, 2)} s, und der Roboter fährt von derselben Stelle weiter, als wäre die Uhr gestellt worden: das Log dort teilen, oder Zeiten einer anderen Uhr verwenden`,
       rollover: (line) => `die Uhr beginnt in Zeile ${line} wieder bei 0; Zeiten ab dort setzen die vorigen fort`,
       sorted: (count) => `${times(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       swapped: (odometry, by) =>

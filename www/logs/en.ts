@@ -198,6 +198,7 @@ export const english = {
       cutShort: 'the file is incomplete: it ends in the middle of a row or record',
       noZone: 'dates without a time zone are taken as UTC',
       upAxis: (axis: string) => `${axis} is the vertical axis`,
+      clockSet: (time: number, seconds: number) => `${time.toFixed(2)} s after the start the times jump by ${seconds.toPrecision(2)} s, and the robot drives on from where it was, as if the clock was set: cut the log there, or use times of another clock`,
       rollover: (line: number) => `the clock begins at 0 again in line ${line}; times from there on continue those before`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       swapped: (odometry: string, by: 'name' | 'rest') =>

@@ -117,7 +117,7 @@ export type Warning = Extract<Note['name'], 'localizer' | 'swapped'>;
 
 /** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
 export interface Note {
-  name: 'cutShort' | 'damaged' | 'missing' | 'rollover' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer';
+  name: 'cutShort' | 'damaged' | 'missing' | 'rollover' | 'clockSet' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 

@@ -4,6 +4,7 @@ import { min, range } from 'd3-array';
 import { LogError, type Place } from './log-error.ts';
 import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
 import { LATE, SET_BACK, STRAY, repeatFactor, sortRows } from './order.ts';
+import { wrapAngle } from './path.ts';
 import { quantile, sample } from './quantile.ts';
 import { distanceOf } from './summary.ts';
 import { type Units, judgeUnits } from './units.ts';
@@ -31,17 +32,17 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
+/** Number of rows before and after a gap from which speeds are computed, and minimum speed (m/s) of a robot that drives. */
+const [SPEED_ROWS, MIN_DRIVING_SPEED] = [8, 0.1];
+
 /** Periods (s) after which clocks begin at 0 again: a day, a week of GPS, and 32-bit counters of an unstated unit, ms or µs. */
 const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 
 /** Minimum period of a clock, in median steps of its times. A clock that was set back might match a shorter period by chance. */
 const MIN_PERIOD_STEPS = 500;
 
-/** Two paths whose poses take turns: minimum distance (m), minimum number of far poses, and maximum number of rows until a path goes on. */
-const [MIN_PATH_DISTANCE, MIN_TURNS, MAX_TURN_ROWS] = [0.05, 20, 8];
-
-/** Maximum fraction of far poses that are still far then. */
-const MAX_TURN_FRACTION = 0.2;
+/** Two paths whose poses take turns: minimum distance (m), minimum number of poses far from the next, maximum number of rows until a path goes on, and maximum fraction of poses that are still far then. */
+const [MIN_PATH_DISTANCE, MIN_TURNS, MAX_TURN_ROWS, MAX_TURN_FRACTION] = [0.05, 20, 8, 0.2];
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
 const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
@@ -147,10 +148,11 @@ export class Rows {
     const { start, t } = columns;
     const pathDistance = kind === 'poses' ? distanceOfPaths(a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (say) => say.turns(pathDistance));
-    const { breaks, jumped, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
+    const { breaks, jumped, clockSet, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = [
       ...decisions.notes,
+      ...(clockSet ? [{ name: 'clockSet' as const, values: clockSet }] : []),
       ...(rollover > 0 ? [{ name: 'rollover' as const, values: [rollover] }] : []),
       ...(late > 0 ? [{ name: 'sorted' as const, values: [late] }] : []),
     ];
@@ -312,12 +314,14 @@ export class Rows {
     const jumps = { count: 0, first: NaN };
     const [breaks, jumped]: number[][] = [[], []];
     const isJump = kind === 'poses' ? jumpChecker(t, a, b, c) : () => false;
+    let clockSet: [time: number, seconds: number] | undefined;
     for (let i = 1; i < t.length; i++) {
       const step = t[i] - t[i - 1];
       if (step > MIN_GAP_STEPS * medianStep) {
         if (gaps.count === 0) gaps.first = t[i - 1] - t[0];
         gaps.count += 1;
         gaps.longest = Math.max(gaps.longest, step);
+        if (kind === 'poses' && isSetForward(t, a, b, i, medianStep)) clockSet ??= [t[i - 1] - t[0], step];
       }
       if (isJump(i)) {
         if (jumps.count === 0) jumps.first = t[i] - t[0];
@@ -326,7 +330,7 @@ export class Rows {
         breaks.push(i);
       } else if (isBroken(i)) breaks.push(i);
     }
-    return { rate: 1 / medianStep, gaps, jumps, jumped, breaks: Uint32Array.from(breaks) };
+    return { rate: 1 / medianStep, gaps, jumps, jumped, clockSet, breaks: Uint32Array.from(breaks) };
   }
 
   #placeOf(line: number): Place {
@@ -356,13 +360,22 @@ function distanceOfPaths(x: Float64Array, y: Float64Array): number {
   return longStep > MIN_PATH_DISTANCE && countOfLong(1) >= MIN_TURNS && range(2, MAX_TURN_ROWS + 1).some(isTurn) ? longStep : 0;
 }
 
+/** Returns true if a robot drives on after a gap in the times from where it was before, at the same speed: its clock was set forward. */
+function isSetForward(t: Float64Array, x: Float64Array, y: Float64Array, i: number, medianStep: number): boolean {
+  const motion = (from: number, to: number) => [x[to] - x[from], y[to] - y[from]];
+  const [before, gap, after] = [motion(i - 1 - SPEED_ROWS, i - 1), motion(i - 1, i), motion(i, i + SPEED_ROWS)];
+  const [lengthBefore, lengthAfter] = [Math.hypot(...before), Math.hypot(...after)];
+  const isStraight = before[0] * after[0] + before[1] * after[1] > 0.95 * lengthBefore * lengthAfter;
+  const isMoving = Math.min(lengthBefore, lengthAfter) > MIN_DRIVING_SPEED * SPEED_ROWS * medianStep;
+  // A robot may also stop and go on in a gap.
+  const isSteady = Math.min(...[motion(i - 2, i - 1), motion(i, i + 1)].map((step) => SPEED_ROWS * Math.hypot(...step))) > 0.7 * Math.max(lengthBefore, lengthAfter);
+  return isStraight && isMoving && isSteady && SPEED_ROWS * Math.hypot(...gap) < 1.5 * lengthBefore && t[i + SPEED_ROWS] - t[i] > 0.5 * SPEED_ROWS * medianStep;
+}
+
 /** Returns a function that checks for a jump between a row and the one before it. */
 function jumpChecker(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
   const distance = (i: number) => Math.sqrt((x[i] - x[i - 1]) ** 2 + (y[i] - y[i - 1]) ** 2);
-  const turn = (i: number) => {
-    const headingDifference = theta[i] - theta[i - 1];
-    return Math.abs(headingDifference - 2 * Math.PI * Math.round(headingDifference / (2 * Math.PI)));
-  };
+  const turn = (i: number) => Math.abs(wrapAngle(theta[i] - theta[i - 1]));
   const motionTests = ([[distance, MIN_JUMP], [turn, MIN_JUMP_TURN]] as const).map(([length, least]) => {
     const stepRates = sample(t.length - 1, (i) => length(i + 1) / (t[i + 1] - t[i]));
     const jumpLimit = JUMP_FACTOR * quantile(stepRates.filter((rate) => rate > MIN_MOVING_SPEED), 0.9);

@@ -31,8 +31,8 @@ const MIN_UNPADDED = 5;
 
 type ErrorReason = ConstructorParameters<typeof LogError>[1];
 
-/** Maximum number of frames that a sentence lists, and of robots in a table. */
-const [MAX_LISTED_FRAMES, MAX_SOURCES] = [4, 100];
+/** Maximum number of frames that a sentence lists. */
+const MAX_LISTED_FRAMES = 4;
 
 /** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
 const MAX_TILT_SPREAD = 0.5;
@@ -224,9 +224,6 @@ class LogReader {
   #damagedRows = 0;
   #firstDamaged: [number, ErrorReason] | undefined;
   #frames = new Set<string>();
-  /** Names of topics or robots so far, and that of the row before. */
-  #sources = new Set<string>();
-  #source = '';
   /** Cosines of the robot's tilt. They are near 1 if it drives on a plane. */
   #tiltCosines: number[] = [];
   #robotHeights: number[] = [];
@@ -242,8 +239,8 @@ class LogReader {
     this.#rows = new Rows(this.#place);
     this.#textOf = format.hasCommas ? withDecimalPoint : (cell) => cell;
     this.#clocks = layout.clocks.map((clock, i) => new ClockReader(clock, i === 0 ? options.timeUnit : undefined, this.#textOf));
-    const { z, frame, child, source } = group.columns;
-    const columns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...[upAxis && z, frame, child, source].filter((column) => column !== undefined)];
+    const { z, frame, child } = group.columns;
+    const columns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...[upAxis && z, frame, child].filter((column) => column !== undefined)];
     this.#neededCells = Math.max(...columns.map(({ at }) => at)) + 1;
   }
 
@@ -279,8 +276,7 @@ class LogReader {
       if (value === undefined) return this.#dropText(line, name, cells[at]);
       values.push(value);
     }
-    const { frame, child, source, z } = this.#group.columns;
-    if (source) this.#noteSource(cells[source.at].trim());
+    const { frame, child, z } = this.#group.columns;
     if ((frame || child) && this.#frames.size <= MAX_LISTED_FRAMES) this.#frames.add([frame, child].flatMap((column) => (column ? [cells[column.at].trim()] : [])).join(' to '));
     const [x, y] = values;
     let heading = values[2] ?? 0;
@@ -293,13 +289,6 @@ class LogReader {
     }
     const [[seconds, fraction], [otherSeconds, otherFraction] = [0, 0]] = times;
     this.#rows.add(seconds, fraction, x, y, heading, line, otherSeconds, otherFraction);
-  }
-
-  /** Notes a source that comes back after another one. Numbers of rows or laps do not come back. */
-  #noteSource(name: string): void {
-    if (name !== this.#source && this.#sources.has(name) && this.#frames.size <= MAX_LISTED_FRAMES) this.#frames.add(name);
-    this.#source = name;
-    if (this.#sources.size < MAX_SOURCES) this.#sources.add(name);
   }
 
   /** Drops a damaged row. If there are many, the log is refused with the reason of the first. */

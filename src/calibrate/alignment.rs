@@ -116,9 +116,9 @@ fn turns(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Op
     headings.windows(2).map(turn_between).collect()
 }
 
-/// Returns Pearson's correlation over the pairs whose numbers are both known. 0 if there are fewer than `least` such pairs, or one list is
+/// Returns Pearson's correlation over the pairs whose numbers are both known. 0 if there are fewer than `min_pairs` such pairs, or one list is
 /// constant.
-fn correlation(a: &[Option<f64>], b: &[Option<f64>], least: usize) -> f64 {
+fn correlation(a: &[Option<f64>], b: &[Option<f64>], min_pairs: usize) -> f64 {
     let pairs = || a.iter().zip(b).filter_map(|(a, b)| a.zip(*b));
     let (mut count, mut sums) = (0.0, [0.0; 5]);
     for (x, y) in pairs() {
@@ -130,7 +130,7 @@ fn correlation(a: &[Option<f64>], b: &[Option<f64>], least: usize) -> f64 {
     let [x, y, xx, yy, xy] = sums.map(|sum| sum / count);
     let variance_product = (xx - x * x) * (yy - y * y);
     // Rates that are constant except for rounding count as constant.
-    if count < least as f64 || variance_product <= 1e-18 * xx * yy || !variance_product.is_finite() {
+    if count < min_pairs as f64 || variance_product <= 1e-18 * xx * yy || !variance_product.is_finite() {
         return 0.0;
     }
     (xy - x * y) / variance_product.sqrt()

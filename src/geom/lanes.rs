@@ -129,10 +129,10 @@ impl Trigonometry {
     }
 }
 
-/// Returns true if a lane is greater than `most` in absolute value.
+/// Returns true if a lane is greater than `limit` in absolute value.
 #[inline(always)]
-fn any_beyond(x: f64x4, most: f64) -> bool {
-    any_lane_set(x.abs().simd_gt(f64x4::splat(most)))
+fn any_beyond(x: f64x4, limit: f64) -> bool {
+    any_lane_set(x.abs().simd_gt(f64x4::splat(limit)))
 }
 
 /// Returns true if a lane of a mask is set.

@@ -121,11 +121,11 @@ impl DrawTester<'_> {
         self.test_motion(self.part.motion(&self.from, unit_noise))
     }
 
-    /// Tests the lanes `wanted` of four samples, and calls `see` with each result. The poses may differ by rounding from those of
+    /// Tests some lanes of four samples, and calls `visit` with each result. The poses may differ by rounding from those of
     /// [`DrawTester::judge`].
-    pub fn test_four(&self, unit_noise: &[f64x4; 3], wanted: Range<usize>, see: impl FnMut(Draw)) {
+    pub fn test_four(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(Draw)) {
         let motion = self.part.four_motions(&self.from, &self.trigonometry, unit_noise);
-        wanted.map(|lane| self.test_motion(motion(lane))).for_each(see);
+        lanes.map(|lane| self.test_motion(motion(lane))).for_each(visit);
     }
 
     fn test_motion(&self, (pose, driven): (SE2, DrivenArc)) -> Draw {

@@ -91,14 +91,14 @@ impl DistanceField {
     }
 
     /// Returns the upper bound (m) on a distance with this lower bound; −∞ inside an occupied cell.
-    pub fn upper_bound(&self, least: f64) -> f64 {
-        // With the middle of the cell at distance d from the wall, `least` is d − radius and the upper bound d + radius.
+    pub fn upper_bound(&self, lower_bound: f64) -> f64 {
+        // With the middle of the cell at distance d from the wall, `lower_bound` is d − radius and the upper bound d + radius.
         // In a block that was not divided d is known to d/8: at most (1 + 1/8)/(1 − 1/8) times as far.
         let radius = 1.001 * self.radius;
         let upper_bound = (UNDIVIDED_DISTANCE + 1.0) / (UNDIVIDED_DISTANCE - 1.0)
-            * (least + radius + self.uncertainty)
+            * (lower_bound + radius + self.uncertainty)
             + radius;
-        if least == f64::from(NOT_COMPUTED) { f64::INFINITY } else { upper_bound }
+        if lower_bound == f64::from(NOT_COMPUTED) { f64::INFINITY } else { upper_bound }
     }
 }
 

@@ -265,8 +265,8 @@ impl OccupancyGrid {
     /// outlines is the distance to the cells. Lines along rows come first, then lines along columns.
     ///
     /// # Errors
-    /// A lower bound of their number, where there are more than `most`.
-    pub fn outlines(&self, most: usize) -> Result<Vec<Segment>, usize> {
+    /// A lower bound of their number, where there are more than `max_count`.
+    pub fn outlines(&self, max_count: usize) -> Result<Vec<Segment>, usize> {
         let [columns, rows] = self.size();
         let (mut walls, mut upright) = (Vec::new(), Vec::new());
         // An outline separates blocked cells from all others. `outline_starts` has, for each grid line between columns, the
@@ -289,8 +289,8 @@ impl OccupancyGrid {
                 }
                 was_left_different = blocked;
             }
-            if walls.len() + upright.len() > most {
-                return Err(most + 1);
+            if walls.len() + upright.len() > max_count {
+                return Err(max_count + 1);
             }
         }
         upright.sort_unstable();

@@ -169,11 +169,11 @@ impl<'a> Reader<'a> {
         &self.bytes[from..self.at]
     }
 
-    fn number(&mut self, field: &'static str, least: usize, most: usize) -> Result<usize, PgmError> {
+    fn number(&mut self, field: &'static str, min: usize, max: usize) -> Result<usize, PgmError> {
         let token = self.token();
         parse_decimal(token)
-            .filter(|number| (least..=most).contains(number))
-            .ok_or_else(|| self.error(field, token, format!("a whole number from {least} to {most}")))
+            .filter(|number| (min..=max).contains(number))
+            .ok_or_else(|| self.error(field, token, format!("a whole number from {min} to {max}")))
     }
 
     fn error(&self, field: &'static str, token: &[u8], allowed: String) -> PgmError {

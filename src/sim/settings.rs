@@ -278,19 +278,19 @@ pub type Visitor<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<(
 pub trait Declared: Copy + Default {
     const KEYS: &'static [&'static str];
 
-    /// Calls `see` for each setting, in the order of declaration.
-    fn each(&mut self, see: &mut Visitor) -> ControlFlow<()>;
+    /// Calls `visit` for each setting, in the order of declaration.
+    fn each(&mut self, visit: &mut Visitor) -> ControlFlow<()>;
 
-    /// Calls `see` for each setting, in the order of declaration, until it returns an error.
+    /// Calls `visit` for each setting, in the order of declaration, until it returns an error.
     ///
     /// # Errors
-    /// The error of `see`.
+    /// The error of `visit`.
     fn try_each<E>(
         &mut self,
-        mut see: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
+        mut visit: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
     ) -> Result<(), E> {
         let mut first_error = None;
-        let _ = self.each(&mut |declaration, setting| match see(declaration, setting) {
+        let _ = self.each(&mut |declaration, setting| match visit(declaration, setting) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
                 first_error = Some(error);
@@ -368,9 +368,9 @@ macro_rules! settings {
         impl $crate::sim::settings::Declared for $name {
             const KEYS: &'static [&'static str] = &[$(settings!(@key $field $($key)?)),+];
 
-            fn each(&mut self, see: &mut $crate::sim::settings::Visitor) -> std::ops::ControlFlow<()> {
+            fn each(&mut self, visit: &mut $crate::sim::settings::Visitor) -> std::ops::ControlFlow<()> {
                 use $crate::sim::settings::{Settable, declaration};
-                $(see(
+                $(visit(
                     const {
                         &declaration!(
                             settings!(@key $field $($key)?), $sentence,

@@ -32,7 +32,8 @@ impl Ellipse {
     /// coordinates).
     pub fn new(centre: Vector2<f64>, cov: Matrix2<f64>) -> Self {
         let rounding = NO_SPREAD * NO_SPREAD * (centre.norm_squared() + cov.trace());
-        let sqrt_above = |variance: f64, least: f64| if variance > least { variance.sqrt() } else { 0.0 };
+        let sqrt_above =
+            |variance: f64, min_variance: f64| if variance > min_variance { variance.sqrt() } else { 0.0 };
         let first = sqrt_above(cov[(0, 0)], rounding);
         let shared = if first > 0.0 { cov[(1, 0)] / first } else { 0.0 };
         let second = sqrt_above(cov[(1, 1)] - shared * shared, rounding.max(NO_AREA * cov[(1, 1)]));

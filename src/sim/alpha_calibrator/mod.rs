@@ -4,7 +4,7 @@ pub mod example;
 mod panels;
 mod settings;
 
-pub use panels::{BINS, Driver, Panel};
+pub use panels::{BINS, Panel, Regressor};
 pub use settings::*;
 
 use super::cloud::draws::Draws;
@@ -206,8 +206,8 @@ impl AlphaCalibrator {
     }
 
     /// Returns the panels of squared residuals against their regressors.
-    pub fn panels(&self, driver: Driver) -> [Panel; 3] {
-        panels(self.fit.settings.model(), self.calibration(), driver)
+    pub fn panels(&self, regressor: Regressor) -> [Panel; 3] {
+        panels(self.fit.settings.model(), self.calibration(), regressor)
     }
 
     /// Returns one leg in the frame of its start; None if the index is too large.

@@ -7,15 +7,15 @@ use crate::sim::settings::Words;
 
 /// Regressor of a variance. Each variance has one α for the rotation and one for the distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Driver {
+pub enum Regressor {
     /// Squared distance, or squared speed.
-    Way,
+    Distance,
     /// Squared rotation, or squared turn rate; the sum for both rotations if both add noise.
     Turn,
 }
 
-impl Words for Driver {
-    const WORDS: &'static [(&'static str, Self)] = &[("way", Self::Way), ("turn", Self::Turn)];
+impl Words for Regressor {
+    const WORDS: &'static [(&'static str, Self)] = &[("way", Self::Distance), ("turn", Self::Turn)];
 }
 
 /// Number of bins of a panel, with about equal numbers of legs. Legs with equal motions are in one bin.
@@ -46,34 +46,34 @@ js_structs! {
 
 /// Returns true if the first α of a noise component multiplies the squared translation or speed. For rotations of the odometry models
 /// it multiplies the squared rotation.
-fn is_translation_first(model: Model, kind: usize) -> bool {
+fn is_translation_first(model: Model, component: usize) -> bool {
     match model {
-        Model::Odometry(OdometryRule::Omni) => kind > 0,
-        Model::Odometry(_) => kind == 1,
+        Model::Odometry(OdometryRule::Omni) => component > 0,
+        Model::Odometry(_) => component == 1,
         Model::Velocity => true,
     }
 }
 
-/// Returns the panels of the three noises.
-pub fn panels(model: Model, calibration: &Calibration, driver: Driver) -> [Panel; 3] {
-    [0, 1, 2].map(|kind| panel(model, calibration, kind, driver))
+/// Returns the panel of each of the three noise components.
+pub fn panels(model: Model, calibration: &Calibration, regressor: Regressor) -> [Panel; 3] {
+    [0, 1, 2].map(|component| panel(model, calibration, component, regressor))
 }
 
-fn panel(model: Model, calibration: &Calibration, kind: usize, driver: Driver) -> Panel {
+fn panel(model: Model, calibration: &Calibration, component: usize, regressor: Regressor) -> Panel {
     let Calibration { alphas, intervals, observations, leg_fits, .. } = calibration;
-    let index = usize::from(is_translation_first(model, kind) != (driver == Driver::Way));
-    let component_alphas = model.component_alphas()[kind];
+    let index = usize::from(is_translation_first(model, component) != (regressor == Regressor::Distance));
+    let component_alphas = model.component_alphas()[component];
     let alpha = component_alphas[index];
     let slope = alphas[alpha];
     let points: Vec<[f64; 4]> = observations
         .iter()
         .zip(leg_fits)
-        .filter(|(observation, fit)| !observation.residuals[kind].is_nan() && !fit.is_outlier)
+        .filter(|(observation, fit)| !observation.residuals[component].is_nan() && !fit.is_outlier)
         .map(|(observation, fit)| {
-            let coefficient = observation.coefficients[kind][index];
-            let variance = fit.stds[kind] * fit.stds[kind];
+            let coefficient = observation.coefficients[component][index];
+            let variance = fit.stds[component] * fit.stds[component];
             let other_variance = variance - slope.unwrap_or(0.0) * coefficient;
-            let squared_innovation = fit.standardized[kind] * fit.standardized[kind] * variance;
+            let squared_innovation = fit.standardized[component] * fit.standardized[component] * variance;
             // The square of a normal variate of variance v has variance 2v².
             [coefficient, squared_innovation - other_variance, 1.0, 2.0 * variance * variance]
         })

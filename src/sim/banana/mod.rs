@@ -412,7 +412,7 @@ impl BananaMachine {
         let mut nearest = Nearest::new(target, radii);
         self.cloud.each_four(view, |[x, y]| {
             let (x, y) = (x.to_array(), y.to_array());
-            (0..LANES).for_each(|lane| nearest.see([x[lane], y[lane]]));
+            (0..LANES).for_each(|lane| nearest.visit([x[lane], y[lane]]));
         });
         nearest.index()
     }

@@ -120,10 +120,10 @@ impl Cloud {
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
     }
 
-    /// Calls `see` with the points of each group of four samples in a view. In the last group, lanes without a sample are
+    /// Calls `visit` with the points of each group of four samples in a view. In the last group, lanes without a sample are
     /// infinitely far away.
     #[inline(always)]
-    pub fn each_four(&self, view: View, mut see: impl FnMut([f64x4; 2])) {
+    pub fn each_four(&self, view: View, mut visit: impl FnMut([f64x4; 2])) {
         let shown = self.shown();
         let points_of_group = |group: usize| match view {
             View::Plane => self.positions[group],
@@ -138,11 +138,13 @@ impl Cloud {
             }
         };
         let (full_groups, remaining) = (shown / LANES, shown % LANES);
-        (0..full_groups).for_each(|group| see(points_of_group(group)));
+        (0..full_groups).for_each(|group| visit(points_of_group(group)));
         if remaining > 0 {
             let lane_mask = from_lanes(|lane| if lane < remaining { ALL_BITS_SET } else { 0.0 });
-            see(points_of_group(full_groups)
-                .map(|points| lane_mask.bitselect(points, f64x4::splat(f64::INFINITY))));
+            visit(
+                points_of_group(full_groups)
+                    .map(|points| lane_mask.bitselect(points, f64x4::splat(f64::INFINITY))),
+            );
         }
     }
 }

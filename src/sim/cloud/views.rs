@@ -72,26 +72,28 @@ impl Grid {
 pub struct Nearest {
     target: [f64; 2],
     radii: [f64; 2],
-    least: f64,
-    seen: usize,
+    least_squared_distance: f64,
+    visited_count: usize,
     index: Option<usize>,
 }
 
 impl Nearest {
     /// Starts a search inside an ellipse with the given radii around the target. Distances are in units of those radii.
     pub fn new(target: [f64; 2], radii: [f64; 2]) -> Self {
-        Self { target, radii, least: 1.0, seen: 0, index: None }
+        Self { target, radii, least_squared_distance: 1.0, visited_count: 0, index: None }
     }
 
     #[inline(always)]
-    pub fn see(&mut self, [x, y]: [f64; 2]) {
+    pub fn visit(&mut self, [x, y]: [f64; 2]) {
         let (dx, dy) = ((x - self.target[0]) / self.radii[0], (y - self.target[1]) / self.radii[1]);
         let distance = dx * dx + dy * dy;
-        if distance < self.least || (distance == self.least && self.index.is_none()) {
-            self.least = distance;
-            self.index = Some(self.seen);
+        if distance < self.least_squared_distance
+            || (distance == self.least_squared_distance && self.index.is_none())
+        {
+            self.least_squared_distance = distance;
+            self.index = Some(self.visited_count);
         }
-        self.seen += 1;
+        self.visited_count += 1;
     }
 
     /// Returns the index of the nearest point, in the order in which points were given.

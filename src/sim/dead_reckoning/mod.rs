@@ -215,7 +215,7 @@ impl DeadReckoning {
     /// Returns the robot in the picture that is nearest to a point (m) after the selected step, within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
         let mut nearest = Nearest::new(target, [radius, radius]);
-        self.poses(self.settings.step).iter().for_each(|[x, y, _]| nearest.see([*x, *y]));
+        self.poses(self.settings.step).iter().for_each(|[x, y, _]| nearest.visit([*x, *y]));
         nearest.index()
     }
 

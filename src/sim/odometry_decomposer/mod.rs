@@ -275,7 +275,7 @@ impl OdometryDecomposer {
     /// Returns the outcome shown that ends nearest to a point (m), within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
         let mut nearest = Nearest::new(target, [radius, radius]);
-        self.poses.iter().for_each(|pose| nearest.see([pose.x(), pose.y()]));
+        self.poses.iter().for_each(|pose| nearest.visit([pose.x(), pose.y()]));
         nearest.index()
     }
 }

@@ -55,10 +55,10 @@ impl<'a> Driver<'a> {
 
     /// Makes the first of the attempts `indices`, or up to four of them with a sampler that checks each attempt once.
     #[inline(always)]
-    pub fn make_next_attempts(&self, indices: Range<usize>, mut see: impl FnMut(Attempt, Cost)) {
+    pub fn make_next_attempts(&self, indices: Range<usize>, mut visit: impl FnMut(Attempt, Cost)) {
         if let Sampler::SubStepped(steps) = self.settings.sampler {
             let (attempt, cost) = self.drive_parts(indices.start, steps, &mut |_| ());
-            return see(attempt, cost);
+            return visit(attempt, cost);
         }
         let conditioned = self.settings.conditioned;
         let (group, first) = (indices.start / LANES, indices.start % LANES);
@@ -72,7 +72,7 @@ impl<'a> Driver<'a> {
                 path_free: draw.path.free,
             };
             let wall_tests = if conditioned { deciding_verdict.wall_tests } else { 0 };
-            see(attempt, Cost { draws: 1, wall_tests });
+            visit(attempt, Cost { draws: 1, wall_tests });
         });
     }
 

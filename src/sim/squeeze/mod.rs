@@ -224,7 +224,7 @@ impl MapSqueeze {
     /// Returns the attempt that ends nearest to a point (m) and within `radius` of it.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
         let mut nearest = Nearest::new(target, [radius, radius]);
-        self.shown.attempts.iter().for_each(|attempt| nearest.see([attempt.pose.x(), attempt.pose.y()]));
+        self.shown.attempts.iter().for_each(|attempt| nearest.visit([attempt.pose.x(), attempt.pose.y()]));
         nearest.index()
     }
 

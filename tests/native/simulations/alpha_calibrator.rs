@@ -5,7 +5,7 @@ use motion::OdomDelta;
 use motion::calibrate::{Calibration, Leg, SystematicError, Trajectory, Verdict};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
-use motion::sim::alpha_calibrator::{AlphaCalibrator, Driver, Log, Model, RestoreError, Settings};
+use motion::sim::alpha_calibrator::{AlphaCalibrator, Log, Model, Regressor, RestoreError, Settings};
 
 fn machine(settings: Settings) -> AlphaCalibrator {
     AlphaCalibrator::new(settings).expect("allowed")
@@ -70,9 +70,9 @@ fn the_noise_of_the_reference_is_stated_or_estimated() {
 fn panels_are_means_of_squared_innovations() {
     let machine = machine(Settings::default());
     let Calibration { alphas, intervals, observations, leg_fits, .. } = machine.calibration();
-    let [rot1, trans, rot2] = machine.panels(Driver::Turn);
+    let [rot1, trans, rot2] = machine.panels(Regressor::Turn);
     assert_eq!([rot1.alpha, trans.alpha, rot2.alpha], [0, 3, 0]);
-    assert_eq!(machine.panels(Driver::Way).map(|panel| panel.alpha), [1, 2, 1]);
+    assert_eq!(machine.panels(Regressor::Distance).map(|panel| panel.alpha), [1, 2, 1]);
     assert_eq!((trans.slope, trans.interval), (alphas[3], intervals[3]));
     let slope = alphas[3].expect("the log turns");
     // By the rule of Table 5.6 the variance of `trans` is α₃·trans² + α₄·(rot1² + rot2²).
@@ -111,7 +111,9 @@ fn the_error_bars_of_panels_hold_the_fitted_lines() {
     let [mut bins, mut over2, mut over3] = [0; 3];
     for seed in 0..40 {
         let machine = machine(Settings { seed, ..Settings::default() });
-        for panel in [Driver::Way, Driver::Turn].into_iter().flat_map(|driver| machine.panels(driver)) {
+        for panel in
+            [Regressor::Distance, Regressor::Turn].into_iter().flat_map(|regressor| machine.panels(regressor))
+        {
             let slope = panel.slope.expect("the log turns and drives");
             for ((x, y), error) in panel.x.iter().zip(&panel.y).zip(&panel.error) {
                 let deviation = ((y - slope * x) / error).abs();
@@ -204,7 +206,7 @@ fn a_restored_fit_is_the_fitted_one_to_the_last_bit() {
     let mut restored = AlphaCalibrator::restored(settings, &machine.saved()).expect("a fit");
     // Residuals that a leg does not show are NaN, which equals nothing.
     let results = |fit: &AlphaCalibrator| {
-        let panels = [Driver::Turn, Driver::Way].map(|driver| fit.panels(driver));
+        let panels = [Regressor::Turn, Regressor::Distance].map(|regressor| fit.panels(regressor));
         format!("{:?} {panels:?} {:?} {:?}", fit.calibration(), fit.leg(5), fit.nearest([0.5, 1.0], 3.0))
     };
     let before = results(&machine);
@@ -228,7 +230,7 @@ fn a_log_without_legs_gives_an_empty_calibration() {
     assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommended.is_none());
     assert_eq!(diagnostics.verdict, Verdict::Unusable);
     assert!(machine.leg(0).is_none() && machine.nearest([0.0; 2], 1.0).is_none());
-    assert!(machine.panels(Driver::Turn).iter().all(|panel| panel.x.is_empty() && panel.slope.is_none()));
+    assert!(machine.panels(Regressor::Turn).iter().all(|panel| panel.x.is_empty() && panel.slope.is_none()));
     // Another seed does not bring the simulated log back.
     machine.configure(Settings { seed: 1, ..Settings::default() }).expect("allowed");
     assert!(machine.truth().is_none());

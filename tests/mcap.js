@@ -21,6 +21,7 @@ const DEFINITIONS = {
   Vector3: fieldsOf('float64', 'x', 'y', 'z'),
   Quaternion: fieldsOf('float64', 'x', 'y', 'z', 'w'),
   Pose: [...fieldsOf('Vector3', 'position'), ...fieldsOf('Quaternion', 'orientation')],
+  'geometry_msgs/msg/Pose': [...fieldsOf('Vector3', 'position'), ...fieldsOf('Quaternion', 'orientation')],
   PoseWithCovariance: [...fieldsOf('Pose', 'pose'), covariance],
   Twist: fieldsOf('Vector3', 'linear', 'angular'),
   TwistWithCovariance: [...fieldsOf('Twist', 'twist'), covariance],

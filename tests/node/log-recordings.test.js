@@ -105,6 +105,8 @@ test('stamps that begin at 0 are used; messages without stamps have the times of
   assert.deepEqual([unstamped.start, unstamped.data.t.length, unstamped.data.t[20]], [1_700_000_000, 100, 1]);
   assert.match(unstamped.sentences, /times: when messages were recorded/);
   assert.doesNotMatch(simulated.sentences, /recorded/);
+  const withoutHeader = await recordingOf(odomMessages(100).map((message, i) => ({ ...message, type: 'geometry_msgs/msg/Pose', t: 1_700_000_000 + i / 20, message: poseOf(i, 0, 0) })));
+  assert.deepEqual((await readLog(mcapFile(withoutHeader), { series: '/odom' })).data, unstamped.data);
   // A single missing stamp is far from all other times.
   const logWithoutStamp = await logWithStamps((i) => (i === 50 ? 0 : 5 + i / 10));
   assert.deepEqual([logWithoutStamp.data.t.length, logWithoutStamp.summary.dropped.stray?.count], [99, 1]);
@@ -130,7 +132,7 @@ test('messages that were written in any order are read in the order of their tim
 });
 
 test('topics and frames that cannot be read are refused', async () => {
-  const poses = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D or tf2_msgs/TFMessage';
+  const poses = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose, Pose2D or tf2_msgs/TFMessage';
   const commands = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
   const source = mcapFile(await recordingOf(drive()));
   for (const [choice, sentence] of /** @type {const} */ ([

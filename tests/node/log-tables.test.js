@@ -110,6 +110,7 @@ const READABLE_TABLES = [
   { name: 'quantities over their units', text: table('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]), says: /lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'bars, seconds and microseconds', start: EPOCH, text: table('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
   { name: 'numbers of laps', text: table('t,id,x,y,yaw', ({ i, t, x, y, theta }) => [t, i >> 3, x, y, theta]) },
+  { name: 'semicolons below a long preamble', text: `${'Parameter 1: value, 2\n'.repeat(80)}${table('t;x;y;yaw', ({ t, x, y, theta }) => [t, x, y, theta], ';')}` },
   { name: 'names of MATLAB', text: table('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, degrees(theta)]), says: /degrees/ },
   { name: 'durations of MATLAB', text: table('Time,x,y,yaw', ({ t, x, y, theta }) => [`00:00:${String(Math.floor(t)).padStart(2, '0')}.${String(t % 1).slice(2).padEnd(1, '0')}`, x, y, theta]) },
   { name: 'millimetres, degrees and milliseconds by name', text: table('t_ms,x [mm],y [mm],yaw (deg)', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]) },

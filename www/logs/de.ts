@@ -12,7 +12,7 @@ const NEEDED = {
   either: 'x, y und yaw (oder qx, qy, qz und qw), oder v und omega',
 };
 
-const POSE_TYPES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D oder tf2_msgs/TFMessage';
+const POSE_TYPES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose, Pose2D oder tf2_msgs/TFMessage';
 const COMMAND_TYPES = 'geometry_msgs/Twist, TwistStamped oder TwistWithCovarianceStamped';
 const TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, oder ${COMMAND_TYPES}`, transforms: 'tf2_msgs/TFMessage, worin Koordinatensysteme sind' };
 
@@ -106,7 +106,7 @@ export const german: Words = {
       `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation oder ein Format wie %.9e kann sie gerundet haben).`,
     few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,
     timeUnit: (rate, unit, choices) =>
-      `in ${unit} wären es ${rate.toPrecision(3)} Zeilen je Sekunde; die Einheit der Zeiten angeben${choices.length ? `: ${choices.join(' oder ')}` : ''}.`,
+      `in ${unit} wären es ${rate.toPrecision(3)} Zeilen je Sekunde; ${choices.length ? `die Einheit der Zeiten angeben: ${choices.join(' oder ')}` : 'sie in s schreiben, oder als Datum wie 2024-01-31 12:00:00.5 (Tabellenprogramme zählen Tage)'}.`,
     lengthUnit: (speed, unit, choices) =>
       `in ${unit} führe der Roboter ${speed.toPrecision(3)} m/s; die Einheit der Längen angeben: ${choices.join(' oder ')}.`,
     angleUnit: (turn, unit, choices) =>

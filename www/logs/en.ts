@@ -12,7 +12,7 @@ const NEEDED = {
 };
 
 /** ROS message types that a log of poses or commands can be read from. */
-const POSE_TYPES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose2D or tf2_msgs/TFMessage';
+const POSE_TYPES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose, Pose2D or tf2_msgs/TFMessage';
 const COMMAND_TYPES = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
 const TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, or ${COMMAND_TYPES}`, transforms: 'tf2_msgs/TFMessage, which has frames' };
 
@@ -114,7 +114,7 @@ export const english = {
     few: (kept: number, rows: number, reason: Cause | undefined) =>
       `${kept} of ${rows} rows can be used${reason ? ` (${REASONS[reason]})` : ''}; expected are at least 2.`,
     timeUnit: (rate: number, unit: string, choices: string[]) =>
-      `in ${unit}, the times would mean ${rate.toPrecision(3)} rows a second; state their unit${choices.length ? `: ${choices.join(' or ')}` : ''}.`,
+      `in ${unit}, the times would mean ${rate.toPrecision(3)} rows a second; ${choices.length ? `state their unit: ${choices.join(' or ')}` : 'write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days)'}.`,
     lengthUnit: (speed: number, unit: string, choices: string[]) =>
       `in ${unit}, the robot would drive at ${speed.toPrecision(3)} m/s; state the unit of lengths: ${choices.join(' or ')}.`,
     angleUnit: (turn: number, unit: string, choices: string[]) =>

@@ -23,7 +23,7 @@ export interface Format {
   hasUnknownAxis?: boolean;
 }
 
-/** Number of lines from which the format is detected. */
+/** Number of rows, and of lines at the beginning and at the end, from which the format is detected. */
 const SAMPLED_LINES = 50;
 
 /** Names of the columns in tables without a header. The number of cells in a row identifies the table. */
@@ -125,7 +125,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   const records = CARMEN_RECORDS.filter(([tag]) => textLines.some(({ line }) => line.startsWith(`${tag} `)));
   if (records.length > 0 && textLines.every(({ line }) => /^[A-Z_0-9]+ /.test(line))) return carmenFormat(records, filledLines[0].number);
 
-  const separator = separatorOf(textLines.slice(0, SAMPLED_LINES).map(({ line }) => line.trim()));
+  const separator = separatorOf([...textLines.slice(0, SAMPLED_LINES), ...textLines.slice(-SAMPLED_LINES)].map(({ line }) => line.trim()));
   const cells = (line: string) => cellsOf(line, separator);
   const first = textLines.find(({ line }, i) => isDataRow(cells(line)) && (i + 1 === textLines.length || isDataRow(cells(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cells(line)));
   const rows = first ? textLines.filter(({ number }) => number >= first.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];

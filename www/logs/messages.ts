@@ -142,6 +142,7 @@ const POSE_READERS: Record<string, (reader: MessageReader) => Sample> = {
   'geometry_msgs/TransformStamped': readFrameTransform,
   'geometry_msgs/PoseStamped': readStampedPose,
   'geometry_msgs/PoseWithCovarianceStamped': readStampedPose,
+  'geometry_msgs/Pose': (reader) => sampleOfPose(NO_STAMP, readTransform(reader)),
   'geometry_msgs/Pose2D': (reader) => ({ ...NO_STAMP, a: reader.float64(), b: reader.float64(), c: reader.float64(), isRotation: true }),
 };
 const COMMAND_READERS: typeof POSE_READERS = {

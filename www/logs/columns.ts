@@ -53,16 +53,12 @@ const FIELD_PATTERNS: [Field, string[]][] = [
   ['subseconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:nano?|n|micro|u)(?:secs?|seconds?)`, '(?:nano?|n|micro|u|milli|m)(?:secs?|seconds?)']],
   ['seconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
   ['t', [`${HEADER}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)|millis|micros|nanos', 't']],
-  ['qx', ['q\\..*\\.x', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?x`]],
-  ['qy', ['q\\..*\\.y', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?y`]],
-  ['qz', ['q\\..*\\.z', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?z`]],
-  ['qw', ['q\\..*\\.w', `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?w`]],
+  ...Array.from('xyzw', (axis): [Field, string[]] => [`q${axis}` as Field, [`q\\..*\\.${axis}`, `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?${axis}`]]),
   ['omega', [`${TWIST}(?:angular|ang)\\.(?:vel(?:ocity)?\\.)?z`, 'omega(?:\\.z)?|ω', '(?:yaw|turn|heading)\\.?(?:rate|vel(?:ocity)?)|wz?', '(?:angular|ang)(?:\\.?(?:vel(?:ocity)?|speed|rate))?', 'vel(?:ocity)?\\.(?:yaw|theta)']],
   ['v', [`${TWIST}(?:linear|lin)\\.(?:vel(?:ocity)?\\.)?x`, 'vx?', '(?:linear|lin|forward|fwd)?\\.?(?:vel(?:ocity)?|speed)(?:\\.x)?|linear|lin']],
   ['yaw', [`${POSE}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading|gier(?:winkel)?)(?:\\.angle)?`, 'θ|ψ|psi|phi|orientation']],
-  ['x', ['p\\..*\\.x', 'east(?:ing)?', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?x`, `${POSE}x(?:\\.?pos(?:ition)?)?`]],
-  ['y', ['p\\..*\\.y', 'north(?:ing)?', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?y`, `${POSE}y(?:\\.?pos(?:ition)?)?`]],
-  ['z', ['p\\..*\\.z', `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?z`, `${POSE}z(?:\\.?pos(?:ition)?)?`]],
+  ['x', ['east(?:ing)?']], ['y', ['north(?:ing)?']],
+  ...Array.from('xyz', (axis): [Field, string[]] => [axis as Field, [`p\\..*\\.${axis}`, `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?${axis}`, `${POSE}${axis}(?:\\.?pos(?:ition)?)?`]]),
 ];
 
 /**

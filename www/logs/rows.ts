@@ -1,6 +1,6 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
-import { min, range } from 'd3-array';
+import { max, min, range } from 'd3-array';
 import { LogError, type Place } from './log-error.ts';
 import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
 import { LATE, SET_BACK, STRAY, repeatFactor, sortRows } from './order.ts';
@@ -148,7 +148,7 @@ export class Rows {
     const { start, t } = columns;
     const pathDistance = kind === 'poses' ? distanceOfPaths(a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (say) => say.turns(pathDistance));
-    const { breaks, jumped, clockSet, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
+    const { breaks, jumpRows, clockSet, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = [
       ...decisions.notes,
@@ -159,7 +159,7 @@ export class Rows {
     const seconds = t[t.length - 1] - t[0];
     const clock = clocks[usesOtherClock ? 1 : 0] ?? '';
     const summary = {
-      rows: count, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumped), ...foundGaps,
+      rows: count, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumpRows), ...foundGaps,
       ...decisions, ...(decisions.columns && { columns: { ...decisions.columns, t: clock } }), units, clock, notes,
     };
     return { name, kind, start, data, summary };
@@ -310,27 +310,20 @@ export class Rows {
   /** Returns the rate, the gaps, the jumps, and the rows to which the path from the row before is unknown. */
   #events(kind: LogKind, [t, a, b, c]: Float64Array[], isBroken: (i: number) => boolean) {
     const medianStep = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
-    const gaps = { count: 0, longest: 0, first: NaN };
-    const jumps = { count: 0, first: NaN };
-    const [breaks, jumped]: number[][] = [[], []];
+    const [gapRows, jumpRows, breaks]: number[][] = [[], [], []];
     const isJump = kind === 'poses' ? jumpChecker(t, a, b, c) : () => false;
-    let clockSet: [time: number, seconds: number] | undefined;
     for (let i = 1; i < t.length; i++) {
-      const step = t[i] - t[i - 1];
-      if (step > MIN_GAP_STEPS * medianStep) {
-        if (gaps.count === 0) gaps.first = t[i - 1] - t[0];
-        gaps.count += 1;
-        gaps.longest = Math.max(gaps.longest, step);
-        if (kind === 'poses' && isSetForward(t, a, b, i, medianStep)) clockSet ??= [t[i - 1] - t[0], step];
-      }
-      if (isJump(i)) {
-        if (jumps.count === 0) jumps.first = t[i] - t[0];
-        jumps.count += 1;
-        jumped.push(i);
-        breaks.push(i);
-      } else if (isBroken(i)) breaks.push(i);
+      if (t[i] - t[i - 1] > MIN_GAP_STEPS * medianStep) gapRows.push(i);
+      if (isJump(i)) jumpRows.push(i);
+      if (jumpRows.at(-1) === i || isBroken(i)) breaks.push(i);
     }
-    return { rate: 1 / medianStep, gaps, jumps, jumped, clockSet, breaks: Uint32Array.from(breaks) };
+    const setRow = kind === 'poses' ? gapRows.find((i) => isSetForward(t, a, b, i, medianStep)) : undefined;
+    return {
+      rate: 1 / medianStep, breaks: Uint32Array.from(breaks), jumpRows,
+      gaps: { count: gapRows.length, longest: max(gapRows, (i) => t[i] - t[i - 1]) ?? 0, first: t[gapRows[0] - 1] - t[0] },
+      jumps: { count: jumpRows.length, first: t[jumpRows[0]] - t[0] },
+      clockSet: setRow && [t[setRow - 1] - t[0], t[setRow] - t[setRow - 1]],
+    };
   }
 
   #placeOf(line: number): Place {

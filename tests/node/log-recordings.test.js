@@ -177,6 +177,8 @@ test('other recordings are refused', async () => {
   const refusal = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = drive()) => sentenceOf(readLog(mcapFile(await recordingOf(messages, options)), { series: '/odom' }));
   assert.equal(await refusal({ compression: 'odd' }), 'run.mcap, topic /odom: none of its messages can be read (compression by snappy, not by zstd or lz4); expected is an undamaged recording.');
   assert.equal(await refusal({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
+  const [encodedOtherwise] = await openRecordings([mcapFile(await recordingOf(odomMessages(3), { encoding: 'json' }))]);
+  assert.match(await sentenceOf((async () => planDrives([encodedOtherwise]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);
   assert.equal(await refusal({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
   assert.equal(await refusal({}, drive().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
   // These messages claim to be odometry, and are too short.

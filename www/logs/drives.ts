@@ -32,7 +32,7 @@ export interface Wishes {
 }
 
 /** Returns the series with their types, for a sentence. */
-const describeSeries = (series: Series[]) => listing(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+$)/, '')})` : type)));
+const describeSeries = (series: Series[]) => listing(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+( as |$))/, '')})` : type)));
 
 const isSame = (one: Choice, other?: Choice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
 
@@ -164,7 +164,7 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   throw new LogError(
     { file },
     (say) => (bestChoices.length > 0 ? say.choose : say.lacks)(role, describeSeries(usableSeries)),
-    { what: 'series', role, choices: bestChoices.length > 0 ? namesFor(recording, role).filter((name) => name !== other?.series) : [] },
+    { what: 'series', role, choices: bestChoices.length > 0 ? namesFor(recording, role).filter((name) => name !== other?.series) : usableSeries.filter(({ kind }) => role === 'odometry' && kind === 'commands').map(({ name }) => name) },
   );
 }
 

@@ -47,7 +47,7 @@ async function listSeries(container: Container): Promise<Series[]> {
   for (const channel of container.channels) channelsByTopic.set(channel.topic, [...(channelsByTopic.get(channel.topic) ?? []), channel]);
   const series: Series[] = [...channelsByTopic].map(([topic, channels]) => {
     const readable = channels.filter((channel) => isReadable(channel) && kindOf(channel.type) !== null);
-    const types = new Set((readable.length ? readable : channels).map(({ type }) => type));
+    const types = new Set((readable.length ? readable : channels).map((channel) => (isReadable(channel) ? channel.type : `${channel.type} as ${channel.encoding}`)));
     const count = (readable.length ? readable : channels).reduce((sum, channel) => sum + channel.count, 0);
     return { name: topic, type: [...types].join(', '), kind: readable.length && types.size === 1 ? kindOf([...types][0]) : null, count };
   });

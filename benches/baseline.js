@@ -80,12 +80,12 @@ export class Baseline {
     };
   }
 
-  /** Colours the counts by a table of all counts up to the largest. @param {Uint8Array} ramp @param {number} most */
-  #paint(ramp, most) {
+  /** Colours the counts by a table of all counts up to the largest. @param {Uint8Array} ramp @param {number} maxCount */
+  #paint(ramp, maxCount) {
     const { counts, pixels } = this;
     const colours = new Uint32Array(ramp.buffer, ramp.byteOffset, 256);
-    const shadeOfCount = new Uint32Array(most + 1);
-    for (let count = 1; count <= most; count++) shadeOfCount[count] = colours[Math.round(255 * Math.sqrt(count / most))];
+    const shadeOfCount = new Uint32Array(maxCount + 1);
+    for (let count = 1; count <= maxCount; count++) shadeOfCount[count] = colours[Math.round(255 * Math.sqrt(count / maxCount))];
     for (let i = 0; i < counts.length; i++) pixels[i] = shadeOfCount[counts[i]];
   }
 }
@@ -158,7 +158,7 @@ function driveCloud(noise, cloud, command, deviations, origin) {
 function countCells(cloud, counts, scales, view) {
   const [cx, cy, cl, ct, e00, e10, e11, f00, f10, f11, sin, cos] = scales;
   const [left, perX, top, perY, columns, rows] = view;
-  let inEllipse = 0, inTilted = 0, square = 0, cube = 0, most = 0;
+  let inEllipse = 0, inTilted = 0, square = 0, cube = 0, maxCount = 0;
   for (let j = 0; j < cloud.length; j += 4) {
     const x = cloud[j];
     const y = cloud[j + 1];
@@ -179,8 +179,8 @@ function countCells(cloud, counts, scales, view) {
     const row = top - y * perY;
     if (column >= 0 && row >= 0 && column < columns && row < rows) {
       const count = ++counts[(row | 0) * columns + (column | 0)];
-      if (count > most) most = count;
+      if (count > maxCount) maxCount = count;
     }
   }
-  return [inEllipse, inTilted, square, cube, most];
+  return [inEllipse, inTilted, square, cube, maxCount];
 }

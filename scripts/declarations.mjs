@@ -106,9 +106,9 @@ export function widgets() {
 async function widgetOf(tag) {
   // They import libraries, which a bare clone does not have yet.
   const { COMMON_ATTRS, NUMBER_CONVERTER, WORD_LIST_CONVERTER } = await importTypeScript('www/figure/attributes.ts');
-  const { definition: { attributes, declared, own }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
+  const { definition: { attributes, declared, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/attributes.ts').Documentation[]} */
-  const documentations = [...('marked' in own ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
+  const documentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await classComments();
   const element = classes.get(`${pascalCase(tag)}Element`);
   /** @type {Record<string, string>} */
@@ -129,7 +129,7 @@ async function widgetOf(tag) {
     }
     const { words, covers, converter, property } = entry;
     const nullable = covers || entry.nullable;
-    const openingText = own[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
+    const openingText = elementFields[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
     const type = converter === NUMBER_CONVERTER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST_CONVERTER ? `(${unionType(words)})[]` : unionType(words);
     const text = Array.isArray(openingText) ? openingText.join(' ') : openingText;
     const description = describe({ ...entry, sentence: attributeSentences[name] }, text);
@@ -145,11 +145,11 @@ async function widgetOf(tag) {
     .filter((/** @type {any} */ { kind, privacy, inheritedFrom }) => kind === 'field' && privacy === 'public' && !inheritedFrom)
     .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: oneLine(description), readonly, type: type.text }));
   const properties = [...groupFields, ...Object.entries(propertyTable).map(documentedItem), ...classFields];
-  const elementFields = Object.keys(own).map((name) => {
+  const documentedElementFields = Object.keys(elementFields).map((name) => {
     const { type, description } = /** @type {Named} */ ([...attributeList, ...properties].find((item) => item.name === name) ?? {});
     return { name, type, description };
   });
-  const state = new Map([...wholeSettings.map(fieldOf), ...elementFields, ...Object.entries(stateTable).map(documentedItem)].map((item) => [item.name, item]));
+  const state = new Map([...wholeSettings.map(fieldOf), ...documentedElementFields, ...Object.entries(stateTable).map(documentedItem)].map((item) => [item.name, item]));
   for (const { name, type } of state.values()) if (!type) throw new Error(`${tag}: nothing says what ${name} is in its state.`);
   return { tag, machine: pascalCase(tag), attributes: attributeList, properties, state: [...state.values()] };
 }

@@ -120,8 +120,8 @@ function withoutKernel(work: () => void) {
 
 /** Returns all spellings of traits with their properties. Properties on which others depend come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
-  const { properties, own } = element.constructor.definition;
-  const entries: Record<string, { property?: string }> = { ...properties, ...own, ...COMMON_ATTRS, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };
+  const { properties, elementFields } = element.constructor.definition;
+  const entries: Record<string, { property?: string }> = { ...properties, ...elementFields, ...COMMON_ATTRS, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };
   return Object.entries(entries).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];
     const pythonName = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);

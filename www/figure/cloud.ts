@@ -144,13 +144,13 @@ export class Cloud extends FigureController {
 
   /** Index of the selected sample; −1 for none. */
   get index(): number {
-    return this.host.state.own.marked ?? -1;
+    return this.host.state.elementState.marked ?? -1;
   }
 
   /** Selects a sample; −1 for none. */
   mark(index: number) {
     if (index === this.index) return;
-    this.host.state.own.marked = index < 0 ? null : index;
+    this.host.state.elementState.marked = index < 0 ? null : index;
     this.host.renderer.requestFrame();
   }
 

@@ -30,8 +30,8 @@ export interface SliderSpec {
 /** Range and type of the values that can be typed. */
 type AllowedNumbers = Pick<Declaration, 'type' | 'unit'> & { min: number, max: number };
 
-/** Fields of a slider's row. `most` is an upper limit below that of the declaration. */
-export type Row = Partial<SliderRow> & { most?: number };
+/** Fields of a slider's row. `maxEntered` is an upper limit below that of the declaration. */
+export type Row = Partial<SliderRow> & { maxEntered?: number };
 
 /** Returns the slider of a setting; `overrides` replaces fields of its slider row. */
 export function settingSlider(figure: Figure, key: string, overrides?: Row) {
@@ -57,8 +57,8 @@ export function settingSlider(figure: Figure, key: string, overrides?: Row) {
 }
 
 /** Returns a slider whose value can also be typed, within an allowed range. */
-export function editableSlider(figure: Figure, symbol: string, { min, max: most, type, unit }: AllowedNumbers, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { most?: number }) {
-  const max = row.most ?? most;
+export function editableSlider(figure: Figure, symbol: string, { min, max: declaredMax, type, unit }: AllowedNumbers, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { maxEntered?: number }) {
+  const max = row.maxEntered ?? declaredMax;
   const isInteger = type === 'whole';
   // At an end of the slider, a text says that values beyond it can be typed.
   const sliderEnd = row.value >= row.max && row.max < max ? row.max : row.value <= row.min && row.min > min ? row.min : undefined;

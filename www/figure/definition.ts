@@ -27,7 +27,7 @@ export interface Definition {
   /** Properties that are also attributes. */
   attributes: Record<string, Attribute>;
   /** State of the element that the machine does not have. */
-  own: Record<string, ElementField>;
+  elementFields: Record<string, ElementField>;
   /** Appearance of the settings that have a slider. */
   sliderSpecs: Record<string, SliderSpec>;
   dependentDefaults?: (config: Config) => Config;
@@ -41,7 +41,7 @@ interface Options extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'depen
   /** Attribute of the presets, if it depends on more than the settings. */
   preset?: Attribute;
   /** State fields of the widget, in addition to those of overlays and cloud. */
-  own?: Record<string, ElementField>;
+  elementFields?: Record<string, ElementField>;
 }
 
 /** State of an element with samples. */
@@ -53,7 +53,7 @@ const cloudState: Record<string, ElementField> = {
   },
 };
 
-export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, own: ofWidget, ...parts }: Options): Definition {
+export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, elementFields: ofWidget, ...parts }: Options): Definition {
   const declared = settings[tag];
   const widgetPresets = presets[tag as keyof typeof presets];
   const elementFields: Record<string, ElementField> = {
@@ -68,7 +68,7 @@ export function definitionOf(tag: string, { lines, opening = Object.keys(lines),
   for (const [key, { converter, isProperty, words, min, max }] of Object.entries(elementFields)) {
     if (converter || isProperty) properties[key] = { ...fieldProperty(key, converter), words, min, max };
   }
-  return { ...parts, tag, declared, properties, attributes: attributesIn(properties), own: elementFields };
+  return { ...parts, tag, declared, properties, attributes: attributesIn(properties), elementFields };
 }
 
 /** Returns a value for a field of the state of the element after a check; throws a TypeError or RangeError if it is invalid. */

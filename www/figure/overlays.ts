@@ -7,7 +7,7 @@ import type { LineStyle } from '../scene/draw.ts';
 
 /** Returns the legend of a figure's pictures, with names from the catalogue. `notes` explain missing lines. Entries of `more` have no toggle. */
 export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}, more: unknown = nothing) {
-  const { overlays } = figure.state.own;
+  const { overlays } = figure.state.elementState;
   const { overlays: names } = (words as any)[figure.definition.messageKey];
   const styleNames = Object.keys(styles);
   const allOverlays = figure.definition.attributes.overlays.words as string[];

@@ -46,7 +46,7 @@ export class Reflection extends FigureController {
   /** Reads list properties from texts such as `alphas="0.1,0.2"` or `"[0.1, 0.2]"`. The property refuses and reports any other text. */
   #takeUpLists(host: Record<string, unknown>) {
     for (const name of Object.keys(this.#properties)) {
-      const listText = name in this.#attributes || name in this.host.state.own ? null : this.host.getAttribute(name);
+      const listText = name in this.#attributes || name in this.host.state.elementState ? null : this.host.getAttribute(name);
       if (listText === null || Object.hasOwn(host, name)) continue;
       const numbers = (listText.match(/[^\s,[\]]+/g) ?? []).map(Number);
       host[name] = numbers.every(Number.isFinite) ? numbers : listText;
@@ -99,7 +99,7 @@ export class Reflection extends FigureController {
     const { machine, state } = this.host;
     const pending = this.pendingValue(name);
     if (pending !== undefined) return pending;
-    if (name in state.own) return structuredClone(state.own[name]);
+    if (name in state.elementState) return structuredClone(state.elementState[name]);
     return machine ? this.host.ask(() => this.#properties[name].get(state.config)) : undefined;
   }
 
@@ -143,7 +143,7 @@ export class Reflection extends FigureController {
   /** Changes a property; an error names it by the name that the caller used. */
   #assign(name: string, value: unknown) {
     const { state, settings } = this.host;
-    if (name in state.own) {
+    if (name in state.elementState) {
       state.assign(name, value);
       return;
     }
@@ -210,7 +210,7 @@ export class Reflection extends FigureController {
 
 /** Defines a widget's element with its properties. If the page loads the script twice, the second call does nothing. */
 export function define(Widget: typeof import('./figure.ts').FigureElement<any, any> & CustomElementConstructor) {
-  const { prototype, definition: { tag, properties, own } } = Widget;
+  const { prototype, definition: { tag, properties, elementFields } } = Widget;
   if (customElements.get(tag)) return;
   for (const name of Object.keys(properties)) {
     // A widget may define this property itself, because it does more than read and write the value.
@@ -222,6 +222,6 @@ export function define(Widget: typeof import('./figure.ts').FigureElement<any, a
       set(this: Figure, value) { this.reflection.set(name, value); },
     });
   }
-  if ('marked' in own) Object.defineProperties(prototype, cloudProperties);
+  if ('marked' in elementFields) Object.defineProperties(prototype, cloudProperties);
   customElements.define(tag, Widget);
 }

@@ -60,7 +60,7 @@ export class Settings extends FigureController {
       const overlapsPending = (key: string, other: string) => key in givenValues && other in this.#pending;
       // A setting and the group that has it are applied one after the other.
       if (definition.declared.some(({ key, of }) => of && (overlapsPending(key, of) || overlapsPending(of, key)))) this.settle();
-      for (const [key, value] of Object.entries(changedValues())) (key in state.own ? state.own : this.#pending)[key] = value;
+      for (const [key, value] of Object.entries(changedValues())) (key in state.elementState ? state.elementState : this.#pending)[key] = value;
       gesture.step();
       renderer.requestFrame();
     });

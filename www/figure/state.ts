@@ -12,19 +12,19 @@ export class State extends FigureController {
   /** Last valid state. */
   kept: Values | undefined;
   #openingState: Values | undefined;
-  #fields = this.host.definition.own;
+  #fields = this.host.definition.elementFields;
   /** Defaults of the state that the machine does not have. */
   openings: Values = Object.fromEntries(Object.entries(this.#fields).map(([name, { opening }]) => [name, opening]));
   /** State that the machine does not have, by name. */
-  own = { ...this.openings };
+  elementState = { ...this.openings };
 
   /** Settings of the machine, with pending changes, and the state that it does not have. */
   get config(): Values {
-    return { ...this.host.settings.wanted, ...this.own };
+    return { ...this.host.settings.wanted, ...this.elementState };
   }
 
   get common(): Values {
-    return { widget: this.host.localName, version: STATE_VERSION, ...this.own };
+    return { widget: this.host.localName, version: STATE_VERSION, ...this.elementState };
   }
 
   keep() {
@@ -57,7 +57,7 @@ export class State extends FigureController {
       for (const [name, field] of Object.entries(this.#fields)) wholeState[name] = validatedValue(field, `state.${name}`, wholeState[name], selectableCount);
       host.restore(made, wholeState);
     });
-    for (const name of Object.keys(this.own)) this.own[name] = wholeState[name];
+    for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];
     host.runtime.replace(machine);
     host.settings.reset();
     host.machineChanged();
@@ -71,7 +71,7 @@ export class State extends FigureController {
     host.player?.stop();
     host.settings.forgetRefusal();
     host.renderer.releaseViews(1);
-    for (const [name, { ofPreset, opening }] of Object.entries(this.#fields)) if (ofPreset) this.own[name] = opening;
+    for (const [name, { ofPreset, opening }] of Object.entries(this.#fields)) if (ofPreset) this.elementState[name] = opening;
     Object.assign(host, { preset });
     host.gesture.complete();
   }
@@ -105,7 +105,7 @@ export class State extends FigureController {
   assign(name: string, value: unknown) {
     const { settings, cloud, reflection, renderer } = this.host;
     settings.settle();
-    this.own[name] = validatedValue(this.#fields[name], name, value, cloud?.selectableCount ?? 0);
+    this.elementState[name] = validatedValue(this.#fields[name], name, value, cloud?.selectableCount ?? 0);
     reflection.updateAttributes();
     renderer.requestFrame();
   }

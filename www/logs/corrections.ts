@@ -68,8 +68,8 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   const { score, length: factor, angle } = bestAgreementOf(plainMotions, step, true);
   const triedCorrections = score >= AGREEMENT ? [] : ALL_CORRECTIONS.map(([name, at]) => {
     const correctedMotions = { ...plainMotions, [at]: motionsOf(logs[at], from, step, stepCount, POSE_CORRECTIONS[name]) };
-    // Compass headings grow clockwise from north.
     // A correction of the wrong log can give both logs the same error. The robot then drives in all directions in both logs.
+    // Mirrored headings are those of a compass, which grow clockwise from north: they may also have any offset.
     return { name, at, factor, ...bestAgreementOf(correctedMotions, step, name === 'mirroredYaw'), straight: forwardness(correctedMotions.odometry) + forwardness(correctedMotions.reference) };
   });
   const minScore = Math.max(MIN_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));

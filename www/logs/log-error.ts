@@ -37,10 +37,10 @@ export class LogError extends Error {
 }
 
 /** Shortens a text to one line for quotation in a sentence. */
-export function cut(text: string, most = MAX_QUOTED): string {
+export function cut(text: string, maxLength = MAX_QUOTED): string {
   // oxlint-disable-next-line no-control-regex
-  const shortLine = text.slice(0, most + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
-  return shortLine.length > most ? `${shortLine.slice(0, most)}…` : shortLine;
+  const shortLine = text.slice(0, maxLength + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
+  return shortLine.length > maxLength ? `${shortLine.slice(0, maxLength)}…` : shortLine;
 }
 
 /** Returns the message of a library's error, for a sentence. */

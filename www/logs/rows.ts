@@ -41,7 +41,7 @@ const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 /** Minimum period of a clock, in median steps of its times. A clock that was set back might match a shorter period by chance. */
 const MIN_PERIOD_STEPS = 500;
 
-/** Two paths whose poses take turns: minimum distance (m), minimum number of poses far from the next, maximum number of rows until a path goes on, and maximum fraction of poses that are still far then. */
+/** Two paths whose poses alternate: minimum distance (m), minimum number of poses far from the next, maximum number of rows until a path goes on, and maximum fraction of poses that are still far then. */
 const [MIN_PATH_DISTANCE, MIN_TURNS, MAX_TURN_ROWS, MAX_TURN_FRACTION] = [0.05, 20, 8, 0.2];
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
@@ -342,7 +342,7 @@ export class Rows {
 }
 
 /**
- * Returns the distance (m) of two paths whose poses take turns, as of two robots in one log; 0 for a single path. The sign is that many poses
+ * Returns the distance (m) of two paths whose poses alternate, as of two robots in one log; 0 for a single path. Paths alternate if many poses
  * are far from the next one, and near one a few rows later.
  */
 function distanceOfPaths(x: Float64Array, y: Float64Array): number {
@@ -369,11 +369,11 @@ function isSetForward(t: Float64Array, x: Float64Array, y: Float64Array, i: numb
 function jumpChecker(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
   const distance = (i: number) => Math.sqrt((x[i] - x[i - 1]) ** 2 + (y[i] - y[i - 1]) ** 2);
   const turn = (i: number) => Math.abs(wrapAngle(theta[i] - theta[i - 1]));
-  const motionTests = ([[distance, MIN_JUMP], [turn, MIN_JUMP_TURN]] as const).map(([length, least]) => {
+  const motionTests = ([[distance, MIN_JUMP], [turn, MIN_JUMP_TURN]] as const).map(([length, minLength]) => {
     const stepRates = sample(t.length - 1, (i) => length(i + 1) / (t[i + 1] - t[i]));
     const jumpLimit = JUMP_FACTOR * quantile(stepRates.filter((rate) => rate > MIN_MOVING_SPEED), 0.9);
     // For a robot that never moves the limit is NaN.
-    return (i: number) => length(i) > Math.max(least, (jumpLimit || 0) * (t[i] - t[i - 1]));
+    return (i: number) => length(i) > Math.max(minLength, (jumpLimit || 0) * (t[i] - t[i - 1]));
   });
   return (i) => motionTests.some((test) => test(i));
 }

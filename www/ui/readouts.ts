@@ -54,7 +54,7 @@ export const readoutStyles = css`
     white-space: normal;
   }
 
-  /* As large as a detail, whatever the size of the value beside it. */
+  /* An earlier value is as large as a detail, whatever the size of the value beside it. */
   .readouts .earlier {
     display: inline-block;
     color: var(--muted);

@@ -50,8 +50,8 @@ export async function unlz4(bytes: Uint8Array, size: number): Promise<Uint8Array
   return output;
 }
 
-/** Appends a decompressed block to `out`, which has `filled` bytes, and returns the new number. */
-function decompressBlock(block: Uint8Array, out: Uint8Array, filled: number): number {
+/** Appends a decompressed block to `output`, which has `filled` bytes, and returns the new number. */
+function decompressBlock(block: Uint8Array, output: Uint8Array, filled: number): number {
   let at = 0;
   /** Reads the rest of a length of four bits. */
   const lengthFrom = (length: number) => {
@@ -65,8 +65,8 @@ function decompressBlock(block: Uint8Array, out: Uint8Array, filled: number): nu
   while (at < block.length) {
     const lengthsToken = block[at++];
     const literalLength = lengthFrom(lengthsToken >> 4);
-    assertValid(literalLength <= block.length - at && literalLength <= out.length - filled);
-    out.set(block.subarray(at, at + literalLength), filled);
+    assertValid(literalLength <= block.length - at && literalLength <= output.length - filled);
+    output.set(block.subarray(at, at + literalLength), filled);
     at += literalLength;
     filled += literalLength;
     // The last sequence has no match.
@@ -74,11 +74,11 @@ function decompressBlock(block: Uint8Array, out: Uint8Array, filled: number): nu
     const matchDistance = block[at] | (block[at + 1] << 8);
     at += 2;
     const end = filled + lengthFrom(lengthsToken & 15) + MIN_MATCH;
-    assertValid(matchDistance > 0 && matchDistance <= filled && end <= out.length);
+    assertValid(matchDistance > 0 && matchDistance <= filled && end <= output.length);
     // A match longer than its distance repeats bytes that it has just written.
     for (const from = filled - matchDistance; filled < end; ) {
       const copyLength = Math.min(end - filled, filled - from);
-      out.copyWithin(filled, from, from + copyLength);
+      output.copyWithin(filled, from, from + copyLength);
       filled += copyLength;
     }
   }

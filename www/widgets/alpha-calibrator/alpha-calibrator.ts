@@ -91,7 +91,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Index of the leg that is shown; −1 if there is none. */
   get chosen() {
-    return legOf(this.reading, this.state.own.leg);
+    return legOf(this.reading, this.state.elementState.leg);
   }
 
   /** Predicted cloud and ends of the leg that is shown, by the latest complete fit; null without a leg. */
@@ -102,13 +102,13 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Bins of squared residuals against the chosen regressor; empty without legs. */
   get panels() {
-    const { machine, reading: { stats, legs }, state: { own: { driver } } } = this;
+    const { machine, reading: { stats, legs }, state: { elementState: { driver } } } = this;
     return legs.count > 0 && machine ? this.#panels.of([stats, driver], () => machine.panels(driver)) : [];
   }
 
   get scene() {
     const reading = this.currentReading;
-    return { ...reading, chosen: this.chosen, leg: this.predicted, overlays: this.state.own.overlays };
+    return { ...reading, chosen: this.chosen, leg: this.predicted, overlays: this.state.elementState.overlays };
   }
 
   /** Shows a leg, counted from 0, while the user moves between legs. */
@@ -166,7 +166,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       const machine = this.#machineOf(this.motion, this.settings.pick(this.settings.present), openedLog);
       freeOnError(machine, () => check?.(machine));
       if (log !== this.log) {
-        this.state.own.leg = null;
+        this.state.elementState.leg = null;
         for (const { view } of this.pictures) view.forget();
       }
       this.#givenLog = openedLog;

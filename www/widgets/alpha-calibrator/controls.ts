@@ -14,7 +14,7 @@ export function legControls(figure: Figure) {
   const { reading: { legs, worst }, chosen } = figure;
   const say = words.calibrator.leg;
   // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
-  const nextLeg = worst[(worst.indexOf(figure.state.own.leg) + 1) % Math.max(1, worst.length)];
+  const nextLeg = worst[(worst.indexOf(figure.state.elementState.leg) + 1) % Math.max(1, worst.length)];
   return html`<fieldset class="leg">
       <legend class="visually-hidden">${say.name}</legend>
       ${editableSlider(figure, say.name, { min: 1, max: legs.count, type: 'whole' }, {

@@ -81,7 +81,7 @@ const MIN_REGRESSOR = 1e-6;
 
 /** Returns the plots of the squared residuals of the three noises against their regressors. */
 export function regressionPanels(figure: Figure) {
-  const { reading, reading: { fitted: { model } }, state: { own: { driver } }, gesture } = figure;
+  const { reading, reading: { fitted: { model } }, state: { elementState: { driver } }, gesture } = figure;
   const say = words.calibrator.panels;
   const axisNames = model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
   if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;

@@ -75,7 +75,7 @@ export const definition = definitionOf('alpha-calibrator', {
     yawStd: { symbol: '*σ*_{θ}', role: 'truth', min: 0, max: 0.05, step: 0.001, decimals: 3 },
     inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
   },
-  own: {
+  elementFields: {
     leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MAX_LEG_INDEX)) },
     driver: { opening: REGRESSORS[0], check: (field, driver) => checkedWord(field, driver, REGRESSORS) },
   },

@@ -150,7 +150,7 @@ export const styles = css`
     opacity: 0.4;
   }
 
-  /* In sight beside the button that copies, whatever the length of the table. */
+  /* The message of the copy button is in sight beside it, however long the table is. */
   .fitted .copied:not(:empty) {
     display: block;
     position: sticky;
@@ -418,7 +418,7 @@ export const styles = css`
     }
   }
 
-  /* All of it fits on a screen of 720 px. */
+  /* The whole figure fits on a screen of 720 px. */
   @container (38em <= width < 42em) {
     canvas {
       aspect-ratio: 7 / 4;

@@ -45,7 +45,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   read = (machine: Machine): Reading => machine.read();
 
   get scene() {
-    const { overlays, line, underway } = this.state.own;
+    const { overlays, line, underway } = this.state.elementState;
     const reading = this.currentReading;
     const robots = underway < UNDERWAY_AT_END ? this.machine?.underway(underway / UNDERWAY_AT_END) : undefined;
     return { ...reading, machine: this.machine, overlays, line, underway: robots };
@@ -79,7 +79,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
           ${canvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
         </div>`)}
         ${this.renderer.afterFirstPicture(() => html`
-        <div class="aside">${headline(reading)} ${factorBars(reading, this.state.own.line)}</div>`)}
+        <div class="aside">${headline(reading)} ${factorBars(reading, this.state.elementState.line)}</div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINE_STYLES)}
@@ -88,7 +88,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
       <div class="controls" part="controls">${commandControls(this)} ${timeControl(this)}</div>
       ${disclosures(this, {
         controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
-        numbers: () => html`${lineStepper(this)} ${tableLines(reading, this.state.own.line)} ${likelihoodReadouts(reading)} ${formsPlot(this.motion)}`,
+        numbers: () => html`${lineStepper(this)} ${tableLines(reading, this.state.elementState.line)} ${likelihoodReadouts(reading)} ${formsPlot(this.motion)}`,
         mark: 'figure',
         csvTitle: say.csvTitle,
       })}`)}

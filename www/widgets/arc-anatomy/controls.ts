@@ -30,7 +30,7 @@ const icon = (seen: string, heard: string) => html`<span aria-hidden="true">${se
 
 export function lineStepper(figure: Figure) {
   const say = words.anatomy.table;
-  const { line } = figure.state.own;
+  const { line } = figure.state.elementState;
   const chooseLine = (to: number) => () => figure.gesture.choose('line', to);
   return html`<div class="stepper" role="group" aria-label=${say.label}>
     ${button(icon('‹', say.back), chooseLine(line - 1), { disabled: line === 0, title: say.back })}
@@ -40,7 +40,7 @@ export function lineStepper(figure: Figure) {
 }
 
 export function timeControl({ player, gesture, reading, state }: Figure) {
-  const { underway } = state.own;
+  const { underway } = state.elementState;
   const { dt } = reading.config.command;
   const timeText = words.anatomy.timeOf(fixed((underway / UNDERWAY_AT_END) * dt, 2), fixed(dt, 2));
   return group(words.anatomy.time, html`<div class="underway">

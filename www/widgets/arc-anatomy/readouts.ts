@@ -12,8 +12,8 @@ import { densityText, isTiny, shareText, type Reading } from './words.ts';
 import type { Factor, FormErrors, Motion } from '../../types.d.ts';
 
 /** Scale of the bars: number of standard deviations to either side, and pixels per standard deviation. */
-const BAR_SCALE = { most: 4, pixels: 22 };
-const BAR_MIDDLE = BAR_SCALE.most * BAR_SCALE.pixels + 4;
+const BAR_SCALE = { max: 4, pixels: 22 };
+const BAR_MIDDLE = BAR_SCALE.max * BAR_SCALE.pixels + 4;
 
 /** Symbols and units of the factors, with the residuals of the table. */
 const FACTOR_SYMBOLS = [
@@ -47,11 +47,11 @@ export function factorBars({ stats: { factors, weakest, share } }: Reading, line
 }
 
 function bar({ deviations }: Factor) {
-  const barX = (value: number) => BAR_MIDDLE + BAR_SCALE.pixels * clamp(value, -BAR_SCALE.most, BAR_SCALE.most);
-  const isBeyondScale = Math.abs(deviations) > BAR_SCALE.most;
+  const barX = (value: number) => BAR_MIDDLE + BAR_SCALE.pixels * clamp(value, -BAR_SCALE.max, BAR_SCALE.max);
+  const isBeyondScale = Math.abs(deviations) > BAR_SCALE.max;
   const barEnd = barX(deviations);
   const barSide = Math.sign(deviations);
-  const barTicks = Array.from({ length: 2 * BAR_SCALE.most + 1 }, (_, i) => i - BAR_SCALE.most);
+  const barTicks = Array.from({ length: 2 * BAR_SCALE.max + 1 }, (_, i) => i - BAR_SCALE.max);
   return html`<svg viewBox="0 0 ${2 * BAR_MIDDLE} 20" preserveAspectRatio="none" aria-hidden="true">
     ${barTicks.map((tick) => svg`<line class="tick" x1=${barX(tick)} x2=${barX(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
     <rect x=${Math.min(barX(0), barEnd)} width=${Math.abs(barEnd - barX(0))} y="3" height="11" />

@@ -43,7 +43,7 @@ export const definition = definitionOf('arc-anatomy', {
   lines: LINE_STYLES,
   opening: ['commanded', 'inverted', 'wedge', 'chord'],
   sliderSpecs: { ...COMMAND_SLIDERS, ...ALPHA_SLIDERS },
-  own: {
+  elementFields: {
     line: { opening: 0, ofPreset: true, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
     underway: { opening: UNDERWAY_AT_END, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, UNDERWAY_AT_END) },
   },

@@ -88,7 +88,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const reading = this.currentReading;
     const { motion } = this;
     const pinned = this.#pinned;
-    const { overlays, morph } = this.state.own;
+    const { overlays, morph } = this.state.elementState;
     const shownOverlays = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
     // There are no callouts while a cloud grows or is dragged, because outlines move. During a morph their sentences would be wrong.
     const isMoving = this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.previousReading);
@@ -118,7 +118,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   /** Reading that the current cloud is compared with: that of the pinned settings. */
   get #pinned() {
-    return this.#readingOfPinned(this.state.own.pinned);
+    return this.#readingOfPinned(this.state.elementState.pinned);
   }
 
   #readingOfPinned(pinned: Settings | null): Reading | undefined {
@@ -128,7 +128,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   /** Pins the outlines and numbers for comparison, or removes those that are pinned. Those of a growing cloud are of all its robots. */
   #pin() {
     const { config } = this.currentReading;
-    this.gesture.choose('pinned', this.state.own.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
+    this.gesture.choose('pinned', this.state.elementState.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
   }
 
   get exportData() {
@@ -158,7 +158,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   /** Position at which the end of the commanded arc is drawn, in the view's world. */
   get seenEnd() {
     const { v, omega, dt } = this.currentReading.config.command;
-    return morphedPoint([v * dt, 0, omega * dt], this.state.own.morph);
+    return morphedPoint([v * dt, 0, omega * dt], this.state.elementState.morph);
   }
 
   placeHandles() {
@@ -203,28 +203,28 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
    */
   reach(x: number, y: number) {
     this.settings.want(({ command }) => {
-      const { v, omega } = this.motion.commandReaching(x, y, command, this.state.own.morph);
+      const { v, omega } = this.motion.commandReaching(x, y, command, this.state.elementState.morph);
       const clampToSlider = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
       return { command: { ...command, v: clampToSlider(v, sliderSpecs.v), omega: clampToSlider(omega, sliderSpecs.omega) } };
     });
   }
 
   get #title() {
-    const { morph } = this.state.own;
+    const { morph } = this.state.elementState;
     return morph === 0 ? floorTitle(this.reading) : morph === 1 ? words.banana.twist : words.banana.morph.title;
   }
 
   /** Returns a note for each outline that is on, but has no image under the morph. */
   #missingOutlineNotes(reading: Reading) {
-    const { morph, overlays } = this.state.own;
+    const { morph, overlays } = this.state.elementState;
     const missingOutlines = morph === 0 ? [] : Object.entries(outlinesAt(this.motion, reading, morph)).filter(([name, { length }]) => length === 0 && overlays.includes(name));
     return Object.fromEntries(missingOutlines.map(([name]) => [name, words.banana.notCarried]));
   }
 
   get #description() {
-    const { overlays } = this.state.own as { overlays: (typeof OVERLAYS)[number][] };
+    const { overlays } = this.state.elementState as { overlays: (typeof OVERLAYS)[number][] };
     const drawnOutlines = overlays.filter((name) => hasLength(this.reading.contours[name]));
-    return planeText(this.reading, drawnOutlines.map((name) => words.banana.overlays[name]), this.state.own.morph);
+    return planeText(this.reading, drawnOutlines.map((name) => words.banana.overlays[name]), this.state.elementState.morph);
   }
 
   content(reading: Reading) {

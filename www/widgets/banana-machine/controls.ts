@@ -17,7 +17,7 @@ export function modelControls(figure: Figure) {
   const { model, alphas, isolate } = figure.reading.config;
   const say = words.banana;
   // The number of the α counts from 1; the other model may have fewer α's.
-  const isolatedAlpha = Math.min(figure.state.own.isolateChoice, alphas.length);
+  const isolatedAlpha = Math.min(figure.state.elementState.isolateChoice, alphas.length);
   return group(say.modelGroup, html`${radios(figure, 'model', say.models)} ${radios(figure, 'noise', words.noises)}
     ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', say.reverseAware) : nothing}
     ${toggle({

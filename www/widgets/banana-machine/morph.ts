@@ -116,7 +116,7 @@ export class MorphView extends View {
 
 export function morphControl({ player, gesture, state }: import('./banana-machine.ts').BananaMachineElement) {
   const say = words.banana.morph;
-  const { morph } = state.own;
+  const { morph } = state.elementState;
   return html`<div class="morph" role="group" aria-label=${say.name}>
     ${player.button('morph', say.play)}
     ${track({

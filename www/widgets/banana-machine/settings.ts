@@ -36,7 +36,7 @@ export const definition = definitionOf('banana-machine', {
   lines: LINE_STYLES,
   opening: ['command', 'ellipse', 'exponential'],
   sliderSpecs,
-  own: {
+  elementFields: {
     /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
     isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
     /** Settings of the machine whose outlines are pinned; null for none. `BananaMachineElement.restore` checks them. */

@@ -80,7 +80,7 @@ export const styles = css`
     line-height: 1.2;
   }
 
-  /* The three that matter, in columns of equal width where there is room. */
+  /* The three main readouts, in columns of equal width where there is room. */
   .surface .machine > .readouts {
     display: grid;
     gap: 0.4em 1.25em;

@@ -53,7 +53,7 @@ const VISIBLE_AREA_RATIO = 1.1;
 /** Gains (nats per robot) above which the cloud is visibly bent: a likelihood ratio of e for 20 positions, or for 10 poses. */
 const VISIBLE_GAINS = { floor: 0.05, pose: 0.1 };
 
-/** Returns the title of the view of the floor: how the ellipse fits, by the exact figures, or by the samples where no figure is exact. */
+/** Returns the title of the view of the floor: how the ellipse fits, by exact values, or by the samples where there are no exact values. */
 export function floorTitle({ stats, table: { exact } }: Pick<Reading, 'stats' | 'table'>) {
   const { floor, ellipseIs } = words.banana;
   if (stats.n < 2 || Number.isNaN(stats.areaRatio)) return floor;
@@ -78,7 +78,7 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measuredSkew);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const lean = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measuredSkew) : say.hardly(measuredSkew, exactText);
-    // No figure is exact if robots turn by more than π.
+    // There are no exact values if robots turn by more than π.
     const lesserOf = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
     if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
     const gained = lesserOf(gain.value, gain.exact);

@@ -57,7 +57,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   read = readingOf;
 
   get scene() {
-    return { ...this.currentReading, marked: this.#markedPoses, overlays: this.state.own.overlays };
+    return { ...this.currentReading, marked: this.#markedPoses, overlays: this.state.elementState.overlays };
   }
 
   get exportData() {
@@ -78,7 +78,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     };
   }
 
-  announcement = (reading: Reading) => announcementOf(reading, this.state.own.overlays);
+  announcement = (reading: Reading) => announcementOf(reading, this.state.elementState.overlays);
 
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {
@@ -88,7 +88,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
 
   content(reading: Reading) {
     const { condition, config: { step } } = reading;
-    const { overlays } = this.state.own;
+    const { overlays } = this.state.elementState;
     const say = words.reckoning;
     return html`
       <div class="views">

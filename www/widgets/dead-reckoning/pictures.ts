@@ -17,7 +17,7 @@ export type Scene = import('./reading.ts').Reading & { marked: Float64Array | un
 const SHOWN_DEVIATIONS = 3.2;
 
 /** Dots of the clouds at milestones: maximum number, radius in CSS pixels, and opacity. */
-const PAST_DOTS = { most: 200, radius: 1.3, alpha: 0.4 };
+const PAST_DOTS = { max: 200, radius: 1.3, alpha: 0.4 };
 
 export type OutlineName = keyof typeof OUTLINE_STYLES;
 
@@ -74,7 +74,7 @@ function drawMilestone({ context, view, palette }: Brush, poses: Float64Array) {
   context.fillStyle = palette.cloud;
   context.globalAlpha = PAST_DOTS.alpha;
   const dotSide = 2 * PAST_DOTS.radius;
-  const dotCount = Math.min(PAST_DOTS.most, poses.length / 3);
+  const dotCount = Math.min(PAST_DOTS.max, poses.length / 3);
   for (let i = 0; i < dotCount; i++) {
     context.fillRect(view.toPixelX(poses[3 * i]) - PAST_DOTS.radius, view.toPixelY(poses[3 * i + 1]) - PAST_DOTS.radius, dotSide, dotSide);
   }

@@ -22,7 +22,7 @@ const RATIO_TOLERANCE = 0.05;
 /** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */
 export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, reading: Reading) {
   const { config: { step, steps }, curves } = reading;
-  const { overlays } = figure.state.own;
+  const { overlays } = figure.state.elementState;
   const say = words.reckoning;
   const x = Array.from({ length: steps }, (_, i) => i + 1);
   const highestRatio = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));

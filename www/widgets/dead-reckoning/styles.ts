@@ -87,7 +87,7 @@ export const styles = css`
     }
   }
 
-  /* The chart is larger than its letters. */
+  /* The chart grows with the figure, but its text does not. */
   @container (min-width: 44em) {
     .chart .plot text {
       font-size: 10.8px;
@@ -104,7 +104,7 @@ export const styles = css`
       grid-auto-flow: row;
     }
 
-    /* Sliders in one row with their names need the room of two columns. */
+    /* Sliders that have their names in the same row need wide columns: two instead of three. */
     .folded .controls {
       grid-template-columns: repeat(2, minmax(0, 1fr));
     }

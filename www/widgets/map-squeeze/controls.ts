@@ -53,7 +53,7 @@ export function robotAndMap(figure: Figure, hasUnknown: boolean) {
   const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
   return group(heading, html`${settingSlider(figure, 'clearance')} ${settingCheckbox(figure, 'conditioned', condition)}
     ${hasUnknown ? radios(figure, 'unknown', unknown) : nothing}
-    ${radioGroup(settings.view.name, 'view', views, figure.state.own.view, (view) => figure.gesture.choose('view', view))}`);
+    ${radioGroup(settings.view.name, 'view', views, figure.state.elementState.view, (view) => figure.gesture.choose('view', view))}`);
 }
 
 /** Returns the controls for a map of the user's own, with the name and size of the present map. */

@@ -95,8 +95,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const reading = this.currentReading;
     this.#meter.measureWhenIdle(reading.config, !this.cloud.playing && !this.gesture.pressed);
     const { index, isMarked } = this.cloud;
-    this.picture.close = this.state.own.view === 'close';
-    return { ...reading, machine: this.machine, overlays: this.state.own.overlays, marked: isMarked ? this.#marked(index) : undefined };
+    this.picture.close = this.state.elementState.view === 'close';
+    return { ...reading, machine: this.machine, overlays: this.state.elementState.overlays, marked: isMarked ? this.#marked(index) : undefined };
   }
 
   /** Returns the marked sample, with the point where an accepted one went through a wall. */
@@ -149,7 +149,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
    * @public
    */
   get map(): MapData | null {
-    return this.state.own.map;
+    return this.state.elementState.map;
   }
 
   set map(map) {
@@ -274,7 +274,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   /** Shows the map of the machine, which is the user's or, for null, the apartment. */
   #adoptMap(map: MapData | null) {
-    this.state.own.map = map;
+    this.state.elementState.map = map;
     this.machineChanged();
     this.settings.stale = true;
     this.cloud.mark(-1);

@@ -26,7 +26,7 @@ export interface Scene extends Reading {
 const CROSS_HALF = 2.6;
 
 /** Dot of a sample: minimum and maximum radius (CSS pixels), width of the picture per pixel of the radius, and opacity. */
-const SAMPLE_DOT = { least: 2, most: 3, per: 240, alpha: 0.4 };
+const SAMPLE_DOT = { min: 2, max: 3, per: 240, alpha: 0.4 };
 
 /** Vector of the leader from a wall to the label about it, CSS pixels. */
 const LEADER_OFFSET = { x: 46, y: 30 };
@@ -42,7 +42,7 @@ const PATH_MARGIN = 0.45;
 const MAP_MARGIN = 0.025;
 
 /** Cells of the density: minimum and maximum side (CSS pixels), and number of samples at which the side is half the maximum. */
-const DENSITY_CELL = { least: 2, most: 5, samples: 40_000 };
+const DENSITY_CELL = { min: 2, max: 5, samples: 40_000 };
 
 /** Maximum number of paths that are drawn over a density: more would hide it. */
 const PATHS_ON_DENSITY = 25;
@@ -170,7 +170,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const { palette } = brush;
     const kinds = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
     const ramps = kinds.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
-    const cellSize = clamp(DENSITY_CELL.most * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.least, DENSITY_CELL.most);
+    const cellSize = clamp(DENSITY_CELL.max * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.min, DENSITY_CELL.max);
     this.#density.draw(brush, cellSize, [stats, palette, overlays], (...part) => machine.picture(...part, Uint8Array.from(ramps)));
   }
 }
@@ -216,7 +216,7 @@ function keyOf({ context, palette }: Brush, { overlays, sorted }: Scene): import
       context.beginPath();
       if (!sorted) context.rect(sampleMiddle - 5, y - 5, 10, 10);
       else if (name === 'rejected') addCross(context, sampleMiddle, y);
-      else context.arc(sampleMiddle, y, SAMPLE_DOT.most, 0, 2 * Math.PI);
+      else context.arc(sampleMiddle, y, SAMPLE_DOT.max, 0, 2 * Math.PI);
       context.fill();
       context.stroke();
     },
@@ -248,7 +248,7 @@ function drawPaths(brush: Brush, paths: Float64Array[], colour: string) {
 function drawSamples({ context, view }: Brush, triples: Float64Array, colour: string) {
   context.fillStyle = colour;
   context.globalAlpha = SAMPLE_DOT.alpha;
-  const dotRadius = clamp(view.width / SAMPLE_DOT.per, SAMPLE_DOT.least, SAMPLE_DOT.most);
+  const dotRadius = clamp(view.width / SAMPLE_DOT.per, SAMPLE_DOT.min, SAMPLE_DOT.max);
   for (let i = 0; i < triples.length; i += 3) {
     context.beginPath();
     context.arc(...view.toPixel(triples[i], triples[i + 1]), dotRadius, 0, 2 * Math.PI);

@@ -38,7 +38,7 @@ export const definition = definitionOf('map-squeeze', {
   },
   // Presets are places in the apartment.
   preset: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
-  own: {
+  elementFields: {
     view: { converter: WORD_CONVERTER, words: VIEW_NAMES, opening: 'close' },
     /** Map of the user; null for the apartment. A machine has checked it. */
     map: { opening: null, check: (_, map) => map },

@@ -174,9 +174,9 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const [dx, dy] = [x1 - x, y1 - y];
     const fractionAtEnd = (part: Grip['part']) => (this.#presentGrips.some((otherGrip) => otherGrip?.wall === wall && otherGrip.part === part) ? 2 * this.#inward(grip, view) : 0);
     let [from, to] = [fractionAtEnd('from'), 1 - fractionAtEnd('to')];
-    for (const [at, delta, least, most] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
+    for (const [coordinate, delta, min, max] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
       if (!delta) continue;
-      const boundFractions = [(least - at) / delta, (most - at) / delta];
+      const boundFractions = [(min - coordinate) / delta, (max - coordinate) / delta];
       [from, to] = [Math.max(from, Math.min(...boundFractions)), Math.min(to, Math.max(...boundFractions))];
     }
     const middleFraction = (from + to) / 2;

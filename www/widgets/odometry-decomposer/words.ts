@@ -28,8 +28,8 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
 
 /** Returns the distance between the odometry's own pose and the predicted pose, m. */
 export function driftDistance({ drifted, linkage }: Reading) {
-  const [own, predicted] = [poseIn(drifted.poses, 2), poseIn(linkage, 3)];
-  return Math.hypot(own.x - predicted.x, own.y - predicted.y);
+  const [odometryPose, predicted] = [poseIn(drifted.poses, 2), poseIn(linkage, 3)];
+  return Math.hypot(odometryPose.x - predicted.x, odometryPose.y - predicted.y);
 }
 
 export function legsText(reading: Reading) {

@@ -39,7 +39,7 @@ export class Player<Key extends string> extends FigureController {
 
   #valueAt(key: Key): number {
     const { settings, state } = this.host;
-    return key in state.own ? state.own[key] : settings.wanted[key];
+    return key in state.elementState ? state.elementState[key] : settings.wanted[key];
   }
 
   #setValue(key: Key, value: number) {

@@ -61,9 +61,9 @@ export async function readMapFiles(files: File[], decodePng: DecodePng): Promise
   throw new MapFileError(images[0]?.name ?? '', (say, image) => say.alone(image || say.noFile));
 }
 
-/** Reads a file, which may have been deleted after it was chosen; throws if it has more than `most` bytes. */
-async function bytesOf(file: File, most: number) {
-  checkSize(file.name, file.size, most);
+/** Reads a file, which may have been deleted after it was chosen; throws if it has more than `maxBytes` bytes. */
+async function bytesOf(file: File, maxBytes: number) {
+  checkSize(file.name, file.size, maxBytes);
   try {
     return new Uint8Array(await file.arrayBuffer());
   } catch (error) {

@@ -3,7 +3,7 @@
 import { LogError, cut, listing, type Place } from './log-error.ts';
 import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
 
-export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child';
+export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
 
 interface Column {
   /** Index, from 0. */
@@ -34,8 +34,8 @@ export interface Group {
   times: Column[];
   /** Clock of the rows, and another one that is used if the first is mostly 0, or never changes. */
   clocks: Clock[];
-  /** First cell of the group's rows, in a file with several kinds of rows. */
-  tag?: string;
+  /** Cell that the group's rows have in a column, in a file with rows of several topics or robots. */
+  source?: { at: number; name: string };
 }
 
 /** Pattern of the names of messages that contain a pose. */
@@ -48,8 +48,9 @@ const HEADER = '(?:header\\.)?';
  * group. The first pattern that matches a name determines its field.
  */
 const FIELD_PATTERNS: [Field, string[]][] = [
-  ['child', ['child\\.frame\\.id', '(?:topic|robot|agent|vehicle|body|object|subject|tag|tracker)(?:\\.?(?:id|name))?']],
+  ['child', ['child\\.frame\\.id']],
   ['frame', [`${HEADER}frame\\.id`]],
+  ['source', ['(?:topic|robot|agent|vehicle|body|object|subject|tracker)(?:\\.?(?:id|name))?|tag\\.?id']],
   ['subseconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:nano?|n|micro|u)(?:secs?|seconds?)`, '(?:nano?|n|micro|u|milli|m)(?:secs?|seconds?)']],
   ['seconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
   ['t', [`${HEADER}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)|millis|micros|nanos', 't']],

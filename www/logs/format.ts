@@ -60,7 +60,11 @@ const OTHER_NOTATIONS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$)
 
 /** Splits a line into cells. May return only the first `needed` cells. A separator in quotes does not count. */
 export function cellsOf(line: string, separator: string, needed = Infinity): string[] {
-  if (separator === ' ') return line.trim().split(/[ \t]+/);
+  if (separator === ' ') {
+    const words = line.trim().split(/[ \t]+/);
+    // In CARMEN's records of a laser, its readings come before the columns.
+    return words[0] === 'FLASER' ? [words[0], ...words.slice(2 + Number(words[1]))] : words;
+  }
   if (!line.includes('"')) {
     // A loop takes half as long as `split`.
     const plainCells: string[] = [];
@@ -78,12 +82,6 @@ export function cellsOf(line: string, separator: string, needed = Infinity): str
     else cells[cells.length - 1] += char;
   }
   return cells;
-}
-
-/** Returns the cells of a record of CARMEN without the readings of the laser. */
-export function carmenCells(line: string): string[] {
-  const cells = line.trim().split(/\s+/);
-  return cells[0] === 'FLASER' ? [cells[0], ...cells.slice(2 + Number(cells[1]))] : cells;
 }
 
 const THOUSANDS = /^\s*[+-]?[1-9]\d{0,2},\d{3}\s*$/;
@@ -153,7 +151,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
     const names = withUnits(header.names, linesAbove.filter((each) => each.number > number).map(({ line }) => cells(line)));
     // Rows with decimal commas between commas have more cells than the header.
     if (rowWidth > names.length) throw new LogError({ file, line: first?.number }, (say) => say.wide(rowWidth, names.length, number));
-    const groups = columnGroups(names, rows[0]);
+    const groups = columnGroups(names, rows[0]).flatMap((group) => groupsBySource(group, rows));
     if (!first && groups.every(({ kind }) => kind === null)) throw noLogError();
     return { ...commonFormat, names, header: lines[number - 1], groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
   }
@@ -164,6 +162,13 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   if (rowWidth === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(errorPlace, (say) => say.twists);
   const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
   throw new LogError(errorPlace, (say) => say.noHeader(rowWidth, cut(first.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
+}
+
+/** Splits a group whose rows are of several topics or robots. */
+function groupsBySource(group: Group, rows: string[][]): Group[] {
+  const at = group.columns.source?.at ?? -1;
+  const sources = [...new Set(rows.map((row) => row[at]?.trim() ?? ''))].filter(Boolean);
+  return sources.length > 1 && 2 * sources.length <= rows.length ? sources.map((name) => ({ ...group, name, source: { at, name } })) : [group];
 }
 
 /** Adds the units of a row below the header to the names. */
@@ -212,7 +217,7 @@ function columnsByContent(rows: string[][]): string[] | undefined {
 
 /** Returns the format of CARMEN: a group for each kind of record. */
 function carmenFormat(tags: typeof CARMEN_RECORDS, firstLine: number): Format {
-  const groups = tags.flatMap(([tag, name, names]) => groupsOf(names).map((group) => ({ ...group, tag, name })));
+  const groups = tags.flatMap(([tag, name, names]) => groupsOf(names).map((group) => ({ ...group, source: { at: 0, name: tag }, name })));
   return { name: 'csv', separator: ' ', hasCommas: false, firstLine, names: tags.map(([tag]) => tag), groups, isSparse: false };
 }
 

@@ -2,7 +2,7 @@
 
 import { least } from 'd3-array';
 import { type Clock, type Group, type Layout, layoutOf } from './columns.ts';
-import { type Format, carmenCells, cellsOf, formatOf } from './format.ts';
+import { type Format, cellsOf, formatOf } from './format.ts';
 import { LogError, bytesOf, cut, listing, type Place } from './log-error.ts';
 import type { Log, Note, OpenOptions, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
 import { type Time, dateOf, numberOf, timeOf } from './numbers.ts';
@@ -239,26 +239,26 @@ class LogReader {
     this.#rows = new Rows(this.#place);
     this.#textOf = format.hasCommas ? withDecimalPoint : (cell) => cell;
     this.#clocks = layout.clocks.map((clock, i) => new ClockReader(clock, i === 0 ? options.timeUnit : undefined, this.#textOf));
-    const { z, frame, child } = group.columns;
-    const columns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...[upAxis && z, frame, child].filter((column) => column !== undefined)];
+    const { z, frame, child, source } = group.columns;
+    const columns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...[upAxis && z, frame, child, source].filter((column) => column !== undefined)];
     this.#neededCells = Math.max(...columns.map(({ at }) => at)) + 1;
   }
 
   take(line: string, number: number, isOpen: boolean): void {
     if (line.length > MAX_LINE_LENGTH) this.#refuse(number, (say) => say.longLine(MAX_LINE_LENGTH));
     const { separator, isSparse, header } = this.#format;
-    const { tag } = this.#group;
-    if (tag !== undefined && !line.startsWith(`${tag} `)) return;
+    const { source } = this.#group;
     if (/^\s*(?:[#%]|$)/.test(line)) return;
     if (line === header) return this.#rows.drop('text', number);
-    const cells = tag === undefined ? cellsOf(line, separator, this.#neededCells) : carmenCells(line);
+    const cells = cellsOf(line, separator, this.#neededCells);
+    if (source && cells[source.at]?.trim() !== source.name) return;
     if (cells.length < this.#neededCells) {
       if (!isOpen) return this.#dropDamaged('short', number, (say) => say.cells(cells.length, this.#neededCells));
       this.#notes.push({ name: 'cutShort', values: [] });
       return this.#rows.drop('short', number);
     }
     // In a row of another topic the cells of this one are empty.
-    if (isSparse && this.#layout.columns.every(({ at }) => cells[at].trim() === '')) return;
+    if (isSparse && this.#layout.columns.every(({ at }) => Number.isNaN(numberOf(cells[at])))) return;
     this.#add(cells, number);
   }
 
@@ -276,7 +276,7 @@ class LogReader {
       if (value === undefined) return this.#dropText(line, name, cells[at]);
       values.push(value);
     }
-    const { frame, child, z } = this.#group.columns;
+    const { frame, child = this.#group.columns.source, z } = this.#group.columns;
     if ((frame || child) && this.#frames.size <= MAX_LISTED_FRAMES) this.#frames.add([frame, child].flatMap((column) => (column ? [cells[column.at].trim()] : [])).join(' to '));
     const [x, y] = values;
     let heading = values[2] ?? 0;

@@ -38,6 +38,8 @@
 //! No result depends on a platform's mathematics library: the same seed gives the same poses, to the bit, natively and
 //! in a browser.
 
+#![warn(missing_docs)]
+
 pub mod calibrate;
 pub mod geom;
 mod js;

@@ -19,9 +19,17 @@ const LENGTH_TOLERANCE: f64 = 1e-5;
 pub enum LegLength {
     /// A leg ends as in AMCL (`update_min_d`, `update_min_a`): at the first reading that is more than `distance` (m) away from its start, or
     /// turned by more than `angle` (rad). The distance is compared along each axis of the odometry frame.
-    Displacement { distance: f64, angle: f64 },
+    Displacement {
+        /// `update_min_d`, m.
+        distance: f64,
+        /// `update_min_a`, rad.
+        angle: f64,
+    },
     /// A leg ends at the first reading after this time (s).
-    Duration { duration: f64 },
+    Duration {
+        /// Time, s.
+        duration: f64,
+    },
 }
 
 impl LegLength {

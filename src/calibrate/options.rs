@@ -55,5 +55,8 @@ pub enum CalibrateError {
     #[error(
         "the log has {legs} legs for which both trajectories are known; at least {MIN_LEGS} are needed: choose shorter legs, drive longer, or check the clocks"
     )]
-    TooFewLegs { legs: usize },
+    TooFewLegs {
+        /// Number of legs.
+        legs: usize,
+    },
 }

@@ -22,10 +22,18 @@ pub struct Trajectory {
 pub enum TrajectoryError {
     /// A time or a coordinate is not finite.
     #[error("sample {sample} has a time or a coordinate that is not finite; allowed are finite numbers")]
-    NotFinite { sample: usize },
+    NotFinite {
+        /// Index of the sample.
+        sample: usize,
+    },
     /// The time of the sample is not later than `before` (s), the time of the sample before it.
     #[error("sample {sample} is not later than the one before, at {before} s; allowed are times that rise")]
-    NotLater { sample: usize, before: f64 },
+    NotLater {
+        /// Index of the sample.
+        sample: usize,
+        /// Time of the sample before, s.
+        before: f64,
+    },
 }
 
 /// Number of median periods above which a period is a pause. Shorter gaps are only dropped messages.

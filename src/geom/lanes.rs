@@ -30,11 +30,13 @@ pub struct Circle {
 pub struct HalfTurn {
     /// h minus whole half circles, so that it is within a quarter circle of the requested branch.
     pub half: f64x4,
-    /// h·cot h and sin h/h of `half`.
+    /// h·cot h of `half`.
     pub cotangent: f64x4,
+    /// sin h/h of `half`.
     pub sinc: f64x4,
-    /// sin h and cos h. Both signs may be reversed if half circles were subtracted.
+    /// sin h. The signs of sine and cosine are reversed if an odd number of half circles was subtracted.
     pub sin: f64x4,
+    /// cos h.
     pub cos: f64x4,
 }
 

@@ -39,7 +39,12 @@ pub enum FloorPlanError {
     /// A bound is beyond ±10⁶ m, or a side shorter than a centimetre or longer than 100 km.
     BadBounds([f64; 4]),
     /// A wall has an end that is not finite or outside the bounds.
-    BadWall { index: usize, end: [f64; 2] },
+    BadWall {
+        /// Index of the wall.
+        index: usize,
+        /// The first such end, m.
+        end: [f64; 2],
+    },
     /// More than [`FloorPlan::MAX_WALLS`] walls.
     TooManyWalls(usize),
     /// The bounds of a grid are outside the range of a plan.

@@ -14,10 +14,20 @@ pub const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 pub enum PngError {
     /// The bytes end, or differ from what the standard allows, before byte `at` of `length`.
     #[error("the PNG image is damaged or cut short before byte {at} of {length}; allowed is a complete one")]
-    Damaged { at: u64, length: usize },
+    Damaged {
+        /// Number of bytes read before the damage was noticed.
+        at: u64,
+        /// Number of bytes of the file.
+        length: usize,
+    },
     /// The image has more pixels than [`MAX_PIXELS`].
     #[error("image has {width} × {height} pixels; allowed are at most {MAX_PIXELS}")]
-    TooLarge { width: u32, height: u32 },
+    TooLarge {
+        /// Width of the image, pixels.
+        width: u32,
+        /// Height of the image, pixels.
+        height: u32,
+    },
 }
 
 /// Decodes a PNG image of any kind into red, green, blue and opacity; samples of 16 bits become the nearest of 8.

@@ -7,20 +7,28 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{}", self.message(number_text))]
 pub struct SettingsError {
+    /// Name of the setting.
     pub field: String,
+    /// The value that is not allowed.
     pub value: f64,
+    /// The values that are allowed.
     pub allowed: Allowed,
 }
 
+/// Allowed values of a setting.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Allowed {
+    /// Numbers in a range.
     Real(RangeInclusive<f64>),
+    /// Whole numbers in a range.
     Whole(RangeInclusive<u64>),
     /// Numbers of samples for which there is enough memory.
     LessMemory,
     /// Words that are allowed instead of `is`.
     Word {
+        /// The word that is not allowed.
         is: &'static str,
+        /// Words that are allowed, as text.
         allowed: &'static str,
     },
 }
@@ -92,10 +100,12 @@ pub const MAX_SEED: u64 = (1 << 53) - 1;
 /// Description of a setting, without its type and range.
 #[derive(Clone, Copy, Debug)]
 pub struct Declaration {
+    /// Name of the setting in attributes and states.
     pub key: &'static str,
     /// Key of the setting of which this setting is another form: `alphas` for a noise level.
     pub of: Option<&'static str>,
     // The module for browsers omits the sentence and the unit of settings: no page shows them, and they would make the module larger.
+    /// Description of the setting.
     #[cfg(not(target_arch = "wasm32"))]
     pub sentence: &'static str,
     /// Unit; "" for a number without one.
@@ -105,14 +115,21 @@ pub struct Declaration {
 
 /// Reference to the value of a setting, with its allowed values.
 pub enum Setting<'a> {
+    /// Number.
     Number(&'a mut f64, RangeInclusive<f64>),
+    /// Whole number.
     Whole(&'a mut dyn Whole, RangeInclusive<u64>),
+    /// Whole number that may be missing.
     WholeOrNone(&'a mut Option<usize>, RangeInclusive<u64>),
+    /// Truth value.
     Truth(&'a mut bool),
+    /// Value of an enum, by its word.
     Word(&'a mut dyn Word),
     /// List of fixed length, whose numbers have one range.
     Numbers(&'a mut [f64], RangeInclusive<f64>),
+    /// Number that sets several others, with their range.
     Level(&'a mut dyn Level, RangeInclusive<f64>),
+    /// Several numbers with names.
     Group(&'a mut dyn Group),
 }
 
@@ -149,7 +166,9 @@ pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), Settin
 
 /// Whole number of any type.
 pub trait Whole {
+    /// Returns the number.
     fn get(&self) -> u64;
+    /// Sets the number, which has to fit the type.
     fn set(&mut self, whole: u64);
 }
 
@@ -157,6 +176,7 @@ pub trait Whole {
 pub trait Level {
     /// Returns the level; None if the other numbers are not in the ratios of a level.
     fn get(&self) -> Option<f64>;
+    /// Sets the other numbers to those of the level.
     fn set(&mut self, level: f64);
     /// Returns the ratios of the numbers to the level. They belong to the last numbers of the list.
     fn weights(&self) -> Vec<f64>;
@@ -164,14 +184,17 @@ pub trait Level {
 
 /// Enum whose values have words in settings, attributes and states.
 pub trait Words: Copy + 'static {
+    /// Values with their words.
     const WORDS: &'static [(&'static str, Self)];
 }
 
 /// Reference to a value of any type with [`Words`].
 pub trait Word {
+    /// Returns the word of the value.
     fn get(&self) -> &'static str;
     /// Sets the value by its word. Returns false if the word is not in [`Word::all`].
     fn set(&mut self, word: &str) -> bool;
+    /// Returns the words of all values.
     fn all(&self) -> Vec<&'static str>;
 }
 
@@ -193,6 +216,7 @@ impl<T: Words> Word for T {
 
 /// Setting with several numbers, such as the three coordinates of a pose.
 pub trait Group {
+    /// Returns the declarations of the numbers.
     fn fields(&self) -> &'static [Field];
     /// Returns the number of the field with this index. Panics if there is no such field.
     fn number(&mut self, index: usize) -> &mut f64;
@@ -200,7 +224,9 @@ pub trait Group {
 
 /// Declaration of a number of a [`Group`].
 pub struct Field {
+    /// Description of the number.
     pub declaration: Declaration,
+    /// Allowed range.
     pub allowed: RangeInclusive<f64>,
 }
 
@@ -208,6 +234,7 @@ pub struct Field {
 pub trait Settable {
     /// Type of the declared range.
     type Allowed;
+    /// Returns a reference to the value, with its allowed values.
     fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_>;
 }
 
@@ -276,6 +303,7 @@ pub type Visitor<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<(
 
 /// Loop over the settings of a widget. `settings!` implements it.
 pub trait Declared: Copy + Default {
+    /// Names of the settings, in the order of declaration.
     const KEYS: &'static [&'static str];
 
     /// Calls `visit` for each setting, in the order of declaration.

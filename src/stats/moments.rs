@@ -33,6 +33,7 @@ js_structs! {
     /// Mean and covariance of ξ = x_t ⊟ x_{t−1} in the order (along, lateral, heading): m, m, rad.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ExponentialMoments {
+        /// Arithmetic mean.
         pub mean: Vector3<f64> as "number[]",
         /// Sample covariance (over n − 1), 3 × 3.
         pub cov: Matrix3<f64> as "number[][]",

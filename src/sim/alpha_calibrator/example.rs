@@ -17,15 +17,20 @@ use std::f64::consts::TAU;
 /// True α's of the simulation, with the rule of Table 5.6.
 pub const ALPHAS: [f64; 4] = [0.05, 0.008, 0.004, 0.003];
 
-/// Length of the legs to which these α's apply (m, rad): the defaults of AMCL's update triggers.
+/// Length of the legs to which these α's apply, m: the default of AMCL's `update_min_d`.
 const LEG_DISTANCE: f64 = 0.25;
+/// Turn of these legs, rad: the default of AMCL's `update_min_a`.
 pub const LEG_ANGLE: f64 = 0.2;
 
-/// Systematic errors of odometry and reference.
+/// True clock offset of the reference, s.
 pub const CLOCK_OFFSET: f64 = 0.15;
+/// True yaw of the reference's sensor on the robot, rad.
 pub const MOUNT_YAW: f64 = 0.07;
+/// True position of the reference's sensor on the robot, m ahead and to the left.
 pub const LEVER_ARM: [f64; 2] = [0.12, 0.0];
+/// True distances over those of the odometry.
 pub const DISTANCE_SCALE: f64 = 1.02;
+/// True turns over those of the odometry.
 pub const TURN_SCALE: f64 = 0.97;
 
 /// Jumps of the reference: size (m), number of rows of a jump, and probability that one begins at a row. They make about one

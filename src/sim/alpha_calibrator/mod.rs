@@ -26,14 +26,18 @@ const OUTLINE_SEGMENTS: usize = 64;
 /// Odometry and reference of one drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
+    /// Poses by the odometry.
     pub odometry: Trajectory,
+    /// Poses by the reference.
     pub reference: Trajectory,
 }
 
 /// Reason for which a fit cannot be restored.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RestoreError {
+    /// A setting is out of range.
     Settings(SettingsError),
+    /// The bytes are not those of a fit.
     Bytes,
 }
 
@@ -43,10 +47,15 @@ js_structs! {
     pub struct Truth as "CalibrationTruth" {
         /// Noise parameters of the rule of Table 5.6, on legs of 0.25 m or 0.2 rad.
         pub alphas: [f64; 4],
+        /// Clock offset of the reference, s.
         pub clock_offset: f64,
+        /// Yaw of the reference's sensor on the robot, rad.
         pub mount_yaw: f64,
+        /// Position of the reference's sensor on the robot, m ahead and to the left.
         pub lever_arm: [f64; 2],
+        /// True distances over those of the odometry.
         pub distance_scale: f64,
+        /// True turns over those of the odometry.
         pub turn_scale: f64,
     }
 
@@ -125,6 +134,7 @@ impl AlphaCalibrator {
         postcard::to_allocvec(self.calibration()).unwrap_or_default()
     }
 
+    /// Returns the settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
@@ -201,6 +211,7 @@ impl AlphaCalibrator {
         })
     }
 
+    /// Returns the legs of the log, in the order of time.
     pub fn legs(&self) -> &[Leg] {
         &self.calibration().legs
     }

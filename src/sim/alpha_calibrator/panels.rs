@@ -40,6 +40,7 @@ js_structs! {
         pub error: Vec<f64>,
         /// Slope: the α. It and its interval are null (None) where the log does not identify the α.
         pub slope: Option<f64>,
+        /// 95 % interval of the slope.
         pub interval: Option<[f64; 2]>,
     }
 }

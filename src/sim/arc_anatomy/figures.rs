@@ -80,6 +80,7 @@ js_structs! {
     /// Numbers that are shown next to the picture.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "AnatomyStats" {
+        /// Arc of the command.
         pub commanded: ArcWithCircle,
         /// Arc to the final position.
         pub inverted: ArcWithCircle,

@@ -55,6 +55,7 @@ impl ArcAnatomy {
         Ok(Self { settings })
     }
 
+    /// Returns the settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
@@ -66,14 +67,17 @@ impl ArcAnatomy {
         Ok(())
     }
 
+    /// Returns the likelihoods of the final pose and the velocities that reach it.
     pub fn stats(&self) -> Stats {
         Stats::of(&self.settings)
     }
 
+    /// Returns the variances and residuals of the noise, line by line as in Table 5.1.
     pub fn table(&self) -> Table {
         Table::of(&self.settings, &self.stats())
     }
 
+    /// Returns the paths to draw.
     pub fn paths(&self) -> Paths {
         let (start, next) = (self.settings.start(), self.settings.next());
         let Stats { commanded, inverted, driven, .. } = self.stats();

@@ -8,8 +8,11 @@ use crate::sim::settings::{ALPHA_RANGE, QUANTITY_RANGE, Rules, Words, group, set
 /// Pose whose likelihood is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FinalPose {
+    /// Position x, m.
     pub x: f64,
+    /// Position y, m.
     pub y: f64,
+    /// Heading, rad.
     pub theta: f64,
 }
 
@@ -25,6 +28,7 @@ group!(FinalPose as FinalPose { x, y, theta } => {
 /// Quantity of the heat map over the positions of the final pose, at its heading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SurfaceKind {
+    /// No heat map.
     Nothing,
     /// [`crate::MotionModel::prob`], the score of Table 5.1.
     Prob,
@@ -40,8 +44,11 @@ impl Words for SurfaceKind {
 /// Command from the origin, and pose of the robot after the command. The pose is off the commanded arc, so that no residual is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
+    /// Name in attributes and states.
     pub name: &'static str,
+    /// Command from the origin.
     pub command: VelocityCmd,
+    /// Pose after the command.
     pub next: FinalPose,
 }
 

@@ -21,7 +21,9 @@ js_structs! {
     /// Heat map over positions.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Surface as "AnatomySurface" {
+        /// Number of cells along x.
         pub columns: usize,
+        /// Number of cells along y.
         pub rows: usize,
         /// Values of the cells from 0 to 255, relative to the maximum; row by row from the top. All are 0 if a noise has no variance.
         pub shades: Vec<u8> as "Uint8Array",

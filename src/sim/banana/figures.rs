@@ -18,6 +18,7 @@ js_structs! {
     pub struct Figures as "Stats" {
         /// Number of samples shown.
         pub n: usize,
+        /// Moments of the poses in (x, y, θ).
         pub cartesian: CartesianMoments,
         /// Moments of the poses in exponential coordinates about the start; NaN if the coordinates are undefined for the cloud.
         pub exponential: ExponentialMoments,
@@ -29,6 +30,7 @@ js_structs! {
         pub gaussian_skew: f64,
         /// Correlation of cross-track position and heading, −1 to 1.
         pub rho_cross_heading: f64,
+        /// Fractions of the samples within 2σ.
         pub coverage: Coverage,
         /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates over those in (x, y, θ) and (x, y).
         pub likelihood_gain: LikelihoodGain,
@@ -121,8 +123,11 @@ js_structs! {
     /// Moments of the pose, in m and rad, and measures of how far its distribution is from a Gaussian.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TableColumn {
+        /// Mean pose, m, m, rad.
         pub mean: Vector3<f64> as "number[]",
+        /// Covariance of the pose, 3 × 3.
         pub cov: Matrix3<f64> as "number[][]",
+        /// Third standardized moment across the mean heading.
         pub cross_track_skew: f64,
         /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates; 0 for the linearization.
         pub likelihood_gain: LikelihoodGain,

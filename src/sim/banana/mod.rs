@@ -167,6 +167,7 @@ impl BananaMachine {
         Ok(machine)
     }
 
+    /// Returns the settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
@@ -241,6 +242,7 @@ impl BananaMachine {
         pose.log_near(omega * dt)
     }
 
+    /// Returns the statistics and outlines of the samples shown.
     pub fn figures(&self) -> &Figures {
         &self.figures
     }

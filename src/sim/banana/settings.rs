@@ -7,6 +7,7 @@ use crate::sim::settings::{ALPHA_RANGE, MAX_SEED, Rules, Words, settings};
 /// Motion model of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModelKind {
+    /// Velocity model; its input is the command.
     Velocity,
     /// Odometry model; its input is the reading of noise-free wheels for the command.
     Odometry,
@@ -55,6 +56,7 @@ settings! {
         kept {
             /// Each model keeps its own α's, so that switching between models loses nothing.
             velocity_alphas: [f64; 6] = BANANA.alphas;
+            /// Noise parameters of the odometry model.
             odometry_alphas: [f64; 4] = [0.05, 0.05, 0.05, 0.05];
         }
     }
@@ -108,7 +110,9 @@ impl Rules for Settings {
 /// Command of a preset, with its noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
+    /// Name in attributes and states.
     pub name: &'static str,
+    /// Command of every robot.
     pub command: VelocityCmd,
     /// Noise parameters of the velocity model.
     pub alphas: [f64; 6],

@@ -45,10 +45,13 @@ pub const MAX_SIDE: u64 = 1 << 14;
 /// Rectangle of a view, divided into cells of equal size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    /// Smallest and largest coordinates, finite, each smallest below its largest.
+    /// Smallest coordinates, finite.
     pub min: [f64; 2],
+    /// Largest coordinates, finite and above the smallest.
     pub max: [f64; 2],
+    /// Number of cells along x.
     pub columns: usize,
+    /// Number of cells along y.
     pub rows: usize,
 }
 
@@ -83,6 +86,7 @@ impl Nearest {
         Self { target, radii, least_squared_distance: 1.0, visited_count: 0, index: None }
     }
 
+    /// Compares the next sample with the nearest one so far.
     #[inline(always)]
     pub fn visit(&mut self, [x, y]: [f64; 2]) {
         let (dx, dy) = ((x - self.target[0]) / self.radii[0], (y - self.target[1]) / self.radii[1]);

@@ -25,6 +25,7 @@ const NO_SPREAD: f64 = 1e-12;
 pub struct Comparison {
     /// Predicted divided by measured variance of along, lateral and heading after each step; NaN if one of them is undefined.
     pub ratios: Vec<Vector3<f64>>,
+    /// Steps at which the prediction is off, for along, lateral and heading.
     pub misses: [Misses; 3],
 }
 
@@ -46,6 +47,7 @@ js_structs! {
 }
 
 impl Comparison {
+    /// Compares predicted covariances after each step with those measured. `None` stands for a covariance that is not finite.
     pub fn new(settings: &Settings, covs: &[Option<Matrix3<f64>>], measured: &[Measured]) -> Self {
         let smallest_spreads = smallest_spread(settings);
         let ratios: Vec<Vector3<f64>> = covs

@@ -64,8 +64,11 @@ pub struct Stats {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "kebab-case"))]
 pub struct ByRecursion<T> {
+    /// For the chapter's recursion.
     pub chapter: T,
+    /// For the propagation of first order.
     pub first_order: T,
+    /// For the propagation of fourth order.
     pub fourth_order: T,
 }
 
@@ -113,6 +116,7 @@ impl DeadReckoning {
         Ok(machine)
     }
 
+    /// Returns the settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
@@ -219,6 +223,7 @@ impl DeadReckoning {
         nearest.index()
     }
 
+    /// Returns the measured and predicted covariances after the selected step.
     pub fn stats(&self) -> Stats {
         let step = self.settings.step as usize - 1;
         let Measured { mean, cov, .. } = self.measured()[step];

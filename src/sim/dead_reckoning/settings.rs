@@ -115,11 +115,15 @@ impl Rules for Settings {
 /// Named settings of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
+    /// Name in attributes and states.
     pub name: &'static str,
+    /// Command of each step.
     pub command: VelocityCmd,
+    /// Number of steps.
     pub steps: u32,
     /// Selected step: the last one.
     pub step: u32,
+    /// Noise parameters of each step.
     pub alphas: [f64; 6],
 }
 

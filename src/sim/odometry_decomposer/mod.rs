@@ -22,6 +22,7 @@ js_structs! {
     /// Legs of the reading under one rule, with the standard deviations of their noises.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RuleFigures {
+        /// Rule of the noise.
         pub rule: OdometryRule as "OdometryDecomposerSettings['rule']",
         /// Legs. If the rule takes a short reading for a spin, the second rotation is the whole turn.
         pub legs: OdomDelta,
@@ -36,11 +37,13 @@ js_structs! {
     /// Statistics of the outcomes shown, and exact values under the current rule. Statistics are NaN without outcomes.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "DecomposerStats" {
+        /// Number of outcomes shown.
         pub n: usize,
         /// Root mean square of the distance from the measured bearing, m.
         pub cross_track: f64,
         /// Standard error of `crossTrack`, m.
         pub cross_track_error: f64,
+        /// Exact value of `crossTrack`, m.
         pub exact_cross_track: f64,
         /// Sideways standard deviation (m) of the end of the drive due to the first rotation: δ_trans·σ_rot1.
         pub lever: f64,
@@ -48,6 +51,7 @@ js_structs! {
         pub heading: f64,
         /// Standard error of `heading`, rad.
         pub heading_error: f64,
+        /// Exact value of `heading`, rad.
         pub exact_heading: f64,
         /// Exact standard deviation of the heading for independent rotations.
         pub independent_heading: f64,
@@ -57,9 +61,13 @@ js_structs! {
 /// Odometry poses in the world, in which the odometry frame has drifted, and the legs computed from these poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drifted {
+    /// Pose of the odometry frame in the world.
     pub frame: SE2,
+    /// Odometry pose before the motion, in the world.
     pub from: SE2,
+    /// Odometry pose after the motion, in the world.
     pub to: SE2,
+    /// Rotation, drive and rotation between them.
     pub legs: OdomDelta,
 }
 
@@ -104,6 +112,7 @@ impl OdometryDecomposer {
         Ok(machine)
     }
 
+    /// Returns the settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
@@ -220,6 +229,7 @@ impl OdometryDecomposer {
         })
     }
 
+    /// Returns the variances of the three parts, and the covariance of the pose after them.
     pub fn stats(&self) -> Stats {
         let Settings { noise, correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());

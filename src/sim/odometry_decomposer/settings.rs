@@ -79,8 +79,11 @@ impl Rules for Settings {}
 /// Reading of a preset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
+    /// Name in attributes and states.
     pub name: &'static str,
+    /// Odometry pose before the motion.
     pub from: OdometryPose,
+    /// Odometry pose after the motion.
     pub to: OdometryPose,
 }
 

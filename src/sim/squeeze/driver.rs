@@ -13,7 +13,9 @@ use std::ops::Range;
 /// Outcome of one attempt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attempt {
+    /// Pose at the end of the motion.
     pub pose: SE2,
+    /// True if the sampler accepts the motion.
     pub accepted: bool,
     /// True if the robot collides with nothing at its end pose.
     pub end_free: bool,
@@ -21,9 +23,11 @@ pub struct Attempt {
     pub path_free: bool,
 }
 
-/// Bits of the number that [`Attempt::verdict`] returns.
+/// Bit of [`Attempt::verdict`] for a free end pose.
 pub const END_FREE: u8 = 1;
+/// Bit for a free path.
 pub const PATH_FREE: u8 = 2;
+/// Bit for an accepted attempt.
 pub const ACCEPTED: u8 = 4;
 
 impl Attempt {

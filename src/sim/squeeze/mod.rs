@@ -81,10 +81,12 @@ impl MapSqueeze {
         Ok(machine)
     }
 
+    /// Returns the settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
+    /// Returns the floor plan.
     pub fn plan(&self) -> &FloorPlan {
         &self.plan
     }
@@ -188,6 +190,7 @@ impl MapSqueeze {
         self.shown.attempts.len()
     }
 
+    /// Returns the counts over the attempts shown.
     pub fn tally(&self) -> &Tally {
         &self.shown.tally
     }
@@ -197,6 +200,7 @@ impl MapSqueeze {
         self.shown.gave_up
     }
 
+    /// Returns the statistics of the attempts shown.
     pub fn stats(&self) -> Stats {
         let tally = &self.shown.tally;
         Stats {

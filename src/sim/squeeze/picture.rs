@@ -7,6 +7,7 @@ use crate::sim::cloud::views::Grid;
 /// Outcome of an attempt in the picture. If several kinds are equally frequent in a cell, the last one is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutcomeKind {
+    /// Not accepted.
     Rejected,
     /// Accepted, and the path was free.
     Free,
@@ -18,6 +19,7 @@ pub enum OutcomeKind {
 pub const OUTCOME_KINDS: usize = 3;
 
 impl Attempt {
+    /// Returns the kind of the outcome.
     pub fn kind(&self) -> OutcomeKind {
         match (self.accepted, self.path_free) {
             (false, _) => OutcomeKind::Rejected,

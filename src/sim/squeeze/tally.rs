@@ -8,7 +8,9 @@ use crate::noise::NoiseKind;
 pub struct Tally {
     /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
     pub draws: usize,
+    /// Number of tests for collision with a wall.
     pub wall_tests: usize,
+    /// Number of accepted attempts.
     pub accepted: usize,
     /// Number of attempts accepted although the path was blocked.
     pub through_wall: usize,
@@ -20,6 +22,7 @@ impl Tally {
         ratio(self.accepted * steps as usize, self.draws)
     }
 
+    /// Returns the fraction of accepted attempts whose path was blocked.
     pub fn through_wall_rate(&self) -> f64 {
         ratio(self.through_wall, self.accepted)
     }
@@ -48,15 +51,21 @@ js_structs! {
     /// accepted.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "SqueezeStats" {
+        /// Number of attempts.
         pub attempts: usize,
         /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
         pub drawn: usize,
+        /// Number of accepted attempts.
         pub accepted: usize,
+        /// Fraction of accepted draws.
         pub acceptance_rate: f64,
+        /// Number of attempts accepted although the path was blocked.
         pub through_wall: usize,
+        /// Fraction of accepted attempts whose path was blocked.
         pub through_wall_rate: f64,
         /// 95 % interval of the rate.
         pub through_wall_interval: [f64; 2],
+        /// Number of draws.
         pub draws_per_accepted: f64,
         /// Number of walls whose distance was computed; most collision checks need none.
         pub wall_tests_per_accepted: f64,

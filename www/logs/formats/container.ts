@@ -1,7 +1,7 @@
 /** Containers of messages: the interface that the readers of all formats share. */
 
 import type { Recording, Source } from '../log.ts';
-import { bytesOf } from '../log-error.ts';
+import { LogError, bytesOf, reasonOf } from '../log-error.ts';
 
 /** Topic of one publishing node. */
 export interface Channel {
@@ -38,6 +38,29 @@ export interface Container {
   missing: string[];
   /** Passes on the messages of channels, block by block. Stops after a block if `onProgress` returns true. */
   read(isWanted: (channel: Channel) => boolean, onMessage: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void>;
+}
+
+/** File of messages, with its channels by their ids. */
+export abstract class MessageFile<Id> {
+  readonly damage = new Map<number, string>();
+  readonly missing = [];
+  cutShort = false;
+  protected readonly source: Source;
+  protected readonly channelsById = new Map<Id, Channel>();
+
+  constructor(source: Source) {
+    this.source = source;
+  }
+
+  get channels() {
+    return [...this.channelsById.values()];
+  }
+
+  /** Notes the damage of a block. Throws the error again if the file itself cannot be read. */
+  protected noteDamage(position: number, error: unknown): void {
+    if (error instanceof LogError) throw error;
+    this.damage.set(position, reasonOf(error));
+  }
 }
 
 /** Maximum size of a block in bytes. Recorders write one to four million. */

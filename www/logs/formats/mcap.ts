@@ -2,9 +2,9 @@
 
 import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
-import { LogError, bytesOf, reasonOf } from '../log-error.ts';
+import { bytesOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, readAhead, stampAt, uint53, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, stampAt, uint53, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
@@ -42,23 +42,10 @@ const isCompleteIndex = ({ chunkIndexes, statistics }: McapIndexedReader) =>
 type IsWanted = (channel: Channel) => boolean;
 type OnMessage = (message: Message) => void;
 
-class Mcap implements Container {
+class Mcap extends MessageFile<number> implements Container {
   readonly format = 'mcap';
-  readonly damage = new Map<number, string>();
-  readonly missing = [];
-  cutShort = false;
-  #source;
   #chunks: McapIndexedReader['chunkIndexes'] | undefined;
   #types = new Map<number, string>();
-  #channels = new Map<number, Channel>();
-
-  constructor(source: Source) {
-    this.#source = source;
-  }
-
-  get channels() {
-    return [...this.#channels.values()];
-  }
 
   useIndex({ chunkIndexes, schemasById, channelsById, statistics }: McapIndexedReader): void {
     this.#chunks = chunkIndexes;
@@ -68,14 +55,14 @@ class Mcap implements Container {
 
   #addChannel({ id, topic, schemaId, messageEncoding, metadata }: McapIndexedReader['channelsById'] extends ReadonlyMap<number, infer C> ? C : never, count = 0): void {
     const publisher = metadata.get('callerid') ?? `${id}`;
-    if (!this.#channels.has(id)) this.#channels.set(id, { topic, type: this.#types.get(schemaId) ?? '', encoding: messageEncoding, publisher, count });
+    if (!this.channelsById.has(id)) this.channelsById.set(id, { topic, type: this.#types.get(schemaId) ?? '', encoding: messageEncoding, publisher, count });
   }
 
   async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     if (!this.#chunks) return this.#readFromStart(isWanted, onMessage, onProgress);
-    const wantedIds = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
+    const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wantedIds.has(id)));
-    const bytesAt = readAhead(this.#source);
+    const bytesAt = readAhead(this.source);
     for (const [i, { chunkStartOffset, chunkLength }] of wantedChunks.entries()) {
       const from = Number(chunkStartOffset);
       await this.#attempt(from, async () => {
@@ -89,8 +76,8 @@ class Mcap implements Container {
   }
 
   async #readFromStart(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
-    const { size } = this.#source;
-    const bytesAt = readAhead(this.#source);
+    const { size } = this.source;
+    const bytesAt = readAhead(this.source);
     this.cutShort = true;
     for (let at = MAGIC_BYTES, reported = 0; at + RECORD_HEAD_BYTES <= size; ) {
       const recordHead = await bytesAt(at, at + RECORD_HEAD_BYTES);
@@ -117,12 +104,7 @@ class Mcap implements Container {
 
   /** Runs work on a block. Damage is recorded, and the rest of the block is skipped. */
   async #attempt(position: number, work: () => Promise<void>): Promise<void> {
-    try {
-      await work();
-    } catch (error) {
-      if (error instanceof LogError) throw error;
-      this.damage.set(position, reasonOf(error));
-    }
+    await work().catch((error) => this.noteDamage(position, error));
   }
 
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {
@@ -131,7 +113,7 @@ class Mcap implements Container {
       const nextRecord = at + RECORD_HEAD_BYTES + uint53(view, at + 1);
       if (nextRecord > bytes.length) throw new RangeError('a record is cut short');
       if (bytes[at] === MESSAGE) {
-        const channel = this.#channels.get(view.getUint16(at + RECORD_HEAD_BYTES, true));
+        const channel = this.channelsById.get(view.getUint16(at + RECORD_HEAD_BYTES, true));
         if (channel && isWanted(channel)) {
           onMessage({ channel, ...stampAt(view, at + RECORD_HEAD_BYTES + 6), block: view, from: at + RECORD_HEAD_BYTES + 22, to: nextRecord });
         }

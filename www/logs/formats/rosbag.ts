@@ -1,8 +1,8 @@
 /** Connections and messages of ROS 1 bags. http://wiki.ros.org/Bags/Format/2.0 */
 
-import { LogError, bytesOf, reasonOf } from '../log-error.ts';
+import { LogError, bytesOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { unlz4 } from './lz4.ts';
 
 /** Values of the field "op" of records. */
@@ -92,33 +92,20 @@ function recordAt(bytes: Uint8Array, view: DataView, at: number): { fields: Head
   return { fields: new HeaderFields(bytes, view, at + 4, header), from: header + 4, next: nextRecord };
 }
 
-class Rosbag implements Container {
+class Rosbag extends MessageFile<number> implements Container {
   readonly format = 'rosbag';
-  readonly damage = new Map<number, string>();
-  readonly missing = [];
-  cutShort = false;
-  #source;
   /** Chunks of the index, each with the ids of its connections. */
   #chunks: { position: number; connections: number[] }[] | undefined;
-  #channels = new Map<number, Channel>();
-
-  constructor(source: Source) {
-    this.#source = source;
-  }
-
-  get channels() {
-    return [...this.#channels.values()];
-  }
 
   /** Reads the index at the end, and returns false if there is none or it is damaged. */
   async readIndex(): Promise<boolean> {
-    const { size } = this.#source;
+    const { size } = this.source;
     try {
-      const bagHeader = await bytesOf(this.#source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES);
+      const bagHeader = await bytesOf(this.source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES);
       const { fields } = recordAt(bagHeader, viewOf(bagHeader), 0);
       const [start, count] = [fields.uint64('index_pos'), fields.uint32('chunk_count')];
       if (fields.byte('op') !== BAG || start === 0 || start > size) return false;
-      const bytes = await bytesOf(this.#source, start, size);
+      const bytes = await bytesOf(this.source, start, size);
       const view = viewOf(bytes);
       const chunks = [];
       for (let at = 0; at < bytes.length; ) {
@@ -127,7 +114,7 @@ class Rosbag implements Container {
         if (fields.byte('op') === CHUNK_INFO) {
           const idsWithCounts = Array.from({ length: fields.uint32('count') }, (_, i) => [0, 4].map((part) => view.getUint32(from + 8 * i + part, true)));
           for (const [id, messages] of idsWithCounts) {
-            const channel = this.#channels.get(id);
+            const channel = this.channelsById.get(id);
             if (channel) channel.count += messages;
           }
           chunks.push({ position: fields.uint64('chunk_pos'), connections: idsWithCounts.map(([id]) => id) });
@@ -139,23 +126,23 @@ class Rosbag implements Container {
       return true;
     } catch (error) {
       if (error instanceof LogError) throw error;
-      this.#channels.clear();
+      this.channelsById.clear();
       return false;
     }
   }
 
   #addConnection(fields: HeaderFields, data: Uint8Array): void {
     const id = fields.uint32('conn');
-    if (this.#channels.has(id)) return;
+    if (this.channelsById.has(id)) return;
     const connectionFields = new HeaderFields(data);
     const publisher = connectionFields.has('callerid') ? connectionFields.text('callerid') : `${id}`;
-    this.#channels.set(id, { topic: fields.text('topic'), type: connectionFields.text('type'), encoding: 'ros1', publisher, count: 0 });
+    this.channelsById.set(id, { topic: fields.text('topic'), type: connectionFields.text('type'), encoding: 'ros1', publisher, count: 0 });
   }
 
   async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
-    const { size } = this.#source;
-    const bytesAt = readAhead(this.#source);
-    const wantedIds = new Set([...this.#channels].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
+    const { size } = this.source;
+    const bytesAt = readAhead(this.source);
+    const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wantedIds.has(id)));
     this.cutShort = !wantedChunks;
     for (let i = 0, at = MAGIC_BYTES; wantedChunks ? i < wantedChunks.length : at + 8 <= size; i++) {
@@ -180,8 +167,7 @@ class Rosbag implements Container {
           await this.#readChunk(fields, await bytesAt(from, at), isWanted, onMessage);
         } else if (wantedChunks) throw new RangeError('no chunk is there');
       } catch (error) {
-        if (error instanceof LogError) throw error;
-        this.damage.set(recordStart, reasonOf(error));
+        this.noteDamage(recordStart, error);
         // Without an index and without a length, the next record cannot be found.
         if (at === recordStart && !wantedChunks) return;
       }
@@ -197,7 +183,7 @@ class Rosbag implements Container {
       const op = fields.byte('op');
       if (op === CONNECTION) this.#addConnection(fields, bytes.subarray(from, next));
       if (op === MESSAGE) {
-        const channel = this.#channels.get(fields.uint32('conn'));
+        const channel = this.channelsById.get(fields.uint32('conn'));
         if (channel && isWanted(channel)) onMessage({ channel, seconds: fields.uint32('time'), nanoseconds: fields.uint32('time', 4), block: view, from, to: next });
       }
       at = next;

@@ -1,8 +1,8 @@
 /** Topics and messages of rosbag2's SQLite databases. https://www.sqlite.org/fileformat.html */
 
-import { LogError, bytesOf, reasonOf } from '../log-error.ts';
+import { LogError, bytesOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { MessageFile, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { loadZstd } from './zstd.ts';
 
 /** Types of the pages of a table. */
@@ -47,38 +47,24 @@ export async function openSqlite(source: Source): Promise<Container> {
   return container;
 }
 
-class Rosbag2 implements Container {
+class Rosbag2 extends MessageFile<SqliteValue> implements Container {
   readonly format = 'sqlite';
-  readonly damage = new Map<number, string>();
-  readonly missing = [];
-  cutShort = false;
-  #source;
   #pageSize = 0;
   /** Bytes of a page without those reserved at its end. */
   #usableBytes = 0;
   #messages: Table = { root: 0, columns: [] };
-  #channels = new Map<SqliteValue, Channel>();
-  #bytesAt;
-
-  constructor(source: Source) {
-    this.#source = source;
-    this.#bytesAt = readAhead(source);
-  }
-
-  get channels() {
-    return [...this.#channels.values()];
-  }
+  #bytesAt = readAhead(this.source);
 
   async open(): Promise<void> {
-    const view = viewOf(await bytesOf(this.#source, 0, HEADER_BYTES));
-    const notRosbag2 = () => new LogError({ file: this.#source.name }, (say) => say.noRosbag2);
+    const view = viewOf(await bytesOf(this.source, 0, HEADER_BYTES));
+    const notRosbag2 = () => new LogError({ file: this.source.name }, (say) => say.noRosbag2);
     this.cutShort = view.byteLength < HEADER_BYTES;
     if (this.cutShort) return;
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
     this.#usableBytes = this.#pageSize - view.getUint8(20);
     if (this.#usableBytes < 480) throw notRosbag2();
     // Behind the stated end are pages of a transaction that was never finished.
-    this.cutShort = view.getUint32(28) > 0 && view.getUint32(28) * this.#pageSize !== this.#source.size;
+    this.cutShort = view.getUint32(28) > 0 && view.getUint32(28) * this.#pageSize !== this.source.size;
     const tablesByName = new Map<string, Table>();
     await this.#eachRow({ root: 1, columns: [] }, async (row) => {
       const bytes = await this.#wholeRow(row);
@@ -95,17 +81,17 @@ class Rosbag2 implements Container {
     await this.#eachRow(topics, async (row) => {
       const bytes = await this.#wholeRow(row);
       const [topic, type, encoding] = ['name', 'type', 'serialization_format'].map((column) => textOf(valueOf(bytes, topics.columns.indexOf(column))));
-      this.#channels.set(row.id, { topic, type, encoding, publisher: `${row.id}`, count: 0 });
+      this.channelsById.set(row.id, { topic, type, encoding, publisher: `${row.id}`, count: 0 });
     });
     const topicId = messages.columns.indexOf('topic_id');
     await this.#eachRow(messages, ({ bytes }) => {
-      const channel = this.#channels.get(valueOf(bytes, topicId));
+      const channel = this.channelsById.get(valueOf(bytes, topicId));
       if (channel) channel.count += 1;
     });
   }
 
   async read(isWanted: (channel: Channel) => boolean, onMessage: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void> {
-    const wantedChannels = new Map([...this.#channels].filter(([, channel]) => isWanted(channel)));
+    const wantedChannels = new Map([...this.channelsById].filter(([, channel]) => isWanted(channel)));
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
     const passRow = (channel: Channel, bytes: Uint8Array) => {
       const stamp = BigInt(valueOf(bytes, timestamp) as bigint);
@@ -123,7 +109,7 @@ class Rosbag2 implements Container {
   async #eachRow({ root }: Table, onRow: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
     // In an incomplete file the pages that lead to the messages may be missing. Pages of other tables fail then.
     const isSearched = this.cutShort && root === this.#messages.root;
-    const leafPages = isSearched ? Array.from({ length: this.#source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
+    const leafPages = isSearched ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
     for (const [i, number] of leafPages.entries()) {
       if (!this.#hasPage(number)) continue;
       try {
@@ -133,8 +119,7 @@ class Rosbag2 implements Container {
           if (pendingRow) await pendingRow;
         }
       } catch (error) {
-        if (error instanceof LogError) throw error;
-        if (!isSearched) this.damage.set(number, reasonOf(error));
+        if (!isSearched || error instanceof LogError) this.noteDamage(number, error);
       }
       if (onProgress?.((i + 1) / leafPages.length)) return;
     }
@@ -142,20 +127,20 @@ class Rosbag2 implements Container {
 
   /** Returns the numbers of a table's leaf pages, which have its rows, in the order of the rows. */
   async #leavesOf(root: number): Promise<number[]> {
-    const { size } = this.#source;
+    const { size } = this.source;
     let levelPages = [root];
     for (let depth = 0; depth < MAX_DEPTH; depth++) {
       const nextLevel: number[] = [];
       for (const number of levelPages.filter((page) => this.#hasPage(page))) {
         // These pages are far from each other, so that reading ahead would be slow.
-        const page = await bytesOf(this.#source, (number - 1) * this.#pageSize, number * this.#pageSize);
+        const page = await bytesOf(this.source, (number - 1) * this.#pageSize, number * this.#pageSize);
         if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF && nextLevel.length === 0) return levelPages;
         try {
           const view = viewOf(page);
           for (const cell of cellsOf(page, number, INTERIOR)) nextLevel.push(view.getUint32(cell));
           nextLevel.push(view.getUint32((number === 1 ? HEADER_BYTES : 0) + 8));
         } catch (error) {
-          this.damage.set(number, reasonOf(error));
+          this.noteDamage(number, error);
         }
       }
       // A file that was cut short has no pages behind its end.
@@ -167,7 +152,7 @@ class Rosbag2 implements Container {
 
   /** Returns true if the file has a page. Otherwise the file was cut short. */
   #hasPage(number: number): boolean {
-    const hasPage = number * this.#pageSize <= this.#source.size;
+    const hasPage = number * this.#pageSize <= this.source.size;
     this.cutShort ||= !hasPage;
     return hasPage;
   }
@@ -182,7 +167,7 @@ class Rosbag2 implements Container {
     const [length, afterLength] = varintAt(page, cell);
     const [id, start] = varintAt(page, afterLength);
     const localEnd = start + this.#localBytes(length);
-    if (localEnd > page.length || length > Math.min(MAX_ROW_BYTES, this.#source.size)) throw new RangeError('a row is damaged');
+    if (localEnd > page.length || length > Math.min(MAX_ROW_BYTES, this.source.size)) throw new RangeError('a row is damaged');
     return { id, bytes: page.subarray(start, localEnd), length, next: localEnd - start < length ? viewOf(page).getUint32(localEnd) : 0 };
   }
 

@@ -187,6 +187,8 @@ test('a shell gets help and errors, and may close the pipe', () => {
   assert.match(shell('my/bag').stderr, /^the command must be calibrate or inspect \(got “my\/bag”\), as in npx motion-widgets inspect my\/bag; --help has examples\.$/m);
   const outputOfClosedPipe = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...ARGS, '--json'], { encoding: 'utf8' });
   assert.deepEqual([outputOfClosedPipe.stdout, outputOfClosedPipe.stderr], ['{', '']);
+  const ofPipedLog = spawnSync('sh', ['-c', 'cat "$2" | "$0" "$1" inspect /dev/stdin', process.execPath, CLI, example('odometry')], { encoding: 'utf8' });
+  assert.match(ofPipedLog.stdout, /^stdin: table\n.*\n.* 4494 /);
 });
 
 test('a recording of the example has the truth in its intervals, and its JSON the keys of doc/calibration.md', async () => {

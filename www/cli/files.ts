@@ -1,7 +1,7 @@
 /** Recordings of files and folders. */
 
 import { openAsBlob } from 'node:fs';
-import { readdir, stat } from 'node:fs/promises';
+import { readFile, readdir, stat } from 'node:fs/promises';
 import { basename, join, relative, resolve } from 'node:path';
 import { LogError } from '../logs/log-error.ts';
 import type { Recording, Source } from '../logs/log.ts';
@@ -39,5 +39,7 @@ async function openSources(path: string): Promise<Source[]> {
 
 /** Returns a file whose bytes are read when they are needed. */
 async function openSource(file: string, name: string, path?: string): Promise<Source> {
-  return Object.assign(new File([await openAsBlob(file)], name), path !== undefined && { path });
+  // A pipe, such as <(zcat odom.csv.gz) in a shell, can be read only once.
+  const contents = (await stat(file)).isFile() ? await openAsBlob(file) : await readFile(file);
+  return Object.assign(new File([contents as BlobPart], name), path !== undefined && { path });
 }

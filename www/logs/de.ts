@@ -71,7 +71,7 @@ export const german: Words = {
   refused: {
     gone: (reason) => (reason === 'ENOENT' ? 'es gibt keine solche Datei und keinen solchen Ordner.' : `die Datei lässt sich nicht lesen (${reason}); erwartet wird eine, die noch da ist.`),
     empty: 'es steht nichts darin; erwartet wird ein Log von Posen oder Befehlen.',
-    binary: 'das ist weder Text noch eine bekannte Aufzeichnung; erwartet wird eine ROS-Bag, rosbag2, MCAP, oder eine Tabelle als CSV oder TUM.',
+    binary: 'das ist weder Text noch eine bekannte Aufzeichnung; erwartet wird eine ROS-Bag, rosbag2, MCAP, oder eine Tabelle als CSV oder TUM, aus einem Archiv entpackt.',
     longLine: (most) => `die Zeile hat mehr als ${most} Bytes; erwartet wird eine Zeile je Zeitpunkt.`,
     noLog: 'sie sieht nicht wie ein Log aus, denn sie hat keine Zeilen mit Zahlen; erwartet wird eine Tabelle mit einer Kopfzeile wie „t,x,y,yaw“ und darunter einer Zeile je Zeitpunkt, oder eine Aufzeichnung von ROS.',
     noTime: (columns) =>

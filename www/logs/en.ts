@@ -75,7 +75,7 @@ export const english = {
   refused: {
     gone: (reason: string) => (reason === 'ENOENT' ? 'there is no such file or folder.' : `the file cannot be read (${reason}); expected is one that exists and may be read.`),
     empty: 'there is nothing in it; expected is a log of poses or commands.',
-    binary: 'it is neither text nor a known recording; expected is a ROS bag, rosbag2, MCAP, or a table as CSV or TUM.',
+    binary: 'it is neither text nor a known recording; expected is a ROS bag, rosbag2, MCAP, or a table as CSV or TUM, unpacked from an archive.',
     longLine: (most: number) => `the line has more than ${most} bytes; expected is one row a line.`,
     noLog: 'it does not look like a log, as it has no rows of numbers; expected is a table with a header such as “t,x,y,yaw” and below it one row a time, or a recording of ROS.',
     noTime: (columns: string) =>

@@ -106,7 +106,7 @@ const READABLE_TABLES = [
   { name: 'a spreadsheet in UTF-16', text: utf16(table('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(withComma), '\t')) },
   { name: 'commas in quotes', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${withComma(value)}"`)) },
   { name: 'times with exponents', start: EPOCH, text: table('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${nanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(withComma)], ';') },
-  { name: 'units in a row below the header', text: table('t,x,y,yaw\n[ms],mm,mm,deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]), says: /lengths in mm \(by name\), yaw in degrees \(by name\)/ },
+  { name: 'units in a row below the header', text: table('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta), 24.5]), says: /lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'quantities over their units', text: table('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]), says: /lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'bars, seconds and microseconds', start: EPOCH, text: table('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
   { name: 'rows of two topics', series: ['/a', '/b'], choice: { series: '/b' }, text: ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9`, `/b,${t},${x},${y},${theta}`]).toSpliced(0, 0, 'topic,t,x,y,yaw').join('\n') },

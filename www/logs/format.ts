@@ -171,9 +171,11 @@ function groupsBySource(group: Group, rows: string[][]): Group[] {
   return sources.length > 1 && 2 * sources.length <= rows.length ? sources.map((name) => ({ ...group, name, source: { at, name } })) : [group];
 }
 
+const bareUnit = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
+
 /** Adds the units of a row below the header to the names. */
 function withUnits(names: string[], below: string[][]): string[] {
-  const units = below.map((row) => row.map((cell) => cell.replaceAll(/[\s"[\](){}]/g, ''))).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
+  const units = below.map((row) => row.map(bareUnit)).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
   return names.map((name, i) => (units && isUnit(units[i]) && !/[\])}]$/.test(name) ? `${name} [${units[i]}]` : name));
 }
 
@@ -196,6 +198,8 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
     const names = possibleCells.find((cells) => cells.length === width) ?? possibleCells[0];
     if (!isHeader(names)) continue;
     const fieldNames = columnGroups(names, row).flatMap(({ columns }) => Object.keys(columns));
+    // A row of units below the header may have V.
+    if (names.filter((name) => isUnit(bareUnit(name))).length > fieldNames.length) continue;
     if (isComment && (fieldNames.length < 3 || (names.length !== width && fieldNames.length < 4))) continue;
     if (isComment || fieldNames.length > 0 || !above.some((earlier) => earlier.number < number && !/^\s*["#%]?sep=/i.test(earlier.line) && columnGroups(cellsOf(earlier.line, separator), row).length > 0)) {
       return { names: names.map((name) => name.trim().replace(/^"(.*)"$/, '$1')), number };

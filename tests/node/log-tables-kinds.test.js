@@ -170,6 +170,7 @@ test('units are guessed from two signs', async () => {
 const UNIT_QUESTIONS = [
   ['millimetres', circleTable(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE[9][1]]],
   ['centimetres of a slow robot', circleTable(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: m or cm or mm\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
+  ['centimetres of a slow robot that turns on the spot', circleTable(([t]) => [t, 5 * (t - Math.sin(t / 2) * 2), 0, Math.sin(t) * Math.cos(t / 2) ** 8]), /in m, the robot would drive at 9\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['x', 0.05 * (0.45 - Math.sin(0.225) * 2)]],
   ['commands in centimetres', ['t,v,omega', ...timesFrom(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
   ['metres that a name has as millimetres', circleTable(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }, ['x', CIRCLE[9][1]]],
   ['commands in milliseconds', ['t,v,omega', ...timesFrom(50).map((t) => `${1000 * t},0.5,0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],

@@ -1,5 +1,6 @@
 /** Units of a log, judged by two independent pieces of evidence. If they disagree, the log is refused with a question. */
 
+import { sum } from 'd3-array';
 import { LogError, type Place } from './log-error.ts';
 import { UNITS, type AngleUnit, type LogKind, type OpenOptions, type Question, type Summary, type TimeUnit } from './log.ts';
 import { quantile, sample } from './quantile.ts';
@@ -118,12 +119,12 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, lengt
   return ask('timeUnit', rateWithUnit(assumed.unit), assumed.unit, units.filter((unit) => isInRange(rateWithUnit(unit), USUAL_RATES)));
 }
 
-/** Checks lengths by the speed of the robot, and by its acceleration. */
-function checkLength(kind: LogKind, { t, a, b }: Columns, { unit, by }: Units['length'], ask: Ask): void {
+/** Checks lengths by the speed of the robot, by its acceleration, and by its turns: nothing that is fast turns on the spot. */
+function checkLength(kind: LogKind, { t, a, b, c }: Columns, { unit, by }: Units['length'], ask: Ask): void {
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const speed = kind === 'poses' ? speedOf(t, a, b, step) : quantile(sample(a.length, (i) => Math.abs(a[i])), 0.9);
   const speedInMetres = speed * METRES[unit];
-  const isTooLively = speedInMetres > FAST && accelerationOf(kind, t, a, b, step) * METRES[unit] > MAX_ACCELERATION;
+  const isTooLively = speedInMetres > FAST && (accelerationOf(kind, t, a, b, step) * METRES[unit] > MAX_ACCELERATION || (kind === 'poses' && by === 'usage' && turnsOnSpot(t, a, b, c, step, speed)));
   const plausibleUnits = UNITS.lengthUnit.filter((unit) => isInRange(speed * METRES[unit], [MIN_SPEED, MAX_SPEED]));
   // A unit in a name is doubted if the robot would be too slow with it, but would have a usual speed in metres.
   if (speedInMetres > MAX_SPEED || isTooLively || (by === 'name' && unit !== 'm' && speedInMetres < MIN_SPEED && speed > 0.1 && plausibleUnits.includes('m'))) {
@@ -189,6 +190,16 @@ function unitOfPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: 
 function speedOf(t: Float64Array, x: Float64Array, y: Float64Array, step: number): number {
   const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / step)), t.length - 1);
   return quantile(sample(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
+}
+
+/** Returns true if a robot, of this speed in its units, turns on the spot for a tenth of all its turning. */
+function turnsOnSpot(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array, step: number, speed: number): boolean {
+  const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / step)), t.length - 1);
+  const turnOf = (i: number) => Math.abs(heading[i + stride] - heading[i]);
+  // Headings that wrap would look like large turns.
+  const largestTurn = quantile(sample(t.length - stride, turnOf), 0.95);
+  const turns = (isOnSpot: boolean) => sum(sample(t.length - stride, (i) => (!isOnSpot || Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) < 0.1 * speed * (t[i + stride] - t[i]) ? Math.min(turnOf(i), largestTurn) : 0)));
+  return turns(true) > 0.1 * turns(false);
 }
 
 /** Returns the 90 % quantile of the accelerations between successive steps. */

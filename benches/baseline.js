@@ -98,7 +98,7 @@ export class Baseline {
  * @param {number[]} command v, ω, Δt
  * @param {number[]} deviations of v̂, ω̂, γ̂
  * @param {{ x: number, y: number, l: number, t: number }} origin noise-free motion
- * @returns {number[]} sums in the order of SUMS
+ * @returns {number[]} sums in the order of SUM_NAMES
  */
 function driveCloud(noise, cloud, command, deviations, origin) {
   const [[v, omega, dt], [sdV, sdOmega, sdGamma], { x: x0, y: y0, l: l0, t: t0 }] = [command, deviations, origin];

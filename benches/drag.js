@@ -14,9 +14,9 @@ const DRAGGED_SELECTOR = '.slider input[type=range], .handle:not(.jamb, .side)';
 /**
  * @typedef {object} Drag times in ms, step by step
  * @property {string} widget
- * @property {string} what is dragged
+ * @property {string} control the slider or handle that is dragged
  * @property {number[]} picture from the start of the frame after a step until the browser has finished a frame with the new picture
- * @property {number[]} words from then on, until it has finished a frame with the new texts
+ * @property {number[]} text from then on, until it has finished a frame with the new text
  * @property {number[]} steady from one frame to the next, while every frame has a step
  *
  * @param {import('@playwright/test').Browser} browser
@@ -47,7 +47,7 @@ export async function timeDrags(browser, address, steps) {
   return drags;
 }
 
-/** Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} wanted */
+/** Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} options */
 async function timeDrag({ widget, selector, i, steps }) {
   const MAX_FRAMES = 30;
   const figure = /** @type {any} */ (document.querySelector(widget));
@@ -91,8 +91,8 @@ async function timeDrag({ widget, selector, i, steps }) {
       target.dispatchEvent(new KeyboardEvent('keydown', { key: step % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true, composed: true }));
     }
   };
-  /** @type {{ picture: number[], words: number[], steady: number[] }} */
-  const durations = { picture: [], words: [], steady: [] };
+  /** @type {{ picture: number[], text: number[], steady: number[] }} */
+  const durations = { picture: [], text: [], steady: [] };
   // During the first steps the browser compiles the code that later steps run.
   for (let step = -6; step < steps; step++) {
     await new Promise(requestAnimationFrame);
@@ -105,7 +105,7 @@ async function timeDrag({ widget, selector, i, steps }) {
         resolve(frameHandedOver());
       }),
     );
-    const words = nextTextChange();
+    const textChange = nextTextChange();
     takeStep(step);
     let pictureTime = /** @type {number} */ (await picture);
     // On a busy machine the picture may come a frame late.
@@ -114,10 +114,10 @@ async function timeDrag({ widget, selector, i, steps }) {
       await new Promise(requestAnimationFrame);
       pictureTime = await frameHandedOver();
     }
-    const textTime = await words;
+    const textTime = await textChange;
     if (step < 0) continue;
     durations.picture.push(pictureTime - frameStart);
-    durations.words.push(Math.max(0, textTime - pictureTime));
+    durations.text.push(Math.max(0, textTime - pictureTime));
   }
   let previousFrame = 0;
   for (let step = 0; step <= steps; step++) {
@@ -132,5 +132,5 @@ async function timeDrag({ widget, selector, i, steps }) {
     for (const name of ['input', 'change']) target.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
     await new Promise(requestAnimationFrame);
   }
-  return { what: target.id || (target.getAttribute('aria-label') ?? ''), ...durations };
+  return { control: target.id || (target.getAttribute('aria-label') ?? ''), ...durations };
 }

@@ -8,13 +8,13 @@ import { quantileSorted } from 'd3-array';
 import { SLOWDOWN } from './drag.js';
 
 /**
- * @typedef {import('./suite.js').Measured} Measured
+ * @typedef {import('./suite.js').Timings} Timings
  *
  * @typedef {object} Results
  * @property {Record<string, string>} ranOn machine, versions and date
  * @property {boolean} quick
- * @property {Measured} node
- * @property {Measured} chromium
+ * @property {Timings} node
+ * @property {Timings} chromium
  * @property {Record<string, number[]>} start ms from the script's start to the end of each stage, for each load of the page
  * @property {import('./drag.js').Drag[]} drags
  */
@@ -25,18 +25,18 @@ const FRAME_MS = 16.7;
 /** Returns the report as text. @param {Results} results */
 export function report({ ranOn, quick, node, chromium, start, drags }) {
   const slowest = drags.reduce((slowestSoFar, drag) => (quantileOf(drag.picture) > quantileOf(slowestSoFar.picture) ? drag : slowestSoFar));
-  const byRuntime = (/** @type {(measured: Measured) => number[]} */ of) => ({ Node: of(node), Chromium: of(chromium) });
-  const refreshOf = (/** @type {number} */ samples) => (/** @type {Measured} */ { refresh }) => refresh.find((row) => row.samples === samples) ?? refresh[0];
-  const ratios = (/** @type {Measured['refresh'][number]} */ { core, baseline }) => baseline.map((value, turn) => value / core[turn]);
+  const byRuntime = (/** @type {(timings: Timings) => number[]} */ valuesOf) => ({ Node: valuesOf(node), Chromium: valuesOf(chromium) });
+  const refreshOf = (/** @type {number} */ samples) => (/** @type {Timings} */ { refresh }) => refresh.find((row) => row.samples === samples) ?? refresh[0];
+  const ratios = (/** @type {Timings['refresh'][number]} */ { core, baseline }) => baseline.map((value, turn) => value / core[turn]);
   const [largestRefresh, middleRefresh] = [1e6, 1e5].map(refreshOf);
   /** @type {[string, '≤' | '≥', number, string, Record<string, number[]>][]} */
   const targets = [
-    ['Refresh of 1 000 000 poses', '≤', FRAME_MS, 'ms', byRuntime((measured) => largestRefresh(measured).core)],
-    ['Refresh of 100 000 poses', '≤', 2, 'ms', byRuntime((measured) => middleRefresh(measured).core)],
-    ['JavaScript takes longer, at 1 000 000 poses', '≥', 3, '×', byRuntime((measured) => ratios(largestRefresh(measured)))],
+    ['Refresh of 1 000 000 poses', '≤', FRAME_MS, 'ms', byRuntime((timings) => largestRefresh(timings).core)],
+    ['Refresh of 100 000 poses', '≤', 2, 'ms', byRuntime((timings) => middleRefresh(timings).core)],
+    ['JavaScript takes longer, at 1 000 000 poses', '≥', 3, '×', byRuntime((timings) => ratios(largestRefresh(timings)))],
     ['Calibration of the example log', '≤', 1000, 'ms', byRuntime(({ calibration }) => calibration)],
     ['From script start to first cloud', '≤', 100, 'ms', { Chromium: Object.values(start).at(-1) ?? [] }],
-    [`Step of the slowest drag (${slowest.what}), processor ${SLOWDOWN} times slower`, '≤', FRAME_MS, 'ms', { Chromium: slowest.picture }],
+    [`Step of the slowest drag (${slowest.control}), processor ${SLOWDOWN} times slower`, '≤', FRAME_MS, 'ms', { Chromium: slowest.picture }],
   ];
   const targetRows = targets.map(([what, order, bound, unit, { Node = [], Chromium = [] }]) => {
     const reachedIn = [Node, Chromium].filter(({ length }) => length > 0).map((values) => (order === '≤' ? quantileOf(values) <= bound : quantileOf(values) >= bound));
@@ -51,8 +51,8 @@ export function report({ ranOn, quick, node, chromium, start, drags }) {
     table(targetRows),
     `One event of the slider:\n\n${table(refreshRows)}`,
     `First cloud, from the start of the script:\n\n${table(Object.entries(start).map(([until, times]) => ({ until, ms: cell(times) })))}`,
-    `Step of a drag, processor ${SLOWDOWN} times slower, opening sizes:\n\n${table(drags.map(({ widget, what, picture, words, steady }) => (
-      { widget, dragged: what, 'frame with the picture, ms': cell(picture), 'words after it, ms': cell(words), 'between frames, a step in each, ms': cell(steady) }
+    `Step of a drag, processor ${SLOWDOWN} times slower, opening sizes:\n\n${table(drags.map(({ widget, control, picture, text, steady }) => (
+      { widget, dragged: control, 'frame with the picture, ms': cell(picture), 'text after it, ms': cell(text), 'between frames, a step in each, ms': cell(steady) }
     )))}`,
   ].join('\n\n');
 }

@@ -12,7 +12,7 @@ import { raceContenders } from './timing.js';
 /** @typedef {import('../www/types.d.ts').Motion} Motion */
 
 /**
- * @typedef {object} Measured ms, turn by turn
+ * @typedef {object} Timings ms, turn by turn
  * @property {{ samples: number, core: number[], baseline: number[] }[]} refresh one event of the slider, by core and baseline
  * @property {number[]} calibration of the example log
  */
@@ -22,7 +22,7 @@ import { raceContenders } from './timing.js';
  * @param {object} options
  * @param {boolean} options.quick
  * @param {{ odometry: string, reference: string }} options.log CSV
- * @returns {Promise<Measured>}
+ * @returns {Promise<Timings>}
  */
 export async function measure(motion, { quick, log }) {
   const differing = differences(motion, 4000);

@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { EXAMPLE_LOGS } from './example-log.mjs';
-import { Missing, ROOT, progress, run, runAsScript } from './process.mjs';
+import { ROOT, UserError, progress, run, runAsScript } from './process.mjs';
 import { serve } from './serve.mjs';
 import { nativeRust } from './toolchain.mjs';
 import { report } from '../benches/report.js';
@@ -30,7 +30,7 @@ async function runBench(quick) {
   const node = await measure(/** @type {import('../www/types.d.ts').Motion} */ (await load()), options);
   const browser = await ensureBrowser();
   progress('Chromium');
-  const results = { ranOn: await describeMachine(browser.version), quick, node, ...(await inChromium(browser.chrome, options)) };
+  const results = { ranOn: await describeMachine(browser.version), quick, node, ...(await resultsInChromium(browser.chrome, options)) };
   writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(results, null, 2)}\n`);
   console.log(`\n${report(results)}\n\nbuild/bench.json has all measurements.`);
 }
@@ -54,7 +54,7 @@ async function describeMachine(chromium) {
  * @param {Options} options
  * @returns {Promise<Pick<import('../benches/report.js').Results, 'chromium' | 'start' | 'drags'>>}
  */
-async function inChromium(executablePath, options) {
+async function resultsInChromium(executablePath, options) {
   const { chromium: launcher } = await import('@playwright/test');
   const { timeDrags } = await import('../benches/drag.js');
   const { timeStart } = await import('../benches/start.js');
@@ -86,6 +86,6 @@ async function inChromium(executablePath, options) {
 await runAsScript(import.meta.url, async () => {
   const options = process.argv.slice(2);
   const unknown = options.find((option) => option !== '--quick');
-  if (unknown !== undefined) throw new Missing(`"${unknown}" is not an option; \`npm run bench\` takes only --quick.`);
+  if (unknown !== undefined) throw new UserError(`"${unknown}" is not an option; \`npm run bench\` takes only --quick.`);
   await runBench(options.includes('--quick'));
 });

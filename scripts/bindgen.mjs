@@ -5,7 +5,7 @@ import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { filesOf } from './bundle.mjs';
-import { Missing, ROOT, isProgram, once, progress, run } from './process.mjs';
+import { ROOT, UserError, isProgram, once, progress, run } from './process.mjs';
 import { CACHE, manifestValue, nativeRust } from './toolchain.mjs';
 
 const CRATE = 'scripts/bind';
@@ -36,7 +36,7 @@ async function compiledProgram(name, features) {
   const lockedInstall = await run(join(bin, 'cargo'), [...args, '--locked'], { ...cargoOptions, quiet: true });
   // A crate of the lock file may be missing in a mirror.
   if (lockedInstall.ok || (await run(join(bin, 'cargo'), args, cargoOptions)).ok) return program;
-  throw new Missing(
+  throw new UserError(
     `wasm-bindgen ${version} could not be built: check that this machine reaches the registry of Rust packages and start again.`,
   );
 }
@@ -46,7 +46,7 @@ function requireOneVersion() {
   const version = manifestValue('Cargo.lock', /^name = "wasm-bindgen"\nversion = "(.+)"$/m);
   const binderVersion = manifestValue(`${CRATE}/Cargo.lock`, /^name = "wasm-bindgen-cli-support"\nversion = "(.+)"$/m);
   if (version === binderVersion) return version;
-  throw new Missing(
+  throw new UserError(
     `The core has wasm-bindgen ${version} and ${CRATE} has ${binderVersion}: write "=${version}" into ${CRATE}/Cargo.toml, ` +
       `run \`cargo update --manifest-path ${CRATE}/Cargo.toml\` and start again.`,
   );

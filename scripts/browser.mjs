@@ -2,7 +2,7 @@
 
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { Missing, ROOT, findProgram, mustRun, progress, run } from './process.mjs';
+import { ROOT, UserError, findProgram, mustRun, progress, run } from './process.mjs';
 import { CACHE, aptInstall } from './toolchain.mjs';
 
 /** Programs of the full Chromium, which alone has a back-forward cache. */
@@ -50,11 +50,11 @@ async function ensureChrome() {
   const { CHROME, CHROMEDRIVER } = process.env;
   const presentBrowser = await usablePair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
   if (presentBrowser !== undefined) return presentBrowser;
-  if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new Missing(MISSING_BROWSER);
+  if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER);
   // Packages of these names on Ubuntu only point to a snap, which cannot be driven from here.
   const onDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
   const installedBrowser = onDebian ? await debianBrowser() : await chromeForTesting();
-  if (installedBrowser === undefined) throw new Missing(MISSING_BROWSER);
+  if (installedBrowser === undefined) throw new UserError(MISSING_BROWSER);
   return installedBrowser;
 }
 

@@ -7,7 +7,7 @@ import * as declared from '../www/settings.js';
 import { widgets } from './declarations.mjs';
 import { licences, packagesOf } from './licences.mjs';
 import { manifest } from './manifest.mjs';
-import { Missing, ROOT, progress } from './process.mjs';
+import { ROOT, UserError, progress } from './process.mjs';
 import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
 import { withTables } from './tables.mjs';
@@ -29,7 +29,7 @@ const BYTES_MODULE = 'motion.bytes';
  * Placeholder for the name of the chunk that contains `MODULE.external`. It has the same length, so that source maps stay valid. Within
  * dist/ the chunk's address ends with that name; in the output of a bundler it does not.
  */
-const OWN_NAME = 'chunk-________.js';
+const CHUNK_PLACEHOLDER = 'chunk-________.js';
 
 /** Figures whose logs a worker reads. */
 const LOG_FIGURES = ['alpha-calibrator'];
@@ -50,7 +50,7 @@ const PLACE_OF_CHUNKS = { core: './chunks/', external: './' };
 const startWorker = (place, otherwise = '') =>
   'export function startWorker() {' +
   '  const here = import.meta.url;' +
-  `  if (here?.includes('${OWN_NAME}')) {` +
+  `  if (here?.includes('${CHUNK_PLACEHOLDER}')) {` +
   `    const url = new URL('${place}${LOG_WORKER}', here);` +
   '    const script = () => URL.createObjectURL(new Blob([`import ${JSON.stringify(url)}`], { type: "text/javascript" }));' +
   '    return new Worker(url.origin === location.origin ? url : script(), { type: "module" });' +
@@ -106,7 +106,7 @@ const MODULE_SCRIPTS = {
       'const here = import.meta.url;' +
       'const bundledSource = (path, written) => {' +
       '  const url = here && written();' +
-      `  return url && (here.includes('${OWN_NAME}') || url.href !== new URL(path, here).href) ? url : undefined;` +
+      `  return url && (here.includes('${CHUNK_PLACEHOLDER}') || url.href !== new URL(path, here).href) ? url : undefined;` +
       '};' +
       `const embedded = { glue: () => import('./motion.js'), source: async () => (await import('${BYTES_MODULE}')).default() };` +
       `const all = { embedded, ${cores} }; export default all;` +
@@ -247,7 +247,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     bundleOf({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);
   if (!results.length || results.some(({ warnings }) => warnings.length)) {
-    throw new Missing('The pages do not bundle: see the messages above.');
+    throw new UserError('The pages do not bundle: see the messages above.');
   }
 
   rmSync(pathOf('dist'), { recursive: true, force: true });
@@ -256,7 +256,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     writeFileSync(path, contents);
   };
   for (const { path, contents, text } of results.flatMap(({ outputFiles }) => outputFiles)) {
-    const ownScript = text.includes(OWN_NAME) ? text.replaceAll(OWN_NAME, basename(path, '.map')) : contents;
+    const ownScript = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(path, '.map')) : contents;
     write(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? withNonAsciiEscaped(text) : ownScript);
   }
   const elementManifest = await manifest();
@@ -413,7 +413,7 @@ function inlinedPage(name) {
   const scriptTag = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;
   const page = read(name);
   const outerLink = page.replace(styleLink, '').replace(scriptTag, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
-  if (outerLink) throw new Missing(`${name}: ${outerLink[0]} cannot be put into one file; expected is "./" and a file of www/.`);
+  if (outerLink) throw new UserError(`${name}: ${outerLink[0]} cannot be put into one file; expected is "./" and a file of www/.`);
   const inlineScript = (/** @type {string} */ path) =>
     `<script type="module">${read(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
   // Replaces links to other pages by their text: a copied file does not have them next to it.

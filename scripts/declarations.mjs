@@ -9,14 +9,14 @@ import { importTypeScript } from './typescript.mjs';
 /**
  * @typedef {import('../www/settings.js').Declaration} Declaration
  *
- * @typedef {object} Named
+ * @typedef {object} Field
  * @property {string} name
  * @property {string} type in TypeScript
  * @property {string} description
  * @property {true} [readonly]
  * @property {boolean} [isText] true if a number can be given as text
  *
- * @typedef {Named & { property?: string, opening?: string, allowed?: string, withoutRange: string }} Attribute `property` is the
+ * @typedef {Field & { property?: string, opening?: string, allowed?: string, withoutRange: string }} Attribute `property` is the
  *   name of its property if it differs, `opening` the text of its default, `allowed` the range of a number, and `withoutRange` the
  *   description without that range
  *
@@ -24,8 +24,8 @@ import { importTypeScript } from './typescript.mjs';
  * @property {string} tag
  * @property {string} machine name of its class in the core; the class of its element has the suffix Element
  * @property {Attribute[]} attributes each of which is also a property
- * @property {Named[]} properties without an attribute
- * @property {Named[]} state fields of the state that only this widget has
+ * @property {Field[]} properties without an attribute
+ * @property {Field[]} state fields of the state that only this widget has
  */
 
 /** TypeScript types by type of setting. Words (enumerations) and groups (several numbers) have their own. @type {Record<string, string>} */
@@ -146,7 +146,7 @@ async function widgetOf(tag) {
     .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: oneLine(description), readonly, type: type.text }));
   const properties = [...groupFields, ...Object.entries(propertyTable).map(documentedItem), ...classFields];
   const documentedElementFields = Object.keys(elementFields).map((name) => {
-    const { type, description } = /** @type {Named} */ ([...attributeList, ...properties].find((item) => item.name === name) ?? {});
+    const { type, description } = /** @type {Field} */ ([...attributeList, ...properties].find((item) => item.name === name) ?? {});
     return { name, type, description };
   });
   const state = new Map([...wholeSettings.map(fieldOf), ...documentedElementFields, ...Object.entries(stateTable).map(documentedItem)].map((item) => [item.name, item]));

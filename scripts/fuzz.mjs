@@ -5,7 +5,7 @@
 import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
-import { Missing, ROOT, mustRun, progress, run, runAsScript } from './process.mjs';
+import { ROOT, UserError, mustRun, progress, run, runAsScript } from './process.mjs';
 import { nativeRust } from './toolchain.mjs';
 
 const TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((file) => file.replace(/\.txt$/, ''));
@@ -68,7 +68,7 @@ async function keepInputs(target) {
   // Hit counts of edges would keep five times as many inputs.
   const options = ['-set_cover_merge=1', '-use_counters=0', ...INPUT_LIMITS];
   const { ok, output } = await cargoFuzz(target, [mergedFolder, inputFolder(target, 'known'), inputFolder(target, 'found')], options);
-  if (!ok) throw new Missing(output);
+  if (!ok) throw new UserError(output);
   const lines = readdirSync(mergedFolder).map((name) => readFileSync(join(mergedFolder, name)).toString('hex'));
   writeFileSync(packedPath(target), lines.sort().map((line) => `${line}\n`).join(''));
   console.log(`${target}: ${lines.length} inputs`);
@@ -81,10 +81,10 @@ await runAsScript(import.meta.url, async () => {
   const [runs, seed] = isKeeping ? [] : [args[0] ?? '1000000', args[1] ?? '1'];
   const namedTargets = args.slice(isKeeping ? 1 : 2);
   for (const [name, number] of Object.entries({ RUNS: runs, SEED: seed })) {
-    if (number !== undefined && !/^[1-9]\d*$/.test(number)) throw new Missing(`${name} must be a whole number from 1 (got "${number}").`);
+    if (number !== undefined && !/^[1-9]\d*$/.test(number)) throw new UserError(`${name} must be a whole number from 1 (got "${number}").`);
   }
   const unknownTarget = namedTargets.find((name) => !TARGETS.includes(name));
-  if (unknownTarget !== undefined) throw new Missing(`"${unknownTarget}" is not a target; targets are ${TARGETS.join(', ')}.`);
+  if (unknownTarget !== undefined) throw new UserError(`"${unknownTarget}" is not a target; targets are ${TARGETS.join(', ')}.`);
   const waitingTargets = namedTargets.length > 0 ? namedTargets : [...TARGETS];
   progress(`${isKeeping ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
   await compileTargets();

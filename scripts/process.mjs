@@ -9,7 +9,7 @@ import { fileURLToPath } from 'node:url';
 export const ROOT = fileURLToPath(new URL('..', import.meta.url));
 
 /** Error about something that the user has to provide or correct. Its message is printed without a stack trace. */
-export class Missing extends Error {}
+export class UserError extends Error {}
 
 /** @type {AsyncLocalStorage<string[]>} */
 const outputStore = new AsyncLocalStorage();
@@ -89,11 +89,11 @@ export async function runAsScript(url, main) {
   try {
     const [major, minor] = process.versions.node.split('.').map(Number);
     if (major < 20 || (major === 20 && minor < 19)) {
-      throw new Missing(`Node 20.19 or newer is needed and this is ${process.versions.node}: install it from nodejs.org.`);
+      throw new UserError(`Node 20.19 or newer is needed and this is ${process.versions.node}: install it from nodejs.org.`);
     }
     await main();
   } catch (error) {
-    console.error(`\n${error instanceof Missing ? error.message : (error instanceof Error && error.stack) || error}`);
+    console.error(`\n${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
     process.exitCode = 1;
   }
 }
@@ -199,7 +199,7 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
 /**
  * Runs a program that has to succeed.
  *
- * @param {string} sentence thrown as `Missing` when it does not
+ * @param {string} sentence thrown as `UserError` when it does not
  * @param {string} command
  * @param {string[]} args
  * @param {RunOptions} [options]
@@ -208,7 +208,7 @@ export async function mustRun(sentence, command, args, options) {
   const result = await run(command, args, options);
   if (!result.ok) {
     if (options?.quiet) print(result.output, process.stderr);
-    throw new Missing(sentence);
+    throw new UserError(sentence);
   }
   return result;
 }

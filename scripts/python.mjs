@@ -11,7 +11,7 @@ import { importTypeScript } from './typescript.mjs';
 
 /**
  * @typedef {import('../www/settings.js').Declaration} Declaration
- * @typedef {import('./declarations.mjs').Named} Named
+ * @typedef {import('./declarations.mjs').Field} Field
  */
 
 const PYTHON_DIRECTORY = join(ROOT, 'python');
@@ -61,7 +61,7 @@ export async function elementsModule() {
   return `${lines.join('\n')}\n`;
 }
 
-/** Returns the call that creates a trait. @param {Named & { allowed?: string }} named @param {string} tag */
+/** Returns the call that creates a trait. @param {Field & { allowed?: string }} field @param {string} tag */
 function traitOf({ name, type, allowed }, tag) {
   const declaration = settings[tag].find(({ key }) => key === name);
   if (declaration) return traitOfSetting(declaration, tag);

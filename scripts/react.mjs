@@ -53,7 +53,7 @@ type Settings<Element, Names extends keyof Element> = { [Name in keyof Pick<Elem
 type Events<Element extends FigureElement<any, any>> = FigureEvents<NonNullable<Element['stats']>>;
 
 /** Handler of an event of the element. */
-type Handler<Element, Its> = (event: Its & { readonly currentTarget: Element }) => void;
+type Handler<Element, EventType> = (event: EventType & { readonly currentTarget: Element }) => void;
 
 type Handlers<Element extends FigureElement<any, any>> = {
   [Name in keyof Events<Element> as \`on\${Capitalize<Name>}\`]?: Handler<Element, Events<Element>[Name]>;
@@ -66,7 +66,7 @@ type Props<Element extends FigureElement<any, any>, Names extends keyof Element>
   Omit<HTMLAttributes<Element>, keyof OwnProps<Element, Names>>;
 
 /** Type of an attribute in a tag. React would set properties only if the element is already defined, which is not certain. */
-type Said<Value> = Value extends boolean
+type AttributeValue<Value> = Value extends boolean
   ? true | \`\${Value}\`
   : Value extends number
     ? Value | \`\${number}\`
@@ -77,8 +77,8 @@ type Said<Value> = Value extends boolean
       : Exclude<Value, null>;
 
 type Tag<Element extends FigureElement<any, any>, Names extends keyof Element> = {
-  [Name in keyof Pick<Element, Exclude<Names, 'headingLevel'>>]?: Said<Element[Name]>;
-} & { 'heading-level'?: Said<Element['headingLevel']>; class?: string } & {
+  [Name in keyof Pick<Element, Exclude<Names, 'headingLevel'>>]?: AttributeValue<Element[Name]>;
+} & { 'heading-level'?: AttributeValue<Element['headingLevel']>; class?: string } & {
   [Name in keyof Events<Element> as \`on\${Name}\`]?: Handler<Element, Events<Element>[Name]>;
 } & ClassAttributes<Element> &
   Omit<HTMLAttributes<Element>, Names | keyof Handlers<Element>>;

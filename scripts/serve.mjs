@@ -3,7 +3,7 @@
 import { createServer } from 'node:http';
 import { join } from 'node:path';
 import { build } from './build.mjs';
-import { Missing, ROOT, runAsScript } from './process.mjs';
+import { ROOT, UserError, runAsScript } from './process.mjs';
 
 /**
  * @param {string} directory
@@ -31,7 +31,7 @@ export async function serve(directory, { port, base = '/', headers = {} } = {}) 
       } else if (port === undefined) {
         server.listen(++triedPort, 'localhost');
       } else {
-        reject(new Missing(`Port ${port} is not free: set PORT to another one, or leave it unset.`));
+        reject(new UserError(`Port ${port} is not free: set PORT to another one, or leave it unset.`));
       }
     });
     server.on('listening', () => {
@@ -46,11 +46,11 @@ export async function serve(directory, { port, base = '/', headers = {} } = {}) 
 /** @returns {number | undefined} */
 function wantedPort() {
   const [argument] = process.argv.slice(2);
-  if (argument !== undefined) throw new Missing(`npm start has no options (got "${argument}"): PORT selects a port, as in PORT=9000 npm start.`);
+  if (argument !== undefined) throw new UserError(`npm start has no options (got "${argument}"): PORT selects a port, as in PORT=9000 npm start.`);
   const portText = process.env.PORT;
   if (portText === undefined || portText === '') return undefined;
   if (!/^\d+$/.test(portText) || Number(portText) > 65535) {
-    throw new Missing(`PORT is "${portText}" and must be a number from 0 (any free port) to 65535.`);
+    throw new UserError(`PORT is "${portText}" and must be a number from 0 (any free port) to 65535.`);
   }
   return Number(portText);
 }

@@ -5,7 +5,7 @@ import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join, posix } from 'node:path';
 import { build } from './build.mjs';
 import { WIDGETS, filesOf } from './bundle.mjs';
-import { Missing, ROOT, mustRun, progress, runAsScript } from './process.mjs';
+import { ROOT, UserError, mustRun, progress, runAsScript } from './process.mjs';
 import { escapedHtml } from './tables.mjs';
 import { ensurePackages, nativeRust } from './toolchain.mjs';
 
@@ -120,7 +120,7 @@ function checkLinks() {
     const isFound = files.has(target) && (anchor === '' || !pages.has(target) || pages.get(target)?.includes(`id="${decodeURIComponent(anchor)}"`));
     return isFound ? [] : [`${page}: ${path}${anchor && `#${anchor}`}`];
   }));
-  if (brokenLinks.length > 0) throw new Missing(`Links lead nowhere:\n${brokenLinks.join('\n')}`);
+  if (brokenLinks.length > 0) throw new UserError(`Links lead nowhere:\n${brokenLinks.join('\n')}`);
 }
 
 await runAsScript(import.meta.url, async () => {

@@ -58,16 +58,16 @@ function itemTable(elements, kind, caption, heads, items) {
 }
 
 /**
- * @param {string} of
+ * @param {string} subject what the items belong to
  * @param {string} kind
  * @param {string} caption
  * @param {string[]} heads
  * @param {string[][]} rows of HTML
  */
-function tableHtml(of, kind, caption, heads, rows) {
+function tableHtml(subject, kind, caption, heads, rows) {
   const headCells = heads.map((text) => `<th scope="col">${text}</th>`).join('');
   const bodyRows = rows.map(([name, ...cells]) => `            <tr><th scope="row">${name}</th>${cells.map((cell) => `<td>${cell}</td>`).join('')}</tr>`);
-  return `        <table class="api" data-of="${of}" data-kind="${kind}">
+  return `        <table class="api" data-of="${subject}" data-kind="${kind}">
           <caption>${caption}</caption>
           <thead><tr>${headCells}</tr></thead>
           <tbody>

@@ -11,7 +11,7 @@ import { testRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { filesOf } from './bundle.mjs';
-import { Missing, ROOT, withCollectedOutput, once, progress, run, runAsScript, settleAll } from './process.mjs';
+import { ROOT, UserError, withCollectedOutput, once, progress, run, runAsScript, settleAll } from './process.mjs';
 import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
@@ -80,7 +80,7 @@ const scriptJob = (path) => programJob([process.execPath, pathOf(path)]);
  * @param {string[]} args
  * @param {Record<string, string>} [env]
  */
-const cargo = ({ bin, env: environment }, args, env) => programJob([join(bin, 'cargo'), ...args], { ...environment, ...env });
+const cargoJob = ({ bin, env: environment }, args, env) => programJob([join(bin, 'cargo'), ...args], { ...environment, ...env });
 
 /**
  * @param {import('./toolchain.mjs').Rust} rust
@@ -134,13 +134,13 @@ const PARTS = {
     },
   },
   docs: {
-    prepare: async (more) => cargo(await usedRust(), ['doc', '--locked', '--no-deps', ...more], { RUSTDOCFLAGS: '-D warnings' }),
+    prepare: async (more) => cargoJob(await usedRust(), ['doc', '--locked', '--no-deps', ...more], { RUSTDOCFLAGS: '-D warnings' }),
   },
   rust: {
     async prepare(more) {
       // Incremental compilation makes the first compilation 18 % slower in processor time.
       const env = existsSync(pathOf('target/debug')) ? undefined : { CARGO_INCREMENTAL: '0' };
-      return cargo(await usedRust(), ['test', '--locked', '--no-fail-fast', ...more, ...(NIGHTLY ? ['--', '--include-ignored'] : [])], env);
+      return cargoJob(await usedRust(), ['test', '--locked', '--no-fail-fast', ...more, ...(NIGHTLY ? ['--', '--include-ignored'] : [])], env);
     },
     counts: COUNT_PATTERNS.cargo,
   },
@@ -148,13 +148,13 @@ const PARTS = {
     async prepare(more) {
       const rust = await usedWasmRust();
       const testOptions = ['--locked', '--profile', 'web', '--test', 'web', ...rust.target];
-      return cargo(rust, ['test', ...testOptions, ...more], inBrowser(await testRunner(), await testBrowser()));
+      return cargoJob(rust, ['test', ...testOptions, ...more], browserEnvironment(await testRunner(), await testBrowser()));
     },
     counts: COUNT_PATTERNS.cargo,
   },
   node: {
     async prepare(more) {
-      const command = nodeTests('tests/node', more);
+      const command = nodeTestCommand('tests/node', more);
       await ensureBuilt();
       return programJob(command);
     },
@@ -162,7 +162,7 @@ const PARTS = {
   },
   package: {
     async prepare(more) {
-      const command = nodeTests('tests/package', more);
+      const command = nodeTestCommand('tests/package', more);
       await ensureBuilt();
       return programJob(command, { CHROME: (await testBrowser()).chrome });
     },
@@ -199,7 +199,7 @@ const LANES = [
 async function runParts(args) {
   const [partName, ...moreArguments] = args.filter((argument) => argument !== '--all');
   if (partName !== undefined && !Object.hasOwn(PARTS, partName)) {
-    throw new Missing(`"${partName}" is no part of the tests: \`npm test -- PART\` takes ${Object.keys(PARTS).join(', ')}.`);
+    throw new UserError(`"${partName}" is no part of the tests: \`npm test -- PART\` takes ${Object.keys(PARTS).join(', ')}.`);
   }
   rmSync(pathOf('test-results'), { recursive: true, force: true });
   mkdirSync(pathOf('test-results'));
@@ -237,7 +237,7 @@ async function outcomeOf(name, more) {
     const note = timedOut ? `ended after ${TIME_LIMIT} s` : noTests ? 'no test ran' : undefined;
     return { name, ok: ok && !noTests && !tally?.failed, seconds: seconds(), output, tally, note };
   } catch (error) {
-    progress(`${name}: ${error instanceof Missing ? error.message : (error instanceof Error && error.stack) || error}`);
+    progress(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
     return { name, ok: false, seconds: seconds(), note: 'not run: see above' };
   }
 }
@@ -248,7 +248,7 @@ async function outcomeOf(name, more) {
  * @param {string} runner of wasm-bindgen
  * @param {import('./browser.mjs').Browser} browser
  */
-function inBrowser(runner, { chrome, driver }) {
+function browserEnvironment(runner, { chrome, driver }) {
   const capabilitiesFile = pathOf('test-results/webdriver.json');
   const chromeSettings = { binary: chrome, args: ['--headless', ...CHROME_ARGUMENTS] };
   writeFileSync(capabilitiesFile, JSON.stringify({ 'goog:chromeOptions': chromeSettings }));
@@ -267,11 +267,11 @@ function inBrowser(runner, { chrome, driver }) {
  * @param {string} directory
  * @param {string[]} more files or options
  */
-function nodeTests(directory, more) {
+function nodeTestCommand(directory, more) {
   const files = filesOf(directory).filter((path) => /\.test\.[jt]s$/.test(path) && (NIGHTLY || !path.endsWith('.nightly.test.js')));
   const namedFiles = files.filter((path) => more.some((argument) => !argument.startsWith('-') && path.includes(argument)));
   const unknownName = more.find((argument, i) => !argument.startsWith('-') && !more[i - 1]?.startsWith('-') && !files.some((path) => path.includes(argument)));
-  if (unknownName !== undefined) throw new Missing(`"${unknownName}" is in no name of a test file; ${directory} has ${files.map((path) => path.slice(directory.length + 1)).join(', ')}.`);
+  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is in no name of a test file; ${directory} has ${files.map((path) => path.slice(directory.length + 1)).join(', ')}.`);
   const nodeOptions = more.filter((argument) => !namedFiles.some((path) => path.includes(argument)));
   // Node runs every test of a parent that matches, and the parent of all is called "<root>".
   const tierOptions = NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];

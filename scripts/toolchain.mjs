@@ -6,7 +6,7 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { homedir, tmpdir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
-import { Missing, ROOT, findProgram, mustRun, once, progress, taskQueue, run, runAsScript } from './process.mjs';
+import { ROOT, UserError, findProgram, mustRun, once, progress, taskQueue, run, runAsScript } from './process.mjs';
 
 const WASM_TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
@@ -69,15 +69,15 @@ const [apt, rustup] = [taskQueue(), taskQueue()];
  * Installs packages by apt, if that is possible without a password.
  *
  * @param {string[]} packages
- * @param {string} sentence thrown as `Missing` otherwise
+ * @param {string} sentence thrown as `UserError` otherwise
  */
 export const aptInstall = (packages, sentence) => apt(() => aptInstallNow(packages, sentence));
 
 /** Installs Debian packages. @param {string[]} packages @param {string} sentence of the error */
 async function aptInstallNow(packages, sentence) {
-  if (findProgram('apt-get') === undefined) throw new Missing(sentence);
+  if (findProgram('apt-get') === undefined) throw new UserError(sentence);
   const rootCommand = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
-  if (rootCommand.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new Missing(sentence);
+  if (rootCommand.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new UserError(sentence);
   progress(`Installing ${packages.join(' ')} by apt`);
   const [command, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
   await run(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
@@ -114,7 +114,7 @@ export const nativeRust = once(/** @returns {Promise<Rust>} */ async () => {
     await aptInstall(['gcc', 'libc6-dev'], `A C compiler, which Rust links with, is missing: ${installHint} and start again.`);
   }
   const bin = dirname(cargo);
-  const env = bin === DEBIAN_BIN ? debianEnvironment() : searchFirst(bin);
+  const env = bin === DEBIAN_BIN ? debianEnvironment() : environmentWithPath(bin);
   const version = await requireVersion(bin, env, 'run `rustup update stable`');
   return { bin, env, target: [], description: version };
 });
@@ -177,7 +177,7 @@ async function hasTarget({ bin, env }) {
   if (canFallBack && existsSync(unreachableMark) && Date.now() - statSync(unreachableMark).mtimeMs < dayInMs) return false;
   progress(`Asking rustup for ${WASM_TARGET}`);
   const addTarget = () => run(program, ['target', 'add', WASM_TARGET], { env, seconds: canFallBack ? 60 : 600 });
-  const { ok, timedOut } = canFallBack && (await isSilent()) ? { ok: false, timedOut: true } : await addTarget();
+  const { ok, timedOut } = canFallBack && (await isServerSilent()) ? { ok: false, timedOut: true } : await addTarget();
   if (ok) return true;
   if (timedOut) {
     console.log('rustup does not answer.');
@@ -193,7 +193,7 @@ async function hasTarget({ bin, env }) {
  *
  * @returns {Promise<boolean>} false without curl to ask by
  */
-async function isSilent() {
+async function isServerSilent() {
   const server = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';
   // Any answer will do, also one with an unknown certificate.
   const curlArguments = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${server}/dist/channel-rust-stable.toml.sha256`];
@@ -203,7 +203,7 @@ async function isSilent() {
 /** Debian's stable compiler, with the unstable features enabled that `-Zbuild-std` needs. */
 function debianEnvironment() {
   return {
-    ...searchFirst(DEBIAN_BIN),
+    ...environmentWithPath(DEBIAN_BIN),
     RUSTC: join(DEBIAN_BIN, 'rustc'),
     RUSTC_BOOTSTRAP: '1',
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: 'wasm-ld',
@@ -215,7 +215,7 @@ function debianEnvironment() {
  *
  * @param {string} bin
  */
-function searchFirst(bin) {
+function environmentWithPath(bin) {
   return { PATH: bin + delimiter + process.env.PATH, CARGO: join(bin, 'cargo') };
 }
 
@@ -231,7 +231,7 @@ async function requireVersion(bin, env, remedy) {
   const [, major, minor] = stdout.match(/^rustc (\d+)\.(\d+)/) ?? ['', '0', '0'];
   const [minMajor, minMinor] = requiredVersion.split('.').map(Number);
   if (Number(major) < minMajor || (Number(major) === minMajor && Number(minor) < minMinor)) {
-    throw new Missing(`Rust ${requiredVersion} or newer is needed and ${join(bin, 'rustc')} is not: ${remedy} and start again.`);
+    throw new UserError(`Rust ${requiredVersion} or newer is needed and ${join(bin, 'rustc')} is not: ${remedy} and start again.`);
   }
   return stdout.split(' ').slice(0, 2).join(' ');
 }
@@ -248,10 +248,10 @@ export async function ensureLints({ bin, env }) {
     await aptInstall(['rustfmt-web', 'rust-web-clippy'], missingMessage);
   } else {
     const program = findProgram('rustup', [bin]);
-    if (program === undefined) throw new Missing(missingMessage);
+    if (program === undefined) throw new UserError(missingMessage);
     await rustup(() => mustRun(missingMessage, program, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
   }
-  if (!(await haveLints())) throw new Missing(missingMessage);
+  if (!(await haveLints())) throw new UserError(missingMessage);
 }
 
 /** Returns the part of a file that the group of a pattern matches. @param {string} file @param {RegExp} pattern */

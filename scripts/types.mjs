@@ -8,7 +8,7 @@ import { classComments, describe, oneLine, pascalCase, typeOf, unionType, widget
 import { ROOT } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 
-/** @typedef {import('./declarations.mjs').Named} Named */
+/** @typedef {import('./declarations.mjs').Field} Field */
 
 const HEADER = '// Generated from the declarations: not to be edited.\n';
 
@@ -69,7 +69,7 @@ function fieldOf(declaration) {
   return { name: declaration.field ?? declaration.key, type: typeOf(declaration), description: describe(declaration) };
 }
 
-/** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} all */
+/** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} widgets */
 async function figureType([{ attributes }]) {
   const { COMMON_ATTRS } = await importTypeScript('www/figure/attributes.ts');
   const { classes } = await classComments();
@@ -93,7 +93,7 @@ async function figureType([{ attributes }]) {
   );
 }
 
-/** Listeners get the events of a figure, and those that every element has. @type {Named[]} */
+/** Listeners get the events of a figure, and those that every element has. @type {Field[]} */
 const LISTENER_FIELDS = ['add', 'remove'].flatMap((verb) => {
   const options = `options?: boolean | ${verb === 'add' ? 'AddEventListenerOptions' : 'EventListenerOptions'}`;
   const listenerType = (/** @type {string} */ events) =>
@@ -116,18 +116,18 @@ async function elementTypes({ tag, machine, attributes, properties, state }) {
   );
 }
 
-/** @param {import('./declarations.mjs').Widget[]} all */
-function importLine(all) {
-  const types = all.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
-  const neededNames = new Set(['FigureState', ...all.map(({ machine }) => machine), ...types]);
+/** @param {import('./declarations.mjs').Widget[]} widgets */
+function importLine(widgets) {
+  const types = widgets.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
+  const neededNames = new Set(['FigureState', ...widgets.map(({ machine }) => machine), ...types]);
   const importedNames = [...neededNames].filter((name) => !(name in globalThis));
   return `import type { ${importedNames.sort().join(', ')} } from '../www/types.d.ts';\n`;
 }
 
-/** @param {import('./declarations.mjs').Widget[]} all */
-function tagNames(all) {
-  const mapLines = all.map(({ tag, machine }) => `    '${tag}': ${machine}Element;\n`);
-  const givenLines = all.map(({ tag, machine, attributes, properties }) => {
+/** @param {import('./declarations.mjs').Widget[]} widgets */
+function tagNames(widgets) {
+  const mapLines = widgets.map(({ tag, machine }) => `    '${tag}': ${machine}Element;\n`);
+  const givenLines = widgets.map(({ tag, machine, attributes, properties }) => {
     const fields = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
     return `  '${tag}': Given<${machine}Element, ${unionType(fields)}>;\n`;
   });
@@ -145,7 +145,7 @@ ${mapLines.join('')}  }
 `;
 }
 
-/** Returns an interface of TypeScript. @param {string} name @param {Named[]} fields @param {string} [base] */
+/** Returns an interface of TypeScript. @param {string} name @param {Field[]} fields @param {string} [base] */
 function asInterface(name, fields, base) {
   const lines = fields.map(({ name: key, type, description, readonly, isText }) => {
     const comment = description && `  /** ${description} */\n`;

@@ -88,7 +88,7 @@ async function untilValue(page, code, expected) {
 
 /** @param {Page} page @param {string[]} names */
 const propertiesOf = (page, names) =>
-  machineElement(page).evaluate((element, wanted) => Object.fromEntries(wanted.map((name) => [name, /** @type {any} */ (element)[name]])), names);
+  machineElement(page).evaluate((element, propertyNames) => Object.fromEntries(propertyNames.map((name) => [name, /** @type {any} */ (element)[name]])), names);
 
 /** @type {import('./project.mjs').Serving['checks']} */
 const JUPYTERLAB_CHECKS = {

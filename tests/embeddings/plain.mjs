@@ -40,7 +40,7 @@ const DEFINITIONS = {
     // The command line of Angular refuses older versions of Node.
     node: 24,
     pages: { first: '/' },
-    go: (page, which) => page.getByRole('button', { name: which === 'second' ? 'Sensors' : 'Motion' }).first().click(),
+    go: (page, pageName) => page.getByRole('button', { name: pageName === 'second' ? 'Sensors' : 'Motion' }).first().click(),
     allowed: [
       { message: /\/vite-root\/motion\.wasm 404$/, reason: 'Its development server gives the module an address at which it has no file.' },
       { message: /^motion-widgets: the module embedded in a script is used\. .*\/vite-root\//, reason: 'The missing file of the module; the figure works without it.' },

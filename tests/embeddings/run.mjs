@@ -10,7 +10,7 @@ import { join } from 'node:path';
 import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
 import { build } from '../../scripts/build.mjs';
-import { Missing, ROOT, progress, runAsScript } from '../../scripts/process.mjs';
+import { ROOT, UserError, progress, runAsScript } from '../../scripts/process.mjs';
 import { check } from './checks.mjs';
 import { engine, engines, prepareExample } from './project.mjs';
 
@@ -49,16 +49,16 @@ async function outcomesOf(browser, name) {
       }
     }
   } catch (error) {
-    addOutcome(serving, 0, [error instanceof Missing ? error.message : String(error instanceof Error ? error.stack : error)]);
+    addOutcome(serving, 0, [error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error)]);
   }
   return outcomes;
 }
 
-/** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} wanted */
-async function test(wanted) {
+/** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} engineNames */
+async function test(engineNames) {
   const allNames = await engines();
-  const unknownName = wanted.find((name) => !allNames.includes(name));
-  if (unknownName !== undefined) throw new Missing(`"${unknownName}" is no engine that is tried; allowed are ${allNames.join(', ')}.`);
+  const unknownName = engineNames.find((name) => !allNames.includes(name));
+  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allNames.join(', ')}.`);
   await build();
   const { chrome, version } = await ensureBrowser();
   mkdirSync(join(ROOT, 'test-results/embeddings'), { recursive: true });
@@ -67,7 +67,7 @@ async function test(wanted) {
   /** @type {Outcome[]} */
   const outcomes = [];
   try {
-    for (const name of wanted.length > 0 ? wanted : allNames) outcomes.push(...(await outcomesOf(browser, name)));
+    for (const name of engineNames.length > 0 ? engineNames : allNames) outcomes.push(...(await outcomesOf(browser, name)));
   } finally {
     await browser.close();
   }

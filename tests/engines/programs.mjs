@@ -2,7 +2,7 @@
 
 import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { Missing, findProgram, isProgram, mustRun, progress, run } from '../../scripts/process.mjs';
+import { UserError, findProgram, isProgram, mustRun, progress, run } from '../../scripts/process.mjs';
 import { CACHE, aptInstall, nativeRust } from '../../scripts/toolchain.mjs';
 
 const FIREFOX_NAMES = ['firefox-esr', 'firefox'];
@@ -19,7 +19,7 @@ export async function ensureFirefox() {
   const find = () => process.env.FIREFOX ?? FIREFOX_NAMES.map((name) => findProgram(name)).find((path) => path !== undefined);
   if (find() === undefined) await aptInstall(['firefox-esr'], FIREFOX_SENTENCE);
   const firefox = find();
-  if (firefox === undefined || !(await run(firefox, ['--version'], { quiet: true, seconds: 60 })).ok) throw new Missing(FIREFOX_SENTENCE);
+  if (firefox === undefined || !(await run(firefox, ['--version'], { quiet: true, seconds: 60 })).ok) throw new UserError(FIREFOX_SENTENCE);
   return { firefox, driver: await ensureGeckodriver() };
 }
 
@@ -45,7 +45,7 @@ export async function ensureWebKit() {
   if (present !== undefined) return present;
   await aptInstall(['webkit2gtk-driver', 'xvfb'], WEBKIT_SENTENCE);
   const installed = findWebKit();
-  if (installed === undefined) throw new Missing(WEBKIT_SENTENCE);
+  if (installed === undefined) throw new UserError(WEBKIT_SENTENCE);
   return installed;
 }
 

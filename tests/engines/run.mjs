@@ -9,7 +9,7 @@ import { mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileS
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { build } from '../../scripts/build.mjs';
-import { Missing, ROOT, progress, runAsScript } from '../../scripts/process.mjs';
+import { ROOT, UserError, progress, runAsScript } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 import { engines } from './browsers.mjs';
 
@@ -51,23 +51,23 @@ async function outcomeOf(name, address) {
       await engine.close();
     }
   } catch (error) {
-    const failure = error instanceof Missing ? error.message : String(error instanceof Error ? error.stack : error);
+    const failure = error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error);
     console.log(`FAILED ${name}: ${failure}`);
     return { version, passed: 0, failures: [failure] };
   }
 }
 
-/** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} wanted */
-async function test(wanted) {
+/** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} engineNames */
+async function test(engineNames) {
   const allNames = Object.keys(engines);
-  const unknownName = wanted.find((name) => !allNames.includes(name));
-  if (unknownName !== undefined) throw new Missing(`"${unknownName}" is no engine that is tried; allowed are ${allNames.join(', ')}.`);
+  const unknownName = engineNames.find((name) => !allNames.includes(name));
+  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allNames.join(', ')}.`);
   await build();
   const { address, stop } = await serveSite();
   const summaryLines = [];
   let failed = 0;
   try {
-    for (const name of wanted.length > 0 ? wanted : allNames) {
+    for (const name of engineNames.length > 0 ? engineNames : allNames) {
       const { version, passed, failures } = await outcomeOf(name, address);
       failed += failures.length;
       summaryLines.push(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(10)} ${version.padEnd(16)} ${passed} passed, ${failures.length} failed`);

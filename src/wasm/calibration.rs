@@ -179,7 +179,8 @@ fn systematic_to_js(calibration: &Calibration) -> JsValue {
         number_or_null(is_identified.then(|| calibration.systematic.get(error)))
     };
     let interval_of_error = |error: SystematicError| interval_to_js(calibration.interval_of(error));
-    let any = |mask: &ErrorMask, errors: &[SystematicError]| errors.iter().any(|error| mask[*error as usize]);
+    let has_any =
+        |mask: &ErrorMask, errors: &[SystematicError]| errors.iter().any(|error| mask[*error as usize]);
     let error_entries = SYSTEMATIC.iter().map(|(key, errors)| {
         let [value, interval] = match errors {
             [error] => [value_of(*error), interval_of_error(*error)],
@@ -188,8 +189,8 @@ fn systematic_to_js(calibration: &Calibration) -> JsValue {
                 errors.iter().map(|error| interval_of_error(*error)).collect::<Array>().into(),
             ],
         };
-        let constant = any(&calibration.is_constant, errors).into();
-        let corrected = any(&calibration.is_corrected, errors).into();
+        let constant = has_any(&calibration.is_constant, errors).into();
+        let corrected = has_any(&calibration.is_corrected, errors).into();
         let entries =
             [("value", value), ("interval", interval), ("constant", constant), ("corrected", corrected)];
         (*key, js_object(&entries))

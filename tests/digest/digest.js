@@ -21,13 +21,13 @@ import { presets } from '../../www/settings.js';
 /** Bits that replace those of every NaN (not a number); tests/native/digest/encoding.rs tells why. */
 const NAN = 0x7ff8_0000_0000_0000n;
 
-/** Results of the machine of each widget, by parts. @type {Record<string, (motion: Motion, all: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
+/** Results of the machine of each widget, by parts. @type {Record<string, (motion: Motion, document: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
 export const widgets = {
-  'banana-machine'({ BananaMachine, commandReaching }, all, { preset, bounds = all.widgets['banana-machine'].bounds, settings }) {
+  'banana-machine'({ BananaMachine, commandReaching }, document, { preset, bounds = document.widgets['banana-machine'].bounds, settings }) {
     const machine = new BananaMachine({ ...commandOf(presets['banana-machine'], preset), ...settings });
     const { shown, config: { command } } = machine;
     const [xMin, yMin, xMax, yMax] = bounds;
-    const { columns, rows } = all.picture;
+    const { columns, rows } = document.picture;
     const pictureOf = (/** @type {'plane' | 'twist'} */ view) =>
       machine.picture(view, xMin, yMin, xMax, yMax, columns, rows, ramps(1)).slice();
     // The native digest has no error of the area ratio.
@@ -54,15 +54,15 @@ export const widgets = {
     return results;
   },
 
-  'map-squeeze'({ MapSqueeze }, all, { preset, map, bounds = all.widgets['map-squeeze'].bounds, settings }) {
+  'map-squeeze'({ MapSqueeze }, document, { preset, map, bounds = document.widgets['map-squeeze'].bounds, settings }) {
     const start = presets['map-squeeze'].find(({ name }) => name === preset)?.start;
     const machine = new MapSqueeze({ start, ...settings });
-    const { plan, description, image } = map === undefined ? {} : all.maps[map];
+    const { plan, description, image } = map === undefined ? {} : document.maps[map];
     if (plan) machine.setPlan(plan);
-    if (description) machine.setGrid(description, new TextEncoder().encode(`${all.images[image].join('\n')}\n`));
+    if (description) machine.setGrid(description, new TextEncoder().encode(`${document.images[image].join('\n')}\n`));
     const { shown, startFree, openPlace, noise, stats } = machine;
     const [xMin, yMin, xMax, yMax] = bounds;
-    const { columns, rows } = all.picture;
+    const { columns, rows } = document.picture;
     const results = {
       map: { ...machine.plan, grid: machine.grid },
       poses: machine.poses,
@@ -87,7 +87,7 @@ export const widgets = {
     return results;
   },
 
-  'arc-anatomy'({ ArcAnatomy }, all, { preset, bounds = all.widgets['arc-anatomy'].bounds, settings }) {
+  'arc-anatomy'({ ArcAnatomy }, document, { preset, bounds = document.widgets['arc-anatomy'].bounds, settings }) {
     const { v, omega, dt, nextX, nextY, nextTheta } = presets['arc-anatomy'].find(({ name }) => name === (preset ?? 'left')) ?? presets['arc-anatomy'][0];
     const machine = new ArcAnatomy({ command: { v, omega, dt }, next: { x: nextX, y: nextY, theta: nextTheta }, ...settings });
     const [xMin, yMin, xMax, yMax] = bounds;
@@ -174,9 +174,9 @@ export const widgets = {
 const VIEWS = /** @type {const} */ (['plane', 'twist']);
 const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
 
-/** Returns the command of a preset. @param {{ name: string, v: number, omega: number, dt: number }[]} presets @param {string} [wanted] */
-function commandOf(presets, wanted) {
-  const preset = presets.find(({ name }) => name === wanted);
+/** Returns the command of a preset. @param {{ name: string, v: number, omega: number, dt: number }[]} presets @param {string} [presetName] */
+function commandOf(presets, presetName) {
+  const preset = presets.find(({ name }) => name === presetName);
   if (preset === undefined) return {};
   const { v, omega, dt } = preset;
   return { command: { v, omega, dt } };
@@ -228,16 +228,16 @@ const hex = (bytes) => Array.from(new Uint8Array(bytes), (byte) => byte.toString
 
 /**
  * @param {Motion} motion
- * @param {Configurations} all
+ * @param {Configurations} document
  * @param {string[]} [tags] of the widgets whose digests are wanted
  * @returns {Promise<string>} the text that golden.txt must have, or its lines on these widgets
  */
-export async function digest(motion, all, tags = Object.keys(all.widgets)) {
+export async function digest(motion, document, tags = Object.keys(document.widgets)) {
   /** @type {string[]} */
   const lines = [];
   for (const widget of tags) {
-    for (const [name, configuration] of Object.entries(all.widgets[widget].configurations)) {
-      const parts = Object.entries(widgets[widget](motion, all, configuration));
+    for (const [name, configuration] of Object.entries(document.widgets[widget].configurations)) {
+      const parts = Object.entries(widgets[widget](motion, document, configuration));
       const hashes = await Promise.all(parts.map(async ([part, value]) => ` ${part}:${await hashOf(value)}`));
       lines.push(`${widget}/${name}${hashes.join('')}\n`);
     }

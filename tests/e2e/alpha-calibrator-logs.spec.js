@@ -102,8 +102,8 @@ test('with the velocity model the commands of a file are used, with other models
   // The command of a row is driven until the next row.
   const odometryRows = rowsOf('odometry');
   const commands = odometryRows.map(([t, x, y, yaw], i) => {
-    const [next, toX, toY, to] = odometryRows[i + 1] ?? [t + 1, x, y, yaw];
-    return [t, x, y, yaw, Math.hypot(toX - x, toY - y) / (next - t), Math.atan2(Math.sin(to - yaw), Math.cos(to - yaw)) / (next - t)].join(',');
+    const [nextTime, toX, toY, toYaw] = odometryRows[i + 1] ?? [t + 1, x, y, yaw];
+    return [t, x, y, yaw, Math.hypot(toX - x, toY - y) / (nextTime - t), Math.atan2(Math.sin(toYaw - yaw), Math.cos(toYaw - yaw)) / (nextTime - t)].join(',');
   });
   await choose(widget, { 'odom.csv': ['t,x,y,yaw,v,omega', ...commands].join('\n'), 'truth.csv': example('reference') });
   await expect.poll(odometryKeys).toContain('omega');
@@ -172,8 +172,8 @@ test('the files of a dropped folder are one recording, and others are not used',
   const widget = await openCalibrator(page);
   const camera = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));
   const recordings = [await recordingWith(['/mocap/pose']), camera].map((bytes) => bytes.toString('base64'));
-  await widget.locator('section.machine').evaluate(async (section, all) => {
-    const [bytes, cameraBytes] = await Promise.all(all.map(async (base64) => (await fetch(`data:;base64,${base64}`)).arrayBuffer()));
+  await widget.locator('section.machine').evaluate(async (section, encodedRecordings) => {
+    const [bytes, cameraBytes] = await Promise.all(encodedRecordings.map(async (base64) => (await fetch(`data:;base64,${base64}`)).arrayBuffer()));
     const metadata = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
     const journal = new File([new Uint8Array([0x37, 0x7f, 0x06, 0x82])], 'run_0.db3-wal');
     const entries = [new File([bytes], 'run_0.mcap'), new File([metadata], 'metadata.yaml'), new File([cameraBytes], 'camera.mcap'), journal].map((file) =>
@@ -236,9 +236,9 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/, { timeout: 20_000 });
   expect(page.workers().map((worker) => new URL(worker.url()).pathname)).toEqual(['/chunks/log-worker.js']);
   const { longestTaskShare, layoutShifts } = await page.evaluate((since) => {
-    const all = /** @type {(PerformanceEntry & { value?: number, hadRecentInput?: boolean })[]} */ (Reflect.get(window, 'entries')).filter(({ startTime }) => startTime > since);
-    const tasks = all.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
-    return { longestTaskShare: Math.max(0, ...tasks) / (performance.now() - since), layoutShifts: all.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
+    const recentEntries = /** @type {(PerformanceEntry & { value?: number, hadRecentInput?: boolean })[]} */ (Reflect.get(window, 'entries')).filter(({ startTime }) => startTime > since);
+    const tasks = recentEntries.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
+    return { longestTaskShare: Math.max(0, ...tasks) / (performance.now() - since), layoutShifts: recentEntries.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
   }, startTime);
   // On the main thread, reading a log would be one task that takes a third of the time.
   expect(longestTaskShare).toBeLessThan(0.2);
@@ -293,8 +293,8 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
     const figure = /** @type {AlphaCalibratorElement} */ (element);
     const { legs } = figure.machine;
     const t = Array.from({ length: legs.count }, (_, leg) => leg);
-    const column = (/** @type {Float64Array} */ poses, /** @type {number} */ at) => t.map((leg) => poses[6 * leg + at]);
-    const poses = (/** @type {Float64Array} */ all) => ({ t, x: column(all, 0).map((x) => x + 0.01), y: column(all, 1), theta: column(all, 2) });
+    const column = (/** @type {Float64Array} */ poses, /** @type {number} */ component) => t.map((leg) => poses[6 * leg + component]);
+    const poses = (/** @type {Float64Array} */ legPoses) => ({ t, x: column(legPoses, 0).map((x) => x + 0.01), y: column(legPoses, 1), theta: column(legPoses, 2) });
     const log1 = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
     const nextError = () => new Promise((resolve) => {
       figure.addEventListener('error', (event) => {

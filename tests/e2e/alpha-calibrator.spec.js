@@ -41,7 +41,7 @@ test('the meaning of each α stands beside it, apart from the numbers, also on a
     await page.setViewportSize({ width, height: 900 });
     await page.evaluate((em) => void (document.body.style.letterSpacing = `${em}em`), spacing);
     await frames(page);
-    const areApart = await rows(widget).evaluateAll((all) => all.map((row) => {
+    const areApart = await rows(widget).evaluateAll((rowElements) => rowElements.map((row) => {
       const boxOf = (/** @type {string} */ selector) => {
         const text = new Range();
         text.selectNodeContents(/** @type {Element} */ (row.querySelector(selector)));
@@ -138,18 +138,18 @@ test('an export as a picture has the key, the α’s with their intervals, and t
   await unfold(widget);
   await widget.getByRole('checkbox', { name: 'mount yaw (rad)' }).uncheck();
   await untilSettled(widget);
-  const alphaTexts = await rows(widget).evaluateAll((all) => all.map((row) => {
-    const [of, value, between, recommended] = ['.of', '.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim());
-    return `${of}: ${value}, ${between}, recommended ${recommended}`;
+  const alphaTexts = await rows(widget).evaluateAll((rowElements) => rowElements.map((row) => {
+    const [alphaName, value, between, recommended] = ['.of', '.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim());
+    return `${alphaName}: ${value}, ${between}, recommended ${recommended}`;
   }));
   const captionText = ((await caption(widget).textContent()) ?? '').replace(/^\s*✓?!?\s*/, '').replace(/\s+/g, ' ').trim();
   const exported = await widget.evaluate(async (element) => {
     const figure = /** @type {any} */ (element);
     const { documentElement: root } = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml');
-    const all = (/** @type {string} */ selector) => [...root.querySelectorAll(selector)];
+    const elementsIn = (/** @type {string} */ selector) => [...root.querySelectorAll(selector)];
     const image = await createImageBitmap(await figure.toPNG());
     return {
-      texts: all('text').map((text) => text.textContent),
+      texts: elementsIn('text').map((text) => text.textContent),
       size: [root.getAttribute('width'), root.getAttribute('height')].map(Number),
       png: [image.width, image.height],
       described: root.querySelector('desc')?.textContent ?? '',
@@ -172,7 +172,7 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await unfold(widget);
   const yaml = await widget.locator('textarea.yaml').inputValue();
-  const tableCells = await rows(widget).evaluateAll((all) => all.map((row) => ['.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim() ?? '')));
+  const tableCells = await rows(widget).evaluateAll((rowElements) => rowElements.map((row) => ['.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim() ?? '')));
   expect(tableCells).toHaveLength(4);
   tableCells.forEach(([fitted, between, recommended], i) => expect(yaml).toContain(`    alpha${i + 1}: ${recommended}  # fitted ${fitted}, 95 % ${between.replace(' – ', ' to ')}\n`));
   await page.setViewportSize({ width: 360, height: 400 });

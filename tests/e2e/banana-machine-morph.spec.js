@@ -82,7 +82,7 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   await pin.click();
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(pin).toHaveText('Pin');
-  const restore = (/** @type {object} */ to) => widget.evaluate((element, given) => void (/** @type {any} */ (element).setState(given)), to);
+  const restore = (/** @type {object} */ savedState) => widget.evaluate((element, newState) => void (/** @type {any} */ (element).setState(newState)), savedState);
   await restore(state);
   await expect(area).toContainText(`pinned: ${areaBefore}`);
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureWithPin);

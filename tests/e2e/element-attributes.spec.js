@@ -88,7 +88,7 @@ test('boolean attributes may be empty or "true", and lists may have any space @n
   await squeeze.scrollIntoViewIfNeeded();
   await untilReady(squeeze);
   for (const [text, value] of /** @type {const} */ ([['false', false], ['true', true], ['false', false], ['', true]])) {
-    await squeeze.evaluate((element, given) => element.setAttribute('conditioned', given), text);
+    await squeeze.evaluate((element, value) => element.setAttribute('conditioned', value), text);
     expect(await property(squeeze, 'conditioned')).toBe(value);
   }
   expect(await takeEvents(page, ['error'])).toEqual([]);
@@ -137,7 +137,7 @@ test('elements in the table of doc/embedding/figures.md have the attributes that
   const examples = [...document.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
   expect(new Set(examples.map(({ name }) => name)).size).toBe(ALL_NAMES.length);
   await showPage(page, examples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));
-  const unknownAttributes = await page.locator('.example').evaluateAll((all) => all.flatMap(({ attributes, constructor }) =>
+  const unknownAttributes = await page.locator('.example').evaluateAll((exampleElements) => exampleElements.flatMap(({ attributes, constructor }) =>
     [...attributes].map(({ name }) => name).filter((name) => name !== 'class' && !Reflect.get(constructor, 'observedAttributes').includes(name))));
   expect(unknownAttributes).toEqual([]);
   for (const widget of await page.locator(`${figure}.example`).all()) {
@@ -156,8 +156,8 @@ testEach('code to embed opens the settings of a state, with its attributes in an
   await untilReady(widget);
   for (const seed of isFull ? SEEDS : SEEDS.slice(0, 2)) {
     const state = { ...randomStates(seed)[name], ...Reflect.get(WITHOUT_ATTRIBUTES, name) };
-    const [original, ...copies] = await widget.evaluate(async (element, given) => {
-      /** @type {any} */ (element).setState(given);
+    const [original, ...copies] = await widget.evaluate(async (element, newState) => {
+      /** @type {any} */ (element).setState(newState);
       const template = document.createElement('div');
       template.innerHTML = /** @type {AnyElement} */ (element).embedCode().split('\n')[1];
       const [embedded] = template.children;

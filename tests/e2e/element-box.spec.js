@@ -36,8 +36,8 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
   const wrongWidths = async (/** @type {number} */ width) => {
     await page.setViewportSize({ width, height: 900 });
     await frames(page);
-    const widths = await page.locator(figure).evaluateAll((all) =>
-      all.map((figure) => [/** @type {HTMLElement} */ (figure.closest('section')).dataset.box ?? '', figure.getBoundingClientRect().width]));
+    const widths = await page.locator(figure).evaluateAll((figureElements) =>
+      figureElements.map((figure) => [/** @type {HTMLElement} */ (figure.closest('section')).dataset.box ?? '', figure.getBoundingClientRect().width]));
     expect(widths).toHaveLength(cases.length);
     return widths.filter(([, figureWidth]) => Number(figureWidth) > width + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, width) - 0.5);
   };
@@ -149,7 +149,7 @@ test.describe('on a screen with two pixels a CSS pixel', () => {
     await showPage(page, `<${figure}></${figure}>`);
     const widget = page.locator(figure);
     await untilReady(widget);
-    const ratios = await widget.locator('canvas:visible').evaluateAll((all) => all.map((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width / canvas.getBoundingClientRect().width));
+    const ratios = await widget.locator('canvas:visible').evaluateAll((canvases) => canvases.map((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width / canvas.getBoundingClientRect().width));
     expect(ratios.length).toBeGreaterThan(0);
     for (const ratio of ratios) expect(ratio).toBeCloseTo(2, 1);
   });

@@ -34,17 +34,17 @@ test('a drag fires input at each step and one change at its end, composed, with 
   const recorded = await takeRecorded();
   // One listener gets all events, each from the element itself and not from native controls inside it.
   for (const [, origin, , bubbles, composed] of [...opening, ...recorded]) expect([origin, bubbles, composed]).toEqual(['banana-machine', true, true]);
-  const gestures = recorded.filter(([name]) => name !== 'stats');
-  expect(gestures.length).toBeGreaterThan(3);
-  expect(gestures.map(([name]) => name)).toEqual([...Array(gestures.length - 1).fill('input'), 'change']);
-  const values = gestures.map(([, , v]) => v);
+  const gestureEvents = recorded.filter(([name]) => name !== 'stats');
+  expect(gestureEvents.length).toBeGreaterThan(3);
+  expect(gestureEvents.map(([name]) => name)).toEqual([...Array(gestureEvents.length - 1).fill('input'), 'change']);
+  const values = gestureEvents.map(([, , v]) => v);
   expect(values.at(-1)).toBe(Number(await widget.locator('#v').inputValue()));
   expect(new Set(values).size).toBeGreaterThan(2);
   expect(recorded.some(([name]) => name === 'stats')).toBe(true);
 });
 
 /** Actions of a user other than dragging, with all folds open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
-const READER_ACTIONS = {
+const USER_ACTIONS = {
   'banana-machine': [
     ['preset', (widget) => widget.getByRole('button', { name: 'Hard arc' }).click()],
     ['radio', (widget) => widget.getByLabel('triangular').check()],
@@ -176,7 +176,7 @@ testEach('each control of a figure fires one input and one change', async (page,
   const widget = await mount(page, name);
   await unfold(widget);
   await takeEvents(page);
-  for (const [actionName, runAction] of READER_ACTIONS[name]) {
+  for (const [actionName, runAction] of USER_ACTIONS[name]) {
     await runAction(widget);
     expect.soft(namesOf(await takeEvents(page, ['input', 'change', 'error'])), actionName).toEqual(['input', 'change']);
   }

@@ -19,10 +19,10 @@ async function countFramesAndModules(page) {
       return request.call(window, callback);
     };
     const { compile, compileStreaming, instantiate } = WebAssembly;
-    WebAssembly.compile = (...given) => (counts.compiled++, compile.apply(WebAssembly, given));
-    WebAssembly.compileStreaming = (...given) => (counts.compiled++, compileStreaming.apply(WebAssembly, given));
+    WebAssembly.compile = (...args) => (counts.compiled++, compile.apply(WebAssembly, args));
+    WebAssembly.compileStreaming = (...args) => (counts.compiled++, compileStreaming.apply(WebAssembly, args));
     WebAssembly.instantiate = /** @type {any} */ (
-      (/** @type {[any, any]} */ ...given) => (counts.instances++, instantiate.apply(WebAssembly, given))
+      (/** @type {[any, any]} */ ...args) => (counts.instances++, instantiate.apply(WebAssembly, args))
     );
   });
 }
@@ -170,7 +170,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   const folds = widget.locator('details');
   await expect.poll(() => folds.count()).toBeGreaterThan(1);
   await unfold(widget);
-  const openFolds = () => folds.evaluateAll((all) => all.map((fold) => /** @type {HTMLDetailsElement} */ (fold).open));
+  const openFolds = () => folds.evaluateAll((foldElements) => foldElements.map((fold) => /** @type {HTMLDetailsElement} */ (fold).open));
   const openBefore = await openFolds();
   const field = folds.nth(fold.at).locator(fold.field);
   await field.fill(fold.value);

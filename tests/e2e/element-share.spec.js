@@ -86,9 +86,9 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   const gap = '<p style="margin: 2000px 0">Between</p>';
   const body = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
   await showPage(page, body);
-  const figureOf = (/** @type {import('@playwright/test').Page} */ of, /** @type {number} */ i) => of.locator('banana-machine').nth(i);
-  const tops = (/** @type {import('@playwright/test').Page} */ of) =>
-    of.locator('banana-machine').evaluateAll((all) => all.map((figure) => Math.round(figure.getBoundingClientRect().top)));
+  const figureOf = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
+  const tops = (/** @type {import('@playwright/test').Page} */ openPage) =>
+    openPage.locator('banana-machine').evaluateAll((figureElements) => figureElements.map((figure) => Math.round(figure.getBoundingClientRect().top)));
   /** @type {string[]} */
   const links = [];
   for (const i of [0, 1]) {

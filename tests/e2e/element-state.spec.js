@@ -13,9 +13,9 @@ testEach('random states go in and come out, and a second element in the same sta
   await untilReady(secondWidget);
   for (const seed of isFull ? SEEDS : SEEDS.slice(0, 2)) {
     const state = randomStates(seed)[name];
-    const [first, second] = await page.evaluate(async (given) => {
+    const [first, second] = await page.evaluate(async (newState) => {
       const elements = ['one', 'two'].map((id) => /** @type {AnyElement} */ (/** @type {unknown} */ (document.getElementById(id))));
-      elements[0].setState(given);
+      elements[0].setState(newState);
       elements[1].setState(JSON.parse(JSON.stringify(elements[0].getState())));
       return elements.map((element) => ({ state: element.getState(), stats: element.stats, poses: [...(element.poses ?? [])] }));
     }, /** @type {any} */ (state));

@@ -235,8 +235,8 @@ test('no control has custom properties of its own, which extensions that darken 
   const widget = await mount(page, figure);
   await unfold(widget);
   expect(await widget.locator('.machine [style*="--"]').count()).toBe(0);
-  const thumbs = await widget.getByRole('slider').evaluateAll((all) =>
-    all.filter((slider) => slider.matches('input')).map((slider) => getComputedStyle(slider).getPropertyValue('--thumb')));
+  const thumbs = await widget.getByRole('slider').evaluateAll((sliders) =>
+    sliders.filter((slider) => slider.matches('input')).map((slider) => getComputedStyle(slider).getPropertyValue('--thumb')));
   expect(thumbs.length).toBeGreaterThan(3);
   expect(thumbs).not.toContain('');
 });

@@ -62,7 +62,7 @@ test('a core that traps twice without a picture between ends in a sentence @nigh
   await widget.evaluate((element) => {
     const widget = /** @type {any} */ (element);
     const { createMachine } = widget;
-    widget.createMachine = (/** @type {unknown[]} */ ...given) => Object.assign(createMachine.apply(widget, given), { __wbg_ptr: 0x7ffffff0 });
+    widget.createMachine = (/** @type {unknown[]} */ ...args) => Object.assign(createMachine.apply(widget, args), { __wbg_ptr: 0x7ffffff0 });
   });
   await trapNextCall(widget, 'v');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');

@@ -34,11 +34,11 @@ test('the robot moves and turns by keyboard', async ({ page }) => {
   ]);
   for (const [part, key, dx, dy, dTheta] of keys) {
     await part(widget).press(key);
-    const next = /** @type {any} */ (await stateOf(widget)).start;
-    expect(next.x - start.x, key).toBeCloseTo(dx, 9);
-    expect(next.y - start.y, key).toBeCloseTo(dy, 9);
-    expect(next.theta - start.theta, key).toBeCloseTo(dTheta, 9);
-    start = next;
+    const movedStart = /** @type {any} */ (await stateOf(widget)).start;
+    expect(movedStart.x - start.x, key).toBeCloseTo(dx, 9);
+    expect(movedStart.y - start.y, key).toBeCloseTo(dy, 9);
+    expect(movedStart.theta - start.theta, key).toBeCloseTo(dTheta, 9);
+    start = movedStart;
   }
   await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', `x = ${start.x.toFixed(2)} m, y = ${start.y.toFixed(2)} m`);
   await expect(headingHandle(widget)).toHaveAttribute('aria-valuetext', `${start.theta.toFixed(2)} rad`);
@@ -143,8 +143,8 @@ test('the table of costs has each sampler, and the share of a processor core fol
   await frames(page);
   const table = widget.locator('.table');
   await expect(table).toHaveAttribute('aria-busy', 'false');
-  const rows = await table.locator('tbody tr').evaluateAll((all) =>
-    all.map((row) => [...row.querySelectorAll('td')].map((cell) => cell.textContent ?? '')),
+  const rows = await table.locator('tbody tr').evaluateAll((rowElements) =>
+    rowElements.map((row) => [...row.querySelectorAll('td')].map((cell) => cell.textContent ?? '')),
   );
   expect(rows).toHaveLength(3);
   const [endpoint, wholeArc, subStepped] = rows.map((row) => row.map(numberIn));

@@ -47,7 +47,7 @@ const DROPPED_FILES = [
 function randomOf(seed) {
   const random = generator(seed);
   const randomBelow = (/** @type {number} */ end) => Math.floor(end * random());
-  return { below: randomBelow, one: (of) => of[randomBelow(of.length)] };
+  return { below: randomBelow, one: (list) => list[randomBelow(list.length)] };
 }
 
 /** Brings a part of a widget to where the pointer can reach it. @param {Page} page @param {Random} random @param {string} selector */
@@ -82,13 +82,13 @@ const ACTIONS = {
   async drag(page, random) {
     const part = await partAt(page, random, 'input[type=range], .handle, canvas');
     if (!part) return 'nothing';
-    const by = [random.below(400) - 200, random.below(200) - 100];
+    const offset = [random.below(400) - 200, random.below(200) - 100];
     await page.mouse.move(part.x, part.y);
     await page.mouse.down();
-    await page.mouse.move(part.x + by[0], part.y + by[1], { steps: 4 });
+    await page.mouse.move(part.x + offset[0], part.y + offset[1], { steps: 4 });
     // Sometimes another event happens during a drag.
     if (random.below(4) > 0) await page.mouse.up();
-    return `${part.what} by ${by}`;
+    return `${part.what} by ${offset}`;
   },
   async key(page, random) {
     const keys = Array.from({ length: 1 + random.below(4) }, () => random.one(KEYS));
@@ -106,9 +106,9 @@ const ACTIONS = {
     return `${part?.what}: ${JSON.stringify(text)} ${end}`;
   },
   async wheel(page, random) {
-    const by = random.below(2000) - 1000;
-    await page.mouse.wheel(0, by);
-    return `${by}`;
+    const scrollDelta = random.below(2000) - 1000;
+    await page.mouse.wheel(0, scrollDelta);
+    return `${scrollDelta}`;
   },
   async attribute(page, random) {
     const [name, choice, text] = [random.one(ALL_NAMES), random.below(1e6), random.below(4) === 0 ? null : random.one(ATTRIBUTE_TEXTS)];
@@ -159,13 +159,13 @@ const ACTIONS = {
     const [name, choice, key, text] = [random.one(ALL_NAMES), random.below(3), random.below(1e6), random.one([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
     return page.evaluate(([name, choice, key, text]) => {
       const element = /** @type {any} */ (document.querySelector(`${name}`));
-      const kept = /** @type {any} */ (window).kept;
+      const keptStates = /** @type {any} */ (window).kept;
       const state = element.getState();
-      if (state) kept.push(state);
+      if (state) keptStates.push(state);
       const { widget, version, ...values } = state ?? {};
       const names = Object.keys(values);
       const field = names[Number(key) % names.length];
-      const nextState = choice === 0 ? { widget, version, [field]: text } : kept[Number(key) % kept.length];
+      const nextState = choice === 0 ? { widget, version, [field]: text } : keptStates[Number(key) % keptStates.length];
       try {
         element.setState(nextState);
       } catch (error) {

@@ -90,8 +90,8 @@ test('a term and an entry of the legend highlight their line in the picture', as
 test('contents lead to every section', async ({ page }) => {
   await page.goto('/');
   const links = page.getByRole('navigation', { name: 'Contents' }).getByRole('link');
-  const targets = await links.evaluateAll((all) => all.map((link) => link.getAttribute('href')));
-  expect(targets).toEqual(await page.locator('main > [id]').evaluateAll((all) => all.map(({ id }) => `#${id}`)));
+  const targets = await links.evaluateAll((linkElements) => linkElements.map((link) => link.getAttribute('href')));
+  expect(targets).toEqual(await page.locator('main > [id]').evaluateAll((targetElements) => targetElements.map(({ id }) => `#${id}`)));
 });
 
 for (const [width, height] of [[1280, 720], [375, 760]]) {

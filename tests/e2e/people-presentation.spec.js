@@ -118,7 +118,7 @@ test('the browser ends the presentation by a key of its own @nightly', async ({ 
 testEach('a presented figure has large pictures and legible letters, with and without controls', async (page, name) => {
   const widget = await mount(page, name);
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
-  const fontSizes = () => widget.locator('canvas, .readouts dt').evaluateAll((all) => all.map((textElement) => parseFloat(getComputedStyle(textElement).fontSize)));
+  const fontSizes = () => widget.locator('canvas, .readouts dt').evaluateAll((textElements) => textElements.map((textElement) => parseFloat(getComputedStyle(textElement).fontSize)));
   const sizesOnPage = await fontSizes();
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();

@@ -379,9 +379,9 @@ export function readoutDetail(widget, name) {
 /** Drops files on a part of the widget. @param {Locator} part @param {{ name: string, buffer: Buffer }[]} files */
 export function drop(part, files) {
   return part.evaluate(
-    (target, given) => {
+    (target, newFiles) => {
       const dataTransfer = new DataTransfer();
-      for (const { name, bytes } of given) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+      for (const { name, bytes } of newFiles) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
       const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
       const [over, drop] = [event('dragover'), event('drop')];
       target.dispatchEvent(over);

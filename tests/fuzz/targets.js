@@ -137,7 +137,7 @@ const TOPIC_CHOICES = [{ series: '/odom' }, { series: '/pose' }, { series: '/cmd
 /** Options of the fastest deflation. */
 const FASTEST = { level: 0, memLevel: 1 };
 
-const bytesOfTexts = (/** @type {string[]} */ ...all) => all.map((text) => Buffer.from(text));
+const bytesOfTexts = (/** @type {string[]} */ ...texts) => texts.map((text) => Buffer.from(text));
 
 const YAMLS = bytesOfTexts(
   'image: map.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n',

@@ -66,7 +66,7 @@ mod simulations {
     mod pictures;
     mod squeeze;
 }
-/// Statistics of clouds and exact figures of models.
+/// Statistics of clouds and exact values of models.
 mod stats {
     mod coverage;
     mod gain;

@@ -239,9 +239,9 @@ test('units are stated for both logs, or for each', async () => {
   const scaledBy = (/** @type {number} */ scale) => fileWith(`scaled-${scale}.csv`, [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [scale, scale, scale, 180 / Math.PI][i]).join(','))].join('\n'));
   const scaledLog = scaledBy(1000);
   const units = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
-  const [plain, stated] = [await callOf(ARGS), await callOf(['--odometry', scaledLog, ...ARGS.slice(2), ...units])];
-  assert.deepEqual(stated.reference, plain.reference);
-  for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(stated.odometry[0][name][999] - plain.odometry[0][name][999]) < 1e-9, name);
+  const [fromSi, fromStatedUnits] = [await callOf(ARGS), await callOf(['--odometry', scaledLog, ...ARGS.slice(2), ...units])];
+  assert.deepEqual(fromStatedUnits.reference, fromSi.reference);
+  for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(fromStatedUnits.odometry[0][name][999] - fromSi.odometry[0][name][999]) < 1e-9, name);
   const refusal = await outputOf(['--odometry', scaledBy(1), ...ARGS.slice(2), '--angle-unit', 'rad']);
   assert.match(refusal.err, /^scaled-1\.csv: its headings are in degrees and were read as radians; .* Choose with --angle-unit, as in --angle-unit deg; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\./);
 });

@@ -207,7 +207,7 @@ test('a frozen reference is left out while the odometry moves on, and kept while
   const odometryX = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
   const odometry = straight(odometryX);
   const seenX = (/** @type {number} */ i) => 1.01 * odometryX(i);
-  const referenceOf = async (/** @type {string} */ reference, own = odometry) => (await drivesOf({ 'odom.csv': own, 'truth.csv': reference }))[0].reference;
+  const referenceOf = async (/** @type {string} */ reference, odometryTable = odometry) => (await drivesOf({ 'odom.csv': odometryTable, 'truth.csv': reference }))[0].reference;
   assert.deepEqual([(await referenceOf(straight(seenX))).summary.dropped, (await referenceOf(straight(seenX))).summary.used], [{}, 400]);
   const frozenTable = straight((i) => seenX(i >= 200 && i < 300 ? 200 : i));
   const { data, summary } = await referenceOf(frozenTable);

@@ -24,8 +24,8 @@ const fileOf = (bytes: Uint8Array | string, name: string, path?: string): Source
 /** Returns the files of a rosbag2 folder. In recordings.json the folder's name is the prefix of their names. */
 const folderOf = (name: string): Source[] =>
   Object.keys(FILES).filter((file) => file.startsWith(`${name}-metadata`) || file.startsWith(`${name}-${name}.`)).map((file) => {
-    const plain = file.slice(name.length + 1);
-    return fileOf(bytesOf(file), plain, `${name}/${plain}`);
+    const ownName = file.slice(name.length + 1);
+    return fileOf(bytesOf(file), ownName, `${name}/${ownName}`);
   });
 
 async function open(...sources: Source[]): Promise<Recording> {
@@ -223,25 +223,25 @@ const TF = 'tf2_msgs/msg/TFMessage';
 const at = (i: number) => 1_700_000_000 + i / 20;
 const tfAt = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF, t: at(i), message: { transforms } });
 const count = 40;
-const each = <T>(make: (i: number) => T): T[] => Array.from({ length: count }, (_, i) => make(i));
+const arrayOf = <T>(make: (i: number) => T): T[] => Array.from({ length: count }, (_, i) => make(i));
 const read = async (messages: Message[], ...choices: Choice[]) => (await open(fileOf(await recordingOf(messages), 'run.mcap'))).read(choices);
 const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
 const movingTransform = (i: number) => transform(at(i), 'odom', 'base_footprint', i / 50, 0, 0);
 
 test('a transform that never changes is no log', async () => {
-  const messages = each((i) => tfAt(i, transform(at(i), 'odom', 'base_link', 1, 2, 0), transform(at(i), 'map', 'robot', i / 50, 0, 0)));
+  const messages = arrayOf((i) => tfAt(i, transform(at(i), 'odom', 'base_link', 1, 2, 0), transform(at(i), 'map', 'robot', i / 50, 0, 0)));
   assert.equal(await sentenceOf(read(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
 });
 
 test('a constant transform that is published more often than the moving one adds no rows', async () => {
-  const messages = each((i) => [tfAt(i, movingTransform(i)), ...[0.3, 0.6].map((part) => tfAt(i + part, transform(at(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
+  const messages = arrayOf((i) => [tfAt(i, movingTransform(i)), ...[0.3, 0.6].map((part) => tfAt(i + part, transform(at(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
   const [{ data }] = await read(messages, BASE_CHOICE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(count).keys()]);
-  assert.deepEqual([...(data as Poses).x], each((i) => i / 50 + 0.5));
+  assert.deepEqual([...(data as Poses).x], arrayOf((i) => i / 50 + 0.5));
 });
 
 /** Messages of nodes that publish one topic after the other. @param nodes a letter each */
-const turns = (nodes: string): Message[] => [...nodes].flatMap((node, turn) => each((i) => {
+const turns = (nodes: string): Message[] => [...nodes].flatMap((node, turn) => arrayOf((i) => {
   const t = at(count * turn + i);
   return { topic: '/odom', type: 'nav_msgs/msg/Odometry', node, t, message: odometry(t, i / 50, 0, 0) };
 }));

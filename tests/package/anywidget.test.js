@@ -89,18 +89,18 @@ const frames = (page) =>
  * @returns {Promise<{ traits: Record<string, unknown>, figure: Record<string, unknown> }>}
  */
 const valuesOf = (page, names) =>
-  page.evaluate((wanted) => {
+  page.evaluate((traitNames) => {
     const { el, state } = /** @type {any} */ (globalThis).view;
-    const pick = (/** @type {any} */ object) => Object.fromEntries(wanted.map((name) => [name, object[name]]));
+    const pick = (/** @type {any} */ object) => Object.fromEntries(traitNames.map((name) => [name, object[name]]));
     return { traits: pick(state), figure: pick(el.firstElementChild) };
   }, names);
 
 /** Sets traits of the model and clears its log. @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changes */
 const change = async (page, changes) => {
-  await page.evaluate((given) => {
+  await page.evaluate((newValues) => {
     const { model, log } = /** @type {any} */ (globalThis).view;
     log.length = 0;
-    for (const [name, value] of Object.entries(given)) model.set(name, value);
+    for (const [name, value] of Object.entries(newValues)) model.set(name, value);
   }, changes);
   await frames(page);
 };

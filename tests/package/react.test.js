@@ -114,7 +114,7 @@ async function openPage(name) {
 }
 
 /** @param {Record<string, unknown> | null} props of the first figure, or null to remove it */
-const setProps = (props) => page.evaluate((given) => /** @type {any} */ (globalThis).page.setProps(given), props);
+const setProps = (props) => page.evaluate((newProps) => /** @type {any} */ (globalThis).page.setProps(newProps), props);
 
 /** @param {string} name of a property of the first figure */
 const property = (name) => page.evaluate((key) => /** @type {any} */ (document.querySelector('banana-machine'))[key], name);

@@ -86,7 +86,10 @@ pub fn get<T: DeserializeOwned>(expression: &str) -> T {
 
 /// Asserts that one or several numbers of JavaScript are as expected.
 pub fn assert_near<const N: usize>(actual: [f64; N], expected: [f64; N], tolerance: f64) {
-    for (number, wanted) in actual.iter().zip(&expected) {
-        assert!((number - wanted).abs() <= tolerance, "{actual:?} is not {expected:?} to {tolerance}");
+    for (number, expected_number) in actual.iter().zip(&expected) {
+        assert!(
+            (number - expected_number).abs() <= tolerance,
+            "{actual:?} is not {expected:?} to {tolerance}"
+        );
     }
 }

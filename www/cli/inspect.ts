@@ -101,7 +101,7 @@ async function readLogs(recording: Recording, choices: Choice[], onProgress?: (s
     } catch (error) {
       if (!(error instanceof LogError)) throw error;
       if (choicesToRead.length === 1) reasons.push(`${error.message}${optionAdvice(error)}`);
-      else for (const one of choicesToRead) await readTogether([one]);
+      else for (const choice of choicesToRead) await readTogether([choice]);
     }
   };
   if (choices.length > 0) await readTogether(choices);

@@ -194,8 +194,8 @@ const listOfAlternatives = (names: readonly string[]) => new Intl.ListFormat('en
 /** Returns true for systematic errors that are corrected, and false for those that are not. Single names override `all`. */
 function corrections(left?: string, corrected?: string): Record<string, boolean> | undefined {
   const nameLists = [errorNames('no-correct', left), errorNames('correct', corrected)];
-  const [all, singleNames] = [true, false].map((isAll) => nameLists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
-  const entries = [...all.flatMap(([, is]) => SYSTEMATIC_ERRORS.map((name) => [name, is] as const)), ...singleNames];
+  const [namesOfAll, singleNames] = [true, false].map((isAll) => nameLists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
+  const entries = [...namesOfAll.flatMap(([, isCorrected]) => SYSTEMATIC_ERRORS.map((name) => [name, isCorrected] as const)), ...singleNames];
   return entries.length ? Object.fromEntries(entries) : undefined;
 }
 
@@ -212,15 +212,15 @@ function parseArguments(args: string[]) {
   } catch (error) {
     const { code, message } = error as NodeJS.ErrnoException;
     const name = /'(?:-\w, )?--?([^' ]*)/.exec(message)?.[1] ?? '';
-    const given = args.find((arg) => arg.replace(/=.*/, '') === `--${name}`) ?? args.find((arg) => /^-[^-]/.test(arg) && arg.includes(name)) ?? '';
-    const value = /=(.*)/.exec(given)?.[1] ?? args[args.indexOf(given) + 1] ?? '';
+    const givenOption = args.find((arg) => arg.replace(/=.*/, '') === `--${name}`) ?? args.find((arg) => /^-[^-]/.test(arg) && arg.includes(name)) ?? '';
+    const value = /=(.*)/.exec(givenOption)?.[1] ?? args[args.indexOf(givenOption) + 1] ?? '';
     if (code === 'ERR_PARSE_ARGS_INVALID_OPTION_VALUE') {
       const dashHint = /^-[^-]/.test(value) ? `; one that begins with a dash follows “=”, as in --${name}=${shellQuoted(value)}` : '';
       throw new UsageError(message.includes('does not take') ? `--${name} takes no value.` : `--${name} needs a value${dashHint}.`);
     }
-    const givenName = given.replace(/^-+|=.*/g, '');
+    const givenName = givenOption.replace(/^-+|=.*/g, '');
     const nameHint = givenName.length === 1 ? 'options have whole names, as in --rule nav2, ' : nearestOptions(givenName);
-    throw new UsageError(`unknown option ${cut(given.replace(/=.*/, ''))}; ${nameHint || (isPath(value) ? `files need no option, as in calibrate ${shellQuoted(value)}, ` : '')}--help lists all.`);
+    throw new UsageError(`unknown option ${cut(givenOption.replace(/=.*/, ''))}; ${nameHint || (isPath(value) ? `files need no option, as in calibrate ${shellQuoted(value)}, ` : '')}--help lists all.`);
   }
 }
 

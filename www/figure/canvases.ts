@@ -78,7 +78,7 @@ export class Canvases extends FigureController {
   }
 
   /** Returns the canvas of a picture. */
-  of({ name }: { name: string }) {
+  canvasOf({ name }: { name: string }) {
     return this.all?.find(({ className }) => className === name) as HTMLCanvasElement;
   }
 

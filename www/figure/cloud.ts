@@ -60,7 +60,7 @@ export class Cloud extends FigureController {
 
   /** Number of samples of the complete cloud. */
   get #samples(): number {
-    return this.host.settings.present.samples;
+    return this.host.settings.current.samples;
   }
 
   /** Number of samples that a step adds. */
@@ -133,12 +133,12 @@ export class Cloud extends FigureController {
   }
 
   /** Returns values that follow from a partial state; throws a TypeError if `playing` is not a boolean. */
-  withDerivedFields(present: Values, given: Values): Values {
-    const { samples, playing } = { ...present, ...given };
+  withDerivedFields(currentState: Values, changes: Values): Values {
+    const { samples, playing } = { ...currentState, ...changes };
     if (typeof playing !== 'boolean') throw refusalError('state.playing', playing, 'true or false', TypeError);
-    const { shown = present.shown === present.samples ? samples : Math.min(present.shown, samples) } = given;
+    const { shown = currentState.shown === currentState.samples ? samples : Math.min(currentState.shown, samples) } = changes;
     // A comparison with undefined is false, so that a missing selection becomes null.
-    const marked = present.marked < (playing ? samples : shown) ? present.marked : null;
+    const marked = currentState.marked < (playing ? samples : shown) ? currentState.marked : null;
     return { shown, marked };
   }
 

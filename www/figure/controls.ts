@@ -40,7 +40,7 @@ export function settingSlider(figure: Figure, key: string, overrides?: Row) {
   const { name, effect } = wordsFor(figure, key);
   const declaration = declarationOf(figure, key);
   const { unit } = declaration;
-  const config = figure.settings.wanted;
+  const config = figure.settings.requested;
   const setting = attributes[key];
   return editableSlider(figure, symbol ?? name, declaration, {
     ...look,
@@ -108,11 +108,11 @@ export const sliders = (figure: Figure, sliderSpecs: Record<string, SliderSpec>)
 
 /** Returns radio buttons for a setting that is a word, with labels by word. */
 export const radios = (figure: Figure, key: string, labels: Record<string, string>) =>
-  radioGroup(wordsFor(figure, key).name, key, labels, figure.settings.wanted[key], (word) => figure.gesture.decide({ [key]: word }));
+  radioGroup(wordsFor(figure, key).name, key, labels, figure.settings.requested[key], (word) => figure.gesture.decide({ [key]: word }));
 
 /** Returns the checkbox of a boolean setting. */
 export const settingCheckbox = (figure: Figure, key: string, label: unknown) =>
-  toggle({ label, checked: figure.settings.wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
+  toggle({ label, checked: figure.settings.requested[key], change: (on) => figure.gesture.decide({ [key]: on }) });
 
 interface Disclosures {
   controls: () => unknown;
@@ -136,7 +136,7 @@ export function disclosures(figure: Figure, { controls, numbers, mark = figure.r
 }
 
 /** Returns the noise parameters with their values, for print. */
-function noiseParameters({ definition: { attributes, sliderSpecs }, settings: { wanted: config } }: Figure) {
+function noiseParameters({ definition: { attributes, sliderSpecs }, settings: { requested: config } }: Figure) {
   return Object.entries(sliderSpecs).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
     const alpha = attributes[key].get(config) as number | null;
     return alpha === null ? [] : html`<span>${formatMarkup(`${symbol}\u00a0=\u00a0${formatEditable(alpha, decimals)}`)}</span> `;
@@ -158,7 +158,7 @@ export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Clo
       id: 'samples',
       symbol: html`<i>N</i>`,
       name,
-      value: figure.settings.wanted.samples,
+      value: figure.settings.requested.samples,
       min: counts[0],
       max: counts[counts.length - 1],
       step: 1,
@@ -177,7 +177,7 @@ function seedField(figure: Figure) {
   const refusal = settings.refusalOf('seed');
   const enterSeed = (event: Event) => {
     const seed = parseEntered(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
-    if (seed !== undefined) settings.want({ seed });
+    if (seed !== undefined) settings.request({ seed });
   };
   return html`<label class="seed">
     ${words.seed}
@@ -185,7 +185,7 @@ function seedField(figure: Figure) {
       type="text"
       inputmode="numeric"
       autocomplete="off"
-      .value=${refusal ? noChange : live(String(settings.wanted.seed))}
+      .value=${refusal ? noChange : live(String(settings.requested.seed))}
       @input=${enterSeed}
       @change=${() => gesture.commit()}
       @blur=${() => settings.forgetRefusal()}
@@ -236,7 +236,7 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
 /** Requests another value of a setting. */
 function requestValue(figure: Figure, key: string, value: unknown) {
   const setting = figure.definition.attributes[key];
-  figure.settings.want((wanted) => setting.change(value, wanted));
+  figure.settings.request((requested) => setting.change(value, requested));
 }
 
 /** Returns the declaration of a numeric setting. */

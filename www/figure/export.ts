@@ -32,7 +32,7 @@ const DEFAULT_SIZE = { width: 720, height: 432 };
 /** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. Returns the size in pixels and the view. */
 function drawScene({ scene, pictures: [first], exportPicture, canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
   const picture = exportPicture ?? first;
-  const canvas = canvases.of(first);
+  const canvas = canvases.canvasOf(first);
   const canvasBox = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : DEFAULT_SIZE;
   const [clientWidth, height] = exportPicture ? cssSizeOf(exportPicture.size, canvas) : [canvasBox.width, canvasBox.height];
   const pxSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };

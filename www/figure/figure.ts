@@ -170,12 +170,12 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
 
   /** Returns the whole state. */
   snapshot(): Values {
-    return { ...this.state.common, ...this.settings.pick(this.settings.present), ...this.cloud?.snapshot() };
+    return { ...this.state.common, ...this.settings.pick(this.settings.current), ...this.cloud?.snapshot() };
   }
 
   /** Returns a partial state with values that follow from it for missing fields. */
-  withDerivedFields(present: Values, given: Values): Values {
-    return { ...this.cloud?.withDerivedFields(present, given), ...given };
+  withDerivedFields(currentState: Values, changes: Values): Values {
+    return { ...this.cloud?.withDerivedFields(currentState, changes), ...changes };
   }
 
   get machine() {
@@ -207,7 +207,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   get currentReading(): Reading {
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
     useLanguageOf(this);
-    this.settings.settle();
+    this.settings.applyPending();
     if (this.settings.stale) this.refresh();
     return this.reading;
   }
@@ -215,7 +215,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   /** Returns the answer of the machine to a question, after all pending changes; null without a machine. */
   ask<Answer>(question: (machine: Machine) => Answer): Answer | null {
     return this.runtime.attempt(() => {
-      this.settings.settle();
+      this.settings.applyPending();
       return this.machine && question(this.machine);
     }) ?? null;
   }

@@ -51,7 +51,7 @@ export class Gesture extends FigureController {
   /** Ends a change: applies it and announces the outcome. */
   commit() {
     const { host } = this;
-    host.runtime.attempt(() => host.settings.settle());
+    host.runtime.attempt(() => host.settings.applyPending());
     host.announcer.announceNext();
     this.#finish();
     if (host.settings.stale) host.renderer.requestFrame();
@@ -68,14 +68,14 @@ export class Gesture extends FigureController {
   }
 
   /** Changes settings as a complete gesture, such as a click. */
-  decide(change: Values | ((wanted: Values) => Values)) {
-    this.host.settings.want(change);
+  decide(change: Values | ((requested: Values) => Values)) {
+    this.host.settings.request(change);
     this.commit();
   }
 
   /** Changes a field of the element's state as a complete gesture. No outcome is announced. */
   choose(name: string, value: unknown) {
-    this.host.settings.want({ [name]: value });
+    this.host.settings.request({ [name]: value });
     this.#finish();
   }
 

@@ -105,7 +105,7 @@ export class Reflection extends FigureController {
 
   /** Sets a property of the definition, as `setProperty` does. */
   set(name: string, value: unknown) {
-    this.setProperty(name, value, (given) => this.#assign(name, given));
+    this.setProperty(name, value, (newValue) => this.#assign(name, newValue));
   }
 
   /** Returns the value of a property that waits for the machine; undefined for none. */
@@ -149,7 +149,7 @@ export class Reflection extends FigureController {
     }
     const { change, path } = this.#properties[name];
     try {
-      settings.assign(change(value, settings.wanted));
+      settings.assign(change(value, settings.requested));
     } catch (error) {
       throw withFieldRenamed(error, name, path);
     }
@@ -158,7 +158,7 @@ export class Reflection extends FigureController {
   /** Default configuration. Some defaults depend on the present settings. */
   get #defaultConfig(): Config {
     const { definition, settings, state } = this.host;
-    return { ...defaultConfig(definition.declared), ...state.openings, ...definition.dependentDefaults?.(settings.wanted) };
+    return { ...defaultConfig(definition.declared), ...state.openings, ...definition.dependentDefaults?.(settings.requested) };
   }
 
   #textsOf(config: Config): AttributeTexts {

@@ -107,7 +107,7 @@ export class Renderer extends FigureController {
     host.runtime.attemptOrFail(() => {
       const { machine, cloud, settings } = host;
       if (!machine) return;
-      settings.settle();
+      settings.applyPending();
       // A script awaits all samples. Nobody sees the cloud grow.
       if (host.isAwaited) cloud?.finish();
       if (cloud && !cloud.refine()) this.#schedule();
@@ -145,7 +145,7 @@ export class Renderer extends FigureController {
     const host = this.host;
     const { reading } = host;
     const beganAt = performance.now();
-    host.settings.settle();
+    host.settings.applyPending();
     // The machine is missing after a trap.
     if (!host.machine) return;
     host.cloud?.advance(this.printing);
@@ -158,7 +158,7 @@ export class Renderer extends FigureController {
     for (const picture of this.#undrawn) {
       if (this.#hasPicturesLeft) break;
       this.#undrawn.delete(picture);
-      const canvas = host.canvases.of(picture);
+      const canvas = host.canvases.canvasOf(picture);
       // A figure may have replaced its picture.
       if (!host.pictures.includes(picture) || !hasPixels(canvas)) continue;
       isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, options) || isMoving;

@@ -135,7 +135,7 @@ export class Runtime extends FigureController {
     // An element that is removed during print gets no event at its end.
     this.host.renderer.printing = false;
     this.attempt(() => {
-      this.host.settings.settle();
+      this.host.settings.applyPending();
       this.host.state.keep();
     });
     this.machine?.free();

@@ -9,7 +9,7 @@ export class Settings extends FigureController {
   /** True if the machine has changed since it was read. */
   stale: boolean | undefined;
   /** Cache of the settings in effect; undefined until the machine is asked. */
-  #present: Values | undefined;
+  #current: Values | undefined;
   /** Changes of the user that wait for the next frame. */
   #pending: Values = {};
   /** Message about the text that the user typed last, if it was refused, and the setting's key. */
@@ -19,7 +19,7 @@ export class Settings extends FigureController {
   reset() {
     this.host.player?.stop();
     this.stale = true;
-    this.#present = undefined;
+    this.#current = undefined;
     this.#pending = {};
   }
 
@@ -30,15 +30,15 @@ export class Settings extends FigureController {
   }
 
   /** Settings in effect. */
-  get present(): Values {
+  get current(): Values {
     const { machine, reading } = this.host;
-    if (machine) this.#present ??= machine.config as Values;
-    return this.#present ?? reading.config;
+    if (machine) this.#current ??= machine.config as Values;
+    return this.#current ?? reading.config;
   }
 
   /** Settings in effect with the pending changes. */
-  get wanted(): Values {
-    return { ...this.present, ...this.#pending };
+  get requested(): Values {
+    return { ...this.current, ...this.#pending };
   }
 
   /** True if changes are pending, or not in the reading yet. */
@@ -50,16 +50,16 @@ export class Settings extends FigureController {
    * Changes settings in the next frame, as a change by the user, so that a drag configures the machine once in each frame. State of the
    * element is changed at once.
    */
-  want(change: Values | ((wanted: Values) => Values)) {
+  request(change: Values | ((requested: Values) => Values)) {
     const { runtime, definition, state, gesture, renderer } = this.host;
     runtime.attempt(() => {
       if (!this.host.machine) return;
       this.forgetRefusal();
-      const changedValues = () => (typeof change === 'function' ? change(this.wanted) : change);
+      const changedValues = () => (typeof change === 'function' ? change(this.requested) : change);
       const givenValues = changedValues();
       const overlapsPending = (key: string, other: string) => key in givenValues && other in this.#pending;
       // A setting and the group that has it are applied one after the other.
-      if (definition.declared.some(({ key, of }) => of && (overlapsPending(key, of) || overlapsPending(of, key)))) this.settle();
+      if (definition.declared.some(({ key, of }) => of && (overlapsPending(key, of) || overlapsPending(of, key)))) this.applyPending();
       for (const [key, value] of Object.entries(changedValues())) (key in state.elementState ? state.elementState : this.#pending)[key] = value;
       gesture.step();
       renderer.requestFrame();
@@ -84,7 +84,7 @@ export class Settings extends FigureController {
   /** Changes settings at once, as a change by the page. Throws a TypeError or RangeError, without a change, for invalid values. */
   assign(values: Values) {
     this.host.runtime.attempt(() => {
-      this.settle();
+      this.applyPending();
       this.#configure(values);
       this.host.reflection.updateAttributes();
       this.host.renderer.releaseViews();
@@ -93,7 +93,7 @@ export class Settings extends FigureController {
   }
 
   /** Applies pending changes. A refused one is reported and dropped. */
-  settle() {
+  applyPending() {
     const pendingValues = this.#pending;
     if (Object.keys(pendingValues).length === 0) return;
     this.#pending = {};
@@ -103,7 +103,7 @@ export class Settings extends FigureController {
   #configure(values: Values) {
     const { machine, cloud } = this.host;
     if (!machine) return;
-    this.#present = Object.freeze(cloud ? cloud.configure(values) : machine.configure(values));
+    this.#current = Object.freeze(cloud ? cloud.configure(values) : machine.configure(values));
     this.stale = true;
   }
 }

@@ -20,7 +20,7 @@ export class State extends FigureController {
 
   /** Settings of the machine, with pending changes, and the state that it does not have. */
   get config(): Values {
-    return { ...this.host.settings.wanted, ...this.elementState };
+    return { ...this.host.settings.requested, ...this.elementState };
   }
 
   get common(): Values {
@@ -45,7 +45,7 @@ export class State extends FigureController {
   /** Applies a state with its widget and version. Missing fields keep their values; an error changes nothing. */
   enter(state: unknown) {
     const host = this.host;
-    host.settings.settle();
+    host.settings.applyPending();
     const currentState = host.snapshot();
     const checkedState = asObject('state', state, Object.keys(currentState), ({ widget, version }) => {
       checkedWord('state.widget', widget, [host.localName]);
@@ -104,7 +104,7 @@ export class State extends FigureController {
   /** Changes a field of the element's own state, after a check. */
   assign(name: string, value: unknown) {
     const { settings, cloud, reflection, renderer } = this.host;
-    settings.settle();
+    settings.applyPending();
     this.elementState[name] = validatedValue(this.#fields[name], name, value, cloud?.selectableCount ?? 0);
     reflection.updateAttributes();
     renderer.requestFrame();

@@ -40,9 +40,9 @@ export function roleByName(name: string): Role | undefined {
 export const readableSeries = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (isTable(recording) || count > 1));
 
 /** Returns the series with a name. The name may lack the separators at its ends. */
-export function seriesNamed(series: Series[], wanted: string): Series | undefined {
+export function seriesNamed(series: Series[], wantedName: string): Series | undefined {
   const trimmed = (name: string) => name.replaceAll(/^[/_.]+|[/_.]+$/g, '');
-  return series.find(({ name }) => name === wanted) ?? series.find(({ name }) => trimmed(name) !== '' && trimmed(name) === trimmed(wanted));
+  return series.find(({ name }) => name === wantedName) ?? series.find(({ name }) => trimmed(name) !== '' && trimmed(name) === trimmed(wantedName));
 }
 
 /** Returns the names of the series that could be the log of a role, the likeliest first. */

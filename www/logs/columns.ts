@@ -137,9 +137,9 @@ function readName(name: string): ColumnMeaning | undefined {
   if (wholeMeaning?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...wholeMeaning, unit: 'ns' };
   // Clocks of microcontrollers are named after their unit.
   if (wholeMeaning) return { ...wholeMeaning, ...(/m(illi)?secs?$|millis(econds?)?$/.test(dottedPath) ? { unit: 'ms' } : /u(secs?|seconds?)$|micros(ec.*)?$/.test(dottedPath) ? { unit: 'us' } : /nanos$/.test(dottedPath) ? { unit: 'ns' } : {}) };
-  const [last, word] = UNIT_AT_END.exec(bare) ?? [];
+  const [unitSuffix, word] = UNIT_AT_END.exec(bare) ?? [];
   const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
-  const reading = last !== undefined && unit ? fieldOf(dottedName(bare.slice(0, -last.length))) : undefined;
+  const reading = unitSuffix !== undefined && unit ? fieldOf(dottedName(bare.slice(0, -unitSuffix.length))) : undefined;
   if (reading && unit && canHaveUnit(reading.field, unit)) return { ...reading, unit: unit.unit };
   const [, baseName, suffix] = SUFFIXED_NAME.exec(dottedPath) ?? [];
   const baseMeaning = baseName === undefined ? undefined : fieldOf(baseName);
@@ -154,8 +154,8 @@ function canHaveUnit(field: Field, unit: ParsedUnit | undefined): boolean {
 
 function fieldOf(path: string): ColumnMeaning | undefined {
   for (const { field, rank, pattern } of PREFIXED_PATTERNS) {
-    const [found, prefix = ''] = pattern.exec(path) ?? [];
-    if (found === undefined) continue;
+    const [match, prefix = ''] = pattern.exec(path) ?? [];
+    if (match === undefined) continue;
     return OTHER_QUANTITIES.test(prefix) || /^[vabw]\..*\.[xyzw]$/.test(path) ? undefined : { field, rank, prefix };
   }
   return undefined;
@@ -240,18 +240,18 @@ export interface Layout {
 /**
  * Returns the columns of a group from which a log is read.
  *
- * @param wanted kind of the log: `commands` prefers commands to poses, and `poses` excludes commands; by default poses come first
+ * @param wantedKind kind of the log: `commands` prefers commands to poses, and `poses` excludes commands; by default poses come first
  * @throws {LogError} if a field is missing, or two columns can be the same field
  */
-export function layoutOf(group: Group | undefined, names: string[], place: Place, wanted: LogKind | undefined): Layout {
+export function layoutOf(group: Group | undefined, names: string[], place: Place, wantedKind: LogKind | undefined): Layout {
   const columnNames = listing(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };
-  if (!group) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', columnNames), ask);
+  if (!group) throw new LogError(place, (say) => say.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
   const { columns, twice, clocks } = group;
   const has = (...fields: Field[]) => fields.every((field) => columns[field]);
   if (clocks.length === 0) throw new LogError(place, (say) => say.noTime(columnNames), ask);
-  const takesCommands = group.hasCommands && wanted !== 'poses' && (wanted === 'commands' || group.kind === 'commands');
-  if (!takesCommands && !has('x', 'y')) throw new LogError(place, (say) => say.noColumns(wanted === 'poses' ? wanted : 'either', columnNames), ask);
+  const takesCommands = group.hasCommands && wantedKind !== 'poses' && (wantedKind === 'commands' || group.kind === 'commands');
+  if (!takesCommands && !has('x', 'y')) throw new LogError(place, (say) => say.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
   const headingFields: Field[] = has('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : has('yaw') ? ['yaw'] : has('qz', 'qw') ? ['qz', 'qw'] : [];
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {

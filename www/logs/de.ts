@@ -72,16 +72,16 @@ export const german: Words = {
     gone: (reason) => (reason === 'ENOENT' ? 'es gibt keine solche Datei und keinen solchen Ordner.' : `die Datei lässt sich nicht lesen (${reason}); erwartet wird eine, die noch da ist.`),
     empty: 'es steht nichts darin; erwartet wird ein Log von Posen oder Befehlen.',
     binary: 'das ist weder Text noch eine bekannte Aufzeichnung; erwartet wird eine ROS-Bag, rosbag2, MCAP, oder eine Tabelle als CSV oder TUM, aus einem Archiv entpackt.',
-    longLine: (most) => `die Zeile hat mehr als ${most} Bytes; erwartet wird eine Zeile je Zeitpunkt.`,
+    longLine: (max) => `die Zeile hat mehr als ${max} Bytes; erwartet wird eine Zeile je Zeitpunkt.`,
     noLog: 'sie sieht nicht wie ein Log aus, denn sie hat keine Zeilen mit Zahlen; erwartet wird eine Tabelle mit einer Kopfzeile wie „t,x,y,yaw“ und darunter einer Zeile je Zeitpunkt, oder eine Aufzeichnung von ROS.',
     noTime: (columns) =>
       `keine der Spalten ${columns} ist die Zeit; erwartet wird eine mit dem Namen t, time, timestamp oder stamp, oder zwei mit sec und nanosec, oder eine Auswahl der Spalten.`,
-    noColumns: (wanted, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED[wanted]}, oder eine Auswahl der Spalten.`,
-    twice: (field, one, other) => `sowohl „${one}“ als auch „${other}“ kann die Spalte „${FIELDS[field]}“ sein; erwartet wird eines davon.`,
+    noColumns: (neededFields, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED[neededFields]}, oder eine Auswahl der Spalten.`,
+    twice: (field, column, otherColumn) => `sowohl „${column}“ als auch „${otherColumn}“ kann die Spalte „${FIELDS[field]}“ sein; erwartet wird eines davon.`,
     cells: (count, needed) => `die Zeile hat ${times(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
     wide: (count, needed, header) =>
       `die Zeile hat ${times(count, 'Feld', 'Felder')} und der Kopf in Zeile ${header} ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen oder Semikolons zwischen Feldern.`,
-    given: (count, given) => `die Zeile hat ${times(count, 'Feld', 'Felder')}, und --columns nennt ${given}; alle Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden.`,
+    given: (cellCount, nameCount) => `die Zeile hat ${times(cellCount, 'Feld', 'Felder')}, und --columns nennt ${nameCount}; alle Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden.`,
     noHeader: (count, row) =>
       `die Tabelle hat keinen Kopf, und ihre erste Zeile ist „${row}“; ihre ${count} Spalten benennen.`,
     noTable: (notation) => `das ist ${notation} und keine Tabelle; eine Zeile je Zeitpunkt schreiben, wie mit ros2 topic echo --csv, rostopic echo -p oder pandas, oder die Aufzeichnung selbst angeben.`,
@@ -96,8 +96,8 @@ export const german: Words = {
     turns: (metres) => `Posen zweier Wege wechseln sich ab, ${comma(metres, 2)} m auseinander: von zwei Robotern, oder von zwei Knoten, die auf einem Topic senden; nur die eines davon behalten.`,
     manyBad: (bad, rows, percent) => `${bad} von ${rows} Zeilen haben Text statt einer Zahl oder zu wenige Zellen; erlaubt sind ${percent} % solcher Zeilen.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' ohne Tausendertrennung' : /^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : /\d[/:-]\d/.test(value) ? ', oder ein Datum wie 2024-01-31 12:00:00.5' : ''}.`,
-    rows: (most) => `es sind mehr Zeilen; erwartet werden höchstens ${most}.`,
-    far: (value, most, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-most} bis ${most}, in m, rad und s.`,
+    rows: (max) => `es sind mehr Zeilen; erwartet werden höchstens ${max}.`,
+    far: (value, max, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-max} bis ${max}, in m, rad und s.`,
     setBack: (seconds, message) =>
       `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, oder nur eine Aufzeichnung angeben.`,
     unpadded: (time) =>
@@ -113,7 +113,7 @@ export const german: Words = {
       `Richtungen in ${unit} drehten sich mit ${turn.toPrecision(3)} rad/s und passen nicht zur Bahn oder zu ihrem Bereich; ihre Einheit angeben: ${choices.join(' oder ')}.`,
     damaged: (reason) => `keine der Nachrichten lässt sich lesen (${reason}); erwartet wird eine unbeschädigte Aufzeichnung.`,
     incomplete: (format) => `sie ist unvollständig und endet vor ihrem ersten ganzen Block von Nachrichten; noch einmal vom Roboter kopieren, oder „${REPAIRS[format]}“ versuchen, wenn sie auch dort so endet.`,
-    largeFile: (command, most) => `sie hat dekomprimiert mehr als ${most} Bytes; mit „${command}“ dekomprimieren und das Ergebnis angeben.`,
+    largeFile: (command, max) => `sie hat dekomprimiert mehr als ${max} Bytes; mit „${command}“ dekomprimieren und das Ergebnis angeben.`,
     noRosbag2: 'das ist eine SQLite-Datenbank ohne die Tabellen „topics“ und „messages“ von rosbag2; erwartet wird eine Aufzeichnung von „ros2 bag record“.',
     notRosbag2: 'sie steht in der metadata.yaml einer Aufzeichnung und ist keine; erwartet wird eine MCAP- oder .db3-Datei.',
     notRead: (format) => `das ist ${UNSUPPORTED_FORMATS[format]}`,
@@ -124,14 +124,14 @@ export const german: Words = {
       `es ist nur ${role ? `die ${ROLES[role]}` : 'ein Log'} darin, ${series}; gebraucht ${role ? `wird auch die ${ROLES[role === 'odometry' ? 'reference' : 'odometry']}` : 'werden Odometrie und Referenz'}.`,
     lacks: (role, series) => `nach Namen und Typen ist keine ${ROLES[role]} darin, sondern ${series}; eines davon auswählen, oder auch eine Datei mit der ${ROLES[role]} angeben.`,
     choose: (role, series) => `es ist nicht klar, was die ${ROLES[role]} ist: ${series}.`,
-    type: (type, wanted) => `sein Typ ist „${type}“; erwartet wird ${TYPES[wanted]}.`,
+    type: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${TYPES[neededType]}.`,
     encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr von ROS 2, oder ros1.`,
     types: (types) => `seine Nachrichten haben die Typen ${types}; erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
     publishers: (nodes) => `mehrere Knoten senden abwechselnd darauf (${nodes}); erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
     message: (number, reason) => `die Nachricht ${number} lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
-    frames: (known) => `zu nennen sind ein äußerer und ein innerer Frame, verbunden durch ${known || 'Transformationen, von denen es keine gibt'}.`,
-    noChain: (frames, known) =>
-      `keine Transformationen führen entlang ${frames}; erwartet werden verbundene Frames, aus ${known || 'keinen'}.`,
+    frames: (knownFrames) => `zu nennen sind ein äußerer und ein innerer Frame, verbunden durch ${knownFrames || 'Transformationen, von denen es keine gibt'}.`,
+    noChain: (frames, knownFrames) =>
+      `keine Transformationen führen entlang ${frames}; erwartet werden verbundene Frames, aus ${knownFrames || 'keinen'}.`,
     constant: (frames, others) =>
       `die Transformation ${frames} ändert sich nie und ist daher keine Bahn eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
     noMessages: 'es sind weniger als 2 Nachrichten; erwartet werden mindestens 2.',
@@ -187,7 +187,7 @@ export const german: Words = {
       sorted: (count) => `${times(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       swapped: (odometry, by) =>
         `${by === 'name' ? `sie heißt wie eine Odometrie, und ${odometry} nicht` : `sie wiederholt im Stand genau ihre Pose, wie die Odometrie von Rädern, und ${odometry} nicht`}: Ist die Odometrie als Referenz angegeben?`,
-      apart: (name, one, other) => `keine Zeit gemeinsam mit ${name} (${one}, und ${other}): Die Uhren werden nach den Drehungen des Roboters gestellt`,
+      apart: (name, period, otherPeriod) => `keine Zeit gemeinsam mit ${name} (${period}, und ${otherPeriod}): Die Uhren werden nach den Drehungen des Roboters gestellt`,
       localizer: 'die Schätzung eines Lokalisierers, deren Fehler der Odometrie folgen: Die Referenz muss unabhängig gemessen sein',
     },
   },

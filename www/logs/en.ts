@@ -76,18 +76,18 @@ export const english = {
     gone: (reason: string) => (reason === 'ENOENT' ? 'there is no such file or folder.' : `the file cannot be read (${reason}); expected is one that exists and may be read.`),
     empty: 'there is nothing in it; expected is a log of poses or commands.',
     binary: 'it is neither text nor a known recording; expected is a ROS bag, rosbag2, MCAP, or a table as CSV or TUM, unpacked from an archive.',
-    longLine: (most: number) => `the line has more than ${most} bytes; expected is one row a line.`,
+    longLine: (max: number) => `the line has more than ${max} bytes; expected is one row a line.`,
     noLog: 'it does not look like a log, as it has no rows of numbers; expected is a table with a header such as “t,x,y,yaw” and below it one row a time, or a recording of ROS.',
     noTime: (columns: string) =>
       `none of the columns ${columns} is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec, or a choice of columns.`,
-    noColumns: (wanted: keyof typeof NEEDED, columns: string) =>
-      `the columns are ${columns}; expected are ${NEEDED[wanted]} among them, or a choice of columns.`,
-    twice: (field: string, one: string, other: string) =>
-      `both “${one}” and “${other}” may be the column of ${FIELDS[field]}; expected is one of them.`,
+    noColumns: (neededFields: keyof typeof NEEDED, columns: string) =>
+      `the columns are ${columns}; expected are ${NEEDED[neededFields]} among them, or a choice of columns.`,
+    twice: (field: string, column: string, otherColumn: string) =>
+      `both “${column}” and “${otherColumn}” may be the column of ${FIELDS[field]}; expected is one of them.`,
     cells: (count: number, needed: number) => `the row has ${count} ${count === 1 ? 'cell' : 'cells'}; expected are at least ${needed}.`,
     wide: (count: number, needed: number, header: number) =>
       `the row has ${count} cells, and the header in line ${header} ${needed}; expected are as many, with decimal points in numbers, or semicolons between cells.`,
-    given: (count: number, given: number) => `the row has ${count} cells, and --columns names ${given}; name each column in order, with - for those to skip.`,
+    given: (cellCount: number, nameCount: number) => `the row has ${cellCount} cells, and --columns names ${nameCount}; name each column in order, with - for those to skip.`,
     noHeader: (count: number, row: string) =>
       `the table has no header, and its first row is “${row}”; name its ${count} columns.`,
     noTable: (notation: string) => `it is ${notation} and no table; write one row a time, as by ros2 topic echo --csv, rostopic echo -p or pandas, or give the recording itself.`,
@@ -102,9 +102,9 @@ export const english = {
     turns: (metres: number) => `poses of two paths take turns, ${metres.toPrecision(2)} m apart: of two robots, or of two nodes that publish one topic; keep those of one.`,
     manyBad: (bad: number, rows: number, percent: number) => `${bad} of ${rows} rows have text in place of a number, or too few cells; at most ${percent} % of the rows may.`,
     number: (column: string, value: string) => `${column} is “${value}”; expected is a number${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' without separators of thousands' : /^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
-    rows: (most: number) => `there are more rows; expected are at most ${most}.`,
-    far: (value: number, most: number, message: number) =>
-      `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-most} to ${most}, in m, rad and s.`,
+    rows: (max: number) => `there are more rows; expected are at most ${max}.`,
+    far: (value: number, max: number, message: number) =>
+      `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-max} to ${max}, in m, rad and s.`,
     setBack: (seconds: number, message: number) =>
       `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only.`,
     unpadded: (time: string) =>
@@ -122,7 +122,7 @@ export const english = {
     /** Errors of recordings. */
     damaged: (reason: string) => `none of its messages can be read (${reason}); expected is an undamaged recording.`,
     incomplete: (format: Recording['format']) => `it is incomplete and ends before its first whole block of messages; copy it again from the robot, or try “${REPAIRS[format]}” if it ends there too.`,
-    largeFile: (command: string, most: number) => `it has more than ${most} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
+    largeFile: (command: string, max: number) => `it has more than ${max} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
     noRosbag2: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
     notRosbag2: 'it is listed in the metadata.yaml of a recording, and is none; expected is an MCAP or .db3 file.',
     notRead: (format: keyof typeof UNSUPPORTED_FORMATS) => `it is ${UNSUPPORTED_FORMATS[format]}`,
@@ -133,15 +133,15 @@ export const english = {
       `it has ${role ? `the ${role}` : 'one log'} only, ${series}; give ${role ? `the ${role === 'odometry' ? 'reference' : 'odometry'} too` : 'odometry and reference'}.`,
     lacks: (role: Role, series: string) => `by its names and types it has no ${role}, but ${series}; choose one of these, or give a file with the ${role} too.`,
     choose: (role: Role, series: string) => `it is not clear what the ${role} is: ${series}.`,
-    type: (type: string, wanted: keyof typeof TYPES) => `its type is “${type}”; expected is ${TYPES[wanted]}.`,
+    type: (type: string, neededType: keyof typeof TYPES) => `its type is “${type}”; expected is ${TYPES[neededType]}.`,
     encoding: (value: string) => `its messages are encoded as “${value}”; expected is cdr of ROS 2, or ros1.`,
     types: (types: string) => `its messages have the types ${types}; expected is one: rename the topic of one node, and record again.`,
     publishers: (nodes: string) => `several nodes publish it in turns (${nodes}); expected is one: rename the topic of one node, and record again.`,
     message: (number: number, reason: string) =>
       `message ${number} cannot be read (${reason}); expected is one of the topic's type.`,
-    frames: (known: string) => `give a parent and a child frame, connected by ${known || 'transforms, of which there are none'}.`,
-    noChain: (frames: string, known: string) =>
-      `no transforms lead along ${frames}; expected are frames that are connected, of ${known || 'none'}.`,
+    frames: (knownFrames: string) => `give a parent and a child frame, connected by ${knownFrames || 'transforms, of which there are none'}.`,
+    noChain: (frames: string, knownFrames: string) =>
+      `no transforms lead along ${frames}; expected are frames that are connected, of ${knownFrames || 'none'}.`,
     constant: (frames: string, others: string) =>
       `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
     noMessages: 'it has fewer than 2 messages; expected are at least 2.',
@@ -203,8 +203,8 @@ export const english = {
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       swapped: (odometry: string, by: 'name' | 'rest') =>
         `${by === 'name' ? `its name is that of odometry, and ${odometry} is not` : `at rest it repeats its pose exactly, like wheel odometry, and ${odometry} does not`}: was the odometry given as the reference?`,
-      apart: (name: string, one: string, other: string) =>
-        `no time in common with ${name} (${one}, and ${other}): the clocks are aligned by the turns of the robot`,
+      apart: (name: string, period: string, otherPeriod: string) =>
+        `no time in common with ${name} (${period}, and ${otherPeriod}): the clocks are aligned by the turns of the robot`,
       localizer: 'a localizer’s own estimate, whose errors follow the odometry: measure the reference independently',
     },
   },

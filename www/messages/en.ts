@@ -57,8 +57,8 @@ export const en = {
     headingKeys: 'Arrow keys turn it, with Shift by larger steps; Page Up and Page Down turn it far, Home and End to the back',
   },
   sliderEnds: (end) => `Ends at ${end}; type values beyond.`,
-  refused: (name, given, least, most, whole) =>
-    `${name} must be ${whole ? 'a whole number ' : ''}between ${least} and ${most}${given.includes(',') && !whole ? ', with a decimal point' : ''} (got ${given}).`,
+  refused: (name, given, min, max, isWhole) =>
+    `${name} must be ${isWhole ? 'a whole number ' : ''}between ${min} and ${max}${given.includes(',') && !isWhole ? ', with a decimal point' : ''} (got ${given}).`,
   exports: {
     label: 'Save the figure',
     png: 'PNG',

@@ -12,12 +12,12 @@ export class Layer {
   /**
    * Draws the layer, with at most `count` strokes in this frame. Returns true if there are more strokes.
    *
-   * @param question values, besides the view and the colours, on which the drawing depends. When one changes, the drawing begins anew
+   * @param cacheKey values, besides the view and the colours, on which the drawing depends. When one changes, the drawing begins anew
    * @param paint returns the strokes of the drawing
    */
-  draw({ context, view, palette, ratio, highlight }: Brush, question: unknown[], paint: (painter: Painter) => Iterator<void>, count: number = Infinity): boolean {
+  draw({ context, view, palette, ratio, highlight }: Brush, cacheKey: unknown[], paint: (painter: Painter) => Iterator<void>, count: number = Infinity): boolean {
     const { extent, frame, width, height } = view;
-    const strokes = this.#strokes.of([...question, JSON.stringify([extent, frame, width, height, palette, ratio])], () => {
+    const strokes = this.#strokes.get([...cacheKey, JSON.stringify([extent, frame, width, height, palette, ratio])], () => {
       // Setting the size clears the canvas.
       this.#canvas.width = Math.round(width * ratio);
       this.#canvas.height = Math.round(height * ratio);

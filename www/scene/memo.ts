@@ -1,15 +1,15 @@
 /** Cache of one result, valid while its dependencies are the same. */
 
-export class Memo<Answer> {
-  #lastQuestion: unknown[] = [];
-  #lastAnswer: Answer | undefined;
+export class Memo<Result> {
+  #lastKey: unknown[] = [];
+  #lastResult: Result | undefined;
 
-  /** Returns the cached answer, or asks again. @param question values on which the answer depends, compared by identity */
-  of(question: unknown[], ask: () => Answer): Answer {
-    if (question.length !== this.#lastQuestion.length || question.some((part, i) => part !== this.#lastQuestion[i])) {
-      this.#lastAnswer = ask();
-      this.#lastQuestion = question;
+  /** Returns the cached result, or computes it again. @param key values on which the result depends, compared by identity */
+  get(key: unknown[], compute: () => Result): Result {
+    if (key.length !== this.#lastKey.length || key.some((part, i) => part !== this.#lastKey[i])) {
+      this.#lastResult = compute();
+      this.#lastKey = key;
     }
-    return this.#lastAnswer as Answer;
+    return this.#lastResult as Result;
   }
 }

@@ -43,14 +43,14 @@ export class Density {
 
   /**
    * @param cell side in CSS pixels
-   * @param question values, besides the view, that the pixels depend on; the pixels are cached until one changes
+   * @param cacheKey values, besides the view, that the pixels depend on; the pixels are cached until one changes
    * @param pixelsOf returns the machine's picture of a part of the plane
    */
-  draw(brush: Brush, cell: number, question: unknown[], pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
+  draw(brush: Brush, cell: number, cacheKey: unknown[], pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
     const { left, right, top, bottom } = brush.view.frame;
     const { xMin, yMin, xMax, yMax } = brush.view.extent;
     const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cell)));
-    this.#memo.of([...question, xMin, yMin, xMax, yMax, columns, rows], () => this.#pixels.put(pixelsOf(xMin, yMin, xMax, yMax, columns, rows), columns));
+    this.#memo.get([...cacheKey, xMin, yMin, xMax, yMax, columns, rows], () => this.#pixels.put(pixelsOf(xMin, yMin, xMax, yMax, columns, rows), columns));
     this.#pixels.draw(brush);
   }
 }

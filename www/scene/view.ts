@@ -127,15 +127,15 @@ export class View {
   fit(needed: Extent) {
     const { width, height } = this;
     const isResized = this.#isSnug && (width !== this.#fittedSize.width || height !== this.#fittedSize.height);
-    const [kept, minFill] = [isResized ? undefined : this.#target, this.#minFill];
+    const [keptTarget, minFill] = [isResized ? undefined : this.#target, this.#minFill];
     this.#fittedSize = { width, height };
     this.#minFill = 0;
-    if (kept && isInside(needed, kept) && this.#fillOf(kept, needed) >= minFill) return;
-    this.widened = kept !== undefined && minFill === 0;
+    if (keptTarget && isInside(needed, keptTarget) && this.#fillOf(keptTarget, needed) >= minFill) return;
+    this.widened = keptTarget !== undefined && minFill === 0;
     const padded = this.#isSnug ? needed : extentWithMargin(needed);
-    this.#neededRoom = kept && this.widened ? extentAround([padded.xMin, padded.yMin, padded.xMax, padded.yMax], 2, kept) : padded;
+    this.#neededRoom = keptTarget && this.widened ? extentAround([padded.xMin, padded.yMin, padded.xMax, padded.yMax], 2, keptTarget) : padded;
     this.#target = this.#coveringExtent(this.#neededRoom);
-    if (!kept) this.extent = this.#target;
+    if (!keptTarget) this.extent = this.#target;
   }
 
   /** Moves the extent towards the target, `elapsed` milliseconds after the last call, or at once. Returns true if it has not arrived. */

@@ -205,9 +205,13 @@ impl OdometryDecomposer {
 
     /// Returns the pose of the robot at the selected phase of the motion.
     pub fn robot(&self) -> SE2 {
-        let done = |before: f64| (self.settings.phase - before).clamp(0.0, 1.0);
+        let share_done = |before: f64| (self.settings.phase - before).clamp(0.0, 1.0);
         let OdomDelta { rot1, trans, rot2 } = self.legs();
-        let legs = OdomDelta { rot1: done(0.0) * rot1, trans: done(1.0) * trans, rot2: done(2.0) * rot2 };
+        let legs = OdomDelta {
+            rot1: share_done(0.0) * rot1,
+            trans: share_done(1.0) * trans,
+            rot2: share_done(2.0) * rot2,
+        };
         legs.apply(&self.start())
     }
 

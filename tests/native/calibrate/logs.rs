@@ -109,11 +109,12 @@ fn no_leg_leads_across_a_break() {
         let contains = |row: usize| leg.times[0] < times(&drive)[row] && times(&drive)[row] <= leg.times[1];
         breaks.into_iter().any(contains)
     };
-    let kept: Vec<[f64; 2]> = all_legs.iter().filter(|leg| !has_break(leg)).map(|leg| leg.times).collect();
+    let kept_times: Vec<[f64; 2]> =
+        all_legs.iter().filter(|leg| !has_break(leg)).map(|leg| leg.times).collect();
     // A break of the reference removes the legs across it, and no others.
     let (legs, lost) = split_into_legs(&drive, &broken, QUARTER, 0.0);
-    assert_eq!(legs.iter().map(|leg| leg.times).collect::<Vec<_>>(), kept);
-    assert_eq!(lost, LostLegs { across_breaks: all_legs.len() - kept.len(), ..LostLegs::default() });
+    assert_eq!(legs.iter().map(|leg| leg.times).collect::<Vec<_>>(), kept_times);
+    assert_eq!(lost, LostLegs { across_breaks: all_legs.len() - kept_times.len(), ..LostLegs::default() });
     // After a break of the odometry a leg begins at the break.
     let (legs, lost) = split_into_legs(&broken, &drive, QUARTER, 0.0);
     assert!(legs.len() > 25 && !legs.iter().any(has_break));

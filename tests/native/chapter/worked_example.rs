@@ -1,6 +1,6 @@
 //! All numbers of the chapter's worked example: v = 1, ω = 0.5, Δt = 1, α₁₋₄ = 0.02, α₅,₆ = 0, from the origin.
 //!
-//! The tests use `SmallRng`, as the chapter's listing does. Printed figures are checked to half a unit of their last
+//! The tests use `SmallRng`, as the chapter's listing does. Printed numbers are checked to half a unit of their last
 //! digit, and measured ones to 4.5 standard errors, which are estimated from 100 batches of
 //! the sample. The chapter's measurements come from another sample of the same size, which makes that √2 times as much.
 

@@ -38,7 +38,7 @@ fn the_same_seed_gives_the_same_bits() {
     );
 }
 
-/// A change of the digest affects readers, because their seeds give other clouds. The changelog must therefore contain it.
+/// A change of the digest affects users, because their seeds give other clouds. The changelog must therefore contain it.
 #[test]
 fn the_changelog_names_the_digest() {
     let golden = std::fs::read(format!("{DIRECTORY}/golden.txt")).expect("golden.txt");

@@ -10,7 +10,7 @@ use motion::noise::centred_uniform;
 use motion::sim::squeeze::{MapSqueeze, PRESETS, Settings, alphas_of_noise};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
-/// Index of the preset with this start, as the next two.
+/// Indices in `PRESETS` of the presets that start at the doorway, the wall and in the corridor.
 const DOORWAY: usize = 0;
 const WALL: usize = 1;
 const CORRIDOR: usize = 2;

@@ -41,7 +41,7 @@ fn model(alphas: [f64; 6]) -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
 }
 
-/// The circumference of a circle may overflow, while the density of its speed is 0. The product 0 · ∞ must count as 0.
+/// The circumference of a circle may overflow to ∞ where the density of the speed is 0. Their product must count as 0.
 #[test]
 fn a_circle_too_long_for_a_double_is_not_driven() {
     let model = model([0.0, 0.55, 0.0, 0.29, 0.0, 0.41]);

@@ -34,7 +34,7 @@ fn the_opening_intervals_hold_the_true_values() {
     assert_eq!(machine.calibration().diagnostics.verdict, Verdict::Consistent);
 }
 
-/// Distance and angle then have no effect.
+/// With a duration, the settings of distance and angle have no effect.
 #[test]
 fn legs_end_after_a_duration_where_one_is_set() {
     let settings = Settings { duration: 0.8, ..Settings::default() };

@@ -1,4 +1,4 @@
-//! The Banana Machine: common random numbers, settings and reported figures.
+//! The Banana Machine: common random numbers, settings and reported values.
 
 use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, pose_distance, preset, seeded};
 use motion::geom::lanes::ACCURACY;

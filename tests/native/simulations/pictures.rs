@@ -27,7 +27,7 @@ fn cell(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
     inside.then(|| row as usize * columns + column as usize)
 }
 
-/// Returns the step of the ramp for a count: 255·√(count/most), rounded.
+/// Returns the step of the ramp for a count: 255·√(count/max_count), rounded.
 fn ramp_step(count: u32, max_count: u32) -> u8 {
     ((RAMP_STEPS - 1) as f64 * (f64::from(count) / f64::from(max_count)).sqrt()).round() as u8
 }

@@ -97,13 +97,13 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   /** Predicted cloud and ends of the leg that is shown, by the latest complete fit; null without a leg. */
   get predicted() {
     const { chosen, machine, reading: { config } } = this;
-    return chosen < 0 || !machine ? null : this.#predictedLeg.of([config, chosen], () => machine.leg(chosen));
+    return chosen < 0 || !machine ? null : this.#predictedLeg.get([config, chosen], () => machine.leg(chosen));
   }
 
   /** Bins of squared residuals against the chosen regressor; empty without legs. */
   get panels() {
     const { machine, reading: { stats, legs }, state: { elementState: { driver } } } = this;
-    return legs.count > 0 && machine ? this.#panels.of([stats, driver], () => machine.panels(driver)) : [];
+    return legs.count > 0 && machine ? this.#panels.get([stats, driver], () => machine.panels(driver)) : [];
   }
 
   get scene() {
@@ -113,7 +113,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Shows a leg, counted from 0, while the user moves between legs. */
   look(leg: number) {
-    this.settings.want({ leg });
+    this.settings.request({ leg });
   }
 
   /** Shows a leg, counted from 0, that the user has chosen. */
@@ -143,10 +143,10 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   set log(log) {
-    this.reflection.setProperty('log', log, (given) => {
-      if (given !== null) asObject('log', given, LOG_KEYS);
+    this.reflection.setProperty('log', log, (newLog) => {
+      if (newLog !== null) asObject('log', newLog, LOG_KEYS);
       this.service.stop();
-      this.open(given, []).then(() => this.reflection.updateAttributes(), this.#report);
+      this.open(newLog, []).then(() => this.reflection.updateAttributes(), this.#report);
     });
   }
 
@@ -159,11 +159,11 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
    * the log that make the α's doubtful.
    */
   async open(log: CalibrationLog | null, warnings: Warning[], check?: (machine: Machine) => void) {
-    const config = this.settings.pick(this.settings.present) as Machine['config'];
+    const config = this.settings.pick(this.settings.current) as Machine['config'];
     const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attempt(() => {
       if (!this.machine) return;
-      const machine = this.#machineOf(this.motion, this.settings.pick(this.settings.present), openedLog);
+      const machine = this.#machineOf(this.motion, this.settings.pick(this.settings.current), openedLog);
       freeOnError(machine, () => check?.(machine));
       if (log !== this.log) {
         this.state.elementState.leg = null;
@@ -206,7 +206,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   get exportData() {
     const { fitted, legs } = this.currentReading;
-    const missing = this.log ? words.calibrator.logNotInCopies : '';
+    const missingNote = this.log ? words.calibrator.logNotInCopies : '';
     const entryOf = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
     const columns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`));
     return {
@@ -221,8 +221,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         ...entryOf(legs.residuals, i, 3), ...entryOf(legs.standardized, i, 3), ...entryOf(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
       ],
       count: legs.count,
-      notInLink: missing,
-      notInCode: missing,
+      notInLink: missingNote,
+      notInCode: missingNote,
     };
   }
 

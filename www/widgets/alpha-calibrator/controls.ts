@@ -49,7 +49,7 @@ export function modelControls(figure: Figure) {
   const { fit, settings: { model }, kinds, outliers } = words.calibrator;
   const formatDuration = (seconds: number) => (seconds > 0 ? `${formatEditable(seconds, 2)} s` : NO_VALUE);
   const chooseModel = (kind: import('./settings.ts').ModelRule) => figure.gesture.decide(settingsFor(kind));
-  return group(fit, html`${radioGroup(model.name, 'kind', kinds, modelRuleOf(figure.settings.wanted as any), chooseModel)}
+  return group(fit, html`${radioGroup(model.name, 'kind', kinds, modelRuleOf(figure.settings.requested as any), chooseModel)}
     ${radios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show: formatDuration })}`, 'fit');
 }
 
@@ -58,7 +58,7 @@ export function predictionControls(figure: Figure) {
 }
 
 export function legLengths(figure: Figure) {
-  const off = figure.settings.wanted.duration > 0;
+  const off = figure.settings.requested.duration > 0;
   return group(words.calibrator.leg.group, html`<div class="controls">${settingSlider(figure, 'distance', { off })} ${settingSlider(figure, 'angle', { off })}</div>`);
 }
 

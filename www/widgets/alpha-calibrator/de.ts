@@ -230,7 +230,7 @@ export const de: typeof import('./en.ts').en = {
     none: 'Keine Zeilen: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
     otherRule: 'Nicht nach der Regel von Nav2 angepasst, die nav2 heißt.',
     notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt',
-    zero: (most) => `nicht signifikant von 0 verschieden, höchstens ${most}`,
+    zero: (upperBound) => `nicht signifikant von 0 verschieden, höchstens ${upperBound}`,
     tooLarge: 'unplausibel (> 1): Prüfungen und Ausreißer ansehen',
     of: (legs, length, log, date) => `${parts(legs)} ${length}, ${log}, ${date}`,
     moved: (distance, angle) => `von ${distance} m oder ${angle} rad`,

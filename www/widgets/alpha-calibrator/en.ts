@@ -198,7 +198,7 @@ export const en = {
     none: 'No lines: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
     otherRule: 'Not fitted by the rule of Nav2’s AMCL, which is called nav2.',
     notIdentifiable: 'not identifiable from this log',
-    zero: (most) => `not significantly different from 0, at most ${most}`,
+    zero: (upperBound) => `not significantly different from 0, at most ${upperBound}`,
     tooLarge: 'implausible (> 1): see the failed checks and the outliers',
     of: (legs, length, log, date) => `${of(legs, 'leg')} ${length} of ${log}, ${date}`,
     moved: (distance, angle) => `of ${distance} m or ${angle} rad`,

@@ -41,7 +41,7 @@ export function logChoosers(opener: LogOpener) {
   ];
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="topics">${roleChoosers} ${plan?.isByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
-    ${questions.map((asked) => questionOf(opener, chosen, asked, say))}
+    ${questions.map((question) => questionOf(opener, chosen, question, say))}
     ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${say.choose.skipped(opener.explain(failure))}</p>`)}
   </div>`;
 }

@@ -205,9 +205,9 @@ export class LogOpener extends FileOpener<Figure> {
     if (isStopped(error)) return;
     const { ask, file, place } = error;
     const { chosen } = this;
-    const asked = ask && chosen && { file: file ?? place?.file ?? '', ask };
-    if (asked && !chosen.questions.some((question) => question.file === asked.file && question.ask.what === ask.what)) chosen.questions.push(asked);
-    await super.refuse(error, () => asked && this.reader?.focusChooser(this.host, asked));
+    const newQuestion = ask && chosen && { file: file ?? place?.file ?? '', ask };
+    if (newQuestion && !chosen.questions.some((question) => question.file === newQuestion.file && question.ask.what === ask.what)) chosen.questions.push(newQuestion);
+    await super.refuse(error, () => newQuestion && this.reader?.focusChooser(this.host, newQuestion));
   }
 
   /** Cancels reading, and starts again. */

@@ -52,7 +52,7 @@ export class PathLayer {
 
   /** Returns the ends of the legs by odometry (x, y pairs), from the first pose of the reference on. The path drifts away from the reference. */
   odometryOf(legs: CalibrationLegs): Float64Array {
-    return this.#odometry.of([legs], () => {
+    return this.#odometry.get([legs], () => {
       const { count, odometry, reference } = legs;
       const frameRotation = reference[2] - odometry[2];
       const [cos, sin] = [Math.cos(frameRotation), Math.sin(frameRotation)];

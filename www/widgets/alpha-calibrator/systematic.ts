@@ -51,10 +51,10 @@ function intervalsOf(interval: SystematicError['interval']) {
 export function systematicTable(figure: Figure) {
   const { stats: { systematicErrors: errors }, truth } = figure.reading;
   const say = words.calibrator.systematic;
-  const { wanted } = figure.settings;
+  const { requested } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((key) => {
     const { values, halves } = printedError(errors[key]);
-    const correctCheckbox = toggle({ label: say.names[key], checked: wanted[key], change: (on) => figure.gesture.decide({ [key]: on }) });
+    const correctCheckbox = toggle({ label: say.names[key], checked: requested[key], change: (on) => figure.gesture.decide({ [key]: on }) });
     if (values.length === 0) return [correctCheckbox, say.unknown];
     return [
       correctCheckbox,

@@ -19,7 +19,7 @@ export const noiseControls = (figure: Figure) =>
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
 export function likelihoodControls(figure: Figure) {
   const { likelihood, maps, printed } = words.anatomy;
-  const { map } = figure.settings.wanted;
+  const { map } = figure.settings.requested;
   const contourEntry = (name: 'prob' | 'density') => html`<span>${swatch(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
   return group(likelihood, html`${settingCheckbox(figure, 'printed', formatMarkup(printed))} ${radios(figure, 'map', maps)}
     ${map === 'none' ? nothing : html`<p class="legend contours">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);

@@ -257,10 +257,10 @@ class SurfaceLayer {
   /** Draws the surface for `config`, which is a new object after every change. */
   draw(brush: Brush, machine: ArcAnatomy, config: import('../../types.d.ts').ArcAnatomySettings) {
     const { palette, view: { extent: { xMin, yMin, xMax, yMax } } } = brush;
-    const surface = this.#surface.of([config, xMin, yMin, xMax, yMax], () => machine.surface(xMin, yMin, xMax, yMax));
+    const surface = this.#surface.get([config, xMin, yMin, xMax, yMax], () => machine.surface(xMin, yMin, xMax, yMax));
     if (!surface) return;
     const { columns, shades, prob, density } = surface;
-    this.#coloured.of([surface, palette], () => this.#pixels.put(colouredPixels(shades, palette), columns));
+    this.#coloured.get([surface, palette], () => this.#pixels.put(colouredPixels(shades, palette), columns));
     this.#pixels.draw(brush);
     brush.context.globalAlpha = 0.7;
     for (const [lines, { role, width, dash }] of [[prob, CONTOUR_STYLES.prob], [density, CONTOUR_STYLES.density]] as const) {

@@ -122,7 +122,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   }
 
   #readingOfPinned(pinned: Settings | null): Reading | undefined {
-    return pinned ? this.#pinnedReading.of([pinned], () => readingOfSettings(this.motion, pinned)) : undefined;
+    return pinned ? this.#pinnedReading.get([pinned], () => readingOfSettings(this.motion, pinned)) : undefined;
   }
 
   /** Pins the outlines and numbers for comparison, or removes those that are pinned. Those of a growing cloud are of all its robots. */
@@ -150,9 +150,9 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return { ...super.snapshot(), alphas: this.settings.stale ? this.machine?.alphasOfModels : this.reading.alphasOfModels };
   }
 
-  withDerivedFields(present: Values, given: Values) {
-    const alphas = asObject('state.alphas', given.alphas ?? {}, Object.keys(openingAlphas));
-    return { ...super.withDerivedFields(present, given), alphas: { ...present.alphas, ...alphas } };
+  withDerivedFields(currentState: Values, changes: Values) {
+    const alphas = asObject('state.alphas', changes.alphas ?? {}, Object.keys(openingAlphas));
+    return { ...super.withDerivedFields(currentState, changes), alphas: { ...currentState.alphas, ...alphas } };
   }
 
   /** Position at which the end of the commanded arc is drawn, in the view's world. */
@@ -189,7 +189,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   /** Selected robot, if it is among those shown. */
   get #inspection() {
     const { machine, reading, cloud: { isMarked, index } } = this;
-    return isMarked && machine ? this.#inspectedSample.of([reading.stats, index], () => machine.inspect(index)) : undefined;
+    return isMarked && machine ? this.#inspectedSample.get([reading.stats, index], () => machine.inspect(index)) : undefined;
   }
 
   /** Isolates an α by its number from 1: all other α's have no effect. */
@@ -202,7 +202,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
    * nearest to the current arc.
    */
   reach(x: number, y: number) {
-    this.settings.want(({ command }) => {
+    this.settings.request(({ command }) => {
       const { v, omega } = this.motion.commandReaching(x, y, command, this.state.elementState.morph);
       const clampToSlider = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
       return { command: { ...command, v: clampToSlider(v, sliderSpecs.v), omega: clampToSlider(omega, sliderSpecs.omega) } };
@@ -270,7 +270,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const say = words.banana;
     const { min, max, step } = sliderSpecs.omega;
     // The curve depends only on some of the settings.
-    const curve = this.#skewCurve.of([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
+    const curve = this.#skewCurve.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
     const maxSkew = curve.reduce((max, value) => Math.max(max, Math.abs(value) || 0), 0);
     const chartHeight = CHART_HEIGHTS.find((height) => height >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];
@@ -292,7 +292,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
         step,
         value: omega,
         text: say.chartText(fixed(omega, 2), skewText(exactSkew)),
-        input: (to) => this.settings.want(({ command }) => ({ command: { ...command, omega: to } })),
+        input: (to) => this.settings.request(({ command }) => ({ command: { ...command, omega: to } })),
         commit: () => this.gesture.commit(),
       },
     });

@@ -59,7 +59,7 @@ function alphaSlider(figure: Figure, key: string, number: number, name: string, 
     effect: html`<span class="path">${path}:</span> ${picture}.`,
     input: (value) => {
       if (off) chooseAlpha();
-      figure.settings.want(({ alphas }) => ({ alphas: alphas.with(number - 1, value) }));
+      figure.settings.request(({ alphas }) => ({ alphas: alphas.with(number - 1, value) }));
     },
   });
 }

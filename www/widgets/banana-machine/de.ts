@@ -153,7 +153,7 @@ export const de: typeof import('./en.ts').en = {
   gainIs:
     'Bessere Passung: Um so viel ist die mittlere Log-Likelihood der Roboter unter dem Gauß in *ξ* höher als unter dem in *(x, y, θ)*. ' +
     'Am Boden zählt *θ* nicht: ein Gauß in Länge und Drehung des Bogens zu jedem Ort, gegen einen in *(x, y)*.',
-  nOfAll: (n, all) => `${n} von ${all}`,
+  nOfAll: (count, total) => `${count} von ${total}`,
   robot: 'Roboter',
   markHint: 'Zeig in einer der Ansichten auf einen, um ihn in beiden zu markieren.',
   table: {

@@ -159,7 +159,7 @@ export const en = {
   gainIs:
     'Gain in fit: the robots’ mean log-likelihood under the Gaussian in *ξ*, less that under the one in *(x, y, θ)*. ' +
     'On the floor *θ* is left out: a Gaussian in length and turn of the arc to each place, against one in *(x, y)*.',
-  nOfAll: (n, all) => `${n} of ${all}`,
+  nOfAll: (count, total) => `${count} of ${total}`,
   robot: 'Robot',
   markHint: 'Point at one in either view to mark it in both.',
   table: {

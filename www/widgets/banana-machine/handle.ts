@@ -19,7 +19,7 @@ export class ArcHandle extends Handle {
         if (!steps) return false;
         const [x, y] = figure.runtime.attempt(() => figure.machine && figure.seenEnd) ?? [0, 0];
         // The straight arc reaches furthest.
-        const maxX = sliderSpecs.v.max * figure.settings.wanted.command.dt;
+        const maxX = sliderSpecs.v.max * figure.settings.requested.command.dt;
         figure.reach(clamp(x + KEY_STEP * steps[0], -maxX, maxX), y + KEY_STEP * steps[1]);
         return true;
       },

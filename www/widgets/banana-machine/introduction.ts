@@ -47,7 +47,7 @@ export class IntroducedCloud extends Cloud {
     super.introduce(state);
     const { host } = this;
     const isConfigured = host.presentation || Object.keys(host.definition.attributes).some((name) => host.hasAttribute(name));
-    if (state || !this.playing || isConfigured || host.settings.present.samples < DRIVING_ROBOTS || !isFirstInSession()) return;
+    if (state || !this.playing || isConfigured || host.settings.current.samples < DRIVING_ROBOTS || !isFirstInSession()) return;
     this.#phase = 'driving';
     this.show(DRIVING_ROBOTS);
     for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });

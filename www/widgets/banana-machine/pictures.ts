@@ -71,7 +71,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
   places({ machine, stats }: Scene): Float64Array {
     const { morph } = this;
-    return this.#places.of([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.twists, morph)));
+    return this.#places.get([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.twists, morph)));
   }
 
   /** Draws the robots. `area` is the area that they cover, in square pixels. */

@@ -10,7 +10,7 @@ import type { DeadReckoningElement as Figure } from './dead-reckoning.ts';
 
 export function pathControls(figure: Figure) {
   return html`<div class="controls" part="controls">
-    ${settingSlider(figure, 'headingNoise')} ${settingSlider(figure, 'steps', { input: (steps) => figure.settings.want((wanted) => pathInSteps(wanted, steps)) })}
+    ${settingSlider(figure, 'headingNoise')} ${settingSlider(figure, 'steps', { input: (steps) => figure.settings.request((requested) => pathInSteps(requested, steps)) })}
   </div>`;
 }
 
@@ -20,7 +20,7 @@ function pathInSteps({ command, steps: before, step }: Record<string, any>, step
 }
 
 export function moreControls(figure: Figure) {
-  const { steps, step, command: { dt } } = figure.settings.wanted;
+  const { steps, step, command: { dt } } = figure.settings.requested;
   const { settings: { alphas }, walked, per } = words.reckoning;
   const walkedText = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<div class="controls">

@@ -23,7 +23,7 @@ export const de: typeof import('./en.ts').en = {
     },
     samples: { name: 'Roboter', effect: 'Je mehr Roboter, desto schmaler die Bänder.' },
   },
-  walked: (gone, whole) => `t = ${gone} s von ${whole} s`,
+  walked: (time, duration) => `t = ${time} s von ${duration} s`,
   recursions: { chapter: 'Kapitel', 'first-order': 'mit Jᵣ, der Drehung im Schritt', 'fourth-order': '4. Ordnung' },
   per: { step: 'jeden Schritt', path: 'den ganzen Weg' },
   chart: 'Vorhergesagter Anteil der Varianz, je Schritt',

@@ -48,10 +48,10 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   // The machine starts without robots: the user sees them appear, and the first frame does not wait for them.
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.DeadReckoning.empty(), state);
 
-  withDerivedFields(present: Values, given: Values) {
+  withDerivedFields(currentState: Values, changes: Values) {
     // If the path gets shorter than the selected step, its last step is selected.
-    const { steps = present.steps } = given;
-    return { step: Math.min(present.step, steps), ...super.withDerivedFields(present, given) };
+    const { steps = currentState.steps } = changes;
+    return { step: Math.min(currentState.step, steps), ...super.withDerivedFields(currentState, changes) };
   }
 
   read = readingOf;
@@ -83,7 +83,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {
     const { machine, reading, cloud: { isMarked, index } } = this;
-    return isMarked && machine ? this.#rollout.of([reading.stats, index], () => machine.rollout(index)) : undefined;
+    return isMarked && machine ? this.#rollout.get([reading.stats, index], () => machine.rollout(index)) : undefined;
   }
 
   content(reading: Reading) {
@@ -105,7 +105,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
       ${legend(this, OUTLINE_STYLES)} ${presetButtons(this)} ${pathControls(this)}
       ${disclosures(this, {
         controls: () => moreControls(this),
-        numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#markedPoses)} ${straightPlot(this.#straightGrowth.of([reading.stats], () => (this.machine as Machine).straightGrowth))}`,
+        numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#markedPoses)} ${straightPlot(this.#straightGrowth.get([reading.stats], () => (this.machine as Machine).straightGrowth))}`,
       })}`)}
     `;
   }

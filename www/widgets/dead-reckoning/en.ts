@@ -24,7 +24,7 @@ export const en = {
     },
     samples: { name: 'robots', effect: 'The more robots, the narrower the bands.' },
   },
-  walked: (gone, whole) => `t = ${gone} s of ${whole} s`,
+  walked: (time, duration) => `t = ${time} s of ${duration} s`,
   recursions: { chapter: 'the chapter’s', 'first-order': 'with Jᵣ, the turn during a step', 'fourth-order': 'fourth order' },
   per: { step: 'step', path: 'whole path' },
   chart: 'Predicted share of the robots’ variance, by step',

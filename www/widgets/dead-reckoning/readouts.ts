@@ -44,7 +44,7 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
       step: 1,
       value: step,
       text: say.atStepMark(step),
-      input: (to) => figure.settings.want({ step: Math.max(1, to) }),
+      input: (to) => figure.settings.request({ step: Math.max(1, to) }),
       commit: () => figure.gesture.commit(),
     },
     legend: legend(figure, CURVE_STYLES),

@@ -37,12 +37,12 @@ export const de: typeof import('./en.ts').en = {
     untried: 'Noch keine Bewegung versucht',
     nothing: 'Keine Bewegung wurde angenommen',
     none: 'Keine angenommene Bewegung ging durch eine Wand',
-    share: (few, of) => `${few} von ${of} angenommenen Bewegungen ${few === 1 ? 'ging' : 'gingen'} durch eine Wand`,
+    share: (count, total) => `${count} von ${total} angenommenen Bewegungen ${count === 1 ? 'ging' : 'gingen'} durch eine Wand`,
     most: 'Fast alle angenommenen Bewegungen gingen durch eine Wand',
     all: 'Alle angenommenen Bewegungen gingen durch eine Wand',
   },
-  wedged: (drawn, accepted, printed, all, through) =>
-    `Der Roboter sitzt fest: Von ${drawn} gezogenen Teilschritten ${accepted === 0 ? 'hat keiner eine Bewegung vollendet' : `wurden nur ${printed} von ${all} Bewegungen vollendet; ${through}`}.`,
+  wedged: (drawn, accepted, acceptedText, requested, through) =>
+    `Der Roboter sitzt fest: Von ${drawn} gezogenen Teilschritten ${accepted === 0 ? 'hat keiner eine Bewegung vollendet' : `wurden nur ${acceptedText} von ${requested} Bewegungen vollendet; ${through}`}.`,
   nothing: (count, drawn, wholeArc) =>
     count === 1
       ? `Keine Stichprobe wurde angenommen: ${wholeArc ? 'Der eine gezogene Weg' : 'Die eine gezogene Endpose'} ist in Kollision.`
@@ -55,10 +55,10 @@ export const de: typeof import('./en.ts').en = {
     way: 'die Endpose ist frei, aber der Weg berührt eine Wand oder verlässt die Karte',
   },
   tested: {
-    endpoint: (accepted, all) => `${accepted} von ${all} Bewegungen enden kollisionsfrei und sind angenommen`,
-    'whole-arc': (accepted, all) => `${accepted} von ${all} Bewegungen berühren unterwegs keine Wand und sind angenommen`,
-    'sub-stepped': (accepted, all) =>
-      `${accepted} von ${all} Bewegungen enden nach jedem Teilschritt kollisionsfrei und sind angenommen`,
+    endpoint: (accepted, attempts) => `${accepted} von ${attempts} Bewegungen enden kollisionsfrei und sind angenommen`,
+    'whole-arc': (accepted, attempts) => `${accepted} von ${attempts} Bewegungen berühren unterwegs keine Wand und sind angenommen`,
+    'sub-stepped': (accepted, attempts) =>
+      `${accepted} von ${attempts} Bewegungen enden nach jedem Teilschritt kollisionsfrei und sind angenommen`,
     off: (accepted) => `Ohne die Karte werden alle ${accepted} Bewegungen angenommen`,
   },
   throughOf: (count, through, share, interval) =>
@@ -133,7 +133,7 @@ export const de: typeof import('./en.ts').en = {
     noFile: 'Keine Datei',
     alone: (name) => `${name}: Ein Bild allein hat keinen Maßstab; erwartet wird seine .yaml-Datei dazu.`,
     gone: (name, reason) => `${name}: Die Datei ist nicht lesbar (${reason}); erwartet wird eine, die noch da ist.`,
-    long: (name, bytes, most) => `${name}: Die Datei hat ${bytes} Bytes; erwartet werden höchstens ${most}.`,
+    long: (name, bytes, maxBytes) => `${name}: Die Datei hat ${bytes} Bytes; erwartet werden höchstens ${maxBytes}.`,
     plan: (name, reason, form) => `${name}: ${reason}; ein Grundriss ist ${form} in Metern.`,
     planForm: (form) => `${form} in Metern`,
     yamlForm: 'ein Feld je Zeile, wie in resolution: 0.05',
@@ -141,8 +141,8 @@ export const de: typeof import('./en.ts').en = {
       `${name}${line ? `, Zeile ${line}` : ''}: Das ist kein ${format} (${reason}); erwartet wird ${expected}.`,
     image: (name, value) =>
       `${name}: image ${value ? `ist ${value}` : 'fehlt'}; erwartet wird der Name einer .pgm- oder .png-Datei.`,
-    pair: (name, wanted, given) =>
-      `${name}: image nennt ${wanted}, das nicht dabei ist${given && ` (dafür kam ${given})`}; erwartet werden beide Dateien zusammen.`,
+    pair: (name, namedImage, givenImage) =>
+      `${name}: image nennt ${namedImage}, das nicht dabei ist${givenImage && ` (dafür kam ${givenImage})`}; erwartet werden beide Dateien zusammen.`,
     fields: (name) => `${name}: Darin sind keine Felder; erwartet werden mindestens image, resolution und origin.`,
     broken: (name, reason) => `${name}: ${reason}.`,
     line: (name, line, reason) => `${name}, Zeile ${line}: ${reason}.`,

@@ -39,12 +39,12 @@ export const en = {
     untried: 'No motion has been tried yet',
     nothing: 'No motion was accepted',
     none: 'No accepted motion went through a wall',
-    share: (few, of) => `${few} in ${of} accepted motions went through a wall`,
+    share: (count, total) => `${count} in ${total} accepted motions went through a wall`,
     most: 'Nearly all accepted motions went through a wall',
     all: 'All accepted motions went through a wall',
   },
-  wedged: (drawn, accepted, printed, all, through) =>
-    `The robot is wedged: of ${drawn} sub-steps drawn, ${accepted === 0 ? 'none completed a motion' : `only ${printed} of ${all} motions were completed; ${through}`}.`,
+  wedged: (drawn, accepted, acceptedText, requested, through) =>
+    `The robot is wedged: of ${drawn} sub-steps drawn, ${accepted === 0 ? 'none completed a motion' : `only ${acceptedText} of ${requested} motions were completed; ${through}`}.`,
   nothing: (count, drawn, wholeArc) =>
     `No sample was accepted: ${count === 1 ? 'the one drawn' : `all ${drawn} drawn`} ${plural(count, wholeArc ? 'path' : 'end pose')} ${count === 1 ? 'is' : 'are'} in collision.`,
   noRoom: 'The start pose is in collision.',
@@ -56,9 +56,9 @@ export const en = {
   },
   /** Sentences with the number of accepted motions by sampler, and the number of those that lead through a wall. */
   tested: {
-    endpoint: (accepted, all) => `${accepted} of ${all} motions end where the robot fits and are accepted`,
-    'whole-arc': (accepted, all) => `${accepted} of ${all} motions keep clear of walls all the way and are accepted`,
-    'sub-stepped': (accepted, all) => `${accepted} of ${all} motions end each sub-step where the robot fits and are accepted`,
+    endpoint: (accepted, attempts) => `${accepted} of ${attempts} motions end where the robot fits and are accepted`,
+    'whole-arc': (accepted, attempts) => `${accepted} of ${attempts} motions keep clear of walls all the way and are accepted`,
+    'sub-stepped': (accepted, attempts) => `${accepted} of ${attempts} motions end each sub-step where the robot fits and are accepted`,
     off: (accepted) => `Without the map all ${accepted} motions are accepted`,
   },
   throughOf: (count, through, share, interval) =>
@@ -134,15 +134,15 @@ export const en = {
     noFile: 'No file',
     alone: (name) => `${name}: an image alone has no scale; expected is its .yaml file together with it.`,
     gone: (name, reason) => `${name}: the file cannot be read (${reason}); expected is one that exists and may be read.`,
-    long: (name, bytes, most) => `${name}: the file has ${bytes} bytes; expected are at most ${most}.`,
+    long: (name, bytes, maxBytes) => `${name}: the file has ${bytes} bytes; expected are at most ${maxBytes}.`,
     plan: (name, reason, form) => `${name}: ${reason}; a floor plan is ${form} in metres.`,
     planForm: (form) => `${form} in metres`,
     yamlForm: 'one field a line, as in resolution: 0.05',
     syntax: (name, line, format, reason, expected) =>
       `${name}${line ? `, line ${line}` : ''}: this is not ${format} (${reason}); expected is ${expected}.`,
     image: (name, value) => `${name}: image is ${value || 'missing'}; expected is the name of a .pgm or .png file.`,
-    pair: (name, wanted, given) =>
-      `${name}: image names ${wanted}, which is not there${given && ` (${given} came instead)`}; expected are both files together.`,
+    pair: (name, namedImage, givenImage) =>
+      `${name}: image names ${namedImage}, which is not there${givenImage && ` (${givenImage} came instead)`}; expected are both files together.`,
     fields: (name) => `${name}: there are no fields in it; expected are at least image, resolution and origin.`,
     broken: (name, reason) => `${name}: ${reason}.`,
     line: (name, line, reason) => `${name}, line ${line}: ${reason}.`,

@@ -80,7 +80,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const grid = this.#gridOf(machine);
     this.#opener.refusal = undefined;
     this.#meter.outdate();
-    this.#pictureUnknown = this.settings.present.unknown;
+    this.#pictureUnknown = this.settings.current.unknown;
     this.picture = new FloorPicture(machine.plan, grid, this.picture);
     this.pictures = [this.picture];
   }
@@ -102,7 +102,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   /** Returns the marked sample, with the point where an accepted one went through a wall. */
   #marked(index: number) {
     const { poses, verdicts, config } = this.currentReading;
-    const path = this.#path.of([poses, index], () => (this.machine as Machine).path(index));
+    const path = this.#path.get([poses, index], () => (this.machine as Machine).path(index));
     const isThrough = outcomeIndex(verdicts[index]) === 2;
     return { pose: poses.subarray(3 * index), path, contact: isThrough ? wallContact(path, this.picture.plan.walls, config.clearance) : undefined };
   }
@@ -136,8 +136,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   set preset(name) {
-    this.reflection.setProperty('preset', name, (given) => {
-      const presetSettings = PRESET_SETTING.change(given, {});
+    this.reflection.setProperty('preset', name, (newName) => {
+      const presetSettings = PRESET_SETTING.change(newName, {});
       this.#leaveOwnMap();
       this.settings.assign(presetSettings);
     });
@@ -154,13 +154,13 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   set map(map) {
     const isNameless = typeof map === 'object' && map !== null && !Array.isArray(map) && map.name === undefined;
-    this.reflection.setProperty('map', isNameless ? { ...map, name: '' } : map, (given) => {
-      if (given === null) {
+    this.reflection.setProperty('map', isNameless ? { ...map, name: '' } : map, (newMap) => {
+      if (newMap === null) {
         this.#leaveOwnMap();
         // The start pose may not be free in the new map.
         if (this.machine && !this.machine.startFree) this.settings.assign({ start: OPENING_START });
       } else {
-        this.#enterMap(ownMapOf(given));
+        this.#enterMap(ownMapOf(newMap));
       }
       this.reflection.updateAttributes();
       this.renderer.requestFrame();
@@ -231,7 +231,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     const name = this.map?.name ?? words.squeeze.edited;
     const apply: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
-      this.#enterMap({ name, apply, start: this.settings.wanted.start });
+      this.#enterMap({ name, apply, start: this.settings.requested.start });
       this.gesture.step();
     });
     this.renderer.requestFrame();
@@ -243,7 +243,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     if (!machine) return;
     this.#opener.refusal = undefined;
     if (!map) return;
-    this.left = { map, start: this.settings.wanted.start };
+    this.left = { map, start: this.settings.requested.start };
     machine.setPlan(undefined);
     this.#grid = undefined;
     this.#adoptMap(null);
@@ -256,10 +256,10 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #enterMap({ name, start, apply }: OwnMap & { start?: Pose }) {
     const { motion, settings } = this;
     if (!motion) return;
-    settings.settle();
+    settings.applyPending();
     const machine = motion.MapSqueeze.empty();
     freeOnError(machine, () => {
-      machine.configureFirst(settings.pick(settings.wanted), 0);
+      machine.configureFirst(settings.pick(settings.requested), 0);
       apply(machine);
       const isGrid = this.#gridOf(machine) !== null;
       const startPose = start ?? (isGrid || !machine.startFree ? this.#findFreePose(machine) : undefined);

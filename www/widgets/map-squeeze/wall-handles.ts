@@ -32,7 +32,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   /** Grips of the plan in the picture. */
   get #presentGrips() {
     const { plan, movable } = this.host.picture;
-    return this.#grips.of([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? wallGrips(plan) : []));
+    return this.#grips.get([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? wallGrips(plan) : []));
   }
 
   get #walls() {

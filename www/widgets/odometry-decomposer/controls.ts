@@ -13,7 +13,7 @@ import type { OdometryDecomposerElement as Figure } from './odometry-decomposer.
 export function noiseModelTable(figure: Figure) {
   const { rules: names, table: say, settings } = words.decomposer;
   const { rules } = figure.reading;
-  const currentRule = figure.settings.wanted.rule;
+  const currentRule = figure.settings.requested.rule;
   const cellRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${figureTable({

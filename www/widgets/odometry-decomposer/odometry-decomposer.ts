@@ -49,7 +49,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
 
   #curve: Memo<Float64Array> = new Memo();
   #curveOf = (longest: number, points: number) =>
-    this.#curve.of([this.reading.stats, longest, points], () => (this.machine as Machine).curve(longest, points));
+    this.#curve.get([this.reading.stats, longest, points], () => (this.machine as Machine).curve(longest, points));
 
   read = readingOf;
 

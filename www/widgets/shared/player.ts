@@ -39,12 +39,12 @@ export class Player<Key extends string> extends FigureController {
 
   #valueAt(key: Key): number {
     const { settings, state } = this.host;
-    return key in state.elementState ? state.elementState[key] : settings.wanted[key];
+    return key in state.elementState ? state.elementState[key] : settings.requested[key];
   }
 
   #setValue(key: Key, value: number) {
     const nextValue = this.#playedSettings[key].whole ? Math.floor(value) : value;
-    if (nextValue !== this.#valueAt(key)) this.host.settings.want({ [key]: nextValue });
+    if (nextValue !== this.#valueAt(key)) this.host.settings.request({ [key]: nextValue });
   }
 
   #toggle(key: Key) {

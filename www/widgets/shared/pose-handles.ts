@@ -55,7 +55,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   }
 
   get #pose(): Pose {
-    return this.host.settings.wanted[this.#setting];
+    return this.host.settings.requested[this.#setting];
   }
 
   render() {
@@ -121,6 +121,6 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   }
 
   #wantPose(pose: Pose) {
-    this.host.settings.want({ [this.#setting]: pose });
+    this.host.settings.request({ [this.#setting]: pose });
   }
 }

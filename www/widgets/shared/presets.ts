@@ -9,7 +9,7 @@ export function presetButtons(figure: import('../../figure/figure.ts').Figure, m
   const { definition, settings, state } = figure;
   const { presets } = (words as any)[definition.messageKey];
   const presetAttribute = definition.attributes.preset;
-  const currentPreset = presetAttribute.get(settings.wanted);
+  const currentPreset = presetAttribute.get(settings.requested);
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>
       button(label, () => state.choosePreset(name), { pressed: name === currentPreset, name: 'preset' }))}

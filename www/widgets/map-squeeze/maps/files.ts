@@ -54,7 +54,7 @@ export async function readMapFiles(files: File[], decodePng: DecodePng): Promise
   const mapCount = plans.length + descriptions.length;
   if (mapCount > 1) {
     const mapNames = [...plans, ...descriptions].map(({ name }) => name).join(', ');
-    throw new MapFileError(mapNames, (say, those) => say.several(those, mapCount));
+    throw new MapFileError(mapNames, (say, names) => say.several(names, mapCount));
   }
   if (plans.length) return readPlan(plans[0].name, await textOf(plans[0], MAX_PLAN_BYTES));
   if (descriptions.length) return readGrid(descriptions[0], images, decodePng);

@@ -74,13 +74,13 @@ const figureLayout = css`
   /* A group of sliders is a row of three columns. */
   @container (38em <= width < 56em) {
     .machine > .controls:has(> fieldset) {
-      grid-template-columns: repeat(3, minmax(0, 1fr));
-      column-gap: 2em;
+      grid-template-columns: repeat(3, minmax(min-content, 1fr));
+      column-gap: 1.25em;
     }
 
     .machine > .controls > fieldset {
       grid-column: 1 / -1;
-      grid-template-columns: repeat(3, minmax(0, 1fr));
+      grid-template-columns: repeat(3, minmax(min-content, 1fr));
       column-gap: inherit;
     }
 
@@ -91,7 +91,7 @@ const figureLayout = css`
 
     .machine > .controls > .single + .cloud {
       grid-column: 2 / -1;
-      grid-template-columns: minmax(0, 1fr) minmax(0, 1.7fr);
+      grid-template-columns: minmax(min-content, 1fr) minmax(0, 1.7fr);
       align-items: start;
     }
 

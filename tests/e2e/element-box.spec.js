@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { FRESH, STILL, boxOf, frames, showPage, test, untilReady } from './support.js';
+import { FRESH, STILL, boxOf, frames, mount, showPage, test, untilReady, untilSettled } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
@@ -154,3 +154,33 @@ test.describe('on a screen with two pixels a CSS pixel', () => {
     for (const ratio of ratios) expect(ratio).toBeCloseTo(2, 1);
   });
 });
+
+/** Sliders above which texts have many lengths, with values of short and of long texts, by element, language and width of the page. */
+const SLIDERS_BELOW_TEXTS = /** @type {const} */ ([
+  ['arc-anatomy', 'de', 375, 'v', ['1', '-0.25', '0.3']],
+  ['alpha-calibrator', 'en', 375, 'angle', ['0.25', '0.96']],
+  ['alpha-calibrator', 'en', 700, 'distance', ['0.3', '0.05']],
+  ['map-squeeze', 'en', 700, 'v', ['1', '-1.12', '-0.25']],
+  ['map-squeeze', 'de', 700, 'v', ['1', '1.25']],
+  ['banana-machine', 'de', 700, 'v', ['1', '-1.5']],
+]);
+
+for (const [name, lang, width, slider, values] of SLIDERS_BELOW_TEXTS) {
+  test(`no text moves the slider ${slider} while it is dragged, or covers another: ${name}, ${lang}, ${width} px @nightly`, async ({ page }) => {
+    await page.setViewportSize({ width, height: 900 });
+    const script = ['motion-widgets', 'de'].map((each) => `<script type="module" src="/${each}.js"></script>`).join('');
+    const widget = await mount(page, name, { attributes: `lang="${lang}"`, script, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
+    const tops = [];
+    for (const value of values) {
+      await widget.locator(`#${slider}`).fill(value);
+      await untilSettled(widget);
+      tops.push(await widget.locator(`#${slider}`).evaluate((element) => element.getBoundingClientRect().top + scrollY));
+    }
+    expect(Math.max(...tops) - Math.min(...tops)).toBeLessThan(0.5);
+    const texts = await widget.locator('.controls .slider > [for], .controls .slider .value, .controls button').evaluateAll((all) =>
+      all.map((each) => ({ text: each.textContent, box: each.getBoundingClientRect() })).filter(({ box }) => box.width > 0));
+    const overlaps = texts.flatMap((one, i) => texts.slice(i + 1).filter(({ box }) =>
+      box.left < one.box.right - 1 && box.right - 1 > one.box.left && box.top < one.box.bottom - 1 && box.bottom - 1 > one.box.top).map((other) => [one.text, other.text]));
+    expect(overlaps).toEqual([]);
+  });
+}

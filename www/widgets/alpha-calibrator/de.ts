@@ -23,7 +23,7 @@ const MESSAGES: Record<string, string> = {
   'inflation-bounded':
     'Keine Vergrößerung bis 30 deckt die Fehler über 1 m: Sie sind kein Rauschen der Räder. Zuerst die Ursache suchen: behaltene Ausreißer, eine springende oder driftende Referenz, Schlupf.',
   'residuals-uncorrelated':
-    'Fehler benachbarter Etappen sind korreliert: Sie halten über mehrere Etappen an, oder ein systematischer Fehler ist nicht korrigiert. Über längere Strecken sind die α der Etappen zu klein, wenn Fehler anhalten, und zu groß, wenn sie sich aufheben. Empfohlene α gelten über 1 m.',
+    'Fehler benachbarter Etappen sind korreliert: Sie halten an, oder ein systematischer Fehler ist nicht korrigiert. Über längere Strecken sind die α zu klein, oder zu groß, wenn sich Fehler aufheben. Empfohlene α gelten über 1 m.',
   'tails-normal':
     'Einige Fehler sind viel größer, als normalverteiltes Rauschen sie hat: Die Ränder der Vorhersage sind zu schmal. Empfohlene α berücksichtigen das. Die größten Residuen ansehen.',
   'holdout-covered':
@@ -115,7 +115,7 @@ export const de: typeof import('./en.ts').en = {
     caption: 'Restringierte Maximum Likelihood mit 95-%-Intervallen',
     alpha: '*α*',
     noise: 'Rauschen',
-    noiseTrue: 'Rauschen (| simulierter Wert)',
+    noiseTrue: 'Rauschen (| wahr)',
     value: 'angepasst, 95 %',
     recommended: 'empfohlen',
     recommendedText: (alpha) => `empfohlen ${alpha}`,

@@ -83,7 +83,7 @@ export const en = {
     caption: 'Restricted maximum likelihood, with 95 % intervals',
     alpha: '*α*',
     noise: 'noise',
-    noiseTrue: 'noise (| simulated value)',
+    noiseTrue: 'noise (| simulated)',
     value: 'fitted, 95 %',
     recommended: 'recom\u00ADmended',
     recommendedText: (alpha) => `recommended ${alpha}`,
@@ -121,7 +121,7 @@ export const en = {
   },
   leg: {
     group: 'Legs',
-    name: 'leg shown',
+    name: 'leg',
     worst: 'Next largest residual',
     off: 'error',
     squared: (expected) => `squared Mahalanobis distance (expected ${expected})`,

@@ -42,8 +42,8 @@ export function alphaTable(reading: Reading) {
         ${alpha === null
           ? html`<td colspan="3"><div class="of">${noiseLabels[i]}</div><span class="unknown">${missingText(reading, i)}</span></td>`
           : html`<td class="chart"><div class="line"><div class="of">${noiseLabels[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
-            <td><div class="line"><div class="fitted-value" data-longest="0.0000">${fittedText(reading, i)}</div><div class="between" data-longest=${say.between('0.0000', '0.0000')}>${intervalText(reading, i)}</div></div></td>
-            <td class="recommended" data-longest="0.0000">${recommendedOf(reading, i)}</td>`}
+            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedText(reading, i)}</div><div class="between" data-longest=${say.between('0.00000', '0.00000')}>${intervalText(reading, i)}</div></div></td>
+            <td class="recommended" data-longest="0.00000">${recommendedOf(reading, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
         <td></td>

@@ -295,7 +295,7 @@ export const styles = css`
 
   /* Space for the advice of a failed check, which must not move a slider that is dragged. */
   .to-do {
-    min-height: 2.6em;
+    min-height: 6.5em;
     margin: 0.2em 0;
     line-height: 1.3;
   }
@@ -308,7 +308,7 @@ export const styles = css`
 
   @container (width < 30em) {
     .to-do {
-      min-height: 6.5em;
+      min-height: 7.8em;
     }
   }
 

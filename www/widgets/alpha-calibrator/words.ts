@@ -30,7 +30,7 @@ export function judgementOf(reading: Reading, given: Warning[]) {
   if (legs.count === 0) return judgement(say.none, say.longer, ...warnings);
   const failedChecks = failedOf(checks);
   const correction = correctFirst(stats, say.nav2, localized);
-  if (failedChecks.length > 0) return judgement(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, messageOf(failedChecks[0]), ...correction);
+  if (failedChecks.length > 0) return judgement(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, messageOf(failedChecks[0]));
   if (verdict === 'unusable') return judgement(say.noAlpha, ...warnings);
   return warnings.length > 0 ? judgement(warnings[0], ...warnings.slice(1), ...correction) : judgement(say.passed(integer(checks.length)), say.use, ...correction);
 }

@@ -43,13 +43,13 @@ export const de: typeof import('./en.ts').en = {
   bars: {
     label: 'Residuen in Standardabweichungen und Faktoren von p',
     names: ['Geschwindigkeit', 'Drehrate', 'letzte Drehung'],
-    factor: (share) => `Faktor: ${share} vom Maximum`,
+    factor: (share) => `${share} des Maximums`,
   },
   headline: { share: 'so wahrscheinlich wie die beste Pose', times: 'mal so wahrscheinlich wie die beste Pose' },
   likelihoods: { prob: '*p* der Tabellen', density: 'Dichte der Ziehung (m⁻² rad⁻¹)', none: 'keine: eine Varianz ist 0', xi: '*ξ* (m, m, rad)' },
   verdict: {
     off: (estimate, deviations, kept, share) =>
-      `Die ${estimate} passt am schlechtesten: ${deviations} Standardabweichungen daneben. Ihr Faktor liegt bei ${kept} seines Maximums, das Produkt aller drei bei ${share}.`,
+      `Die ${estimate} passt am schlechtesten: ${deviations} Standardabweichungen daneben. Ihr Faktor: ${kept} des Maximums, das Produkt aller drei: ${share}.`,
     peak: 'Der Roboter ist, wohin der Befehl ohne Rauschen führt: p hat sein Maximum.',
     noiseless: (estimate) => `Die ${estimate} hat die Varianz 0, aber ein Residuum ungleich 0: p = 0.`,
     printed: (v, share) =>

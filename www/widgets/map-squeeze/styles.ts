@@ -88,7 +88,7 @@ export const styles = css`
   /* The picture as high as possible, with the sentence and the presets next to it. */
   @container (min-width: 38em) {
     .views {
-      grid-template-columns: minmax(0, 60svh) minmax(16em, 1fr);
+      grid-template-columns: minmax(0, 60svh) minmax(18.25em, 1fr);
       column-gap: 1.25em;
     }
 
@@ -108,7 +108,7 @@ export const styles = css`
     }
 
     .headline {
-      font-size: 1.85em;
+      font-size: 1.75em;
     }
 
     .judge .choices > span {

@@ -9,12 +9,13 @@ export const shellQuoted = (text: string): string => (/^[\w./,@%+=:-]+$/.test(te
 /** Returns a sentence with the option that answers the question of an error. */
 export function optionAdvice({ ask, message }: LogError): string {
   if (!ask || message.includes(' --')) return '';
-  const { what, role = 'odometry', choices } = ask;
+  const { what, role = 'odometry', choices, doubted } = ask;
   if (what === 'other') return ' Name both, with --odometry FILE and --reference FILE.';
   const optionText = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
   if (what in UNITS) {
-    const [usualUnit, ...otherUnits] = UNITS[what as keyof typeof UNITS];
-    const otherUnit = choices.find((unit) => unit !== usualUnit) ?? otherUnits[otherUnits.length - 1];
+    const allUnits: readonly string[] = UNITS[what as keyof typeof UNITS];
+    const usualUnit = doubted ?? allUnits[0];
+    const otherUnit = [...choices, ...allUnits.toReversed()].find((unit) => unit !== usualUnit);
     return ` Choose with ${optionText}, as in ${optionText} ${otherUnit}; if odometry and reference differ, with --odometry FILE --reference FILE ${optionText} ${usualUnit},${otherUnit}.`;
   }
   const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];

@@ -79,6 +79,8 @@ export interface Question {
   /** Role of the log that has to be chosen. For `other`, the role of the log that was found. */
   role?: Role;
   choices: string[];
+  /** Unit that was assumed, and is in doubt. */
+  doubted?: string;
   /** Columns of the table: their names, or the cells of its first row. */
   columns?: string[];
 }

@@ -69,7 +69,7 @@ export const unitOfSize = (time: number): TimeUnit | undefined => MIN_EPOCH_TIME
 export function judgeUnits(place: Place, kind: LogKind, columns: Columns, assumed: Units, options: OpenOptions): Units {
   const isJudged = columns.t.length >= MIN_ROWS;
   const askUnit = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]): never => {
-    throw new LogError(place, (say) => say[what](value, unit, choices), choices.length > 0 ? { what, choices } satisfies Question : undefined);
+    throw new LogError(place, (say) => say[what](value, unit, choices), choices.length > 0 ? { what, choices, doubted: unit } satisfies Question : undefined);
   };
   const judgedTime = isJudged ? timeUnit(kind, columns, assumed, options, askUnit) : assumed.time;
   convertTimes(columns, 10 ** (UNIT_EXPONENTS[judgedTime.unit] - UNIT_EXPONENTS[assumed.time.unit]));

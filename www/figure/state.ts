@@ -76,12 +76,7 @@ export class State extends FigureController {
     host.gesture.complete();
   }
 
-  /** Restores the state that the figure opened with. */
-  startOver() {
-    this.goBack(this.#openingState);
-  }
-
-  /** Restores a state, as a change by the user. */
+  /** Restores a state, by default the one that the figure opened with, as a change by the user. */
   goBack(state: Values | undefined = this.#openingState) {
     const { gesture, runtime } = this.host;
     runtime.attempt(() => {

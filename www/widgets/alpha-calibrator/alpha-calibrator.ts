@@ -38,9 +38,6 @@ interface OpenedLog {
   fit: Uint8Array;
 }
 
-/** Keys of the property `log`. */
-const LOG_KEYS = ['name', 'odometry', 'reference'];
-
 /**
  * The α's of a log, how well they are known, and whether the model is any good.
  *
@@ -111,17 +108,6 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     return { ...reading, chosen: this.chosen, leg: this.predicted, overlays: this.state.elementState.overlays };
   }
 
-  /** Shows a leg, counted from 0, while the user moves between legs. */
-  look(leg: number) {
-    this.settings.request({ leg });
-  }
-
-  /** Shows a leg, counted from 0, that the user has chosen. */
-  choose(leg: number) {
-    this.look(leg);
-    this.gesture.commit();
-  }
-
   /** Shows the leg that was clicked in the picture. */
   #press = (event: MouseEvent) => {
     this.runtime.attempt(() => {
@@ -129,7 +115,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       if (!machine || !(event.target instanceof HTMLCanvasElement)) return;
       const [x, y] = pointOn(event.target, this.#pathPicture.view, event);
       const leg = this.#pathPicture.nearest(machine, x, y);
-      if (leg >= 0) this.choose(leg);
+      if (leg >= 0) this.gesture.decide({ leg });
     });
   };
 
@@ -144,7 +130,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   set log(log) {
     this.reflection.setProperty('log', log, (newLog) => {
-      if (newLog !== null) asObject('log', newLog, LOG_KEYS);
+      if (newLog !== null) asObject('log', newLog, ['name', 'odometry', 'reference']);
       this.service.stop();
       this.open(newLog, []).then(() => this.reflection.updateAttributes(), this.#report);
     });

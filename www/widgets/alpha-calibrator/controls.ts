@@ -28,11 +28,11 @@ export function legControls(figure: Figure) {
         effect: undefined,
         role: 'truth',
         off: legs.count < 2,
-        input: (number) => figure.look(number - 1),
+        input: (number) => figure.settings.request({ leg: number - 1 }),
         commit: () => figure.gesture.commit(),
       })}
     </fieldset>
-    ${button(say.worst, () => figure.choose(nextLeg), { disabled: nextLeg === undefined })}`;
+    ${button(say.worst, () => figure.gesture.decide({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
 }
 
 export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figure) {

@@ -72,7 +72,7 @@ function largestResiduals(figure: Figure) {
   const say = words.calibrator.largest;
   const { worst, legs } = figure.reading;
   return html`<div class="buttons" role="group" aria-label=${say.title}>
-    ${worst.map((leg) => button(say.leg(integer(leg + 1), legs.outliers[leg] > 0), () => figure.choose(leg), { pressed: leg === figure.chosen }))}
+    ${worst.map((leg) => button(say.leg(integer(leg + 1), legs.outliers[leg] > 0), () => figure.gesture.decide({ leg }), { pressed: leg === figure.chosen }))}
   </div>`;
 }
 

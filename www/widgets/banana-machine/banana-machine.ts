@@ -192,11 +192,6 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return isMarked && machine ? this.#inspectedSample.get([reading.stats, index], () => machine.inspect(index)) : undefined;
   }
 
-  /** Isolates an α by its number from 1: all other α's have no effect. */
-  isolateAlpha(number: number) {
-    this.gesture.decide({ isolate: number, isolateChoice: number });
-  }
-
   /**
    * Sets the command to an arc that ends at a point of the view's world, within the range of the sliders. Of several arcs it takes the one
    * nearest to the current arc.

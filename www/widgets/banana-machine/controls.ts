@@ -50,7 +50,7 @@ function alphaGroup(figure: Figure, isIn: (index: number) => boolean, name: stri
 function alphaSlider(figure: Figure, key: string, number: number, name: string, [path, picture]: string[]) {
   const { isolate } = figure.reading.config;
   const off = isolate !== null && isolate !== number;
-  const chooseAlpha = () => figure.isolateAlpha(number);
+  const chooseAlpha = () => figure.gesture.decide({ isolate: number, isolateChoice: number });
   return settingSlider(figure, key, {
     name,
     off,

@@ -6,7 +6,7 @@ use super::settings::{are_allowed, with_changes};
 use motion::geom::se2::SE2;
 use motion::sim::View;
 use motion::sim::banana::{
-    BananaMachine, Contours, Figures, Settings, TableColumn, command_reaching,
+    BananaMachine, Contours, Stats, Settings, TableColumn, command_reaching,
 };
 use motion::sim::picture::RAMP_STEPS;
 use motion::sim::settings::QUANTITY_RANGE;
@@ -117,13 +117,13 @@ fn assert_as_new(machine: &BananaMachine) {
 /// Returns all results except curves.
 fn all_results(machine: &BananaMachine) -> Vec<f64> {
     let mut all_numbers: Vec<f64> = machine.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
-    let figures @ Figures { cartesian, exponential, coverage, .. } = machine.figures();
+    let stats @ Stats { cartesian, exponential, coverage, .. } = machine.stats();
     all_numbers.extend(cartesian.mean.iter().chain(cartesian.cov.iter()));
     all_numbers.extend(exponential.mean.iter().chain(exponential.cov.iter()));
-    all_numbers.extend([figures.cross_track_skew, figures.cross_track_skew_error]);
-    all_numbers.extend([figures.rho_cross_heading, figures.gaussian_skew]);
-    all_numbers.extend([coverage.ellipse, coverage.exponential, figures.area_ratio, figures.area_ratio_error]);
-    for gain in [figures.likelihood_gain, figures.likelihood_gain_error] {
+    all_numbers.extend([stats.cross_track_skew, stats.cross_track_skew_error]);
+    all_numbers.extend([stats.rho_cross_heading, stats.gaussian_skew]);
+    all_numbers.extend([coverage.ellipse, coverage.exponential, stats.area_ratio, stats.area_ratio_error]);
+    for gain in [stats.likelihood_gain, stats.likelihood_gain_error] {
         all_numbers.extend([gain.pose, gain.floor]);
     }
     all_numbers
@@ -131,7 +131,7 @@ fn all_results(machine: &BananaMachine) -> Vec<f64> {
 
 /// Asserts that all results are finite, or NaN where they are undefined.
 fn assert_results(machine: &BananaMachine) {
-    let (n, figures) = (machine.shown(), machine.figures());
+    let (n, stats) = (machine.shown(), machine.stats());
     machine.poses().for_each(|pose| laws::assert_pose("a pose", &pose));
     assert_eq!(machine.poses().len(), n);
     laws::assert_finite("executed", machine.executed().collect::<Vec<_>>().as_flattened());
@@ -140,29 +140,29 @@ fn assert_results(machine: &BananaMachine) {
         machine.twists().for_each(|twist| laws::assert_finite("a twist", twist.as_slice()));
     }
     if n > 0 {
-        laws::assert_finite("mean", figures.cartesian.mean.as_slice());
+        laws::assert_finite("mean", stats.cartesian.mean.as_slice());
     }
     if n > 1 {
-        laws::assert_moments("pose", &figures.cartesian.mean, &figures.cartesian.cov);
+        laws::assert_moments("pose", &stats.cartesian.mean, &stats.cartesian.cov);
     }
     if is_charted && n > 1 {
-        laws::assert_moments("exponential", &figures.exponential.mean, &figures.exponential.cov);
+        laws::assert_moments("exponential", &stats.exponential.mean, &stats.exponential.cov);
     } else {
-        assert!(n == 1 || figures.exponential.cov.iter().all(|number| number.is_nan()));
+        assert!(n == 1 || stats.exponential.cov.iter().all(|number| number.is_nan()));
     }
-    let (skew, skew_error) = (figures.cross_track_skew, figures.cross_track_skew_error);
+    let (skew, skew_error) = (stats.cross_track_skew, stats.cross_track_skew_error);
     laws::assert_finite_or_none("skew", &[skew, skew_error]);
     // The skew of n samples is largest for n − 1 equal samples and one different sample.
     let max_skew = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
     assert!(skew.is_nan() || skew.abs() <= max_skew * (1.0 + 1e-9), "{skew} of {n}");
     assert!(skew_error.is_nan() || skew_error >= 0.0, "{skew_error}");
-    let rho = figures.rho_cross_heading;
+    let rho = stats.rho_cross_heading;
     assert!(rho.is_nan() || rho.abs() <= 1.0, "{rho}");
-    laws::assert_finite_or_none("gaussian skew", &[figures.gaussian_skew]);
-    laws::assert_fraction("inside the ellipse", figures.coverage.ellipse);
-    laws::assert_fraction("inside the contour", figures.coverage.exponential);
-    assert!(figures.area_ratio.is_nan() || figures.area_ratio >= 0.0, "{}", figures.area_ratio);
-    let (gain, error) = (figures.likelihood_gain, figures.likelihood_gain_error);
+    laws::assert_finite_or_none("gaussian skew", &[stats.gaussian_skew]);
+    laws::assert_fraction("inside the ellipse", stats.coverage.ellipse);
+    laws::assert_fraction("inside the contour", stats.coverage.exponential);
+    assert!(stats.area_ratio.is_nan() || stats.area_ratio >= 0.0, "{}", stats.area_ratio);
+    let (gain, error) = (stats.likelihood_gain, stats.likelihood_gain_error);
     for (gain, error) in [(gain.pose, error.pose), (gain.floor, error.floor)] {
         assert!(error.is_nan() || (error >= 0.0 && gain.is_finite()), "gain {gain} ± {error}");
     }

@@ -115,24 +115,24 @@ fn assert_results(machine: &OdometryDecomposer) {
         independent_heading,
     } = machine.stats();
     assert_eq!(n, machine.poses().len());
-    let exact_figures = [exact_cross_track, lever, exact_heading, independent_heading];
-    let measured_figures = [cross_track, cross_track_error, heading, heading_error];
-    laws::assert_finite("exact", &exact_figures);
-    laws::assert_finite_or_none("measured", &measured_figures);
+    let exact_values = [exact_cross_track, lever, exact_heading, independent_heading];
+    let measured_values = [cross_track, cross_track_error, heading, heading_error];
+    laws::assert_finite("exact", &exact_values);
+    laws::assert_finite_or_none("measured", &measured_values);
     assert_eq!(n == 0, cross_track.is_nan());
     assert!(
-        exact_figures.iter().chain(&measured_figures).all(|figure| figure.is_nan() || *figure >= 0.0),
-        "{exact_figures:?} {measured_figures:?}"
+        exact_values.iter().chain(&measured_values).all(|value| value.is_nan() || *value >= 0.0),
+        "{exact_values:?} {measured_values:?}"
     );
 
     for figures in machine.rules() {
         assert_legs("legs", &figures.legs);
-        let all_figures = [&figures.deviations[..], &[figures.cross_track, figures.heading]].concat();
-        laws::assert_finite("a rule", &all_figures);
-        assert!(all_figures.iter().all(|figure| *figure >= 0.0), "{figures:?}");
+        let all_values = [&figures.deviations[..], &[figures.cross_track, figures.heading]].concat();
+        laws::assert_finite("a rule", &all_values);
+        assert!(all_values.iter().all(|value| *value >= 0.0), "{figures:?}");
         if figures.rule == settings.rule {
             assert_eq!(figures.legs, machine.legs());
-            laws::assert_same_numbers("exact", &all_figures[4..], &[exact_cross_track, exact_heading]);
+            laws::assert_same_numbers("exact", &all_values[4..], &[exact_cross_track, exact_heading]);
         }
     }
 

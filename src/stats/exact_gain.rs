@@ -16,7 +16,7 @@ use std::f64::consts::{LN_2, PI, TAU};
 ///
 /// Exponential coordinates diverge at a turn of a full circle. Gaussian noise reaches it with some probability, so that the
 /// exact moments of ξ are infinite. Turns beyond `MAX_SIGMAS` standard deviations are therefore omitted, which changes a variance
-/// by a fraction of 1e-7. The figures are NaN if a full circle is within `MAX_SIGMAS`.
+/// by a fraction of 1e-7. The values are NaN if a full circle is within `MAX_SIGMAS`.
 ///
 /// Turns are not wrapped here. In a cloud, turns of more than half a circle beyond the command are wrapped, so that its `pose`
 /// differs if many robots make them.

@@ -220,7 +220,7 @@ pub struct SecondPass {
 
 /// Statistics of a cloud from both passes.
 #[derive(Clone, Copy, Debug)]
-pub struct CloudFigures {
+pub struct CloudStats {
     pub cartesian: CartesianMoments,
     pub exponential: ExponentialMoments,
     pub cross_track: CrossTrack,
@@ -279,7 +279,7 @@ impl SecondPass {
         &self,
         count: usize,
         sample: impl Iterator<Item = (FourPoses, FourArcs, f64x4)>,
-    ) -> CloudFigures {
+    ) -> CloudStats {
         let n = count as f64;
         let means = self.sums.finish().map(|sum| sum / n);
         let [products @ .., ta, inside, inside_contour] = means;
@@ -315,7 +315,7 @@ impl SecondPass {
             differences.add(&robots, weights);
         }
         let share = |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
-        CloudFigures {
+        CloudStats {
             cartesian: CartesianMoments { mean: Vector3::new(x, y, wrap_angle(self.spread.mean_turn)), cov },
             exponential: self.spread.exponential,
             cross_track: CrossTrack::from_moments(count, &track_moments),

@@ -106,7 +106,7 @@ impl JsBananaMachine {
 
     #[wasm_bindgen(getter, unchecked_return_type = "Stats")]
     pub fn stats(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(self.0.figures())
+        to_plain_js(self.0.stats())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Table")]

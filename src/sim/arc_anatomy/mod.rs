@@ -1,14 +1,14 @@
 //! Arc Anatomy: the arc between two poses, the motion that it implies, and the likelihood of that motion (Tables 5.1 and 5.3).
 
-mod figures;
 mod forms;
 mod settings;
+mod stats;
 mod surface;
 mod table;
 
-pub use figures::{ArcWithCircle, Factor, Stats};
 pub use forms::{CHAPTERS_THRESHOLD, FormErrors, exact_end, form_errors};
 pub use settings::*;
+pub use stats::{ArcWithCircle, Factor, Stats};
 pub use surface::{CONTOUR_LEVELS, Surface};
 pub use table::Table;
 

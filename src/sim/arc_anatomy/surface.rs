@@ -1,6 +1,6 @@
 //! Heat map of p, or of the density of the sampler, over positions. The heading is that of the final pose.
 
-use super::figures::prob;
+use super::stats::prob;
 use super::{FinalPose, Settings, SurfaceKind};
 use crate::js::js_structs;
 use crate::models::MotionModel;

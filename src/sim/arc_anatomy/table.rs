@@ -1,7 +1,7 @@
 //! Values of each line of Table 5.1.
 
 use super::Settings;
-use super::figures::{Stats, estimated, inverted};
+use super::stats::{Stats, estimated, inverted};
 use crate::geom::arc::ArcInversion;
 use crate::js::js_structs;
 

@@ -19,13 +19,13 @@ impl BananaMachine {
     /// Returns up to two points (x, y) in m that are inside the 2σ ellipse, and where no robot stops. One is nearer than the mean and
     /// the other beyond it. Each is the point of its side with the largest distance in exponential coordinates.
     pub fn gaps(&self) -> Vec<[f64; 2]> {
-        let Self { figures, .. } = self;
-        if figures.area_ratio.is_nan() || figures.area_ratio < MIN_AREA_RATIO {
+        let Self { stats, .. } = self;
+        if stats.area_ratio.is_nan() || stats.area_ratio < MIN_AREA_RATIO {
             return Vec::new();
         }
-        let plane_ellipse = Ellipse::from_moments(&figures.cartesian);
-        let contour = ExponentialContour::new(&figures.exponential, &START_POSE);
-        let mean = figures.exponential.mean;
+        let plane_ellipse = Ellipse::from_moments(&stats.cartesian);
+        let contour = ExponentialContour::new(&stats.exponential, &START_POSE);
+        let mean = stats.exponential.mean;
         let candidates: Vec<_> = plane_ellipse
             .boundary(OUTLINE_SEGMENTS)
             .into_iter()

@@ -1,12 +1,12 @@
 //! The Banana Machine: samples of the end pose after one command from the origin.
 
-mod figures;
 mod gaps;
 mod settings;
+mod stats;
 
-pub use figures::{Contours, Coverage, Figures, Sample, Table, TableColumn};
-use figures::{DefinedCharts, Executed};
 pub use settings::*;
+pub use stats::{Contours, Coverage, Sample, Stats, Table, TableColumn};
+use stats::{DefinedCharts, Executed};
 
 use super::cloud::drive::Drive;
 use super::cloud::picture::{self, Ramp};
@@ -141,7 +141,7 @@ pub const OUTLINE_SEGMENTS: usize = 128;
 pub struct BananaMachine {
     settings: Settings,
     cloud: Cloud,
-    figures: Figures,
+    stats: Stats,
     /// Latest picture. The page reads it in place.
     picture: Vec<[u8; 4]>,
 }
@@ -161,7 +161,7 @@ impl BananaMachine {
         settings.check()?;
         let drive = settings.motion(settings.command).drive(&settings.command);
         let cloud = Cloud::new(settings.seed, settings.noise, drive);
-        let mut machine = Self { settings, cloud, figures: Figures::NONE, picture: Vec::new() };
+        let mut machine = Self { settings, cloud, stats: Stats::NONE, picture: Vec::new() };
         machine.reserve_memory(&settings)?;
         machine.show_samples(count.min(settings.samples));
         Ok(machine)
@@ -197,8 +197,8 @@ impl BananaMachine {
     fn show_samples(&mut self, count: usize) {
         let Settings { seed, noise, command, .. } = self.settings;
         let drive = self.settings.motion(command).drive(&command);
-        let figures = self.cloud.refresh(seed, noise, drive, count);
-        self.figures = Figures::of(count, &figures, self.defined_charts());
+        let cloud_stats = self.cloud.refresh(seed, noise, drive, count);
+        self.stats = Stats::of(count, &cloud_stats, self.defined_charts());
     }
 
     /// Shows up to `count` samples more; returns how many are shown.
@@ -243,8 +243,8 @@ impl BananaMachine {
     }
 
     /// Returns the statistics and outlines of the samples shown.
-    pub fn figures(&self) -> &Figures {
-        &self.figures
+    pub fn stats(&self) -> &Stats {
+        &self.stats
     }
 
     /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise
@@ -307,7 +307,7 @@ impl BananaMachine {
     /// Returns the moments of the pose by three methods, and the model's moments of its exponential coordinates.
     pub fn table(&self) -> Table {
         let linearized = self.linearized();
-        let Figures { cartesian, cross_track_skew, likelihood_gain, area_ratio, .. } = self.figures;
+        let Stats { cartesian, cross_track_skew, likelihood_gain, area_ratio, .. } = self.stats;
         Table {
             // A Gaussian in (x, y) has no skew. To first order in the noise, Gaussians in all coordinates are equal.
             linearized: TableColumn {
@@ -352,7 +352,7 @@ impl BananaMachine {
 
     /// Returns the curves that are drawn over the cloud.
     pub fn contours(&self) -> Contours {
-        let Figures { cartesian, exponential, .. } = &self.figures;
+        let Stats { cartesian, exponential, .. } = &self.stats;
         let outline_if = |holds: bool, outline: Vec<[f64; 2]>| if holds { outline } else { Vec::new() };
         let has_outlines = self.shown() > 1;
         let has_exponential = has_outlines && self.chart_holds();

@@ -10,7 +10,7 @@ pub use views::View;
 use crate::geom::lanes::{LANES, from_lanes};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
-use crate::stats::fused::{CloudFigures, FirstPass, SecondPass};
+use crate::stats::fused::{CloudStats, FirstPass, SecondPass};
 use draws::Draws;
 use drive::Drive;
 use std::collections::TryReserveError;
@@ -47,7 +47,7 @@ impl Cloud {
     }
 
     /// Drives the first `shown` samples, and returns their statistics. Their memory must be reserved.
-    pub fn refresh(&mut self, seed: u64, noise: NoiseKind, drive: Drive, shown: usize) -> CloudFigures {
+    pub fn refresh(&mut self, seed: u64, noise: NoiseKind, drive: Drive, shown: usize) -> CloudStats {
         self.draws.restart(seed, noise);
         (self.drive, self.shown) = (drive, shown);
         // Sums contain differences from the expected mean of the cloud. They are computed again if the mean is far from it.

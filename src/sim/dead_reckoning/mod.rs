@@ -1,13 +1,13 @@
 //! Dead Reckoning: growth of the uncertainty while a command is driven repeatedly, and predictions of it by recursions.
 
-mod figures;
 mod rollouts;
 mod settings;
+mod stats;
 mod straight;
 
-pub use figures::{Comparison, Misses, RECURSIONS, TOLERANCE};
 pub use rollouts::{MAX_SHOWN_ROBOTS, Measured};
 pub use settings::*;
+pub use stats::{Comparison, Misses, RECURSIONS, TOLERANCE};
 pub use straight::StraightGrowth;
 
 use super::cloud::views::Nearest;
@@ -16,9 +16,9 @@ use crate::geom::se2::SE2;
 use crate::js::js_structs;
 use crate::models::{Compounding, TangentNoiseModel};
 use crate::stats::{Ellipse, ExponentialContour, ExponentialMoments};
-use figures::covariances;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use rollouts::{BLOCK_ROLLOUTS, Rollouts};
+use stats::covariances;
 
 /// Number of chords of an outline. With fewer, corners would be visible; more would be shorter than a pixel.
 const OUTLINE_SEGMENTS: usize = 96;

@@ -22,24 +22,19 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
     }
     let mut machine = BananaMachine::new(configuration.settings(defaults)).expect("a valid setting");
     let (reading, contours, table) = (machine.reading(), machine.contours(), machine.table());
-    let figures = *machine.figures();
+    let stats = *machine.stats();
     let gain_fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
     let values = |col: TableColumn| {
         (col.mean, col.cov, col.cross_track_skew, gain_fields(col.likelihood_gain), col.area_ratio)
     };
     let stats = (
-        figures.n,
-        (figures.cartesian.mean, figures.cartesian.cov),
-        (figures.exponential.mean, figures.exponential.cov),
-        (
-            figures.cross_track_skew,
-            figures.cross_track_skew_error,
-            figures.gaussian_skew,
-            figures.rho_cross_heading,
-        ),
-        (figures.coverage.ellipse, figures.coverage.exponential),
-        (gain_fields(figures.likelihood_gain), gain_fields(figures.likelihood_gain_error)),
-        figures.area_ratio,
+        stats.n,
+        (stats.cartesian.mean, stats.cartesian.cov),
+        (stats.exponential.mean, stats.exponential.cov),
+        (stats.cross_track_skew, stats.cross_track_skew_error, stats.gaussian_skew, stats.rho_cross_heading),
+        (stats.coverage.ellipse, stats.coverage.exponential),
+        (gain_fields(stats.likelihood_gain), gain_fields(stats.likelihood_gain_error)),
+        stats.area_ratio,
     );
     let columns = (values(table.linearized), values(table.exact), values(table.measured));
     let outlines = (

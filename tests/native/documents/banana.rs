@@ -41,7 +41,7 @@ fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
         let exact = machine.table().exact;
         floor.assert(exact.likelihood_gain.floor, 0.0);
         area.assert(exact.area_ratio, 0.0);
-        ellipse.assert_percent(machine.figures().coverage.ellipse, error);
+        ellipse.assert_percent(machine.stats().coverage.ellipse, error);
         skew.assert(exact.cross_track_skew, 1e-12);
         exact
     };
@@ -64,8 +64,8 @@ fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
         "do not give the ellipse away, # % and # %. The cross-track skew, the lopsidedness across the path, does: #, \
          where any Gaussian in (x, y) has #, and so has the banana.",
     );
-    ellipse.assert_percent(hard_machine.figures().coverage.ellipse, error);
-    outline_share.assert_percent(hard_machine.figures().coverage.exponential, error);
+    ellipse.assert_percent(hard_machine.stats().coverage.ellipse, error);
+    outline_share.assert_percent(hard_machine.stats().coverage.exponential, error);
     skew.assert(hard.cross_track_skew, 0.0);
     gaussian_skew.assert(hard_machine.table().linearized.cross_track_skew, 0.0);
     assert!(banana.cross_track_skew.abs() < 1e-9);
@@ -86,7 +86,7 @@ fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
     );
     document().assert(
         "The widget opens with # robots. They give the skew of the Banana to ±#.",
-        [opening_machine.settings().samples as f64, opening_machine.figures().cross_track_skew_error],
+        [opening_machine.settings().samples as f64, opening_machine.stats().cross_track_skew_error],
     );
 }
 
@@ -140,8 +140,8 @@ fn the_predicted_skew_misses_under_the_odometry_model() {
     velocity_alphas[4..].fill(0.0);
     let relative_miss = |settings| {
         let machine = machine(settings);
-        let figures = machine.figures();
-        (figures.cross_track_skew - figures.gaussian_skew).abs() / figures.cross_track_skew_error
+        let stats = machine.stats();
+        (stats.cross_track_skew - stats.gaussian_skew).abs() / stats.cross_track_skew_error
     };
     assert!(relative_miss(Settings { velocity_alphas, ..settings }) < MAX_STANDARD_ERRORS);
     assert!(relative_miss(Settings { model: ModelKind::Odometry, ..settings }) > standard_errors.value);
@@ -150,7 +150,7 @@ fn the_predicted_skew_misses_under_the_odometry_model() {
 #[test]
 fn a_hundred_times_the_robots_leave_a_tenth_of_the_error() {
     page().assert_says("A hundred times the robots leave a tenth of the standard error.");
-    let error = |samples| machine(Settings { samples, ..preset("gentle") }).figures().cross_track_skew_error;
+    let error = |samples| machine(Settings { samples, ..preset("gentle") }).stats().cross_track_skew_error;
     let ratio = error(2000) / error(200_000);
     assert!((ratio - 10.0).abs() < 1.0, "{ratio}");
 }

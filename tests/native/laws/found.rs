@@ -14,14 +14,14 @@ fn a_cloud_too_small_for_its_powers_has_no_skew() {
     for (unit, is_finite) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
         let cloud = [0.0, 1.0, 3.0, 7.0].map(|y| SE2::new(unit, unit * y, 0.0));
         let track = CrossTrack::from_poses(&cloud);
-        let figures = [track.skew, track.skew_error];
-        assert!(figures.iter().all(|figure| figure.is_finite() == is_finite), "{unit}: {track:?}");
+        let values = [track.skew, track.skew_error];
+        assert!(values.iter().all(|value| value.is_finite() == is_finite), "{unit}: {track:?}");
     }
     let command = VelocityCmd { v: 1e-60, omega: 0.5, dt: 1.0 };
     let alphas = [0.05, 0.0, 0.05, 0.05, 0.0, 0.0];
     let settings = Settings { command, velocity_alphas: alphas, samples: 100, ..Settings::default() };
-    let figures = *BananaMachine::new(settings).expect("allowed").figures();
-    assert!(figures.cross_track_skew.is_nan() && figures.cross_track_skew_error.is_nan(), "{figures:?}");
+    let stats = *BananaMachine::new(settings).expect("allowed").stats();
+    assert!(stats.cross_track_skew.is_nan() && stats.cross_track_skew_error.is_nan(), "{stats:?}");
 }
 
 /// The direction of a subnormal chord must not be computed with a reciprocal, which overflows.

@@ -63,7 +63,7 @@ proptest! {
     /// A change of the unit by a power of two, from 10⁻³⁰ m to 10³⁰ m, changes no bit of dimensionless results. A
     /// mirror image changes their sign only.
     #[test]
-    fn cross_track_figures_do_not_depend_on_the_unit(cloud in clouds(), power in -100..100i32, left in any::<bool>()) {
+    fn cross_track_statistics_do_not_depend_on_the_unit(cloud in clouds(), power in -100..100i32, left in any::<bool>()) {
         let (unit, side) = (2f64.powi(power), if left { 1.0 } else { -1.0 });
         let scaled: Vec<SE2> =
             cloud.iter().map(|pose| SE2::new(unit * pose.x(), side * unit * pose.y(), side * pose.theta())).collect();
@@ -78,7 +78,7 @@ proptest! {
     fn a_point_has_no_shape(pose in frames(), count in 1..20usize) {
         let cloud = vec![pose; count];
         let track = CrossTrack::from_poses(&cloud);
-        prop_assert!([track.skew, track.skew_error, track.rho_heading].iter().all(|figure| figure.is_nan()));
+        prop_assert!([track.skew, track.skew_error, track.rho_heading].iter().all(|value| value.is_nan()));
         let expected = if count == 1 { f64::NAN } else { 0.0 };
         prop_assert!(CartesianMoments::from_poses(&cloud).cov.iter().all(|entry| is_close(*entry, expected, 0.0)));
     }

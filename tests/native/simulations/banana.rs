@@ -32,7 +32,7 @@ fn settings_of_models() -> [Settings; 2] {
 
 /// Returns all results of a machine as text.
 fn results(machine: &BananaMachine) -> String {
-    format!("{:?} {:?} {:?} {:?}", machine.settings(), poses(machine), machine.figures(), machine.contours())
+    format!("{:?} {:?} {:?} {:?}", machine.settings(), poses(machine), machine.stats(), machine.contours())
 }
 
 /// Accuracy of a pose after a metre or two. Each factor of a coordinate has the accuracy of a sine or cosine.
@@ -124,7 +124,7 @@ fn long_turns_stay_on_the_branch_of_the_command() {
         let command = VelocityCmd { v: 1.0, omega, dt: 1.0 };
         let velocity_alphas = [0.01, 0.0, 0.0, 0.001, 0.0, 0.0];
         let machine = machine(Settings { command, velocity_alphas, samples: 20_000, ..preset("gentle") });
-        let ExponentialMoments { mean, cov } = machine.figures().exponential;
+        let ExponentialMoments { mean, cov } = machine.stats().exponential;
         let turn_variance = 0.001 * omega * omega;
         assert!((mean.x - 1.0).abs() < MAX_STANDARD_ERRORS * 0.1 / 20_000f64.sqrt(), "{omega}: {mean}");
         assert!(
@@ -150,8 +150,8 @@ fn isolating_an_alpha_silences_the_others() {
     for alpha in [4, 6] {
         let machine = isolated(alpha);
         assert!(machine.poses().all(|pose| pose == end), "α₄ and α₆ are silent where nothing is turned");
-        assert!(machine.figures().cross_track_skew.is_nan());
-        assert_eq!(machine.figures().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
+        assert!(machine.stats().cross_track_skew.is_nan());
+        assert_eq!(machine.stats().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
     }
     assert!(isolated(1).poses().all(|pose| (pose.y(), pose.theta()) == (0.0, 0.0)), "α₁ turns nobody");
     assert!(isolated(3).poses().all(|pose| (pose.log().x - 2.0).abs() < 1e-14), "α₃ fans arcs of one length");
@@ -193,12 +193,12 @@ fn without_a_chart_exponential_figures_are_undefined() {
     for (omega, is_defined) in [(0.9, true), (2.0, false), (-2.0, false)] {
         let machine = machine_with_turn(omega);
         assert_eq!(machine.chart_holds(), is_defined, "ω = {omega}");
-        let (figures, contours) = (machine.figures(), machine.contours());
-        let exponential = [figures.gaussian_skew, figures.coverage.exponential, figures.exponential.mean.x];
-        assert!(exponential.iter().all(|value| value.is_nan() != is_defined), "ω = {omega}: {figures:?}");
+        let (stats, contours) = (machine.stats(), machine.contours());
+        let exponential = [stats.gaussian_skew, stats.coverage.exponential, stats.exponential.mean.x];
+        assert!(exponential.iter().all(|value| value.is_nan() != is_defined), "ω = {omega}: {stats:?}");
         assert_eq!(contours.exponential.is_empty(), !is_defined);
         assert_eq!(contours.twist_ellipse.is_empty(), !is_defined);
-        assert!(figures.cross_track_skew.is_finite() && figures.coverage.ellipse.is_finite());
+        assert!(stats.cross_track_skew.is_finite() && stats.coverage.ellipse.is_finite());
         assert_eq!(contours.ellipse.len(), contours.linearized.len());
     }
 }
@@ -290,9 +290,9 @@ fn additive_noise_does_not_depend_on_the_motion() {
 /// The default seed is chosen so that each readout differs from its exact value by less than a fifth of a standard error.
 /// Only one seed in 250 has such small differences.
 #[test]
-fn the_opening_cloud_shows_the_exact_figures() {
+fn the_opening_cloud_shows_the_exact_values() {
     let machine = machine(Settings::default());
-    let (cloud, exact) = (machine.figures(), machine.table().exact);
+    let (cloud, exact) = (machine.stats(), machine.table().exact);
     assert!((cloud.cross_track_skew - exact.cross_track_skew).abs() < 0.2 * cloud.cross_track_skew_error);
     assert!((cloud.area_ratio - exact.area_ratio).abs() < 0.2 * cloud.area_ratio_error);
     assert!(

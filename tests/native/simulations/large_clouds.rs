@@ -3,7 +3,7 @@
 use crate::common::preset;
 use crate::simulations::banana::machine;
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::sim::banana::{BananaMachine, Figures, MAX_SAMPLES, ModelKind, Settings};
+use motion::sim::banana::{BananaMachine, MAX_SAMPLES, ModelKind, Settings, Stats};
 use motion::stats::{CartesianMoments, CrossTrack, Ellipse};
 use motion::{NoiseKind, VelocityCmd};
 use nalgebra::Vector3;
@@ -90,8 +90,8 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
 fn assert_exact(machine: &BananaMachine) {
     let poses: Vec<SE2> = machine.poses().collect();
     let n = poses.len() as f64;
-    let figures @ Figures { cartesian, exponential, .. } = *machine.figures();
-    let cross_track = [figures.cross_track_skew, figures.cross_track_skew_error, figures.rho_cross_heading];
+    let stats @ Stats { cartesian, exponential, .. } = *machine.stats();
+    let cross_track = [stats.cross_track_skew, stats.cross_track_skew_error, stats.rho_cross_heading];
     assert_exact_moments(&poses, &cartesian, cross_track);
 
     let twist = |pose: &SE2| pose.log_near(machine.settings().command.omega * machine.settings().command.dt);
@@ -110,7 +110,7 @@ fn assert_exact(machine: &BananaMachine) {
     let ellipse = Ellipse::from_moments(&cartesian);
     let inside = poses.iter().filter(|pose| ellipse.contains([pose.x(), pose.y()])).count();
     // Rounding may decide whether one robot on the contour is inside.
-    assert_close("coverage", figures.coverage.ellipse, inside as f64 / n, 1.5e12 / n);
+    assert_close("coverage", stats.coverage.ellipse, inside as f64 / n, 1.5e12 / n);
 }
 
 #[test]

@@ -72,7 +72,7 @@ fn outlines_keep_their_robots() {
         let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
         let machine =
             machine(Settings { command, velocity_alphas: alphas, samples: 5000, ..preset("banana") });
-        let contour = ExponentialContour::new(&machine.figures().exponential, &SE2::identity());
+        let contour = ExponentialContour::new(&machine.stats().exponential, &SE2::identity());
         let inside = |morph: f64| {
             let ellipse = unbend_line(&machine.contours().ellipse, omega * 2.0, morph);
             let outline = contour.unbent(OUTLINE_SEGMENTS, morph);
@@ -98,8 +98,8 @@ fn outlines_keep_their_robots() {
 #[test]
 fn the_outline_ends_as_both_views_have_it() {
     let machine = machine(Settings { samples: 5000, ..preset("hard") });
-    let figures = machine.figures();
-    let contour = ExponentialContour::new(&figures.exponential, &SE2::identity());
+    let stats = machine.stats();
+    let contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
     assert_eq!(contour.unbent(OUTLINE_SEGMENTS, 0.0), machine.contours().exponential);
     for point in contour.unbent(OUTLINE_SEGMENTS, 1.0) {
         assert!((contour.ellipse().distance(point) - 2.0).abs() < 1e-9);

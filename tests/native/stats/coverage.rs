@@ -39,18 +39,18 @@ fn shares_within_errors(settings: Settings, repetitions: u64) -> [f64; 3] {
     let (skew, gain) = (machine.exact().cross_track_skew, machine.exact_gain().value);
     shares(repetitions, |seed| {
         machine.configure(Settings { seed, ..settings }).expect("valid settings");
-        let figures = machine.figures();
-        let (gains, error) = (figures.likelihood_gain, figures.likelihood_gain_error);
+        let stats = machine.stats();
+        let (gains, error) = (stats.likelihood_gain, stats.likelihood_gain_error);
         let is_within = |value: f64, error: f64, exact: f64| (value - exact).abs() <= 1.959_964 * error;
         [
-            is_within(figures.cross_track_skew, figures.cross_track_skew_error, skew),
+            is_within(stats.cross_track_skew, stats.cross_track_skew_error, skew),
             is_within(gains.pose, error.pose, gain.pose),
             is_within(gains.floor, error.floor, gain.floor),
         ]
     })
 }
 
-const FIGURE_NAMES: [&str; 3] = ["skew", "gain of poses", "gain on the floor"];
+const STATISTIC_NAMES: [&str; 3] = ["skew", "gain of poses", "gain on the floor"];
 
 #[test]
 #[ignore = "nightly: thousands of clouds"]
@@ -61,8 +61,9 @@ fn errors_of_small_clouds() {
         ("odometry", Settings { model: ModelKind::Odometry, ..preset("gentle") }),
     ] {
         let settings = Settings { samples: ROBOTS, ..settings };
-        for (figure, share) in FIGURE_NAMES.into_iter().zip(shares_within_errors(settings, REPETITIONS)) {
-            assert_covered(&format!("{figure}, {cloud_name}"), share, REPETITIONS);
+        for (statistic, share) in STATISTIC_NAMES.into_iter().zip(shares_within_errors(settings, REPETITIONS))
+        {
+            assert_covered(&format!("{statistic}, {cloud_name}"), share, REPETITIONS);
         }
     }
 }
@@ -72,8 +73,8 @@ fn errors_of_small_clouds() {
 #[ignore = "nightly: thousands of clouds"]
 fn errors_of_the_banana_preset() {
     let shares = shares_within_errors(preset("banana"), LARGE_REPETITIONS);
-    for (figure, share) in FIGURE_NAMES.into_iter().zip(shares) {
-        assert_covered(&format!("{figure}, banana"), share, LARGE_REPETITIONS);
+    for (statistic, share) in STATISTIC_NAMES.into_iter().zip(shares) {
+        assert_covered(&format!("{statistic}, banana"), share, LARGE_REPETITIONS);
     }
 }
 

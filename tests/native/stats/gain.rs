@@ -3,7 +3,7 @@
 use crate::common::{NOISE_KINDS, Table, mean, preset, variance};
 use motion::geom::arc::{arc_near, chord};
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::sim::banana::{BananaMachine, Figures, ModelKind, PRESETS, Preset, Settings};
+use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Preset, Settings, Stats};
 use motion::stats::{CartesianMoments, ExactGain};
 use motion::{VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -26,8 +26,8 @@ fn poses(machine: &BananaMachine) -> Vec<SE2> {
 }
 
 /// Returns value and error of the gain of poses, and of the gain on the floor.
-fn gains(figures: &Figures) -> [[f64; 2]; 2] {
-    let (value, error) = (figures.likelihood_gain, figures.likelihood_gain_error);
+fn gains(stats: &Stats) -> [[f64; 2]; 2] {
+    let (value, error) = (stats.likelihood_gain, stats.likelihood_gain_error);
     [[value.pose, error.pose], [value.floor, error.floor]]
 }
 
@@ -115,7 +115,7 @@ fn the_machine_has_the_gain_of_its_poses() {
                     let settings =
                         Settings { model, noise, command, odometry_alphas, samples, ..preset("gentle") };
                     let machine = BananaMachine::new(settings).expect("a valid setting");
-                    let gains_found = gains(machine.figures());
+                    let gains_found = gains(machine.stats());
                     let case = format!("{model:?} {noise:?} {command:?} {samples}");
                     if samples > 4 {
                         let robot_gains = robot_gains(&poses(&machine), omega * dt);
@@ -135,7 +135,7 @@ fn the_machine_has_the_gain_of_its_poses() {
     }
 }
 
-// ---------------------------------------------------------------------------------------------- exact figures
+// ---------------------------------------------------------------------------------------------- exact values
 
 /// The references integrate each noise up to 6 or 6.6 standard deviations, with steps that do not meet the jump between two branches. Both
 /// change a gain by up to 1e-6. Where an outline crosses itself, a chord may belong to either loop, which changes an area by up to 1e-4.
@@ -163,7 +163,7 @@ fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
     for Preset { command, .. } in PRESETS {
         let floor_gains = |last: f64| {
             let machine = machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 10_000);
-            [machine.figures().likelihood_gain.floor, machine.exact_gain().value.floor]
+            [machine.stats().likelihood_gain.floor, machine.exact_gain().value.floor]
         };
         let without_turn = floor_gains(0.0);
         assert!(without_turn.iter().all(|gain| gain.is_finite()), "{command:?}");
@@ -176,13 +176,12 @@ fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
     // That holds also if headings spread over a full turn, where exponential coordinates are undefined.
     let wide_cloud = machine(GENTLE, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
     assert!(!wide_cloud.chart_holds());
-    let Figures { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } =
-        wide_cloud.figures();
+    let Stats { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } = wide_cloud.stats();
     assert!(gain.pose.is_nan() && error.pose.is_nan() && area_ratio.is_nan());
     assert_close(
         "floor",
         gain.floor,
-        machine(GENTLE, GENTLE_ALPHAS, 10_000).figures().likelihood_gain.floor,
+        machine(GENTLE, GENTLE_ALPHAS, 10_000).stats().likelihood_gain.floor,
         1e-12,
     );
 }
@@ -204,7 +203,7 @@ fn the_ratio_is_that_of_the_areas_drawn() {
         let machine = machine(command, alphas, 5000);
         let contours = machine.contours();
         let ratio = area(&contours.ellipse) / area(&contours.exponential);
-        assert_close("ratio", machine.figures().area_ratio, ratio, 1e-12 * ratio);
+        assert_close("ratio", machine.stats().area_ratio, ratio, 1e-12 * ratio);
     }
 }
 
@@ -214,13 +213,13 @@ fn the_ratio_is_that_of_the_areas_drawn() {
 fn the_error_of_the_ratio_is_its_spread_over_clouds() {
     const CLOUDS: usize = 300;
     for Preset { name, command, alphas } in PRESETS {
-        let figures_of = |seed: usize| {
+        let stats_of = |seed: usize| {
             let seed = seed as u64;
             let settings =
                 Settings { command, velocity_alphas: alphas, samples: 1000, seed, ..Settings::default() };
-            *BananaMachine::new(settings).expect("a valid setting").figures()
+            *BananaMachine::new(settings).expect("a valid setting").stats()
         };
-        let clouds: Vec<Figures> = (0..CLOUDS).map(figures_of).collect();
+        let clouds: Vec<Stats> = (0..CLOUDS).map(stats_of).collect();
         let ratio_std = variance(&clouds.iter().map(|cloud| cloud.area_ratio).collect::<Vec<_>>()).sqrt();
         let mean_error = mean(&clouds.iter().map(|cloud| cloud.area_ratio_error).collect::<Vec<_>>());
         // The relative standard error of a standard deviation is 1/√(2·CLOUDS).
@@ -239,7 +238,7 @@ fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
                 let velocity_alphas = [0.05, 0.05, 0.05, 0.09, 0.0, 0.0];
                 let settings = Settings { command, velocity_alphas, noise, samples, ..Settings::default() };
                 let flat = BananaMachine::new(settings).expect("a valid setting");
-                let Figures { likelihood_gain: value, likelihood_gain_error: error, .. } = flat.figures();
+                let Stats { likelihood_gain: value, likelihood_gain_error: error, .. } = flat.stats();
                 assert!(
                     value.pose == f64::INFINITY && error.pose.is_nan(),
                     "{command:?} {samples}: {value:?}"
@@ -250,14 +249,14 @@ fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
             }
             // With a tiny variance of γ̂ the gain is finite. It grows by half a nat if that variance falls by a factor e.
             let pose_gain = |last: f64| {
-                machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000).figures().likelihood_gain.pose
+                machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000).stats().likelihood_gain.pose
             };
             assert_close("growth", pose_gain(1e-16) - pose_gain(1e-14), 100f64.ln() / 2.0, 1e-4);
         }
     }
     // The cloud is a curve in the plane, and a straight line in exponential coordinates.
     let fan = machine(STRAIGHT, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0], 2000);
-    let Figures { likelihood_gain: gain, area_ratio, .. } = fan.figures();
+    let Stats { likelihood_gain: gain, area_ratio, .. } = fan.stats();
     assert!(gain.pose == f64::INFINITY && gain.floor == f64::INFINITY && area_ratio.is_nan());
     assert_eq!(fan.table().exact.likelihood_gain, *gain);
 }
@@ -271,9 +270,9 @@ fn robots_on_a_line_have_no_gain() {
         (GENTLE, [0.1, 0.1, 0.0, 0.0, 0.0, 0.0]),
     ] {
         let machine = machine(command, alphas, 5000);
-        for gain in [machine.figures().likelihood_gain, machine.table().exact.likelihood_gain] {
+        for gain in [machine.stats().likelihood_gain, machine.table().exact.likelihood_gain] {
             assert!(gain.pose.is_nan() && gain.floor.is_nan(), "{command:?} {alphas:?}: {gain:?}");
         }
-        assert!(machine.figures().area_ratio.is_nan() && machine.figures().coverage.ellipse.is_nan());
+        assert!(machine.stats().area_ratio.is_nan() && machine.stats().coverage.ellipse.is_nan());
     }
 }

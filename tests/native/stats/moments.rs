@@ -165,9 +165,9 @@ fn degenerate_clouds_give_nan() {
             .collect::<Vec<_>>()
     };
     for cloud in [vec![], poses_on_line(2.0), poses_on_line(-0.3)] {
-        let figures = CrossTrack::from_poses(&cloud);
-        for value in [figures.skew, figures.skew_error, figures.rho_heading, cross_track_skew(&cloud)] {
-            assert!(value.is_nan(), "{figures:?}");
+        let stats = CrossTrack::from_poses(&cloud);
+        for value in [stats.skew, stats.skew_error, stats.rho_heading, cross_track_skew(&cloud)] {
+            assert!(value.is_nan(), "{stats:?}");
         }
         let cartesian = CartesianMoments::from_poses(&cloud);
         let exponential = ExponentialMoments::from_poses(&cloud, &SE2::identity());
@@ -207,7 +207,7 @@ fn a_cloud_whose_breadth_is_rounding_is_a_line() {
         let settings = Settings { command, velocity_alphas, samples: 1000, ..Settings::default() };
         let machine = BananaMachine::new(settings).expect("a valid setting");
         let poses: Vec<SE2> = machine.poses().collect();
-        [machine.figures().cross_track_skew, CrossTrack::from_poses(&poses).skew]
+        [machine.stats().cross_track_skew, CrossTrack::from_poses(&poses).skew]
     };
     // The bearing is half the turn. The width of the cloud is therefore 5e-14 of its length.
     assert!(skews(1e-13).into_iter().all(f64::is_nan));

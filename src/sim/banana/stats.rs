@@ -5,7 +5,7 @@ use crate::geom::arc::ArcInversion;
 use crate::js::js_structs;
 use crate::models::OdomDelta;
 use crate::sim::cloud::START_POSE;
-use crate::stats::fused::CloudFigures;
+use crate::stats::fused::CloudStats;
 use crate::stats::{
     CartesianMoments, Ellipse, ExponentialContour, ExponentialMoments, LikelihoodGain,
     predicted_cross_track_skew,
@@ -15,7 +15,7 @@ use nalgebra::{ArrayStorage, Matrix3, Vector3};
 js_structs! {
     /// Statistics of the samples shown. They are NaN if all samples are equal, or if there are too few.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Figures as "Stats" {
+    pub struct Stats {
         /// Number of samples shown.
         pub n: usize,
         /// Moments of the poses in (x, y, θ).
@@ -61,7 +61,7 @@ pub struct DefinedCharts {
     pub arc: bool,
 }
 
-impl Figures {
+impl Stats {
     /// Statistics of a cloud without samples.
     pub const NONE: Self = {
         let (mean, cov) = (
@@ -85,10 +85,10 @@ impl Figures {
     };
 
     /// Returns the statistics of a cloud of `n` samples. Those in coordinates that are undefined for the cloud are NaN.
-    pub fn of(n: usize, cloud: &CloudFigures, defined: DefinedCharts) -> Self {
-        let CloudFigures { cartesian, exponential, cross_track, gain, .. } = *cloud;
+    pub fn of(n: usize, cloud: &CloudStats, defined: DefinedCharts) -> Self {
+        let CloudStats { cartesian, exponential, cross_track, gain, .. } = *cloud;
         let ellipse = Ellipse::from_moments(&cartesian);
-        let mut figures = Self {
+        let mut stats = Self {
             n,
             cartesian,
             cross_track_skew: cross_track.skew,
@@ -100,22 +100,22 @@ impl Figures {
             ..Self::NONE
         };
         if defined.pose {
-            figures.exponential = exponential;
+            stats.exponential = exponential;
             // The shape is undefined if all positions are equal. Exponential coordinates may then differ, because of the headings.
             if !ellipse.is_point() {
-                figures.gaussian_skew = predicted_cross_track_skew(&exponential.mean, &exponential.cov);
-                figures.coverage.exponential = cloud.inside_exponential;
+                stats.gaussian_skew = predicted_cross_track_skew(&exponential.mean, &exponential.cov);
+                stats.coverage.exponential = cloud.inside_exponential;
             }
             let contour = ExponentialContour::new(&exponential, &START_POSE);
-            figures.area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
-            figures.area_ratio_error = figures.area_ratio * cloud.log_area_error;
+            stats.area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
+            stats.area_ratio_error = stats.area_ratio * cloud.log_area_error;
         }
-        let gains = [&mut figures.likelihood_gain, &mut figures.likelihood_gain_error];
+        let gains = [&mut stats.likelihood_gain, &mut stats.likelihood_gain_error];
         for LikelihoodGain { pose, floor } in gains {
             *pose = if defined.pose { *pose } else { f64::NAN };
             *floor = if defined.arc { *floor } else { f64::NAN };
         }
-        figures
+        stats
     }
 }
 

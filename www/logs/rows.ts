@@ -1,6 +1,6 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
-import { max, min, range } from 'd3-array';
+import { max, min, range, sum } from 'd3-array';
 import { LogError, type Place } from './log-error.ts';
 import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
 import { LATE, SET_BACK, STRAY, repeatFactor, sortRows } from './order.ts';
@@ -32,8 +32,8 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
-/** Number of rows before and after a gap from which speeds are computed, and minimum speed (m/s) of a robot that drives. */
-const [SPEED_ROWS, MIN_DRIVING_SPEED] = [8, 0.1];
+/** Number of rows from which speeds before and after a gap are computed, twice each, and minimum speed (m/s) of a robot that drives. */
+const [SPEED_ROWS, MIN_DRIVING_SPEED] = [4, 0.1];
 
 /** Periods (s) after which clocks begin at 0 again: a day, a week of GPS, and 32-bit counters of an unstated unit, ms or µs. */
 const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
@@ -41,8 +41,8 @@ const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 /** Minimum period of a clock, in median steps of its times. A clock that was set back might match a shorter period by chance. */
 const MIN_PERIOD_STEPS = 500;
 
-/** Two paths whose poses alternate: minimum distance (m), minimum number of poses far from the next, maximum number of rows until a path goes on, and maximum fraction of poses that are still far then. */
-const [MIN_PATH_DISTANCE, MIN_TURNS, MAX_TURN_ROWS, MAX_TURN_FRACTION] = [0.05, 20, 8, 0.2];
+/** Two paths whose poses alternate: minimum distance (m), minimum number of poses far from the next, maximum number of rows and of seconds until a path goes on, and maximum fraction of poses that are still far then. */
+const [MIN_PATH_DISTANCE, MIN_TURNS, MAX_TURN_ROWS, MAX_TURN_SECONDS, MAX_TURN_FRACTION] = [0.05, 20, 8, 1, 0.2];
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
 const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
@@ -146,7 +146,7 @@ export class Rows {
     const columns = { ...times, a, b, c };
     const units = judgeUnits(this.#logPlace, kind, columns, assumed, options);
     const { start, t } = columns;
-    const pathDistance = kind === 'poses' ? distanceOfPaths(a, b) : 0;
+    const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (say) => say.turns(pathDistance));
     const { breaks, jumpRows, clockSet, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
@@ -345,24 +345,24 @@ export class Rows {
  * Returns the distance (m) of two paths whose poses alternate, as of two robots in one log; 0 for a single path. Paths alternate if many poses
  * are far from the next one, and near one a few rows later.
  */
-function distanceOfPaths(x: Float64Array, y: Float64Array): number {
+function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): number {
   const distancesOver = (rows: number) => sample(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
   const longStep = quantile(distancesOver(1), 0.9);
   const countOfLong = (rows: number) => distancesOver(rows).filter((distance) => distance > longStep / 2).length;
   const isTurn = (rows: number) => countOfLong(rows) < MAX_TURN_FRACTION * countOfLong(1);
-  return longStep > MIN_PATH_DISTANCE && countOfLong(1) >= MIN_TURNS && range(2, MAX_TURN_ROWS + 1).some(isTurn) ? longStep : 0;
+  const maxRows = Math.min(MAX_TURN_ROWS, (MAX_TURN_SECONDS * t.length) / (t[t.length - 1] - t[0]));
+  return longStep > MIN_PATH_DISTANCE && countOfLong(1) >= MIN_TURNS && range(2, maxRows + 1).some(isTurn) ? longStep : 0;
 }
 
-/** Returns true if a robot drives on after a gap in the times from where it was before, at the same speed: its clock was set forward. */
+/** Returns true if a robot drives on after a gap in the times from where it was before, steadily: its clock was set forward. */
 function isSetForward(t: Float64Array, x: Float64Array, y: Float64Array, i: number, medianStep: number): boolean {
   const motion = (from: number, to: number) => [x[to] - x[from], y[to] - y[from]];
-  const [before, gap, after] = [motion(i - 1 - SPEED_ROWS, i - 1), motion(i - 1, i), motion(i, i + SPEED_ROWS)];
-  const [lengthBefore, lengthAfter] = [Math.hypot(...before), Math.hypot(...after)];
-  const isStraight = before[0] * after[0] + before[1] * after[1] > 0.95 * lengthBefore * lengthAfter;
-  const isMoving = Math.min(lengthBefore, lengthAfter) > MIN_DRIVING_SPEED * SPEED_ROWS * medianStep;
-  // A robot may also stop and go on in a gap.
-  const isSteady = Math.min(...[motion(i - 2, i - 1), motion(i, i + 1)].map((step) => SPEED_ROWS * Math.hypot(...step))) > 0.7 * Math.max(lengthBefore, lengthAfter);
-  return isStraight && isMoving && isSteady && SPEED_ROWS * Math.hypot(...gap) < 1.5 * lengthBefore && t[i + SPEED_ROWS] - t[i] > 0.5 * SPEED_ROWS * medianStep;
+  const motions = [i - 1 - 2 * SPEED_ROWS, i - 1 - SPEED_ROWS, i, i + SPEED_ROWS].map((from) => motion(from, from + SPEED_ROWS));
+  const lengths = motions.map(([dx, dy]) => Math.hypot(dx, dy));
+  const slowest = Math.min(...lengths);
+  const isStraight = Math.hypot(sum(motions, ([dx]) => dx), sum(motions, ([, dy]) => dy)) > 0.95 * sum(lengths);
+  const isSteady = slowest > 0.7 * Math.max(...lengths) && slowest > MIN_DRIVING_SPEED * SPEED_ROWS * medianStep;
+  return isStraight && isSteady && SPEED_ROWS * Math.hypot(...motion(i - 1, i)) < 2 * slowest && t[i + SPEED_ROWS] - t[i] > 0.5 * SPEED_ROWS * medianStep;
 }
 
 /** Returns a function that checks for a jump between a row and the one before it. */

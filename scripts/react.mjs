@@ -28,9 +28,9 @@ function componentOf({ tag, machine, attributes, properties }) {
   return `export const ${machine} = component('${machine}', '${tag}', ${JSON.stringify(propNames)});\n`;
 }
 
-/** @param {Widget[]} all */
-function imports(all) {
-  const elements = all.map(({ machine }) => `${machine}Element`);
+/** @param {Widget[]} allWidgets */
+function imports(allWidgets) {
+  const elements = allWidgets.map(({ machine }) => `${machine}Element`);
   return (
     "import type { ClassAttributes, ForwardRefExoticComponent, HTMLAttributes, RefAttributes } from 'react';\n" +
     `import type { ${[...elements, 'FigureElement', 'FigureEvents'].sort().join(', ')} } from '../www/types.d.ts';\n`
@@ -38,7 +38,7 @@ function imports(all) {
 }
 
 const PROP_TYPES = `/** Type of a prop: numbers and lists of words also as text, as in attributes, and digits also as numbers. */
-type Given<Value> = Value extends number
+type PropValue<Value> = Value extends number
   ? Value | \`\${number}\`
   : Value extends \`\${infer Digit extends number}\`
   ? Value | Digit
@@ -48,7 +48,7 @@ type Given<Value> = Value extends number
       ? readonly Item[]
       : Value;
 
-type Settings<Element, Names extends keyof Element> = { [Name in keyof Pick<Element, Names>]?: Given<Element[Name]> };
+type Settings<Element, Names extends keyof Element> = { [Name in keyof Pick<Element, Names>]?: PropValue<Element[Name]> };
 
 type Events<Element extends FigureElement<any, any>> = FigureEvents<NonNullable<Element['stats']>>;
 
@@ -97,8 +97,8 @@ function typesOf({ tag, machine, attributes, properties }) {
   );
 }
 
-/** @param {Widget[]} all */
-function jsxTags(all) {
-  const tagLines = all.map(({ tag, machine }) => `      '${tag}': Tag<${machine}Element, ${machine}Attributes>;\n`);
+/** @param {Widget[]} allWidgets */
+function jsxTags(allWidgets) {
+  const tagLines = allWidgets.map(({ tag, machine }) => `      '${tag}': Tag<${machine}Element, ${machine}Attributes>;\n`);
   return `declare module 'react' {\n  namespace JSX {\n    interface IntrinsicElements {\n${tagLines.join('')}    }\n  }\n}\n`;
 }

@@ -33,8 +33,8 @@ export async function writeTypes() {
       `${HEADER}
 import type { FigureTags } from '../build/elements.d.ts';
 
-type Own<Given> = Given & { [Name in keyof Given as \`${prefix}\${Name & string}\`]?: Given[Name] };
-type Tags = { [Tag in keyof FigureTags]: Omit<${any}<HTMLElementTagNameMap[Tag]>, keyof FigureTags[Tag]> & Own<FigureTags[Tag]> };
+type WithPrefixed<Fields> = Fields & { [Name in keyof Fields as \`${prefix}\${Name & string}\`]?: Fields[Name] };
+type Tags = { [Tag in keyof FigureTags]: Omit<${any}<HTMLElementTagNameMap[Tag]>, keyof FigureTags[Tag]> & WithPrefixed<FigureTags[Tag]> };
 
 declare module '${module}' {
   ${namespace}
@@ -127,16 +127,16 @@ function importLine(widgets) {
 /** @param {import('./declarations.mjs').Widget[]} widgets */
 function tagNames(widgets) {
   const mapLines = widgets.map(({ tag, machine }) => `    '${tag}': ${machine}Element;\n`);
-  const givenLines = widgets.map(({ tag, machine, attributes, properties }) => {
+  const tagLines = widgets.map(({ tag, machine, attributes, properties }) => {
     const fields = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
-    return `  '${tag}': Given<${machine}Element, ${unionType(fields)}>;\n`;
+    return `  '${tag}': TemplateValues<${machine}Element, ${unionType(fields)}>;\n`;
   });
   return `/** Values that a template gives to an element: numbers and lists also as text, as attributes have them. */
-type Given<Element, Names extends keyof Element> = { [Name in Names]?: Element[Name] | string | null } & { 'heading-level'?: string };
+type TemplateValues<Element, Names extends keyof Element> = { [Name in Names]?: Element[Name] | string | null } & { 'heading-level'?: string };
 
 /** Values that templates give to each tag. */
 export interface FigureTags {
-${givenLines.join('')}}
+${tagLines.join('')}}
 
 declare global {
   interface HTMLElementTagNameMap {

@@ -4,7 +4,7 @@ use super::input::{Input, is_one_in};
 use super::laws;
 use super::settings::{are_allowed, with_changes};
 use motion::sim::dead_reckoning::{
-    DeadReckoning, MAX_SHOWN_ROBOTS, Measured, Misses, Outlines, RECURSIONS, Settings, Stats, StraightGrowth,
+    DeadReckoning, MAX_SHOWN_ROBOTS, MeasuredMoments, Misses, Outlines, RECURSIONS, Settings, Stats, StraightGrowth,
 };
 use nalgebra::Matrix3;
 
@@ -183,7 +183,7 @@ fn assert_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, us
 }
 
 /// Returns the rounding error of a covariance computed as mean of products minus product of means.
-fn rounding_of_sums(Measured { mean, cov, .. }: &Measured) -> impl Fn(usize, usize) -> f64 + use<> {
+fn rounding_of_sums(MeasuredMoments { mean, cov, .. }: &MeasuredMoments) -> impl Fn(usize, usize) -> f64 + use<> {
     let [along, lateral, heading] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
     let sizes = [along + lateral, along + lateral, heading];
     move |i, j| laws::ROUNDING * sizes[i] * sizes[j] + laws::UNDERFLOW * (sizes[i] + sizes[j])

@@ -1,14 +1,14 @@
 //! Changes settings to any values, in the way in which a user changes them.
 
 use super::input::Input;
-use motion::sim::settings::{Allowed, Group, Rules, Setting, SettingsError};
+use motion::sim::settings::{AllowedValues, Group, Rules, Setting, SettingsError};
 
 /// Returns the present settings with some of them changed.
 pub fn with_changes<S: Rules>(present: &S, input: &mut Input) -> S {
     let (mut settings, mut changed_keys) = (*present, Vec::new());
     let chosen_settings = u16::from_le_bytes(input.next_bytes());
     let mut count = 0;
-    let _: Result<(), ()> = settings.try_each(|declaration, setting| {
+    let _: Result<(), ()> = settings.try_visit_settings(|declaration, setting| {
         count += 1;
         if chosen_settings >> (count - 1) & 1 == 1 {
             changed_keys.push(declaration.key);
@@ -16,7 +16,7 @@ pub fn with_changes<S: Rules>(present: &S, input: &mut Input) -> S {
         }
         Ok(())
     });
-    settings.settle(present, &changed_keys);
+    settings.adjust(present, &changed_keys);
     settings
 }
 
@@ -57,12 +57,12 @@ pub fn are_allowed<S: Rules>(settings: &S) -> bool {
     let message = error.to_string();
     assert!(message.starts_with(field) && message.contains("; allowed is "), "{message}");
     match allowed {
-        Allowed::Real(range) => assert!(!range.contains(value), "{message}"),
-        Allowed::Whole(range) => {
+        AllowedValues::Real(range) => assert!(!range.contains(value), "{message}"),
+        AllowedValues::Whole(range) => {
             let whole_number = *value as u64;
             assert!(whole_number as f64 != *value || !range.contains(&whole_number), "{message}");
         }
-        Allowed::LessMemory | Allowed::Word { .. } => panic!("{message}"),
+        AllowedValues::LessMemory | AllowedValues::Word { .. } => panic!("{message}"),
     }
     false
 }
@@ -70,7 +70,7 @@ pub fn are_allowed<S: Rules>(settings: &S) -> bool {
 /// Asserts that every number is in its range.
 fn assert_in_range<S: Rules>(settings: &S) {
     let mut settings = *settings;
-    let _: Result<(), ()> = settings.try_each(|declaration, setting| {
+    let _: Result<(), ()> = settings.try_visit_settings(|declaration, setting| {
         let all_in_range = match setting {
             Setting::Number(number, range) => range.contains(number),
             Setting::Whole(whole, range) => range.contains(&whole.get()),

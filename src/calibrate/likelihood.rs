@@ -89,7 +89,7 @@ pub(super) struct Innovation {
 
 /// Innovations of all legs under given variances, with the resulting least-squares estimate.
 #[derive(Clone, Debug)]
-pub(super) struct Filtered {
+pub(super) struct FilterResult {
     pub innovations: Vec<Innovation>,
     pub least_squares: LeastSquares,
 }
@@ -109,7 +109,7 @@ pub(super) struct LeastSquares {
 /// Log-likelihood with its derivatives with respect to the parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
-    pub filtered: Filtered,
+    pub filtered: FilterResult,
     /// rᵀP Vⱼ P r and tr(P Vⱼ) for each parameter j. The score is half of their difference.
     pub quadratic: Parameters,
     pub trace: Parameters,
@@ -157,7 +157,7 @@ impl Term {
     }
 }
 
-impl Filtered {
+impl FilterResult {
     /// Returns the sandwich covariance of the systematic errors, C (Σ gᵦ gᵦᵀ) C. C is the covariance by the likelihood, and gᵦ the score of a
     /// block of `length` legs. The sandwich is right even if the legs of a block are correlated.
     pub fn sandwich(&self, length: usize) -> ErrorMatrix {
@@ -293,14 +293,14 @@ impl Residuals {
     }
 
     /// Returns the innovation of each leg, and the systematic errors that explain a part of them.
-    pub fn filtered(&self, parameters: &Parameters) -> Filtered {
+    pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
         let mut innovations = Vec::with_capacity(self.chosen.len());
         let least_squares = self.filter(parameters, Some(&mut innovations));
-        Filtered { innovations, least_squares }
+        FilterResult { innovations, least_squares }
     }
 
     /// Returns the log-likelihood with its derivatives, from the innovations under the same parameters.
-    pub fn expansion(&self, filtered: Filtered) -> Expansion {
+    pub fn expansion(&self, filtered: FilterResult) -> Expansion {
         let LeastSquares { errors, covariance, .. } = filtered.least_squares;
         // For a row x of V⁻¹X, a diagonal entry of P is smaller than that of V⁻¹ by x C xᵀ, because errors are estimated.
         let covariance_rows =

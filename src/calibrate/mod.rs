@@ -26,7 +26,7 @@ pub use intervals::NotIdentifiable;
 pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS, split_into_legs};
 pub use options::{CalibrateError, Drive, Options, Outliers};
 pub use residuals::{Model, Observation};
-pub use result::{Calibration, Estimate, LegFit, Persistence, Recommended};
+pub use result::{Calibration, Estimate, LegFit, Persistence, Recommendation};
 pub use systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 pub use trajectory::{Trajectory, TrajectoryError};
 
@@ -92,12 +92,12 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         interval: interval_of(variance).map(f64::sqrt),
     });
     let leg_fits = all_legs.leg_fits(parameters);
-    let recommendation = windows::recommend(&fit, &all_legs, &alphas);
-    let inflation = recommendation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
+    let cross_validation = windows::cross_validate(&fit, &all_legs, &alphas);
+    let inflation = cross_validation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
     let mut checks = checks::log_checks(&all_legs, &lost, &errors, inflation);
     checks.extend(scale_checks);
     checks.extend(checks::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
-    checks.extend(recommendation.checks);
+    checks.extend(cross_validation.checks);
     let verdict = checks::verdict(&checks, alphas.iter().any(Option::is_some));
     Ok(Calibration {
         alphas,
@@ -115,8 +115,8 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         observations: all_legs.observations,
         leg_fits,
         lost,
-        diagnostics: Diagnostics { verdict, checks, windows: recommendation.windows },
-        recommended: recommendation.recommended.filter(|_| verdict != Verdict::Unusable),
+        diagnostics: Diagnostics { verdict, checks, windows: cross_validation.windows },
+        recommended: cross_validation.recommended.filter(|_| verdict != Verdict::Unusable),
     })
 }
 

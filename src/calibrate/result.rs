@@ -28,7 +28,7 @@ pub struct Persistence {
 
 /// α's that a filter can use.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Recommended {
+pub struct Recommendation {
     /// Fitted α's times the inflation. None for an α that is not identifiable.
     pub alphas: Vec<Option<f64>>,
     /// Factor on the fitted α's, 1 or more.
@@ -94,7 +94,7 @@ pub struct Calibration {
     /// Checks and the judgement that follows from them.
     pub diagnostics: Diagnostics,
     /// None where the log is unusable.
-    pub recommended: Option<Recommended>,
+    pub recommended: Option<Recommendation>,
 }
 
 impl Calibration {

@@ -10,7 +10,7 @@ use super::legs::{Leg, distance};
 use super::likelihood::{Parameters, Residuals, reference_variances};
 use super::optimizer::maximize;
 use super::residuals::Observation;
-use super::result::Recommended;
+use super::result::Recommendation;
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
@@ -158,14 +158,15 @@ const WINDOW_LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
 /// Quantiles 0.95 of χ² with 1, 2 and 3 degrees of freedom.
 const CHI2_95: [f64; 3] = [3.841, 5.991, 7.815];
 
-pub(super) struct Recommendation {
-    pub recommended: Option<Recommended>,
+/// Recommended α's, with the comparisons of held-out data from which they follow.
+pub(super) struct CrossValidation {
+    pub recommended: Option<Recommendation>,
     pub checks: Vec<Check>,
     pub windows: Vec<WindowCoverage>,
 }
 
 /// Fits each half of the log, compares each half with the fit to the other one, and finds the inflation that windows need.
-pub(super) fn recommend(fit: &Fit, whole_log: &Sample, alphas: &[Option<f64>]) -> Recommendation {
+pub(super) fn cross_validate(fit: &Fit, whole_log: &Sample, alphas: &[Option<f64>]) -> CrossValidation {
     let half_ranges = |count: usize| [0..count / 2, count / 2..count];
     let count = fit.sample.legs.len();
     let residuals = half_ranges(count).map(|half| fit.sample.inlier_residuals(half));
@@ -200,12 +201,12 @@ pub(super) fn recommend(fit: &Fit, whole_log: &Sample, alphas: &[Option<f64>]) -
     let coverages: Vec<WindowCoverage> =
         windows.iter().zip(WINDOW_LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
     checks.extend(window_checks(&coverages, scale_std));
-    let recommended = inflation.map(|inflation| Recommended {
+    let recommended = inflation.map(|inflation| Recommendation {
         alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),
         inflation,
         reason: recommendation_reason(&coverages[0], inflation),
     });
-    Recommendation { recommended, checks, windows: coverages }
+    CrossValidation { recommended, checks, windows: coverages }
 }
 
 fn recommendation_reason(window: &WindowCoverage, inflation: f64) -> String {

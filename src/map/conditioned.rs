@@ -78,7 +78,7 @@ pub struct Draw {
 
 /// Accepted motion and its cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Accepted {
+pub struct AcceptedMotion {
     /// End pose.
     pub pose: SE2,
     /// True if the whole path was free, as it always is with [`Sampler::WholeArc`].
@@ -194,7 +194,7 @@ impl MapConditioned<'_> {
         u: &VelocityCmd,
         x: &SE2,
         rng: &mut R,
-    ) -> Result<Accepted, NoAcceptedSample> {
+    ) -> Result<AcceptedMotion, NoAcceptedSample> {
         self.sample_along(u, x, rng, |_| ())
     }
 
@@ -205,14 +205,14 @@ impl MapConditioned<'_> {
         x: &SE2,
         rng: &mut R,
         mut along: impl FnMut(&Arc),
-    ) -> Result<Accepted, NoAcceptedSample> {
+    ) -> Result<AcceptedMotion, NoAcceptedSample> {
         let mut path_free = true;
         let mut cost = Cost::default();
         let pose = self.drive(u, x, rng, &mut cost, &mut |driven, end| {
             along(&driven.arc);
             path_free = path_free && self.plan.path_free(driven, end, self.clearance).free;
         })?;
-        Ok(Accepted { pose, path_free, cost })
+        Ok(AcceptedMotion { pose, path_free, cost })
     }
 
     /// Returns the cost of one accepted motion in a filter, which makes only the deciding test for each draw.

@@ -13,7 +13,7 @@ mod reading;
 mod wall_tree;
 
 pub use conditioned::{
-    Accepted, Cost, Draw, DrawTester, MAX_DRAWS, MapConditioned, NoAcceptedSample, Sampler,
+    AcceptedMotion, Cost, Draw, DrawTester, MAX_DRAWS, MapConditioned, NoAcceptedSample, Sampler,
 };
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
 pub use occupancy::{Cell, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION_RANGE, Unknown};

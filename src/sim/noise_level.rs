@@ -27,8 +27,8 @@ impl<const N: usize> Level for NoiseLevel<'_, N> {
 }
 
 impl<const N: usize> Settable for NoiseLevel<'_, N> {
-    type Allowed = RangeInclusive<f64>;
-    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
+    type Range = RangeInclusive<f64>;
+    fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
         Setting::Level(self, allowed)
     }
 }

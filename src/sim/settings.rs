@@ -12,22 +12,22 @@ pub struct SettingsError {
     /// The value that is not allowed.
     pub value: f64,
     /// The values that are allowed.
-    pub allowed: Allowed,
+    pub allowed: AllowedValues,
 }
 
 /// Allowed values of a setting.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Allowed {
+pub enum AllowedValues {
     /// Numbers in a range.
     Real(RangeInclusive<f64>),
     /// Whole numbers in a range.
     Whole(RangeInclusive<u64>),
     /// Numbers of samples for which there is enough memory.
     LessMemory,
-    /// Words that are allowed instead of `is`.
+    /// Words that are allowed instead of `given`.
     Word {
         /// The word that is not allowed.
-        is: &'static str,
+        given: &'static str,
         /// Words that are allowed, as text.
         allowed: &'static str,
     },
@@ -36,19 +36,23 @@ pub enum Allowed {
 impl SettingsError {
     /// Returns the error for a number of samples that need more memory than there is.
     pub(crate) fn no_memory(samples: usize) -> Self {
-        Self { field: "samples".to_owned(), value: samples as f64, allowed: Allowed::LessMemory }
+        Self { field: "samples".to_owned(), value: samples as f64, allowed: AllowedValues::LessMemory }
     }
 
     /// Returns the message, with numbers as `number` prints them. In WebAssembly JavaScript prints them, because Rust's code
     /// for printing floats would take an eighth of the module.
     pub fn message(&self, number: impl Fn(f64) -> String) -> String {
         let allowed = match &self.allowed {
-            Allowed::Word { is, allowed } => return format!("{} is {is}; allowed is {allowed}", self.field),
-            Allowed::Real(range) => {
+            AllowedValues::Word { given, allowed } => {
+                return format!("{} is {given}; allowed is {allowed}", self.field);
+            }
+            AllowedValues::Real(range) => {
                 format!("a number from {} to {}", number(*range.start()), number(*range.end()))
             }
-            Allowed::Whole(range) => format!("a whole number from {} to {}", range.start(), range.end()),
-            Allowed::LessMemory => "a number for which there is memory".to_owned(),
+            AllowedValues::Whole(range) => {
+                format!("a whole number from {} to {}", range.start(), range.end())
+            }
+            AllowedValues::LessMemory => "a number for which there is memory".to_owned(),
         };
         format!("{} is {}; allowed is {allowed}", self.field, number(self.value))
     }
@@ -71,7 +75,7 @@ pub(crate) fn check_real(
     if allowed.contains(&value) {
         return Ok(());
     }
-    Err(SettingsError { field: field.to_owned(), value, allowed: Allowed::Real(allowed.clone()) })
+    Err(SettingsError { field: field.to_owned(), value, allowed: AllowedValues::Real(allowed.clone()) })
 }
 
 /// Returns a double as the whole number in a range. The ends of the range must be exact as doubles.
@@ -84,7 +88,7 @@ pub(crate) fn check_whole(
     if whole_number as f64 == value && allowed.contains(&whole_number) {
         return Ok(whole_number);
     }
-    Err(SettingsError { field: field.to_owned(), value, allowed: Allowed::Whole(allowed.clone()) })
+    Err(SettingsError { field: field.to_owned(), value, allowed: AllowedValues::Whole(allowed.clone()) })
 }
 
 /// Range of positions (m), angles (rad) and speeds (m/s, rad/s). It is far larger than any robot needs. Products with the
@@ -233,34 +237,34 @@ pub struct Field {
 /// Types that a setting may have.
 pub trait Settable {
     /// Type of the declared range.
-    type Allowed;
+    type Range;
     /// Returns a reference to the value, with its allowed values.
-    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_>;
+    fn setting(&mut self, allowed: Self::Range) -> Setting<'_>;
 }
 
 impl Settable for f64 {
-    type Allowed = RangeInclusive<f64>;
-    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
+    type Range = RangeInclusive<f64>;
+    fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
         Setting::Number(self, allowed)
     }
 }
 
 impl Settable for Option<usize> {
-    type Allowed = RangeInclusive<u64>;
-    fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
+    type Range = RangeInclusive<u64>;
+    fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
         Setting::WholeOrNone(self, allowed)
     }
 }
 
 impl Settable for bool {
-    type Allowed = ();
+    type Range = ();
     fn setting(&mut self, (): ()) -> Setting<'_> {
         Setting::Truth(self)
     }
 }
 
 impl<T: Words> Settable for T {
-    type Allowed = ();
+    type Range = ();
     fn setting(&mut self, (): ()) -> Setting<'_> {
         Setting::Word(self)
     }
@@ -269,8 +273,8 @@ impl<T: Words> Settable for T {
 macro_rules! numbers {
     ($($type:ty),+) => {$(
         impl Settable for $type {
-            type Allowed = RangeInclusive<f64>;
-            fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
+            type Range = RangeInclusive<f64>;
+            fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
                 Setting::Numbers(self, allowed)
             }
         }
@@ -289,8 +293,8 @@ macro_rules! whole {
             }
         }
         impl Settable for $type {
-            type Allowed = RangeInclusive<u64>;
-            fn setting(&mut self, allowed: Self::Allowed) -> Setting<'_> {
+            type Range = RangeInclusive<u64>;
+            fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
                 Setting::Whole(self, allowed)
             }
         }
@@ -302,23 +306,23 @@ whole!(u32, u64, usize);
 pub type Visitor<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
 
 /// Loop over the settings of a widget. `settings!` implements it.
-pub trait Declared: Copy + Default {
+pub trait DeclaredSettings: Copy + Default {
     /// Names of the settings, in the order of declaration.
     const KEYS: &'static [&'static str];
 
     /// Calls `visit` for each setting, in the order of declaration.
-    fn each(&mut self, visit: &mut Visitor) -> ControlFlow<()>;
+    fn visit_settings(&mut self, visit: &mut Visitor) -> ControlFlow<()>;
 
     /// Calls `visit` for each setting, in the order of declaration, until it returns an error.
     ///
     /// # Errors
     /// The error of `visit`.
-    fn try_each<E>(
+    fn try_visit_settings<E>(
         &mut self,
         mut visit: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
     ) -> Result<(), E> {
         let mut first_error = None;
-        let _ = self.each(&mut |declaration, setting| match visit(declaration, setting) {
+        let _ = self.visit_settings(&mut |declaration, setting| match visit(declaration, setting) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
                 first_error = Some(error);
@@ -330,9 +334,9 @@ pub trait Declared: Copy + Default {
 }
 
 /// Rules that connect several settings of a widget.
-pub trait Rules: Declared {
+pub trait Rules: DeclaredSettings {
     /// Adjusts other settings to the `named` ones, which were set one by one.
-    fn settle(&mut self, _before: &Self, _named: &[&str]) {}
+    fn adjust(&mut self, _before: &Self, _named: &[&str]) {}
 
     /// Checks combinations of settings, each of which is in its range.
     ///
@@ -346,7 +350,7 @@ pub trait Rules: Declared {
     /// [`SettingsError`] for the first setting out of range.
     fn check(&self) -> Result<(), SettingsError> {
         let mut settings = *self;
-        settings.try_each(|declaration, setting| setting.check(declaration.key))?;
+        settings.try_visit_settings(|declaration, setting| setting.check(declaration.key))?;
         self.check_together()
     }
 }
@@ -393,10 +397,10 @@ macro_rules! settings {
             }
         }
 
-        impl $crate::sim::settings::Declared for $name {
+        impl $crate::sim::settings::DeclaredSettings for $name {
             const KEYS: &'static [&'static str] = &[$(settings!(@key $field $($key)?)),+];
 
-            fn each(&mut self, visit: &mut $crate::sim::settings::Visitor) -> std::ops::ControlFlow<()> {
+            fn visit_settings(&mut self, visit: &mut $crate::sim::settings::Visitor) -> std::ops::ControlFlow<()> {
                 use $crate::sim::settings::{Settable, declaration};
                 $(visit(
                     const {
@@ -458,7 +462,7 @@ macro_rules! group {
         }
 
         impl $crate::sim::settings::Settable for $type {
-            type Allowed = ();
+            type Range = ();
             fn setting(&mut self, (): ()) -> $crate::sim::settings::Setting<'_> {
                 $crate::sim::settings::Setting::Group(self)
             }

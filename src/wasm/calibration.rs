@@ -2,7 +2,7 @@
 
 use super::values::{float_array, js_array, js_object, number_or_null, to_plain_js};
 use crate::calibrate::{
-    Calibration, Check, ErrorMask, Estimate, NotIdentifiable, Recommended, SystematicError, Verdict,
+    Calibration, Check, ErrorMask, Estimate, NotIdentifiable, Recommendation, SystematicError, Verdict,
 };
 use js_sys::Array;
 use wasm_bindgen::prelude::*;
@@ -216,7 +216,9 @@ fn check_to_js(check: &Check) -> Result<JsValue, JsValue> {
     ]))
 }
 
-fn recommended_to_js(Recommended { alphas: recommended_alphas, inflation, reason }: &Recommended) -> JsValue {
+fn recommended_to_js(
+    Recommendation { alphas: recommended_alphas, inflation, reason }: &Recommendation,
+) -> JsValue {
     js_object(&[
         ("alphas", alphas_to_js(recommended_alphas)),
         ("inflation", (*inflation).into()),

@@ -5,7 +5,7 @@ use super::fields::{not_shown, read_integer};
 use super::pictures::nearest_index;
 use super::values::{flat_float_array, js_object, number_or_null, to_plain_js};
 use crate::models::Compounding;
-use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES, MAX_STEPS, Measured, Settings};
+use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES, MAX_STEPS, MeasuredMoments, Settings};
 use crate::sim::settings::Words;
 use js_sys::{Array, Float64Array};
 use nalgebra::Vector3;
@@ -88,13 +88,13 @@ impl JsDeadReckoning {
     /// Measured variances, in the form of `predicted`.
     #[wasm_bindgen(getter)]
     pub fn measured(&self) -> Float64Array {
-        flat_vectors(self.0.measured().iter().map(|measured: &Measured| measured.cov.diagonal()))
+        flat_vectors(self.0.measured().iter().map(|measured: &MeasuredMoments| measured.cov.diagonal()))
     }
 
     /// Standard errors of the measured variances, relative to them.
     #[wasm_bindgen(getter, js_name = relativeErrors)]
     pub fn relative_errors(&self) -> Float64Array {
-        flat_vectors(self.0.measured().iter().map(|measured: &Measured| measured.relative_error))
+        flat_vectors(self.0.measured().iter().map(|measured: &MeasuredMoments| measured.relative_error))
     }
 
     /// Path driven without noise, as x, y pairs (m) from the start.

@@ -159,7 +159,7 @@ pub fn read_opening<S: Rules>(options: &JsValue) -> Result<S, JsValue> {
 pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = Fields::new("options", "", options, S::KEYS)?;
     let (mut settings, mut given_keys) = (*present, Vec::new());
-    settings.try_each(|declaration, setting| {
+    settings.try_visit_settings(|declaration, setting| {
         let key = declaration.key;
         let value = fields.value(key)?;
         if value.is_undefined() {
@@ -172,7 +172,7 @@ pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsVa
         given_keys.push(key);
         read_setting(key, &value, setting)
     })?;
-    settings.settle(present, &given_keys);
+    settings.adjust(present, &given_keys);
     Ok(settings)
 }
 

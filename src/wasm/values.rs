@@ -1,6 +1,6 @@
 //! Conversion of Rust values to JavaScript values.
 
-use crate::sim::settings::{Declared, Group, Setting, Word, Words};
+use crate::sim::settings::{DeclaredSettings, Group, Setting, Word, Words};
 use js_sys::{Array, Float64Array, Object, Uint8Array};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Serialize, Serializer};
@@ -53,9 +53,9 @@ impl<T: Words> ToJs for T {
 }
 
 /// Makes an object of the settings of a widget, without settings that are alternative forms of others.
-pub fn settings_to_js<S: Declared>(settings: &S) -> JsValue {
+pub fn settings_to_js<S: DeclaredSettings>(settings: &S) -> JsValue {
     let (mut entries, mut settings) = (Vec::new(), *settings);
-    let _ = settings.try_each(|declaration, setting| {
+    let _ = settings.try_visit_settings(|declaration, setting| {
         if declaration.of.is_none() {
             entries.push((declaration.key, setting_to_js(setting)));
         }

@@ -22,13 +22,13 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureFor } from './figures
  * Fixtures: names of the elements on which a test about all figures, all clouds or all handles runs (its title decides), and whether the
  * session has seen the introduction that a figure shows on the first visit.
  *
- * @typedef {{ figure: Name, cloud: Name, handled: Name, introduced: boolean }} Chosen
+ * @typedef {{ figure: Name, cloud: Name, handled: Name, introduced: boolean }} FigureFixtures
  */
 
 /**
  * Test that fails on any warning or error in the console.
  *
- * @type {import('@playwright/test').TestType<import('@playwright/test').PlaywrightTestArgs & import('@playwright/test').PlaywrightTestOptions & Chosen, import('@playwright/test').PlaywrightWorkerArgs & import('@playwright/test').PlaywrightWorkerOptions>}
+ * @type {import('@playwright/test').TestType<import('@playwright/test').PlaywrightTestArgs & import('@playwright/test').PlaywrightTestOptions & FigureFixtures, import('@playwright/test').PlaywrightWorkerArgs & import('@playwright/test').PlaywrightWorkerOptions>}
  */
 export const test = base.extend({
   /* oxlint-disable no-empty-pattern */

@@ -20,26 +20,26 @@ import { CACHE } from '../../scripts/toolchain.mjs';
  * @property {() => string} versions of its packages, as the files of the example pin them
  * @property {boolean} [python] whether it takes the Python package
  * @property {number} [node] major version of Node that it needs, if newer than that of our package
- * @property {(directory: string, tools: Tools & Packed) => Promise<unknown>} install installs the packages in a fresh copy of the example
+ * @property {(directory: string, tools: Tools & PackagePaths) => Promise<unknown>} install installs the packages in a fresh copy of the example
  * @property {(directory: string, tools: Tools) => Promise<unknown>} [build]
  * @property {Serving[]} servings ways to serve the site; the first is that for users
  * @property {{ first: string, second?: string }} pages paths; the first has the figures
  * @property {(page: import('@playwright/test').Page, path: string) => Promise<unknown>} [go] clicks a link to a path,
  *   or to "first" or "second" where both have one address
  * @property {(page: import('@playwright/test').Page, on: boolean) => Promise<unknown>} [dark] turns dark mode on or off
- * @property {Expected[]} expected figures that the example contains
+ * @property {ExpectedFigure[]} expected figures that the example contains
  * @property {{ message: RegExp, reason: string }[]} [allowed] messages of the console that the engine causes
  *
  * @typedef {object} Serving
  * @property {string} name
- * @property {(directory: string, tools: Tools) => Promise<Served>} serve
+ * @property {(directory: string, tools: Tools) => Promise<RunningServer>} serve
  * @property {Record<string, (page: import('@playwright/test').Page, site: import('./checks.mjs').Site) => Promise<void>>} [checks] for
  *   servings that are not sites, in place of the usual checks
  * @property {Engine['dark']} [dark] replaces that of the engine, if only some servings have dark mode
  *
- * @typedef {{ url: string, stop: () => unknown }} Served
- * @typedef {{ selector: string, properties: Record<string, unknown> }} Expected selector of a figure, and properties that it must have
- * @typedef {{ tarball: string, wheel: string }} Packed paths of the packages; the wheel (Python) is empty for engines without Python
+ * @typedef {{ url: string, stop: () => unknown }} RunningServer
+ * @typedef {{ selector: string, properties: Record<string, unknown> }} ExpectedFigure selector of a figure, and properties that it must have
+ * @typedef {{ tarball: string, wheel: string }} PackagePaths paths of the packages; the wheel (Python) is empty for engines without Python
  * @typedef {object} Tools
  * @property {(command: string, args: string[], env?: Record<string, string>) => Promise<string>} run runs a program in
  *   the copy, asserts that it succeeds, and returns its output
@@ -89,7 +89,7 @@ export function pinnedVersions(example, ...packages) {
     .join(', ');
 }
 
-/** Installs the npm packages of an engine. @param {string} _directory @param {Tools & Packed} tools */
+/** Installs the npm packages of an engine. @param {string} _directory @param {Tools & PackagePaths} tools */
 export async function npmInstall(_directory, { run, tarball }) {
   await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', tarball]);
 }

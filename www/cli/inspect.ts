@@ -21,7 +21,7 @@ export interface Contents {
 }
 
 /** Contents of all recordings that are given together. */
-export interface Inspected {
+export interface InspectionResult {
   recordings: Contents[];
   /** Sentence about a log that the calibration still needs, or an assumption that it makes. */
   missing?: string;
@@ -37,7 +37,7 @@ export interface GivenRecording { recording: Recording; path: string }
  *
  * @param stated options about units and columns, which the command needs too
  */
-export async function inspect(given: GivenRecording[], stated: [name: string, value: string][], onProgress?: (share: number | undefined) => void): Promise<Inspected> {
+export async function inspect(given: GivenRecording[], stated: [name: string, value: string][], onProgress?: (share: number | undefined) => void): Promise<InspectionResult> {
   const recordings: Contents[] = [];
   for (const { recording } of given) recordings.push(await contentsOf(recording, onProgress));
   onProgress?.(undefined);
@@ -62,7 +62,7 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
 }
 
 /** Returns the contents as text. */
-export function inspectionText({ recordings, missing, command }: Inspected): string {
+export function inspectionText({ recordings, missing, command }: InspectionResult): string {
   const contentLines = recordings.flatMap(({ name, format, series, refused }) => {
     const tableRows = series.map(({ name: seriesName, type, rows: count, uses, summary }) => [seriesName || '(all columns)', isTable({ format }) ? cut(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
     const summaryLines = series.flatMap(({ name: seriesName, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : seriesName ? `${seriesName}: ${line}` : line)));
@@ -113,7 +113,7 @@ export const byOrder = ({ unpaired: { odometry: [first], reference: [second] } }
   `${first.recording.name} is taken as the odometry and ${second.recording.name} as the reference, by their order: neither name says which is which.`;
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
-function nextCommand(given: GivenRecording[], stated: [name: string, value: string][]): Pick<Inspected, 'command' | 'missing'> {
+function nextCommand(given: GivenRecording[], stated: [name: string, value: string][]): Pick<InspectionResult, 'command' | 'missing'> {
   const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => shellQuoted(given.find((file) => file.recording === recording)?.path ?? recording.name);
   const unitOptions = stated.map(([name, value]) => `--${name} ${shellQuoted(value)}`);
   const command = (...options: string[]) => ['npx motion-widgets calibrate', ...new Set(options), ...unitOptions, '--rule nav2'].join(' ');

@@ -14,7 +14,7 @@ import { openRecordings } from './open.ts';
 import { logOf } from './pairs.ts';
 
 /** Recording as the page gets it: without the method `read`, but with its index (`place`) among the opened recordings. */
-export type Opened = Recording & { place: number };
+export type OpenedRecording = Recording & { place: number };
 
 /** Error for the page. A LogError has its sentence in each language. */
 export interface PostedFailure {
@@ -48,15 +48,15 @@ class LogSession {
     this.#machine = new this.#motion.AlphaCalibrator();
   }
 
-  async open(_: OnProgress, sources: { file: Source; path: string }[], answers: Record<string, OpenOptions>): Promise<{ recordings: Opened[]; skipped: PostedFailure[] }> {
+  async open(_: OnProgress, sources: { file: Source; path: string }[], answers: Record<string, OpenOptions>): Promise<{ recordings: OpenedRecording[]; skipped: PostedFailure[] }> {
     const skipped: PostedFailure[] = [];
     this.#recordings = await openRecordings(sources.map(({ file, path }) => Object.assign(file, { path })), (name) => answers[name], (error) => skipped.push(failureOf(error)));
-    return { recordings: this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as Opened), skipped };
+    return { recordings: this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as OpenedRecording), skipped };
   }
 
   /** Reads the logs of a plan of the page, and keeps them for `calibrate`. */
   async read(onProgress: OnProgress, { drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>): Promise<Drive[]> {
-    const openedPart = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as Opened).place], choice });
+    const openedPart = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).place], choice });
     const plan = {
       drives: drives.map(({ odometry, reference }) => ({ odometry: openedPart(odometry), reference: openedPart(reference) })),
       unpaired: { odometry: unpaired.odometry.map(openedPart), reference: unpaired.reference.map(openedPart) },

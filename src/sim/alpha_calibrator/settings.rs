@@ -3,7 +3,7 @@
 use crate::calibrate::{self, ERROR_COUNT, LegLength, Options, Outliers};
 use crate::models::OdometryRule;
 use crate::noise::NoiseKind;
-use crate::sim::settings::{Allowed, MAX_SEED, Rules, SettingsError, Word, Words, settings};
+use crate::sim::settings::{AllowedValues, MAX_SEED, Rules, SettingsError, Word, Words, settings};
 
 /// Motion model whose α's are calibrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,7 +84,7 @@ impl Settings {
 
 impl Rules for Settings {
     /// Changes the rule if the model was changed to one that does not have it, or the model if the rule was changed.
-    fn settle(&mut self, _: &Self, named: &[&str]) {
+    fn adjust(&mut self, _: &Self, named: &[&str]) {
         let model_fits_rule = self.omnidirectional() == (self.rule == OdometryRule::Omni);
         match [named.contains(&"model"), named.contains(&"rule")] {
             [true, false] if !model_fits_rule => {
@@ -103,7 +103,7 @@ impl Rules for Settings {
             return Ok(());
         }
         let allowed = if self.omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
-        let allowed = Allowed::Word { is: self.rule.get(), allowed };
+        let allowed = AllowedValues::Word { given: self.rule.get(), allowed };
         Err(SettingsError { field: "rule".to_owned(), value: f64::NAN, allowed })
     }
 }

@@ -6,7 +6,7 @@ mod stats;
 
 pub use settings::*;
 pub use stats::{Contours, Coverage, Sample, Stats, Table, TableColumn};
-use stats::{DefinedCharts, Executed};
+use stats::{DefinedCharts, ExecutedMotion};
 
 use super::cloud::drive::Drive;
 use super::cloud::picture::{self, Ramp};
@@ -72,12 +72,12 @@ impl ModelWithInput {
         }
     }
 
-    fn executed(&self, unit_noise: [f64; 3]) -> Executed {
+    fn executed(&self, unit_noise: [f64; 3]) -> ExecutedMotion {
         match self {
             Self::Velocity(model, command) => {
-                Executed::Arc { arc: model.executed(command, unit_noise), dt: command.dt }
+                ExecutedMotion::Arc { arc: model.executed(command, unit_noise), dt: command.dt }
             }
-            Self::Odometry(model, reading) => Executed::Legs(model.executed(reading, unit_noise)),
+            Self::Odometry(model, reading) => ExecutedMotion::Legs(model.executed(reading, unit_noise)),
         }
     }
 
@@ -374,8 +374,8 @@ impl BananaMachine {
         let no_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
         let executed = self.settings.motion(self.settings.command).executed(self.cloud.unit_noise(index));
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs, path) = match executed {
-            Executed::Arc { arc, dt } => (arc, None, arc_points(arc.v_hat * dt, arc.omega_hat * dt)),
-            Executed::Legs(legs) => {
+            ExecutedMotion::Arc { arc, dt } => (arc, None, arc_points(arc.v_hat * dt, arc.omega_hat * dt)),
+            ExecutedMotion::Legs(legs) => {
                 (no_arc, Some(legs), vec![[START_POSE.x(), START_POSE.y()], [pose.x(), pose.y()]])
             }
         };
@@ -388,8 +388,8 @@ impl BananaMachine {
     pub fn executed(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let motion = self.settings.motion(self.settings.command);
         (0..self.shown()).map(move |index| match motion.executed(self.cloud.unit_noise(index)) {
-            Executed::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
-            Executed::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],
+            ExecutedMotion::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
+            ExecutedMotion::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],
         })
     }
 

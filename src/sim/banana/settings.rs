@@ -99,7 +99,7 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    fn settle(&mut self, before: &Self, named: &[&str]) {
+    fn adjust(&mut self, before: &Self, named: &[&str]) {
         // An α of the same number has another meaning in the other model.
         if self.model != before.model && !named.contains(&"isolate") {
             self.isolate = None;

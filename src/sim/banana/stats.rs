@@ -188,7 +188,7 @@ js_structs! {
 
 /// Motion that a robot executed instead of the command.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Executed {
+pub(super) enum ExecutedMotion {
     /// Arc and final turn, both of duration `dt` (s).
     Arc { arc: ArcInversion, dt: f64 },
     /// Three legs of the odometry model, which has no arc.

@@ -5,13 +5,13 @@ mod settings;
 mod stats;
 mod straight;
 
-pub use rollouts::{MAX_SHOWN_ROBOTS, Measured};
+pub use rollouts::{MAX_SHOWN_ROBOTS, MeasuredMoments};
 pub use settings::*;
 pub use stats::{Comparison, Misses, RECURSIONS, TOLERANCE};
 pub use straight::StraightGrowth;
 
 use super::cloud::views::Nearest;
-use super::settings::{Allowed, Rules, SettingsError};
+use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
 use crate::models::{Compounding, TangentNoiseModel};
@@ -40,7 +40,7 @@ pub struct DeadReckoning {
     shown: usize,
     /// Predictions by recursion.
     predicted: [Vec<Option<Matrix3<f64>>>; 3],
-    measured: Vec<Measured>,
+    measured: Vec<MeasuredMoments>,
     comparisons: [Comparison; 3],
 }
 
@@ -106,7 +106,7 @@ impl DeadReckoning {
         let mut rollouts = Rollouts::new(&settings).map_err(|_| SettingsError {
             field: "steps".to_owned(),
             value: f64::from(settings.steps),
-            allowed: Allowed::LessMemory,
+            allowed: AllowedValues::LessMemory,
         })?;
         let predicted = RECURSIONS.map(|order| covariances(&settings, order));
         let measured = rollouts.measured(0);
@@ -177,7 +177,7 @@ impl DeadReckoning {
     }
 
     /// Returns the moments of the robots after each step; the first is of step 1.
-    pub fn measured(&self) -> &[Measured] {
+    pub fn measured(&self) -> &[MeasuredMoments] {
         &self.measured
     }
 
@@ -226,7 +226,7 @@ impl DeadReckoning {
     /// Returns the measured and predicted covariances after the selected step.
     pub fn stats(&self) -> Stats {
         let step = self.settings.step as usize - 1;
-        let Measured { mean, cov, .. } = self.measured()[step];
+        let MeasuredMoments { mean, cov, .. } = self.measured()[step];
         Stats {
             n: self.shown(),
             measured: ExponentialMoments { mean, cov },
@@ -262,7 +262,7 @@ impl DeadReckoning {
 
     fn outlines_at(&self, index: usize, compounding: Compounding) -> Outlines {
         let pose = self.nominal()[index];
-        let Measured { mean, cov, .. } = &self.measured()[index];
+        let MeasuredMoments { mean, cov, .. } = &self.measured()[index];
         let measured = if self.shown() < 2 { vec![] } else { ellipse_of_xi(mean, cov) };
         let Some(cov) = self.predicted(compounding)[index] else {
             return Outlines { ellipse: vec![], exponential: vec![], predicted: vec![], measured };
@@ -284,7 +284,7 @@ impl DeadReckoning {
 fn compare_all(
     settings: &Settings,
     predicted: &[Vec<Option<Matrix3<f64>>>; 3],
-    measured: &[Measured],
+    measured: &[MeasuredMoments],
 ) -> [Comparison; 3] {
     predicted.each_ref().map(|covs| Comparison::new(settings, covs, measured))
 }

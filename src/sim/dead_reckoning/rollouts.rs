@@ -57,7 +57,7 @@ struct ErrorPoses {
 
 /// Moments of the robots after one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
+pub struct MeasuredMoments {
     /// Mean of ξ = x_k ⊟ x̄_k in the order (along, lateral, heading): m, m, rad.
     pub mean: Vector3<f64>,
     /// Sample covariance of ξ, 3 × 3.
@@ -175,7 +175,7 @@ impl Rollouts {
     }
 
     /// Returns the moments of `goal` robots after each step. It drives those of the last, incomplete block.
-    pub fn measured(&mut self, goal: usize) -> Vec<Measured> {
+    pub fn measured(&mut self, goal: usize) -> Vec<MeasuredMoments> {
         let moments_of = |sums: &[Sums<SUMMED_TERMS>]| {
             sums.iter().map(|sums| moments_from_sums(&sums.finish(), goal as f64)).collect()
         };
@@ -286,7 +286,7 @@ fn add_to_sums(sums: &mut Sums<SUMMED_TERMS>, [a, l, h]: [f64x4; 3]) {
 /// Minimum number of robots whose kurtosis is reliable enough for standard errors of variances.
 const MIN_RELIABLE_COUNT: f64 = 30.0;
 
-fn moments_from_sums(sums: &[f64; SUMMED_TERMS], n: f64) -> Measured {
+fn moments_from_sums(sums: &[f64; SUMMED_TERMS], n: f64) -> MeasuredMoments {
     let [a, l, h, aa, ll, hh, .., al, ah, lh] = sums.map(|sum| sum / n);
     let mean = Vector3::new(a, l, h);
     let mut covariance = Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh) - mean * mean.transpose();
@@ -304,5 +304,5 @@ fn moments_from_sums(sums: &[f64; SUMMED_TERMS], n: f64) -> Measured {
         let gaussian_error = if n < MIN_RELIABLE_COUNT { 2.0 / (n - 1.0) } else { 0.0 };
         if kurtosis_error < gaussian_error { gaussian_error.sqrt() } else { kurtosis_error.sqrt() }
     });
-    Measured { mean, cov: covariance * (n / (n - 1.0)), relative_error }
+    MeasuredMoments { mean, cov: covariance * (n / (n - 1.0)), relative_error }
 }

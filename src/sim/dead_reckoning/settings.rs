@@ -101,7 +101,7 @@ impl Settings {
 
 impl Rules for Settings {
     /// Selects the last step if the path has become shorter than the selected one.
-    fn settle(&mut self, _: &Self, named: &[&str]) {
+    fn adjust(&mut self, _: &Self, named: &[&str]) {
         if !named.contains(&"step") {
             self.step = self.step.min(self.steps);
         }

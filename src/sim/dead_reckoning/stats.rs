@@ -1,6 +1,6 @@
 //! Predicted covariances of the recursions after each step, compared with the covariance of the robots.
 
-use super::rollouts::Measured;
+use super::rollouts::MeasuredMoments;
 use super::settings::Settings;
 use crate::js::js_structs;
 use crate::models::{Compounding, TangentNoiseModel, covariance_root};
@@ -48,7 +48,7 @@ js_structs! {
 
 impl Comparison {
     /// Compares predicted covariances after each step with those measured. `None` stands for a covariance that is not finite.
-    pub fn new(settings: &Settings, covs: &[Option<Matrix3<f64>>], measured: &[Measured]) -> Self {
+    pub fn new(settings: &Settings, covs: &[Option<Matrix3<f64>>], measured: &[MeasuredMoments]) -> Self {
         let smallest_spreads = smallest_spread(settings);
         let ratios: Vec<Vector3<f64>> = covs
             .iter()
@@ -88,14 +88,18 @@ fn smallest_spread(settings: &Settings) -> Vector3<f64> {
     Vector3::new(length, length, NO_SPREAD)
 }
 
-fn variance_ratio(cov: &Matrix3<f64>, measured: &Measured, smallest_spread: &Vector3<f64>) -> Vector3<f64> {
+fn variance_ratio(
+    cov: &Matrix3<f64>,
+    measured: &MeasuredMoments,
+    smallest_spread: &Vector3<f64>,
+) -> Vector3<f64> {
     Vector3::from_fn(|i, _| {
         let variance = measured.cov[(i, i)];
         if variance > smallest_spread[i] * smallest_spread[i] { cov[(i, i)] / variance } else { f64::NAN }
     })
 }
 
-fn misses_of(ratios: &[Vector3<f64>], measured: &[Measured], axis: usize) -> Misses {
+fn misses_of(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], axis: usize) -> Misses {
     let defined_ratios =
         || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
     let decidable = defined_ratios().next().is_some()

@@ -4,7 +4,7 @@ use super::settings::Settings;
 use crate::geom::arc::Arc;
 use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
-use crate::map::{Accepted, Cost, DrawTester, MapConditioned, NoAcceptedSample, Sampler};
+use crate::map::{AcceptedMotion, Cost, DrawTester, MapConditioned, NoAcceptedSample, Sampler};
 use crate::sim::cloud::draws::Draws;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -102,7 +102,7 @@ impl<'a> Driver<'a> {
             return (attempt, Cost { draws: steps as usize, wall_tests: 0 });
         }
         match self.model.sample_along(&command, &start, &mut rng, along) {
-            Ok(Accepted { pose, path_free, cost }) => {
+            Ok(AcceptedMotion { pose, path_free, cost }) => {
                 (Attempt { pose, accepted: true, end_free: true, path_free }, cost)
             }
             Err(NoAcceptedSample(cost)) => {

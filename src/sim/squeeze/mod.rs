@@ -14,7 +14,7 @@ pub use tally::{Stats, Tally};
 use super::cloud::draws::Draws;
 use super::cloud::picture::Ramp;
 use super::cloud::views::{Grid, Nearest};
-use super::settings::{Allowed, Rules, SettingsError};
+use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::arc::Arc;
 use crate::geom::se2::SE2;
 use crate::map::{
@@ -128,8 +128,8 @@ impl MapSqueeze {
         let plan = plan.transpose().map_err(|_| SettingsError {
             field: "unknown".to_owned(),
             value: f64::NAN,
-            allowed: Allowed::Word {
-                is: "blocked",
+            allowed: AllowedValues::Word {
+                given: "blocked",
                 allowed: "free, as the cells of this map would have more than 20000 sides",
             },
         })?;

@@ -92,7 +92,7 @@ impl Settings {
 
 impl Rules for Settings {
     /// Copies the setting `steps` into the sub-stepped sampler. Other samplers leave it unchanged.
-    fn settle(&mut self, _: &Self, _: &[&str]) {
+    fn adjust(&mut self, _: &Self, _: &[&str]) {
         self.sampler = self.sampler.in_parts(self.steps);
     }
 

@@ -35,14 +35,14 @@ impl Configuration<'_> {
         let unknown_key = given_settings.keys().find(|key| !S::KEYS.contains(&key.as_str()));
         assert!(unknown_key.is_none(), "{}/{} has {unknown_key:?}", self.widget, self.name);
         let (mut settings, mut given_keys) = (defaults, Vec::new());
-        let _ = settings.try_each(|declaration, setting| {
+        let _ = settings.try_visit_settings(|declaration, setting| {
             if let Some(value) = given_settings.get(declaration.key) {
                 given_keys.push(declaration.key);
                 set_from_json(setting, value);
             }
             Ok::<_, ()>(())
         });
-        settings.settle(&defaults, &given_keys);
+        settings.adjust(&defaults, &given_keys);
         settings
     }
 

@@ -2,7 +2,7 @@
 
 use super::configuration::{Configuration, number_of, numbers_of, ramp};
 use super::encoding::Part;
-use motion::calibrate::{Estimate, Recommended, SystematicError};
+use motion::calibrate::{Estimate, Recommendation, SystematicError};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{Cell, FloorPlan, Interpretation, Mode, OccupancyGrid, read_pgm};
@@ -193,7 +193,7 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<Part> {
     let recommended = calibration
         .recommended
         .as_ref()
-        .map(|Recommended { alphas, inflation, .. }| (alphas.clone(), *inflation));
+        .map(|Recommendation { alphas, inflation, .. }| (alphas.clone(), *inflation));
     let truth = machine.truth().map(|truth| {
         let alphas = (truth.alphas, truth.clock_offset, truth.mount_yaw);
         (alphas, truth.lever_arm, truth.distance_scale, truth.turn_scale)

@@ -3,7 +3,7 @@
 
 use motion::map::{MAX_BYTES, MAX_PIXELS};
 use motion::sim::picture::RAMP_STEPS;
-use motion::sim::settings::{Declaration, Declared, Field, Group, Setting};
+use motion::sim::settings::{Declaration, DeclaredSettings, Field, Group, Setting};
 use motion::sim::squeeze::{ACCEPTED, END_FREE, MAX_TRIAL_PARTS, PATH_FREE};
 use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use std::fmt::Write;
@@ -157,10 +157,10 @@ fn object_lines(objects: impl IntoIterator<Item = String>) -> String {
 }
 
 /// Returns a line for each setting, and for each number of a group or list. `number_sentences` describe the numbers of a list.
-fn declaration_lines(mut defaults: impl Declared, number_sentences: &[&str]) -> String {
+fn declaration_lines(mut defaults: impl DeclaredSettings, number_sentences: &[&str]) -> String {
     let mut objects = Vec::new();
     let shared = shared_fields(&mut defaults);
-    let _ = defaults.each(&mut |declaration, setting| {
+    let _ = defaults.visit_settings(&mut |declaration, setting| {
         describe(declaration, setting, number_sentences, &shared, &mut objects);
         ControlFlow::Continue(())
     });
@@ -168,9 +168,9 @@ fn declaration_lines(mut defaults: impl Declared, number_sentences: &[&str]) -> 
 }
 
 /// Returns the keys of fields that more than one group has, as two poses do. Their attributes consist of the group's name and the key.
-fn shared_fields(defaults: &mut impl Declared) -> Vec<&'static str> {
+fn shared_fields(defaults: &mut impl DeclaredSettings) -> Vec<&'static str> {
     let (mut seen, mut shared) = (Vec::new(), Vec::new());
-    let _ = defaults.each(&mut |_, setting| {
+    let _ = defaults.visit_settings(&mut |_, setting| {
         if let Setting::Group(group) = setting {
             for Field { declaration, .. } in group.fields() {
                 if seen.contains(&declaration.key) { &mut shared } else { &mut seen }.push(declaration.key);

@@ -188,7 +188,7 @@ fn the_model_and_the_rule_go_together() {
         let before = Settings::default();
         let mut settings = before;
         change(&mut settings);
-        settings.settle(&before, &[named]);
+        settings.adjust(&before, &[named]);
         settings
     };
     assert_eq!(settings_after(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);

@@ -3,7 +3,7 @@
 import { instantiateShared, sharedCore, startWorker, type SharedCore } from '../../core.ts';
 import type { Drive, LogPlan } from '../../logs/drives.ts';
 import type { OpenOptions, Source } from '../../logs/log.ts';
-import type { Answer, PostedFailure, OnProgress, Opened, Request } from '../../logs/worker.ts';
+import type { Answer, PostedFailure, OnProgress, OpenedRecording, Request } from '../../logs/worker.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 
 type Trajectory = Exclude<CalibrationLog['odometry'], unknown[]>;
@@ -60,11 +60,11 @@ export class LogService {
   }
 
   /** Opens files, with the options of each by its name, and aborts the request in progress. */
-  async open(files: Source[], answers: Record<string, OpenOptions>): Promise<{ recordings: Opened[]; skipped: LogFailure[] }> {
+  async open(files: Source[], answers: Record<string, OpenOptions>): Promise<{ recordings: OpenedRecording[]; skipped: LogFailure[] }> {
     this.stop();
     this.isOpen = false;
     // A copied `File` has no path.
-    const { recordings, skipped } = await this.#ask<{ recordings: Opened[]; skipped: PostedFailure[] }>('open', [files.map((file) => ({ file, path: file.path ?? '' })), answers]);
+    const { recordings, skipped } = await this.#ask<{ recordings: OpenedRecording[]; skipped: PostedFailure[] }>('open', [files.map((file) => ({ file, path: file.path ?? '' })), answers]);
     this.isOpen = true;
     return { recordings, skipped: skipped.map((failure) => new LogFailure(failure)) };
   }

@@ -145,6 +145,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['-r', 'nav2', 'a.bag'], 'unknown option -r; options have whole names, as in --rule nav2, --help lists all.'],
     [['a.bag', '-rule', 'nav2'], 'unknown option -rule; the nearest is --rule, --help lists all.'],
     [[ARGS[1], fileWith('degrees.csv', readFileSync(example('reference'), 'utf8').replace('yaw', 'yaw_deg'))], 'degrees.csv: headings in deg would turn at 0.0166 rad/s, and do not agree with the path or with their range; state their unit: rad or deg. Choose with --angle-unit, as in --angle-unit rad; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit deg,rad.\n'],
+    [['no/metadata.yaml', 'no/run.mcap'], 'no: there is no such file or folder.\n'],
     [['no.bag', '--rule', 'Nav2'], '--rule is "Nav2"; allowed is '],
     [
       [fileWith('two.csv', ['t,x,y,yaw,b_x,b_y,b_yaw', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 39},0,0`)].join('\n'))],

@@ -1,5 +1,6 @@
 /** Options of the command line. */
 
+import { basename, dirname } from 'node:path';
 import { parseArgs } from 'node:util';
 import type { Wishes } from '../logs/drives.ts';
 import { cut } from '../logs/log-error.ts';
@@ -111,7 +112,10 @@ interface InspectArguments {
 
 /** Parses the arguments; throws a UsageError. */
 export function optionsOf(args: string[]): CalibrateArguments | InspectArguments | 'help' | 'version' {
-  const { values, positionals: [command, ...paths] } = parseArguments(args);
+  const { values, positionals: [command, ...givenPaths] } = parseArguments(args);
+  // The files that a shell gives for run/* are a recording, which is their folder.
+  const folders = givenPaths.filter((path) => basename(path) === 'metadata.yaml').map(dirname);
+  const paths = [...new Set(givenPaths.map((path) => (folders.includes(dirname(path)) ? dirname(path) : path)))];
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
   const columns = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((column) => column.trim());

@@ -27,6 +27,9 @@ export interface Message {
   to: number;
 }
 
+export type IsWanted = (channel: Channel) => boolean;
+export type OnMessage = (message: Message) => void;
+
 export interface Container {
   format: Recording['format'];
   channels: Channel[];
@@ -37,7 +40,7 @@ export interface Container {
   /** Names of missing split files of the recording. */
   missing: string[];
   /** Passes on the messages of channels, block by block. Stops after a block if `onProgress` returns true. */
-  read(isWanted: (channel: Channel) => boolean, onMessage: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void>;
+  read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void>;
 }
 
 /** File of messages, with its channels by their ids. */

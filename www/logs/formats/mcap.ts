@@ -4,7 +4,7 @@ import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { bytesOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, stampAt, uint53, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, stampAt, uint53, viewOf, type Channel, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
@@ -38,9 +38,6 @@ const isCompleteIndex = ({ chunkIndexes, statistics }: McapIndexedReader) =>
   statistics?.chunkCount === chunkIndexes.length &&
   (chunkIndexes.length > 0 || statistics.messageCount === 0n) &&
   chunkIndexes.every(({ messageIndexOffsets, messageEndTime }) => messageIndexOffsets.size > 0 || messageEndTime === 0n);
-
-type IsWanted = (channel: Channel) => boolean;
-type OnMessage = (message: Message) => void;
 
 class Mcap extends MessageFile<number> implements Container {
   readonly format = 'mcap';

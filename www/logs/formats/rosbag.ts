@@ -2,7 +2,7 @@
 
 import { LogError, bytesOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, viewOf, type Channel, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 
 /** Values of the field "op" of records. */
@@ -13,9 +13,6 @@ const MAGIC_BYTES = 13;
 
 /** Number of bytes of a header that are read at first. Headers with a long topic are longer. */
 const HEADER_BYTES = 4096;
-
-type IsWanted = (channel: Channel) => boolean;
-type OnMessage = (message: Message) => void;
 
 /** Opens a bag by its index. Without an index it is read from its start up to its end or damage. */
 export async function openRosbag(source: Source): Promise<Container> {
@@ -38,17 +35,13 @@ class HeaderFields {
     this.#to = to;
   }
 
-  /** Returns the bytes of a field; throws a RangeError if there is none. */
-  get(name: string): Uint8Array {
-    return this.#bytes.subarray(this.#position(name), this.#find(name)[1]);
-  }
-
   has(name: string): boolean {
     return this.#find(name)[0] > 0;
   }
 
+  /** Returns a field; throws a RangeError if there is none. So do the following. */
   text(name: string): string {
-    return new TextDecoder().decode(this.get(name));
+    return new TextDecoder().decode(this.#bytes.subarray(this.#position(name), this.#find(name)[1]));
   }
 
   byte(name: string): number {

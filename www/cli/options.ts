@@ -115,7 +115,7 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
   const { values, positionals: [command, ...givenPaths] } = parseArguments(args);
   // The files that a shell gives for run/* are a recording, which is their folder.
   const folders = givenPaths.filter((path) => basename(path) === 'metadata.yaml').map(dirname);
-  const paths = [...new Set(givenPaths.map((path) => (folders.includes(dirname(path)) ? dirname(path) : path)))];
+  const paths = [...new Set(folders), ...givenPaths.filter((path) => !folders.includes(dirname(path)))];
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
   const columns = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((column) => column.trim());

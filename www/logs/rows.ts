@@ -41,7 +41,7 @@ const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 /** Minimum period of a clock, in median steps of its times. A clock that was set back might match a shorter period by chance. */
 const MIN_PERIOD_STEPS = 500;
 
-/** Two paths whose poses alternate: minimum distance (m), minimum number of poses far from the next, maximum number of rows and of seconds until a path goes on, and maximum fraction of poses that are still far then. */
+/** Two paths whose poses alternate: minimum distance (m), and minimum number of poses far from the next. Maximum number of rows and seconds until a path goes on, and maximum fraction of poses that are still far then. */
 const [MIN_PATH_DISTANCE, MIN_TURNS, MAX_TURN_ROWS, MAX_TURN_SECONDS, MAX_TURN_FRACTION] = [0.05, 20, 8, 1, 0.2];
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */

@@ -50,7 +50,7 @@ const HEADER = '(?:header\\.)?';
 const FIELD_PATTERNS: [Field, string[]][] = [
   ['child', ['child\\.frame\\.id']],
   ['frame', [`${HEADER}frame\\.id`]],
-  ['source', ['(?:topic|robot|agent|vehicle|body|object|subject|tracker)(?:\\.?(?:id|name))?|tag\\.?id']],
+  ['source', ['(?:topic|robot|agent|vehicle|(?:rigid\\.?)?body|subject|tracker)(?:\\.?(?:id|name))?|tag\\.?id']],
   ['subseconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:nano?|n|micro|u)(?:secs?|seconds?)`, '(?:nano?|n|micro|u|milli|m)(?:secs?|seconds?)']],
   ['seconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
   ['t', [`${HEADER}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)|millis|micros|nanos', 't']],

@@ -84,6 +84,7 @@ test('a question is asked where a role is not clear', async () => {
     [{ '/odom': 'odometry', '/goal_pose': 'pose' }, 'by its names and types it has no reference, but ', 'series', 'reference'],
     [{ '/odom': 'odometry' }, 'it has no transforms between frames; it has /odom (Odometry).', 'series', 'odometry', ['/odom'], [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],
     [{ '/tf': 'tf' }, 'give a parent and a child frame, connected by base_link → laser.', 'frames', 'odometry', ['base_link,laser'], ['base_link laser']],
+    [{ '/tf': 'tf' }, 'it has the odometry only, /tf (TFMessage); give the reference too.', 'other', 'odometry', undefined, ['odom base']],
     [{ '/odom': 'odometry' }, 'it has the odometry only, /odom (Odometry); give the reference too.', 'other', 'odometry'],
     [{ '/mocap': 'pose' }, 'it has the reference only, /mocap (PoseStamped); give the odometry too.', 'other', 'reference'],
     [{ '/cmd_vel': 'twist' }, 'it has commands only, /cmd_vel (Twist); a reference needs poses.', undefined, undefined, undefined, [], { kind: 'commands' }],

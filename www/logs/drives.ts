@@ -151,14 +151,15 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   const usableSeries = readableSeries(recording);
   if (usableSeries.length === 0) throw unusable(recording);
   const chains = usableSeries.filter(({ kind }) => kind === 'transforms');
-  if (chains.length === usableSeries.length) throw framesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
+  const isOnlyOther = other && chains.every(({ name: series, frames = [] }) => frames.every((ends) => isSame({ series, frames: ends }, other)));
+  if (chains.length === usableSeries.length && !isOnlyOther) throw framesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
   if (role === 'reference' && usableSeries.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (say) => say.noPoses(describeSeries(usableSeries)));
   const positionSeries = usableSeries.filter(({ name, kind }) => kind === 'positions' && !GOAL_NAMES.test(name));
   if (positionSeries.length === usableSeries.length || (role === 'reference' && bestChoices.length === 0 && positionSeries.length > 0)) {
     throw new LogError({ file }, (say) => say.positions(describeSeries(positionSeries)));
   }
   if (usableSeries.length === 1) {
-    const ownRole = knownRole(recording, usableSeries[0]);
+    const ownRole = knownRole(recording, usableSeries[0]) ?? (other?.frames && ROLES.find((otherRole) => otherRole !== role));
     throw new LogError({ file }, (say) => say.alone(describeSeries(usableSeries), ownRole), { what: 'other', role: ownRole, choices: [] });
   }
   throw new LogError(

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { openRecordings } from '../../www/logs/open.ts';
 import { german } from '../../www/logs/de.ts';
+import { warningsOf } from '../../www/logs/pairs.ts';
 import { Rows } from '../../www/logs/rows.ts';
 import { refusalOf, sentenceOf } from './log-support.js';
 
@@ -139,9 +140,10 @@ test('pauses and jumps are found, and a heading that wraps is no jump', async ()
 });
 
 test('a clock that was set forward is noted, and a pause is none', async () => {
-  const notesOf = async (/** @type {(t: number) => number} */ clock, /** @type {number[]} */ lost = []) => (await readTable(['t,x,y,yaw', ...CIRCLE.filter((_, i) => !lost.includes(i)).map(([t, ...pose]) => [clock(t), ...pose])].join('\n'))).summary.notes;
-  assert.deepEqual(await notesOf((t) => t + (t > 20 ? 0.75 : 0)), [{ name: 'clockSet', values: [20, 0.8000000000000007] }]);
-  assert.deepEqual(await notesOf((t) => t, Array.from({ length: 15 }, (_, i) => 401 + i)), []);
+  const logOf = (/** @type {(t: number) => number} */ clock, /** @type {number[]} */ lost = []) => readTable(['t,x,y,yaw', ...CIRCLE.filter((_, i) => !lost.includes(i)).map(([t, ...pose]) => [clock(t), ...pose])].join('\n'));
+  const [setLog, pausedLog] = [await logOf((t) => t + (t > 20 ? 0.75 : 0)), await logOf((t) => t, Array.from({ length: 15 }, (_, i) => 401 + i))];
+  assert.deepEqual([setLog.summary.notes, pausedLog.summary.notes], [[{ name: 'clockSet', values: [20, 0.8000000000000007] }], []]);
+  assert.deepEqual([warningsOf([setLog, pausedLog]), warningsOf([setLog, setLog])], [['clockSet'], []]);
 });
 
 test('units are guessed from two signs', async () => {

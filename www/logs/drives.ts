@@ -69,8 +69,7 @@ export function planDrives(all: Recording[], wishes: Wishes = {}): LogPlan {
     const [first] = longer;
     const namesOf = (parts: RecordingChoice[]) => listing(parts.map(({ recording }) => recording.name));
     const isSameFile = recordings.length === 2 && recordings[0].name === recordings[1].name;
-    const ask = { what: 'roles' as const, choices: [] };
-    throw new LogError({ file: first.recording.name }, (say) => (isSameFile ? say.givenTwice : say.unpaired(namesOf(odometry), namesOf(reference))), isSameFile ? undefined : ask);
+    throw new LogError({ file: first.recording.name }, (say) => (isSameFile ? say.givenTwice : say.unpaired(namesOf(odometry), namesOf(reference))), isSameFile ? undefined : { what: 'roles', choices: [] });
   }
   return plan;
 }

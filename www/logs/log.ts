@@ -115,7 +115,7 @@ export type Cause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short'
 export type Basis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Notes that make the α's doubtful even if all checks pass. */
-export type Warning = Extract<Note['name'], 'localizer' | 'swapped'>;
+export type Warning = Extract<Note['name'], 'localizer' | 'swapped' | 'clockSet'>;
 
 /** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
 export interface Note {

@@ -98,10 +98,13 @@ function signOfSwap(odometry: Log, reference: Log): 'name' | 'rest' | undefined 
   return rolesByName.every((role) => role === undefined) && repeatFraction(reference) > MIN_WHEEL_REPEATS && repeatFraction(odometry) < MAX_MEASURED_REPEATS ? 'rest' : undefined;
 }
 
-const WARNING_NAMES: Warning[] = ['localizer', 'swapped'];
+const WARNING_NAMES: Warning[] = ['localizer', 'swapped', 'clockSet'];
 
-/** Returns the notes of logs that make the α's doubtful. */
-export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] => WARNING_NAMES.filter((warning) => logs.some(({ summary: { notes } }) => notes.some(({ name }) => name === warning)));
+/** Returns the notes of logs that make the α's doubtful. A clock that was set for all logs does not: a simulator may have paused. */
+export function warningsOf(logs: Pick<Log, 'summary'>[]): Warning[] {
+  const countOf = (warning: Warning) => logs.filter(({ summary: { notes } }) => notes.some(({ name }) => name === warning)).length;
+  return WARNING_NAMES.filter((warning) => countOf(warning) > 0 && (warning !== 'clockSet' || countOf(warning) < logs.length));
+}
 
 /** Returns a log with its times in seconds after another start. */
 export function withStart(log: Log, start: number): Log {

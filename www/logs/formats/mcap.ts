@@ -4,7 +4,7 @@ import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { bytesOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, stampAt, uint53, viewOf, type Channel, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, stampAt, uint53, viewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 

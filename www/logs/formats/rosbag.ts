@@ -2,7 +2,7 @@
 
 import { LogError, bytesOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, viewOf, type Channel, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, viewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 
 /** Values of the field "op" of records. */

@@ -112,7 +112,9 @@ async function compileCore(rust, name, local) {
   // `cargo build` also makes a Rust library, and then cannot optimize across crates. `cargo rustc` makes the module only.
   // Panic locations contain paths. In a published module the paths of this machine are removed.
   const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
-  const remapOption = `target.wasm32-unknown-unknown.rustflags=["--remap-path-prefix=${sources}="]`;
+  const { stdout: sysroot } = await run(join(rust.bin, 'rustc'), ['--print', 'sysroot'], { env: rust.env, quiet: true });
+  const prefixes = [sources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
+  const remapOption = `target.wasm32-unknown-unknown.rustflags=[${prefixes}]`;
   const profile = local ? 'web' : 'release';
   const options = ['--quiet', '--locked', '--profile', profile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
   const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];

@@ -290,15 +290,29 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   await writePython();
 }
 
+/** Expression in a template. It may contain templates without backticks. */
+const EXPRESSION = String.raw`\$\{(?:[^{}\x60]|\x60[^\x60]*\x60)*\}`;
+const EXPRESSIONS = new RegExp(EXPRESSION, 'g');
+const STYLES = new RegExp(String.raw`(?<=\bcss\x60)(?:[^\x60$]|${EXPRESSION})*(?=\x60)`, 'g');
+
 /**
- * Minifies the styles in a script. Bundlers do not, because they are template strings.
+ * Minifies the styles in a script. Bundlers do not, because they are template strings. For the minifier, an expression at the beginning of a
+ * line is an at-rule, because it stands for rules or declarations; any other one is a number.
  *
  * @param {string} script
  * @param {typeof import('esbuild').transformSync} transform
  */
 function withShortStyles(script, transform) {
-  const minified = (/** @type {string} */ style) => transform(style, { loader: 'css', minify: true }).code.trim();
-  return script.replace(/(?<=\bcss`)[^`$]*(?=`)/g, minified);
+  return script.replace(STYLES, (style) => {
+    /** @type {string[]} */
+    const expressions = [];
+    const plainStyle = style.replace(EXPRESSIONS, (expression, at) => {
+      const number = 901_000 + expressions.push(expression);
+      return /(^|\n) *$/.test(style.slice(0, at)) ? `@expression${number};` : String(number);
+    });
+    const shortStyle = transform(plainStyle, { loader: 'css', minify: true }).code.trim();
+    return shortStyle.replace(/@expression901(\d{3});|901(\d{3})/g, (_, statement, value) => expressions[Number(statement ?? value) - 1]);
+  });
 }
 
 /**

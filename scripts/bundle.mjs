@@ -222,7 +222,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
               loader: 'js',
             }));
             onLoad({ filter: /[/\\]www[/\\].+\.[jt]s$/ }, ({ path }) => ({
-              contents: changed(path, withShortStyles(readFileSync(path, 'utf8'), transformSync)),
+              contents: changed(path, withoutIndentation(withShortStyles(readFileSync(path, 'utf8'), transformSync))),
               loader: path.endsWith('.ts') ? 'ts' : 'js',
             }));
           },
@@ -293,11 +293,11 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
 /** Expression in a template. It may contain templates without backticks. */
 const EXPRESSION = String.raw`\$\{(?:[^{}\x60]|\x60[^\x60]*\x60)*\}`;
 const EXPRESSIONS = new RegExp(EXPRESSION, 'g');
-const STYLES = new RegExp(String.raw`(?<=\bcss\x60)(?:[^\x60$]|${EXPRESSION})*(?=\x60)`, 'g');
+const STYLES = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$]|${EXPRESSION})*(?=\x60)`, 'g');
 
 /**
  * Minifies the styles in a script. Bundlers do not, because they are template strings. For the minifier, an expression at the beginning of a
- * line is an at-rule, because it stands for rules or declarations; any other one is a number.
+ * line is an at-rule, because it stands for rules or declarations; any other one is a name.
  *
  * @param {string} script
  * @param {typeof import('esbuild').transformSync} transform
@@ -307,13 +307,16 @@ function withShortStyles(script, transform) {
     /** @type {string[]} */
     const expressions = [];
     const plainStyle = style.replace(EXPRESSIONS, (expression, at) => {
-      const number = 901_000 + expressions.push(expression);
-      return /(^|\n) *$/.test(style.slice(0, at)) ? `@expression${number};` : String(number);
+      const name = `expression${expressions.push(expression)}`;
+      return /(^|\n) *$/.test(style.slice(0, at)) ? `@${name};` : name;
     });
     const shortStyle = transform(plainStyle, { loader: 'css', minify: true }).code.trim();
-    return shortStyle.replace(/@expression901(\d{3});|901(\d{3})/g, (_, statement, value) => expressions[Number(statement ?? value) - 1]);
+    return shortStyle.replace(/@expression(\d+);|expression(\d+)/g, (_, statement, value) => expressions[Number(statement ?? value) - 1]);
   });
 }
+
+/** Removes the indentation of lines in templates of HTML, where it means as much as the line break. */
+const withoutIndentation = (/** @type {string} */ script) => script.replaceAll(/^ +(?=[<$@.?])/gm, '');
 
 /**
  * Escapes non-ASCII characters in a script: a classic script is read in the encoding of its page. The bundler does not escape them in

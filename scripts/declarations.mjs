@@ -86,7 +86,7 @@ function numberText(value) {
 export const classComments = once(async () => {
   // @ts-expect-error It comes without types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
-  // The analyzer writes only the path of the manifest, in dist/, into package.json.
+  // With `noWrite` the analyzer returns the manifest, and writes no file but package.json, which gets the path of the manifest in dist/.
   const argv = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.ts', 'www/widgets/*/*.ts'];
   const { schemaVersion, modules } = await cli({ argv, cwd: ROOT, noWrite: true });
   /** @type {any[]} */

@@ -134,7 +134,7 @@ function tagNames(widgets) {
   return `/** Values that a template gives to an element: numbers and lists also as text, as attributes have them. */
 type TemplateValues<Element, Names extends keyof Element> = { [Name in Names]?: Element[Name] | string | null } & { 'heading-level'?: string };
 
-/** Values that templates give to each tag. */
+/** Properties that a template (JSX, Vue, Svelte) can set on each element, by tag. */
 export interface FigureTags {
 ${tagLines.join('')}}
 

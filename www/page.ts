@@ -50,7 +50,7 @@ function highlightTerm({ type, target }: Event) {
   figureOf(term).highlight = /over|in$/.test(type) ? term.dataset.line : null;
 }
 
-/** Keeps the picture of each figure in sight while its items are read, where these are below the figure. */
+/** Keeps each figure's picture in sight while the reader scrolls through the list of things to try, if the list is below the figure. */
 function followItems() {
   const observer = new ResizeObserver((entries) => {
     for (const { target, borderBoxSize: [{ blockSize }] } of entries) {

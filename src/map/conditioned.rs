@@ -215,7 +215,7 @@ impl MapConditioned<'_> {
         Ok(AcceptedMotion { pose, path_free, cost })
     }
 
-    /// Returns the cost of one accepted motion in a filter, which makes only the deciding test for each draw.
+    /// Returns the cost of one accepted motion in a particle filter. A filter tests only what the sampler's condition needs.
     ///
     /// # Errors
     /// [`NoAcceptedSample`] after [`MAX_DRAWS`] rejected draws.

@@ -95,8 +95,8 @@ impl ExactMoments {
         Self::of_rays(&rays.collect::<Vec<_>>(), u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
     }
 
-    /// Combines the nodes with the mean and variance of L, and with the mean `turn` (rad). `last_turn_variance` is added
-    /// to the heading variance of the nodes.
+    /// Combines the rays with the mean and variance of the length, and with the mean `turn` (rad). `last_turn_variance` is added
+    /// to the heading variance.
     #[inline(never)]
     fn of_rays(rays: &[Ray], length: f64, length_variance: f64, turn: f64, last_turn_variance: f64) -> Self {
         let mut moments = RayMoments::default();

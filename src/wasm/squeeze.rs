@@ -110,8 +110,8 @@ impl JsMapSqueeze {
         Ok(())
     }
 
-    /// Fields of the YAML file of map_server, and the bytes of a PGM file or the pixels of another. The whole core reads the
-    /// bytes of a PNG file too.
+    /// Fields of the YAML file of map_server, and the bytes of a PGM file or the pixels of another image. The whole core,
+    /// which has all machines, also takes the bytes of a PNG file.
     #[wasm_bindgen(js_name = setGrid)]
     pub fn set_grid(
         &mut self,
@@ -219,7 +219,7 @@ impl JsMapSqueeze {
 /// Maximum number of paths shown: more would be indistinguishable, and take longer than a frame.
 const MAX_SHOWN_PATHS: usize = 60;
 
-/// Decodes a PNG image to red, green, blue and opacity of its pixels, for the core of a figure, which has no decoder.
+/// Decodes a PNG image to red, green, blue and opacity of its pixels, for the core of a single widget, which has no decoder.
 #[cfg(not(widget))]
 #[wasm_bindgen(
     js_name = readMapImage,

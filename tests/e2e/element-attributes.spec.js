@@ -53,7 +53,7 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   const attributesOf = (/** @type {import('@playwright/test').Locator} */ widget) =>
     widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
   expect(await attributesOf(banana)).toEqual({ preset: 'hard', seed: '3' });
-  // The preset applied to these attributes too.
+  // Reflected values of the preset "hard", which no longer applies.
   const alphas = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
   await banana.locator('#v').fill('0.5');
   await frames(page);

@@ -155,7 +155,7 @@ test.describe('on a screen with two pixels a CSS pixel', () => {
   });
 });
 
-/** Sliders above which texts have many lengths, with values of short and of long texts, by element, language and width of the page. */
+/** Sliders below texts of variable length: element, language, page width, slider, and values at which the texts are short or long. */
 const SLIDERS_BELOW_TEXTS = /** @type {const} */ ([
   ['arc-anatomy', 'de', 375, 'v', ['1', '-0.25', '0.3']],
   ['alpha-calibrator', 'en', 375, 'angle', ['0.25', '0.96']],

@@ -10,8 +10,8 @@ import { load } from '../../dist/core.js';
  * @typedef {object} Handle
  * @property {string} name class of its element
  * @property {number[]} to place to which it is dragged, m
- * @property {(machine: any, to: number[]) => number[]} placeOf position of the handle by the machine's settings; `to` is the
- *   distance by which it was dragged
+ * @property {(machine: any, to: number[]) => number[]} placeOf position of the handle by the machine's settings, after it was
+ *   dragged to the place `to`
  */
 
 /** Handles of the figures by tag; Dead Reckoning has no handles. @type {Record<string, { handles: Handle[] }>} */

@@ -36,7 +36,7 @@ const mapSqueeze = new motion.MapSqueeze({ samples: 1 });
 /**
  * Machines of the elements, with their attributes and opening settings.
  *
- * @type {{ attributes: ReturnType<typeof attributesIn>, machine: any, opening: any }[]}
+ * @type {{ attributes: ReturnType<typeof selectAttributes>, machine: any, opening: any }[]}
  */
 const widgetMachines = Object.entries(settings).map(([tag, declared]) => {
   const className = tag.replaceAll(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase());

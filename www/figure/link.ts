@@ -43,7 +43,7 @@ export class Link extends FigureController {
     void host.updateComplete.then(() => host.scrollIntoView());
   }
 
-  /** Reads the state to open with, before the first machine. */
+  /** Reads the initial state from the address, before the first machine is created. */
   async prepare() {
     if (!this.host.state.kept) await this.#applyAddress();
   }

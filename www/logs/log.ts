@@ -111,7 +111,7 @@ export interface Log {
 /** Cause for dropping a row. */
 export type Cause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'stray' | 'setBack' | 'held';
 
-/** Basis of a decision about a unit: a name, the size of the numbers, rate and speed, the format's definition, dates, an option, or usage without another sign. */
+/** Basis of a decision about a unit: a name, the size of the numbers, rate and speed, the format's definition, dates, an option, or else the usual unit. */
 export type Basis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Notes that make the α's doubtful even if all checks pass. */

@@ -38,7 +38,7 @@ const [SPEED_ROWS, MIN_DRIVING_SPEED] = [4, 0.1];
 /** Periods (s) after which clocks begin at 0 again: a day, a week of GPS, and 32-bit counters of an unstated unit, ms or µs. */
 const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 
-/** Minimum period of a clock, in median steps of its times. A clock that was set back might match a shorter period by chance. */
+/** Minimum period of a clock that wraps around, in median steps of its times. A clock that was set back might match a shorter period by chance. */
 const MIN_PERIOD_STEPS = 500;
 
 /** Two paths whose poses alternate: minimum distance (m), and minimum number of poses far from the next. Maximum number of rows and seconds until a path goes on, and maximum fraction of poses that are still far then. */

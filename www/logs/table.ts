@@ -195,8 +195,8 @@ class ClockReader {
   }
 
   /**
-   * Time that shows that nanoseconds were written after the point without their leading zeros; undefined if there is none. The sign is
-   * short fractions that end in 0: a program that drops zeros at the end would not write them.
+   * Example of a time whose nanoseconds were written after the point without leading zeros ("5.70" for 5 s and 70 ns); undefined if there is
+   * none. Short fractions that end in 0 give it away: a program that drops trailing zeros would not write them.
    */
   get unpadded(): string | undefined {
     if (this.#hasLeadingZero) return undefined;

@@ -138,7 +138,7 @@ const figureLayout = css`
     margin-inline-start: auto;
   }
 
-  /* The message of the copy button is before it, or else on its own line after it. A text to copy by hand follows both. */
+  /* The message of the copy button is before it, or in a narrow figure on a line below. The field for copying by hand is below both. */
   .folds > .copied {
     flex: 1 1 8em;
     text-align: end;

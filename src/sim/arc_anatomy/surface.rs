@@ -1,4 +1,4 @@
-//! Heat map of p, or of the density of the sampler, over positions. The heading is that of the final pose.
+//! Heat map over positions, at the heading of the final pose: the score p of Table 5.1, or the probability density of the sampler.
 
 use super::stats::prob;
 use super::{FinalPose, Settings, SurfaceKind};

@@ -110,7 +110,7 @@ impl Drive {
         [distance * circle.cos, distance * circle.sin]
     }
 
-    /// Returns the deviations that noise adds to the length and half turn of regular arcs.
+    /// Returns the deviations that noise adds to the length and half turn of regular arcs (see [`Drive::end_points`]).
     #[inline(always)]
     pub fn regular_deviations(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
         let scale = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };

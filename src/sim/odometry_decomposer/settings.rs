@@ -39,7 +39,7 @@ const CORRELATION_RANGE: RangeInclusive<f64> = -1.0..=1.0;
 /// Range of the phase, from the start to the end of the three legs.
 const PHASE_RANGE: RangeInclusive<f64> = 0.0..=3.0;
 
-/// Range of the drift time, up to eleven days like other durations.
+/// Range of the time (s) for which the odometry frame drifts; up to eleven days, like other durations.
 const DRIFT_RANGE: RangeInclusive<f64> = 0.0..=1e6;
 
 settings! {

@@ -25,7 +25,7 @@ fn poses(machine: &BananaMachine) -> Vec<SE2> {
     machine.poses().collect()
 }
 
-/// Returns value and error of the gain of poses, and of the gain on the floor.
+/// Returns value and standard error of the likelihood gain of poses, and of that of positions (x, y).
 fn gains(stats: &Stats) -> [[f64; 2]; 2] {
     let (value, error) = (stats.likelihood_gain, stats.likelihood_gain_error);
     [[value.pose, error.pose], [value.floor, error.floor]]

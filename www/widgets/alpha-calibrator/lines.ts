@@ -43,10 +43,10 @@ const NAV2_PLUGINS: Record<string, string> = { odometry: 'nav2_amcl::Differentia
 /** Systematic errors that can be corrected before the α's are fitted, in the order of tables. */
 export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
 
-/** Rules of the motion models of Nav2. */
+/** Noise rules of Nav2's motion models: the formulas by which the α's give variances. */
 export const NAV2_RULES = ['nav2', 'omni'];
 
-/** Returns true if Nav2 has the motion model of a rule. */
+/** Returns true if Nav2 can use α's that were fitted with a model and a noise rule. */
 export const isOfNav2 = (model: string, rule: string): boolean => model !== 'odometry' || NAV2_RULES.includes(rule);
 
 export const toText = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? withPointInMantissa(String(Number(value.toPrecision(digits)))) : NO_NUMBER);

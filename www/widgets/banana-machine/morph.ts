@@ -128,7 +128,7 @@ export function morphControl({ player, gesture, state }: import('./banana-machin
   </div>`;
 }
 
-/** Approximate number of lines of either kind, and number of chords of a line. */
+/** Approximate number of grid lines in each direction, and number of chords of a line. */
 const GRID_LINES = 7;
 const CHORDS_PER_LINE = 32;
 

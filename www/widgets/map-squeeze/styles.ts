@@ -101,7 +101,7 @@ export const styles = css`
     }
   }
 
-  /* The samplers in one row, and any share in a headline of as many rows. */
+  /* The samplers fit in one row, and the headline has the same number of lines for every share. */
   @container (38em <= width < 56em) {
     .told {
       min-height: 12em;

@@ -28,9 +28,9 @@ const POSE_BOUNDS = [-4, -4, 4, 4];
 /**
  * Odometry read as rotate, drive, rotate, with the noise that localizers add to each part.
  *
- * @attr preset - A reading to start from; null if the settings match no preset.
+ * @attr preset - An odometry reading to start from; null if the settings match no preset.
  * @attr overlays - Lines and marks that are drawn; in the attribute with spaces between.
- * @csspart chart - Plot of the standard deviation across the path.
+ * @csspart chart - Plot of the lateral standard deviation over the length of the drive.
  */
 export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   static styles = styles;

@@ -25,12 +25,12 @@ async function compiledProgram(name, features) {
   const version = requireOneVersion();
   const sourceHash = createHash('sha256');
   for (const path of filesOf(CRATE)) sourceHash.update(readFileSync(join(ROOT, path)));
-  const prefix = join(CACHE, `wasm-bindgen-${version}-${sourceHash.digest('hex').slice(0, 12)}`);
-  const program = join(prefix, 'bin', name);
+  const installDirectory = join(CACHE, `wasm-bindgen-${version}-${sourceHash.digest('hex').slice(0, 12)}`);
+  const program = join(installDirectory, 'bin', name);
   if (isProgram(program)) return program;
   const { bin, env } = await nativeRust();
   progress(`Building ${name} of wasm-bindgen ${version}, once`);
-  const args = ['install', '--quiet', '--debug', '--path', CRATE, '--bin', name, ...features, '--root', prefix, '--no-track', '--force'];
+  const args = ['install', '--quiet', '--debug', '--path', CRATE, '--bin', name, ...features, '--root', installDirectory, '--no-track', '--force'];
   // Cargo locks its directory while it builds, so this build has its own.
   const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };
   const lockedInstall = await run(join(bin, 'cargo'), [...args, '--locked'], { ...cargoOptions, quiet: true });

@@ -7,7 +7,7 @@
  */
 
 /** Functions that make a table, by the name in its comment. @type {Record<string, (elements: Element[], widgets: Widget[]) => string>} */
-const TABLES = {
+const TABLE_BUILDERS = {
   attributes: (_, widgets) =>
     widgets
       .map(({ tag, attributes }) => {
@@ -34,7 +34,7 @@ const TABLES = {
  * @returns {string} it with the tables
  */
 export function withTables(page, elements, widgets) {
-  return page.replaceAll(/^ *<!-- table of (\w+) -->$/gm, (_, name) => TABLES[name](elements, widgets));
+  return page.replaceAll(/^ *<!-- table of (\w+) -->$/gm, (_, name) => TABLE_BUILDERS[name](elements, widgets));
 }
 
 /**

@@ -155,7 +155,7 @@ const MIN_MOVING_LEGS: usize = 50;
 
 /// Returns, for each α, the reason why it is not identifiable; None if it is identifiable.
 pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<NotIdentifiable>> {
-    let model = sample.options.model;
+    let motion_model = sample.options.model;
     let without_zeros = unknown_alphas(&maximum.parameters);
     let reason_for = |alpha: usize| {
         let marginal = maximum.expansion.information[(alpha, alpha)];
@@ -167,10 +167,11 @@ pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<N
         if marginal >= MIN_INFORMATION {
             return Some(NotIdentifiable::Collinear);
         }
-        let uses_turn = model.grows_with_turn(alpha);
+        let uses_turn = motion_model.grows_with_turn(alpha);
         let uses_alpha = |observation: &&Observation| {
-            let is_observed =
-                |k: usize| model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan();
+            let is_observed = |k: usize| {
+                motion_model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan()
+            };
             let motion = &observation.expected;
             let moves =
                 if uses_turn { turn(motion) > MIN_TURN_ANGLE } else { distance(motion) > MIN_DRIVE_DISTANCE };
@@ -182,5 +183,5 @@ pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<N
             _ => NotIdentifiable::InsufficientTranslation,
         })
     };
-    (0..model.alphas()).map(reason_for).collect()
+    (0..motion_model.alphas()).map(reason_for).collect()
 }

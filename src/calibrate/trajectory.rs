@@ -190,12 +190,12 @@ impl Trajectory {
     // Not inlined, because the code for arcs is long.
     #[inline(never)]
     pub(super) fn interpolated(&self, time: f64) -> Option<(SE2, f64)> {
-        let after = self.times.partition_point(|row_time| *row_time < time);
-        let (time_after, pose) = (*self.times.get(after)?, self.poses[after]);
+        let index_after = self.times.partition_point(|row_time| *row_time < time);
+        let (time_after, pose) = (*self.times.get(index_after)?, self.poses[index_after]);
         if time_after == time {
             return Some((pose, 1.0));
         }
-        let before = after.checked_sub(1).filter(|_| !self.has_gap_before(after))?;
+        let before = index_after.checked_sub(1).filter(|_| !self.has_gap_before(index_after))?;
         let fraction = (time - self.times[before]) / (time_after - self.times[before]);
         let interpolated_pose = self.poses[before].boxplus(pose.boxminus(&self.poses[before]) * fraction);
         Some((interpolated_pose, (1.0 - fraction) * (1.0 - fraction) + fraction * fraction))

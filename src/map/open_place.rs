@@ -83,9 +83,9 @@ impl<'a> SquareRaster<'a> {
     fn middle_of_largest_free_square(&self) -> Option<[f64; 2]> {
         let (mut largest_side, mut middle) = (0, None);
         // Row from which on each column has been free so far.
-        let mut free_since = vec![0u32; self.columns];
+        let mut free_from_row = vec![0u32; self.columns];
         for row in 0..self.rows {
-            for (column, from) in free_since.iter_mut().enumerate() {
+            for (column, from) in free_from_row.iter_mut().enumerate() {
                 if !self.is_free_square(column, row) {
                     *from = row as u32 + 1;
                 }
@@ -95,7 +95,7 @@ impl<'a> SquareRaster<'a> {
             let (mut left, mut first_unchecked) = (0, 0);
             while left + largest_side < self.columns {
                 let right = left + largest_side;
-                let is_too_short = |column: &usize| free_since[*column] as usize + largest_side > row;
+                let is_too_short = |column: &usize| free_from_row[*column] as usize + largest_side > row;
                 if let Some(short) = (left.max(first_unchecked)..=right).rev().find(is_too_short) {
                     (left, first_unchecked) = (short + 1, right + 1);
                     continue;

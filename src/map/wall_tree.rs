@@ -194,24 +194,25 @@ pub(super) struct PreparedSegment {
     from: [f64; 2],
     along: [f64; 2],
     /// 1/|along|²; 0 for a segment without length.
-    per_square: f64,
+    inverse_square_length: f64,
 }
 
 impl PreparedSegment {
-    const POINT: Self = Self { from: [0.0; 2], along: [0.0; 2], per_square: 0.0 };
+    const POINT: Self = Self { from: [0.0; 2], along: [0.0; 2], inverse_square_length: 0.0 };
 
     fn new(wall: &Segment) -> Self {
         let along = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
-        let per_square = 1.0 / (along[0] * along[0] + along[1] * along[1]);
-        Self { from: wall.from, along, per_square: if per_square.is_finite() { per_square } else { 0.0 } }
+        let inverse = 1.0 / (along[0] * along[0] + along[1] * along[1]);
+        let inverse_square_length = if inverse.is_finite() { inverse } else { 0.0 };
+        Self { from: wall.from, along, inverse_square_length }
     }
 
     /// Returns the square of the distance to a point, m².
     #[inline(always)]
     pub fn squared_distance(&self, point: [f64; 2]) -> f64 {
-        let Self { from, along, per_square } = *self;
+        let Self { from, along, inverse_square_length } = *self;
         let offset = [point[0] - from[0], point[1] - from[1]];
-        let t = ((offset[0] * along[0] + offset[1] * along[1]) * per_square).clamp(0.0, 1.0);
+        let t = ((offset[0] * along[0] + offset[1] * along[1]) * inverse_square_length).clamp(0.0, 1.0);
         let [x, y] = [offset[0] - t * along[0], offset[1] - t * along[1]];
         x * x + y * y
     }

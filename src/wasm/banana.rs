@@ -133,10 +133,10 @@ impl JsBananaMachine {
         #[wasm_bindgen(js_name = omegaMax)] omega_max: f64,
         points: f64,
     ) -> Result<Vec<f64>, JsValue> {
-        let first = in_range("omegaMin", omega_min, &QUANTITY_RANGE)?;
-        let last = in_range("omegaMax", omega_max, &QUANTITY_RANGE)?;
+        let first_omega = in_range("omegaMin", omega_min, &QUANTITY_RANGE)?;
+        let last_omega = in_range("omegaMax", omega_max, &QUANTITY_RANGE)?;
         let points = read_integer("points", points, 2..=MAX_CURVE_POINTS)?;
-        Ok(self.0.skew_curve(first, last, points as usize))
+        Ok(self.0.skew_curve(first_omega, last_omega, points as usize))
     }
 
     /// Sample by its index, counted from 0, among those shown.

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { caption, openCalibrator, rows, section, stats } from './calibrator-support.js';
-import { STILL, boxOf, frames, pixelsOf, stateOf, test, unfold, untilSettled } from './support.js';
+import { STILL, boxOf, frames, pixelCountOf, stateOf, test, unfold, untilSettled } from './support.js';
 
 
 test.use(STILL);
@@ -13,9 +13,9 @@ test('opens with the simulated log, labelled as simulated, with its true α’s'
   await expect(rows(widget)).toHaveCount(4);
   await expect(widget.locator('table.alphas .true')).toHaveCount(5);
   for (const role of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
-    expect(await pixelsOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(20);
+    expect(await pixelCountOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(20);
   }
-  expect(await pixelsOf(widget.locator('canvas.leg'), 'prediction')).toBeGreaterThan(20);
+  expect(await pixelCountOf(widget.locator('canvas.leg'), 'prediction')).toBeGreaterThan(20);
 });
 
 test('the true α’s are shown where the fit is of their rule and legs, and nowhere else', async ({ page }) => {
@@ -67,9 +67,9 @@ test('outliers are ringed, and decide the fit where they are not set aside', asy
   const widget = await openCalibrator(page);
   await unfold(widget);
   const statsBefore = await stats(widget);
-  const ringPixels = await pixelsOf(widget.locator('canvas.plane'), 'ink');
+  const ringPixels = await pixelCountOf(widget.locator('canvas.plane'), 'ink');
   await widget.getByRole('checkbox', { name: 'outlier', exact: true }).uncheck();
-  expect(await pixelsOf(widget.locator('canvas.plane'), 'ink')).toBeLessThan(ringPixels - 40);
+  expect(await pixelCountOf(widget.locator('canvas.plane'), 'ink')).toBeLessThan(ringPixels - 40);
   await widget.getByRole('radio', { name: 'fit as noise' }).check();
   await untilSettled(widget);
   const statsAfter = await stats(widget);

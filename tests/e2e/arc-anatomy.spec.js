@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, centreOf, frames, mount, numberIn, pictureOf, pixelsOf, playSlider, readout, test, unfold } from './support.js';
+import { STILL, centreOf, frames, mount, numberIn, pictureOf, pixelCountOf, playSlider, readout, test, unfold } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -46,7 +46,7 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   expect(numberIn(await readout(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
   // The pointer must not be on an entry of the legend, which would highlight its line.
   await page.mouse.move(0, 0);
-  for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelsOf(canvasOf(widget), role), role).toBeGreaterThan(role === 'accent' ? 10 : 20);
+  for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelCountOf(canvasOf(widget), role), role).toBeGreaterThan(role === 'accent' ? 10 : 20);
 });
 
 test('the robot is dragged and turned by its handles, under the pointer', async ({ page }) => {
@@ -170,7 +170,7 @@ test('heat maps of p and of the density are drawn below the arcs, with the conto
 
 test('entries of the legend are the toggles of the lines', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  expect(await pixelsOf(canvasOf(widget), 'posterior')).toBe(0);
+  expect(await pixelCountOf(canvasOf(widget), 'posterior')).toBe(0);
   // A toggle with the pointer or the focus on it highlights its line.
   const toggle = async (/** @type {string} */ name) => {
     await widget.getByRole('checkbox', { name }).click();
@@ -179,11 +179,11 @@ test('entries of the legend are the toggles of the lines', async ({ page }) => {
     await frames(page);
   };
   await toggle('constant twist');
-  expect(await pixelsOf(canvasOf(widget), 'posterior')).toBeGreaterThan(20);
+  expect(await pixelCountOf(canvasOf(widget), 'posterior')).toBeGreaterThan(20);
   for (const [name, role] of /** @type {const} */ ([['commanded arc', 'prior'], ['the one arc to the robot', 'prediction'], ['last turn', 'accent'], ['constant twist', 'posterior']])) {
-    const pixelsBefore = await pixelsOf(canvasOf(widget), role);
+    const pixelsBefore = await pixelCountOf(canvasOf(widget), role);
     await toggle(name);
-    expect(await pixelsOf(canvasOf(widget), role), name).toBeLessThan(pixelsBefore);
+    expect(await pixelCountOf(canvasOf(widget), role), name).toBeLessThan(pixelsBefore);
   }
   await expect(widget).toHaveAttribute('overlays', 'chord');
 });

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, bananaReadings, boxOf, centreOf, frames, numberIn, openBanana, openUnfoldedBanana, pauseEarly, pictureOf, pixelsOf, posesOf, readout, readoutDetail, setSliders, test } from './support.js';
+import { STILL, bananaReadings, boxOf, centreOf, frames, numberIn, openBanana, openUnfoldedBanana, pauseEarly, pictureOf, pixelCountOf, posesOf, readout, readoutDetail, setSliders, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -104,13 +104,13 @@ test('each overlay has a toggle', async ({ page }) => {
   ]) {
     const box = widget.getByRole('checkbox', { name: label });
     const isShown = await box.isChecked();
-    const pixelsBefore = await pixelsOf(plane, role);
+    const pixelsBefore = await pixelCountOf(plane, role);
     await box.setChecked(!isShown);
     // Pointing at an entry highlights its line.
     await page.mouse.move(0, 0);
-    const change = (await pixelsOf(plane, role)) - pixelsBefore;
+    const change = (await pixelCountOf(plane, role)) - pixelsBefore;
     expect(isShown ? -change : change, label).toBeGreaterThan(30);
-    if (role === 'posterior') expect(await pixelsOf(twist, role)).toBe(0);
+    if (role === 'posterior') expect(await pixelCountOf(twist, role)).toBe(0);
     await box.setChecked(isShown);
     await page.mouse.move(0, 0);
   }
@@ -122,7 +122,7 @@ test('a robot pointed at in one view is marked in both, with what it executed', 
   const plane = widget.locator('canvas.plane');
   const twist = widget.locator('canvas.twist');
   const field = widget.getByRole('spinbutton', { name: 'Robot' });
-  const markPixels = async () => [await pixelsOf(plane, 'accent'), await pixelsOf(twist, 'accent')];
+  const markPixels = async () => [await pixelCountOf(plane, 'accent'), await pixelCountOf(twist, 'accent')];
   expect(await markPixels()).toEqual([0, 0]);
 
   const checkedIndex = async () => {

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, dragSlider, frames, mount, pictureOf, pixelsOf, readout, test, unfold, untilSettled } from './support.js';
+import { STILL, dragSlider, frames, mount, pictureOf, pixelCountOf, readout, test, unfold, untilSettled } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -45,7 +45,7 @@ test('opens with the chapter’s 6 % along the track, and says that the lateral 
   await expect(widget.getByRole('row', { name: 'along, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 20: along 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);
   for (const [canvas, role] of [['plane', 'prior'], ['plane', 'posterior'], ['twist', 'posterior'], ['twist', 'truth']]) {
-    expect(await pixelsOf(widget.locator(`canvas.${canvas}`), role), `${role} in ${canvas}`).toBeGreaterThan(10);
+    expect(await pixelCountOf(widget.locator(`canvas.${canvas}`), role), `${role} in ${canvas}`).toBeGreaterThan(10);
   }
 });
 
@@ -159,10 +159,10 @@ test('a robot that is chosen by its number shows its path', async ({ page }) => 
   const widget = await openReckoning(page, 'step="20"');
   await unfold(widget);
   const canvas = widget.locator('canvas.plane');
-  const pixelsBefore = await pixelsOf(canvas, 'accent');
+  const pixelsBefore = await pixelCountOf(canvas, 'accent');
   await widget.getByRole('spinbutton', { name: 'Robot' }).fill('40000');
   await frames(page);
-  expect(await pixelsOf(canvas, 'accent')).toBeGreaterThan(pixelsBefore + 100);
+  expect(await pixelCountOf(canvas, 'accent')).toBeGreaterThan(pixelsBefore + 100);
   const end = await widget.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).machine.rollout(39_999)].slice(-3));
   await expect(widget.locator('.marked output')).toContainText(`x ${end[0].toFixed(3)} m`);
 });

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, mount, pixelsOf, showPage, test, unfold, untilReady } from './support.js';
+import { STILL, frames, mount, pixelCountOf, showPage, test, unfold, untilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -87,7 +87,7 @@ for (const [source, head, scriptFor] of SCHEME_SOURCES) {
       await page.evaluate(scriptFor(scheme));
       await expect.poll(() => schemeOf(widget)).toBe(scheme);
       // The canvas has the colours of the current theme.
-      await expect.poll(() => pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
+      await expect.poll(() => pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
     }
   });
 }
@@ -112,7 +112,7 @@ test('a figure on the ground of any theme has its ink and letters, and enough co
       expect.soft(contrast(colours[i], paper), `${role} on ${theme}`).toBeGreaterThanOrEqual(minContrast);
     }
   }
-  expect(await pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
+  expect(await pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
   // An exported picture has the background of the page.
   const svg = await widget.evaluate((element) => /** @type {any} */ (element).toSVG());
   expect(svg).toContain('<rect width="100%" height="100%" fill="rgb(244, 236, 216)"/>');
@@ -170,7 +170,7 @@ for (const [situation, media, style] of BLACK_ON_DARK) {
         expect.soft(contrast(colours[i], paper), `${role} in ${name}`).toBeGreaterThanOrEqual(minContrast);
       }
     }
-    expect(await pixelsOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
+    expect(await pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
   });
 }
 
@@ -227,7 +227,7 @@ test('custom properties colour controls and canvases, also when they change', as
   const widget = await mount(page, 'banana-machine');
   const canvas = widget.locator('canvas.plane');
   await page.addStyleTag({ content: 'banana-machine { --motion-posterior: rgb(200, 20, 90); --motion-font: monospace }' });
-  await expect.poll(() => pixelsOf(canvas, 'posterior')).toBeGreaterThan(100);
+  await expect.poll(() => pixelCountOf(canvas, 'posterior')).toBeGreaterThan(100);
   expect(await widget.evaluate((element) => getComputedStyle(element).fontFamily)).toBe('monospace');
 });
 

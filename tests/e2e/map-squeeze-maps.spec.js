@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { mapFile, openSqueeze, pgmFile, pngFile, squeezeResults, yamlFile } from './squeeze-support.js';
-import { STILL, drop, frames, pictureOf, pixelsOf, test, unfold } from './support.js';
+import { STILL, drop, frames, pictureOf, pixelCountOf, test, unfold } from './support.js';
 
 /**
  * @typedef {import('./squeeze-support.js').MapFile} MapFile
@@ -143,7 +143,7 @@ test('a map_server pair can be dropped on the widget', async ({ page }) => {
   expect(walls).toHaveLength(8 * 4);
   expect(startFree).toBe(true);
   expect(config.start).toEqual(openPlace);
-  expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
+  expect(await pixelCountOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
 });
 
 test('the reason why a dropped map is refused is visible near the drop until it is closed @nightly', async ({ page }) => {
@@ -221,5 +221,5 @@ test('a large map is opened with a message, and another map takes its place @nig
   await choose(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
   await frames(page);
-  expect(await pixelsOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(100);
+  expect(await pixelCountOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(100);
 });

@@ -224,7 +224,7 @@ function faultsOf(page, name) {
       .filter((text) => /NaN|Infinity|undefined|\[object/.test(text))
       .map((text) => `it says ${text}`);
 
-    const resultsOf = async (/** @type {any} */ figure) => {
+    const resultTextOf = async (/** @type {any} */ figure) => {
       const bytes = new Uint8Array(await new Blob([figure.poses, figure.verdicts ?? figure.executed]).arrayBuffer());
       const hash = [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes))].join();
       return JSON.stringify([figure.getState(), figure.stats, hash], (_, value) => (Number.isFinite(value) || typeof value !== 'number' ? value : String(value)));
@@ -232,15 +232,15 @@ function faultsOf(page, name) {
     // A growing cloud is paused. Otherwise it would have more samples a moment later.
     element.setState({ ...element.getState(), ...('playing' in element.getState() && { playing: false }) });
     await element.settled;
-    const results1 = await resultsOf(element);
+    const resultText1 = await resultTextOf(element);
     const state = element.getState();
     const element2 = /** @type {any} */ (document.createElement(name));
     element2.setState(JSON.parse(JSON.stringify(state)));
     element.after(element2);
     await untilShown(element2);
-    const results2 = await resultsOf(element2);
+    const resultText2 = await resultTextOf(element2);
     element2.remove();
-    if (results2 !== results1) faults.push(`a second figure with its state differs: ${results1.slice(0, 2000)} became ${results2.slice(0, 2000)}`);
+    if (resultText2 !== resultText1) faults.push(`a second figure with its state differs: ${resultText1.slice(0, 2000)} became ${resultText2.slice(0, 2000)}`);
     return faults;
   }, name);
 }

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { FIGURE_FACTS } from './figures.js';
-import { STILL, bananaReadings, boxOf, centreOf, frames, mount, openBanana, pictureOf, pixelsOf, showPage, stateOf, test, testEach, unfold, untilReady } from './support.js';
+import { STILL, bananaReadings, boxOf, centreOf, frames, mount, openBanana, pictureOf, pixelCountOf, showPage, stateOf, test, testEach, unfold, untilReady } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -49,7 +49,7 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
   await page.emulateMedia({ forcedColors: 'active' });
   const widget = await openBanana(page);
   for (const role of ['prior', 'prediction', 'posterior', 'truth']) {
-    expect(await pixelsOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(25);
+    expect(await pixelCountOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(25);
   }
   const [pressedColor, otherColor] = await Promise.all(['Banana', 'Straight'].map((name) =>
     widget.getByRole('button', { name }).evaluate((button) => getComputedStyle(button).backgroundColor)));
@@ -57,9 +57,9 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
   // The right end of a slider in its leftmost position shows the track only.
   await unfold(widget);
   const slider = widget.locator('#alpha5');
-  const withTrack = await slider.screenshot();
+  const trackScreenshot = await slider.screenshot();
   await slider.evaluate((element) => element.style.setProperty('--muted', 'Canvas'));
-  expect(withTrack.equals(await slider.screenshot())).toBe(false);
+  expect(trackScreenshot.equals(await slider.screenshot())).toBe(false);
 });
 
 testEach('Tab leads to every handle and control of a figure, once, and beyond', async (page, name) => {
@@ -156,8 +156,8 @@ test.describe('a finger', () => {
   async function swipe(page, from) {
     const client = await page.context().newCDPSession(page);
     await client.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [from] });
-    for (let step = 1; step <= 10; step++) {
-      const point = { x: from.x + step / 5, y: from.y - 16 * step };
+    for (let moveNumber = 1; moveNumber <= 10; moveNumber++) {
+      const point = { x: from.x + moveNumber / 5, y: from.y - 16 * moveNumber };
       await client.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [point] });
     }
     await client.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });

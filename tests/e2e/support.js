@@ -337,7 +337,7 @@ export async function pictureOf(canvas) {
  * @param {Locator} canvas
  * @param {string} role name of the custom property
  */
-export async function pixelsOf(canvas, role) {
+export async function pixelCountOf(canvas, role) {
   await frames(canvas.page());
   return canvas.evaluate((element, name) => {
     const target = /** @type {HTMLCanvasElement} */ (element);

@@ -154,7 +154,7 @@ async function checkOpening(page, tag) {
  */
 async function checkDragging(page, tag, { name, to, placeOf }) {
   await page.open(tag);
-  const pixelsBefore = await page.ask('pixelsOf', tag);
+  const hashBefore = await page.ask('pictureHashOf', tag);
   const places = await page.ask('placesOf', { tag, handle: name, to });
   // Pointer positions are whole pixels. A handle that is grasped beside its middle keeps its offset from the pointer.
   const from = [Math.round(places.from.x), Math.round(places.from.y)];
@@ -167,7 +167,7 @@ async function checkDragging(page, tag, { name, to, placeOf }) {
   const [x, y] = placeOf(machine, to);
   const error = Math.hypot(x - to[0], y - to[1]) / places.pixel;
   assert.ok(error <= 1, `It is ${error.toFixed(2)} pixels beside where it was dragged.`);
-  assert.notEqual(await page.ask('pixelsOf', tag), pixelsBefore, 'The picture is as it was.');
+  assert.notEqual(await page.ask('pictureHashOf', tag), hashBefore, 'The picture is as it was.');
 }
 
 /** Moves a handle by keys. @param {Page} page @param {string} tag @param {import('./figures.mjs').Handle} handle */

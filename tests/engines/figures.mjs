@@ -26,8 +26,8 @@ export const figures = {
         name: 'turn',
         to: [2.6, 3.3],
         placeOf({ config: { start } }, [x, y]) {
-          const distance = Math.hypot(x - start.x, y - start.y);
-          return [start.x + distance * Math.cos(start.theta), start.y + distance * Math.sin(start.theta)];
+          const startDistance = Math.hypot(x - start.x, y - start.y);
+          return [start.x + startDistance * Math.cos(start.theta), start.y + startDistance * Math.sin(start.theta)];
         },
       },
     ],

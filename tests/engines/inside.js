@@ -91,7 +91,7 @@ export function renderSteps(tag) {
 }
 
 /** @param {string} tag @returns {Promise<string>} a hash of every pixel of the first picture */
-export const pixelsOf = (tag) => hashOf(dataOf(firstCanvasOf(tag)));
+export const pictureHashOf = (tag) => hashOf(dataOf(firstCanvasOf(tag)));
 
 /** @param {HTMLCanvasElement} canvas */
 function dataOf(canvas) {

@@ -8,7 +8,7 @@ import { Buffer } from 'node:buffer';
 import { readFileSync } from 'node:fs';
 import { deflateRawSync, gunzipSync } from 'node:zlib';
 import { load } from '../../dist/core.js';
-import { attributesIn, propertiesOf } from '../../www/figure/attributes.ts';
+import { selectAttributes, propertiesOf } from '../../www/figure/attributes.ts';
 import { packJson, unpack } from '../../www/figure/packing.ts';
 import { settings } from '../../www/settings.js';
 import { LogError } from '../../www/logs/log-error.ts';
@@ -42,7 +42,7 @@ const widgetMachines = Object.entries(settings).map(([tag, declared]) => {
   const className = tag.replaceAll(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase());
   const hasSamples = declared.some(({ key }) => key === 'samples');
   const machine = { 'map-squeeze': mapSqueeze, 'alpha-calibrator': calibrator }[tag] ?? new (/** @type {any} */ (motion)[className])(hasSamples ? { samples: 1 } : {});
-  return { attributes: attributesIn(propertiesOf(declared)), machine, opening: machine.config };
+  return { attributes: selectAttributes(propertiesOf(declared)), machine, opening: machine.config };
 });
 
 /** Maximum length of the message of a refusal, in which long quotations are shortened. */

@@ -111,12 +111,12 @@ test('a recording has both logs, by topics and frames that are clear or named', 
     const call = await callOf(args);
     return [call.odometry[0].y?.[3], call.odometry[0].omega?.[3], call.reference[0].y[3]];
   };
-  const withAllTopics = await recordingOptions('run.mcap', '/odom', '/mocap', '/other', '/cmd_vel');
-  assert.deepEqual(await numbersOf(...withAllTopics), [1, undefined, 2]);
-  assert.deepEqual(await numbersOf(...withAllTopics, '--odometry-topic', '/mocap', '--reference-topic', '/odom'), [2, undefined, 1]);
-  assert.deepEqual(await numbersOf(...withAllTopics, '--model', 'velocity'), [undefined, 2, 2]);
-  const withFrames = await recordingOptions('tf.mcap', '/tf');
-  assert.deepEqual(await numbersOf(...withFrames, '--odometry-frames', 'odom,base_link', '--reference-frames', 'map,base_link'), [1, undefined, 2]);
+  const allTopicsArgs = await recordingOptions('run.mcap', '/odom', '/mocap', '/other', '/cmd_vel');
+  assert.deepEqual(await numbersOf(...allTopicsArgs), [1, undefined, 2]);
+  assert.deepEqual(await numbersOf(...allTopicsArgs, '--odometry-topic', '/mocap', '--reference-topic', '/odom'), [2, undefined, 1]);
+  assert.deepEqual(await numbersOf(...allTopicsArgs, '--model', 'velocity'), [undefined, 2, 2]);
+  const framesArgs = await recordingOptions('tf.mcap', '/tf');
+  assert.deepEqual(await numbersOf(...framesArgs, '--odometry-frames', 'odom,base_link', '--reference-frames', 'map,base_link'), [1, undefined, 2]);
   for (const [args, sentence] of /** @type {const} */ ([
     [
       await recordingOptions('unclear.mcap', '/odom', '/other', '/third'),

@@ -103,17 +103,17 @@ test('a question is asked where a role is not clear', async () => {
 });
 
 test('several recordings are drives of their own, or give one log each', async () => {
-  const withBothLogs = recording({ '/odom': 'odometry', '/mocap': 'pose' });
-  assert.equal(planDrives([withBothLogs, withBothLogs]).drives.length, 2);
+  const recordingWithBothLogs = recording({ '/odom': 'odometry', '/mocap': 'pose' });
+  assert.equal(planDrives([recordingWithBothLogs, recordingWithBothLogs]).drives.length, 2);
   const { unpaired } = planDrives([recording({ '/mocap': 'pose' }), recording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
   assert.deepEqual([unpaired.odometry[0].choice.series, unpaired.reference[0].choice.series], ['/odom', '/mocap']);
-  const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([withBothLogs, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
+  const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([recordingWithBothLogs, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
   assert.deepEqual([drives.length, unpairedOdometry.choice.series], [0, '/odom']);
   // A recording that has neither odometry nor a reference is left out, unless the user chose it as one of the two.
   const camera = recording({ '/image': 'text' }, { name: 'camera.mcap' });
-  const { drives: [drive], unused } = planDrives([camera, withBothLogs]);
-  assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [withBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
-  assert.match(await sentenceOf(plannedDrives([withBothLogs, camera], { roles: new Map([[camera, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
+  const { drives: [drive], unused } = planDrives([camera, recordingWithBothLogs]);
+  assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [recordingWithBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
+  assert.match(await sentenceOf(plannedDrives([recordingWithBothLogs, camera], { roles: new Map([[camera, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
   const unpairedNames = async (/** @type {string[]} */ ...names) => {
     const plan = planDrives(names.map((name) => recording({ '': 'columns' }, { name, format: 'csv' })));
     return [plan.unpaired.odometry, plan.unpaired.reference].map((parts) => parts.map(({ recording: { name } }) => name));
@@ -230,7 +230,7 @@ test('a log that does not follow the other one names the correction that makes i
   const path = [[0, 0]];
   for (const [i, heading] of headings.entries()) path.push([path[i][0] + Math.cos(heading) / 40, path[i][1] + Math.sin(heading) / 40]);
   const tableOf = (/** @type {(row: number[]) => number[]} */ change) => table(1200, (i) => change([i / 20, ...path[i], headings[i]]).map((value) => Number(value.toFixed(6))));
-  const withNoise = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
+  const distorted = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
   const degree = Math.PI / 180;
   for (const [change, sentence, what] of /** @type {[(row: number[]) => number[], RegExp, string?][]} */ ([
     [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored relative to its heading and to /],
@@ -243,7 +243,7 @@ test('a log that does not follow the other one names the correction that makes i
     [([t, x, y, yaw]) => [t, x, y, yaw * degree], /its headings are in radians and were read as degrees;/, 'angleUnit'],
     [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /: multiplied by 0\.098, its lengths match those of odom\.csv;/, 'lengthUnit'],
   ])) {
-    const refusal = await refusalOf(drivesOf({ 'odom.csv': tableOf((row) => row), 'truth.csv': tableOf((row) => change(withNoise(row))) }));
+    const refusal = await refusalOf(drivesOf({ 'odom.csv': tableOf((row) => row), 'truth.csv': tableOf((row) => change(distorted(row))) }));
     assert.match(refusal.message, sentence);
     assert.match(refusal.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
     assert.equal(refusal.ask?.what, what);
@@ -251,7 +251,7 @@ test('a log that does not follow the other one names the correction that makes i
   // A reference that is mounted backwards is not taken for a mirrored axis, even if the robot hardly turns.
   const backwardMounted = await drivesOf({ 'odom.csv': table(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': table(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
   assert.equal(backwardMounted.length, 1);
-  assert.match(await sentenceOf(drivesOf({ 'odom.csv': tableOf(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': tableOf(withNoise) })), /^odom\.csv: its y axis is mirrored/);
+  assert.match(await sentenceOf(drivesOf({ 'odom.csv': tableOf(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': tableOf(distorted) })), /^odom\.csv: its y axis is mirrored/);
 });
 
 test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {

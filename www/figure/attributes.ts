@@ -82,7 +82,7 @@ export const COMMON_ATTRS: Record<string, { words?: readonly string[], nullable?
 export const propertiesOf = (declared: Declaration[]): Properties => Object.fromEntries(declared.map((setting) => [setting.key, propertyOf(setting)]));
 
 /** Returns the properties that are also attributes. */
-export const attributesIn = (properties: Properties) =>
+export const selectAttributes = (properties: Properties) =>
   Object.fromEntries(Object.entries(properties).filter(([, { converter }]) => converter)) as Record<string, Attribute>;
 
 /** Returns the property of a field of the configuration. */
@@ -135,7 +135,7 @@ export function presetPropertyOf(presets: readonly ({ name: string } & Record<st
   });
   return {
     converter: WORD_CONVERTER,
-    covers: Object.keys(attributesIn(properties)).filter((key) => !KEPT_BY_PRESETS.includes(key)),
+    covers: Object.keys(selectAttributes(properties)).filter((key) => !KEPT_BY_PRESETS.includes(key)),
     words: presetNames,
     get: (config) => presetNames[presetSettings.findIndex((settings) => includesFields(config, settings))] ?? null,
     change: (name) => presetSettings[presetNames.indexOf(checkedWord('preset', name, presetNames))],

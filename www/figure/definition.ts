@@ -1,7 +1,7 @@
 /** Definition of a widget: its settings with their sliders, its properties and attributes, and the state of its element. */
 
 import { presets, settings, type Declaration } from '../settings.js';
-import { NUMBER_CONVERTER, WORD_LIST_CONVERTER, attributesIn, fieldProperty, presetPropertyOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
+import { NUMBER_CONVERTER, WORD_LIST_CONVERTER, selectAttributes, fieldProperty, presetPropertyOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
 import { numberWithin, checkedSubset, wholeNumber, checkedWord } from './checks.ts';
 import type { SliderSpec } from './controls.ts';
 import type { LineStyle } from '../scene/draw.ts';
@@ -68,7 +68,7 @@ export function definitionOf(tag: string, { lines, opening = Object.keys(lines),
   for (const [key, { converter, isProperty, words, min, max }] of Object.entries(elementFields)) {
     if (converter || isProperty) properties[key] = { ...fieldProperty(key, converter), words, min, max };
   }
-  return { ...parts, tag, declared, properties, attributes: attributesIn(properties), elementFields };
+  return { ...parts, tag, declared, properties, attributes: selectAttributes(properties), elementFields };
 }
 
 /** Returns a value for a field of the state of the element after a check; throws a TypeError or RangeError if it is invalid. */

@@ -46,27 +46,27 @@ export function seriesNamed(series: Series[], wantedName: string): Series | unde
 }
 
 /** Returns the names of the series that could be the log of a role, the likeliest first. */
-export function namesFor(recording: Recording, role: Role): string[] {
+export function seriesNamesFor(recording: Recording, role: Role): string[] {
   const usableSeries = readableSeries(recording).filter(({ kind }) => role === 'odometry' || kind !== 'commands');
   return [...new Set([...candidates(recording, role).flat().map(({ series }) => series), ...usableSeries.map(({ name }) => name)])];
 }
 
 /** Returns the logs that could have a role, in groups of equal likelihood, the likeliest first. A group of several logs is ambiguous. */
 export function candidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): Choice[][] {
-  const isOfTable = isTable(recording);
+  const isTableFile = isTable(recording);
   const useful = readableSeries(recording).filter(({ name }) => !GOAL_NAMES.test(name));
   const poseSeries = useful.filter((entry) => entry.kind === 'poses');
   const chains = useful.flatMap(({ name, frames = [] }) => likeliestFrames(frames, role).map((pair) => ({ series: name, frames: pair })));
   if (role === 'reference') {
     const unfilteredPaths = poseSeries.filter(({ name }) => !FILTER_NAMES.test(name) && !ODOMETRY_NAMES[0].test(name));
-    return [...tiersByName(poseSeries, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choicesOf(unfilteredPaths, 'poses'), ...(isOfTable && useful.length === 1 ? [choicesOf(poseSeries, 'poses')] : []), chains];
+    return [...tiersByName(poseSeries, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choicesOf(unfilteredPaths, 'poses'), ...(isTableFile && useful.length === 1 ? [choicesOf(poseSeries, 'poses')] : []), chains];
   }
   // The type of the message is a sign that it is odometry.
-  const wheelPaths = poseSeries.filter(({ name, type }) => !MEASUREMENT_NAMES.test(name) && !LOCALIZER_NAMES.test(name) && (isOfTable || /Odometry$/.test(type)));
+  const wheelPaths = poseSeries.filter(({ name, type }) => !MEASUREMENT_NAMES.test(name) && !LOCALIZER_NAMES.test(name) && (isTableFile || /Odometry$/.test(type)));
   const poseTiers = [...tiersByName(wheelPaths, ODOMETRY_NAMES), choicesOf(wheelPaths), chains];
-  const commandSeries = useful.filter((entry) => entry.kind === 'commands' || (isOfTable && entry.hasCommands));
+  const commandSeries = useful.filter((entry) => entry.kind === 'commands' || (isTableFile && entry.hasCommands));
   const commandTiers = [...tiersByName(commandSeries, COMMAND_NAMES, 'commands'), choicesOf(commandSeries, 'commands')];
-  return kind === 'commands' ? [...commandTiers, ...poseTiers] : isOfTable ? [...poseTiers, ...commandTiers] : poseTiers;
+  return kind === 'commands' ? [...commandTiers, ...poseTiers] : isTableFile ? [...poseTiers, ...commandTiers] : poseTiers;
 }
 
 const choicesOf = (series: Series[], kind?: LogKind): Choice[] => series.map(({ name }) => ({ series: name, ...(kind && { kind }) }));
@@ -76,6 +76,6 @@ const tiersByName = (series: Series[], names: RegExp[], kind?: LogKind): Choice[
 /** Returns the likeliest pairs of frames for a role, by the names of the frames. */
 export function likeliestFrames(frames: Frames[], role: Role): Frames[] {
   const firstNamed = (candidates: Frames[], names: RegExp[], end: keyof Frames) => names.map((name) => candidates.filter((pair) => name.test(pair[end]))).find(({ length }) => length);
-  const fixedParents = firstNamed(frames, FIXED_FRAMES[role], 'parent') ?? [];
-  return firstNamed(fixedParents, BASE_FRAMES, 'child') ?? fixedParents;
+  const pairsWithFixedParent = firstNamed(frames, FIXED_FRAMES[role], 'parent') ?? [];
+  return firstNamed(pairsWithFixedParent, BASE_FRAMES, 'child') ?? pairsWithFixedParent;
 }

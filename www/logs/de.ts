@@ -18,7 +18,7 @@ const TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, oder ${COMMAND_TYPES}
 
 const ROLES = { odometry: 'Odometrie', reference: 'Referenz' };
 
-const times = (count: number, one: string, more: string) => `${count} ${count === 1 ? one : more}`;
+const withNoun = (count: number, one: string, more: string) => `${count} ${count === 1 ? one : more}`;
 const comma = (value: number, digits: number) => value.toFixed(digits).replace('.', ',');
 
 const BY: Record<Basis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', date: ' (aus Datumsangaben)', option: ' (wie angegeben)', usage: '' };
@@ -78,10 +78,10 @@ export const german: Words = {
       `keine der Spalten ${columns} ist die Zeit; erwartet wird eine mit dem Namen t, time, timestamp oder stamp, oder zwei mit sec und nanosec, oder eine Auswahl der Spalten.`,
     noColumns: (neededFields, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED[neededFields]}, oder eine Auswahl der Spalten.`,
     twice: (field, column, otherColumn) => `sowohl „${column}“ als auch „${otherColumn}“ kann die Spalte „${FIELDS[field]}“ sein; erwartet wird eines davon.`,
-    cells: (count, needed) => `die Zeile hat ${times(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
+    cells: (count, needed) => `die Zeile hat ${withNoun(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
     wide: (count, needed, header) =>
-      `die Zeile hat ${times(count, 'Feld', 'Felder')} und der Kopf in Zeile ${header} ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen oder Semikolons zwischen Feldern.`,
-    given: (cellCount, nameCount) => `die Zeile hat ${times(cellCount, 'Feld', 'Felder')}, und --columns nennt ${nameCount}; alle Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden.`,
+      `die Zeile hat ${withNoun(count, 'Feld', 'Felder')} und der Kopf in Zeile ${header} ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen oder Semikolons zwischen Feldern.`,
+    given: (cellCount, nameCount) => `die Zeile hat ${withNoun(cellCount, 'Feld', 'Felder')}, und --columns nennt ${nameCount}; alle Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden.`,
     noHeader: (count, row) =>
       `die Tabelle hat keinen Kopf, und ihre erste Zeile ist „${row}“; ihre ${count} Spalten benennen.`,
     noTable: (notation) => `das ist ${notation} und keine Tabelle; eine Zeile je Zeitpunkt schreiben, wie mit ros2 topic echo --csv, rostopic echo -p oder pandas, oder die Aufzeichnung selbst angeben.`,
@@ -171,20 +171,20 @@ export const german: Words = {
     rows: (used, rows, seconds, rate, distance) => `${used} von ${rows} Zeilen, ${comma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz, ${comma(distance, 1)} m gefahren`,
     units: ({ time, length, angle }) =>
       `Zeit in ${time.unit}${BY[time.by]}, Längen in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
-    dropped: (reason, count, line) => `${times(count, 'Zeile', 'Zeilen')}${line ? ` ${count === 1 ? 'in' : 'ab'} Zeile ${line}` : ''}: ${REASONS[reason]}`,
+    dropped: (reason, count, line) => `${withNoun(count, 'Zeile', 'Zeilen')}${line ? ` ${count === 1 ? 'in' : 'ab'} Zeile ${line}` : ''}: ${REASONS[reason]}`,
     noGaps: 'keine',
     gaps: (count, first, longest) => `${count}, die erste ${comma(first, 2)} s nach dem Start, die längste von ${comma(longest, 2)} s`,
     jumps: (count, first) => `${count}, der erste ${comma(first, 2)} s nach dem Start`,
     recorded: 'die der Aufzeichnung, da die Header keine oder immer dieselben haben',
     notes: {
       missing: (files) => `die Dateien ${files} der Aufzeichnung fehlen`,
-      damaged: (count, reason) => `${times(count, 'beschädigter Block', 'beschädigte Blöcke')} übersprungen (${reason})`,
+      damaged: (count, reason) => `${withNoun(count, 'beschädigter Block', 'beschädigte Blöcke')} übersprungen (${reason})`,
       cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
       noZone: 'Datumsangaben ohne Zeitzone gelten als UTC',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
       clockSet: (time, seconds) => `${comma(time, 2)} s nach dem Beginn springen die Zeiten um ${comma(seconds, 2)} s, und der Roboter fährt von derselben Stelle weiter, als wäre die Uhr gestellt worden: das Log dort teilen, oder Zeiten einer anderen Uhr verwenden`,
       rollover: (line) => `die Uhr beginnt in Zeile ${line} wieder bei 0; Zeiten ab dort setzen die vorigen fort`,
-      sorted: (count) => `${times(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
+      sorted: (count) => `${withNoun(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       swapped: (odometry, by) =>
         `${by === 'name' ? `sie heißt wie eine Odometrie, und ${odometry} nicht` : `sie wiederholt im Stand genau ihre Pose, wie die Odometrie von Rädern, und ${odometry} nicht`}: Ist die Odometrie als Referenz angegeben?`,
       apart: (name, period, otherPeriod) => `keine Zeit gemeinsam mit ${name} (${period}, und ${otherPeriod}): Die Uhren werden nach den Drehungen des Roboters gestellt`,

@@ -1,6 +1,6 @@
 /** Search for the odometry and the reference of each drive in recordings. */
 
-import { GOAL_NAMES, candidates, isTable, likeliestFrames, namesFor, roleByName, seriesNamed, readableSeries } from './candidates.ts';
+import { GOAL_NAMES, candidates, isTable, likeliestFrames, seriesNamesFor, roleByName, seriesNamed, readableSeries } from './candidates.ts';
 import { LogError, listing } from './log-error.ts';
 import { ROLES, framesOption, framesText, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
 import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pairs.ts';
@@ -103,7 +103,7 @@ function bothLogsOf(recording: Recording, wishes: Wishes): Record<Role, Recordin
   const odometry = attempt(() => chooseLog(recording, 'odometry', wishes, chosenReference)) ?? chooseLog(recording, 'odometry', wishes);
   const reference = chosenReference ?? chooseLog(recording, 'reference', wishes, odometry);
   if (isSame(odometry, reference)) {
-    const ask = { what: 'series' as const, role: 'reference' as const, choices: namesFor(recording, 'reference').filter((name) => name !== reference.series) };
+    const ask = { what: 'series' as const, role: 'reference' as const, choices: seriesNamesFor(recording, 'reference').filter((name) => name !== reference.series) };
     throw new LogError({ file: recording.name, topic: reference.series }, (say) => say.ownReference(reference.frames ? framesText(reference.frames) : reference.series), ask);
   }
   return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
@@ -122,7 +122,7 @@ function wishedChoice(recording: Recording, role: Role, wishes: Wishes): Choice 
     ? recording.series.find((entry) => entry.frames)
     : seriesNamed(recording.series, series);
   if (!namedSeries) {
-    const names = namesFor(recording, role);
+    const names = seriesNamesFor(recording, role);
     throw new LogError(
       { file: recording.name, topic: series },
       (say) => (isTable(recording) ? say.noGroup(describeSeries(recording.series)) : series === undefined ? say.noTransforms(describeSeries(readableSeries(recording))) : say.noTopic(listing(names))),
@@ -143,8 +143,8 @@ function framesError({ name: file }: Recording, { name: topic, frames = [] }: Se
 function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
   const [bestChoices = []] = candidates(recording, role, wishes).map((tier) => tier.filter((choice) => !isSame(choice, other))).filter(({ length }) => length);
   // Among the best choices, those with the robot frame of the other log are preferred.
-  const withSameRobot = bestChoices.filter(({ frames }) => frames && frames.child === other?.frames?.child);
-  if (withSameRobot.length === 1) return withSameRobot[0];
+  const choicesOfSameRobot = bestChoices.filter(({ frames }) => frames && frames.child === other?.frames?.child);
+  if (choicesOfSameRobot.length === 1) return choicesOfSameRobot[0];
   if (bestChoices.length === 1) return bestChoices[0];
   const file = recording.name;
   const usableSeries = readableSeries(recording);
@@ -164,7 +164,7 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   throw new LogError(
     { file },
     (say) => (bestChoices.length > 0 ? say.choose : say.lacks)(role, describeSeries(usableSeries)),
-    { what: 'series', role, choices: bestChoices.length > 0 ? namesFor(recording, role).filter((name) => name !== other?.series) : usableSeries.filter(({ kind }) => role === 'odometry' && kind === 'commands').map(({ name }) => name) },
+    { what: 'series', role, choices: bestChoices.length > 0 ? seriesNamesFor(recording, role).filter((name) => name !== other?.series) : usableSeries.filter(({ kind }) => role === 'odometry' && kind === 'commands').map(({ name }) => name) },
   );
 }
 

@@ -41,8 +41,8 @@ const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 /** Minimum period of a clock that wraps around, in median steps of its times. A clock that was set back might match a shorter period by chance. */
 const MIN_PERIOD_STEPS = 500;
 
-/** Two paths whose poses alternate: minimum distance (m), and minimum number of poses far from the next. Maximum number of rows and seconds until a path goes on, and maximum fraction of poses that are still far then. */
-const [MIN_PATH_DISTANCE, MIN_TURNS, MAX_TURN_ROWS, MAX_TURN_SECONDS, MAX_TURN_FRACTION] = [0.05, 20, 8, 1, 0.2];
+/** Two paths whose poses alternate: minimum distance (m), and minimum number of poses far from the next. Maximum number of rows and seconds until a path continues, and maximum fraction of poses that are still far then. */
+const [MIN_PATH_DISTANCE, MIN_LONG_STEPS, MAX_RETURN_ROWS, MAX_RETURN_SECONDS, MAX_LONG_FRACTION] = [0.05, 20, 8, 1, 0.2];
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
 const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
@@ -349,9 +349,9 @@ function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): num
   const distancesOver = (rows: number) => sample(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
   const longStep = quantile(distancesOver(1), 0.9);
   const countOfLong = (rows: number) => distancesOver(rows).filter((distance) => distance > longStep / 2).length;
-  const isTurn = (rows: number) => countOfLong(rows) < MAX_TURN_FRACTION * countOfLong(1);
-  const maxRows = Math.min(MAX_TURN_ROWS, (MAX_TURN_SECONDS * t.length) / (t[t.length - 1] - t[0]));
-  return longStep > MIN_PATH_DISTANCE && countOfLong(1) >= MIN_TURNS && range(2, maxRows + 1).some(isTurn) ? longStep : 0;
+  const returnsAfter = (rows: number) => countOfLong(rows) < MAX_LONG_FRACTION * countOfLong(1);
+  const maxRows = Math.min(MAX_RETURN_ROWS, (MAX_RETURN_SECONDS * t.length) / (t[t.length - 1] - t[0]));
+  return longStep > MIN_PATH_DISTANCE && countOfLong(1) >= MIN_LONG_STEPS && range(2, maxRows + 1).some(returnsAfter) ? longStep : 0;
 }
 
 /** Returns true if a robot drives on after a gap in the times from where it was before, steadily: its clock was set forward. */

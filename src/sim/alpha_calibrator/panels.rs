@@ -96,11 +96,11 @@ fn panel(model: Model, calibration: &Calibration, component: usize, regressor: R
         previous_limit = bin_limit;
         let sum =
             |value: &dyn Fn(&[f64; 4]) -> f64| bin.iter().map(|point| point[2] * value(point)).sum::<f64>();
-        let total = sum(&|_| 1.0);
-        let [x, y] = [sum(&|point| point[0]) / total, sum(&|point| point[1]) / total];
-        let scatter = sum(&|point| (point[1] - y) * (point[1] - y)) / (total * (total - 1.0));
-        let model_variance = sum(&|point| point[2] * point[3]) / (total * total);
-        if bin.len() >= MIN_LEGS_PER_BIN && total > 1.0 {
+        let total_weight = sum(&|_| 1.0);
+        let [x, y] = [sum(&|point| point[0]) / total_weight, sum(&|point| point[1]) / total_weight];
+        let scatter = sum(&|point| (point[1] - y) * (point[1] - y)) / (total_weight * (total_weight - 1.0));
+        let model_variance = sum(&|point| point[2] * point[3]) / (total_weight * total_weight);
+        if bin.len() >= MIN_LEGS_PER_BIN && total_weight > 1.0 {
             panel.x.push(x);
             panel.y.push(y);
             panel.error.push(scatter.max(model_variance).sqrt());

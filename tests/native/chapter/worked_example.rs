@@ -66,14 +66,14 @@ fn the_linearized_table() {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         model.cartesian_cov(&U, &SE2::identity())
     };
-    let for_v = covariance_of([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    let for_omega = covariance_of([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
-    assert_printed(for_v[(0, 0)].sqrt(), 0.958851, 6, "∂x/∂v");
-    assert_printed(for_v[(1, 0)] / for_v[(0, 0)].sqrt(), 0.244835, 6, "∂y/∂v");
-    assert_eq!(for_v[(2, 2)], 0.0);
-    assert_printed(for_omega[(0, 2)], -0.162537, 6, "∂x/∂ω");
-    assert_printed(for_omega[(1, 2)], 0.469181, 6, "∂y/∂ω");
-    assert_relative_eq!(for_omega[(2, 2)], 1.0, epsilon = 1e-15);
+    let covariance_by_v = covariance_of([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let covariance_by_omega = covariance_of([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    assert_printed(covariance_by_v[(0, 0)].sqrt(), 0.958851, 6, "∂x/∂v");
+    assert_printed(covariance_by_v[(1, 0)] / covariance_by_v[(0, 0)].sqrt(), 0.244835, 6, "∂y/∂v");
+    assert_eq!(covariance_by_v[(2, 2)], 0.0);
+    assert_printed(covariance_by_omega[(0, 2)], -0.162537, 6, "∂x/∂ω");
+    assert_printed(covariance_by_omega[(1, 2)], 0.469181, 6, "∂y/∂ω");
+    assert_relative_eq!(covariance_by_omega[(2, 2)], 1.0, epsilon = 1e-15);
 }
 
 #[test]

@@ -88,10 +88,10 @@ fn panels_are_means_of_squared_innovations() {
         })
         .collect();
     points.sort_by(|one, other| one[0].total_cmp(&other[0]));
-    let size = points.len().div_ceil(8);
+    let bin_len = points.len().div_ceil(8);
     // A bin of legs ends after all legs that turned exactly as much as its last one.
     let bin_end =
-        |i: usize| points.partition_point(|point| point[0] <= points[((i * size).min(points.len())) - 1][0]);
+        |i: usize| points.partition_point(|point| point[0] <= points[(i * bin_len).min(points.len()) - 1][0]);
     for i in 0..8 {
         let bin = &points[if i == 0 { 0 } else { bin_end(i) }..bin_end(i + 1)];
         let mean = |axis: usize| bin.iter().map(|point| point[axis]).sum::<f64>() / bin.len() as f64;

@@ -97,11 +97,11 @@ fn moments_are_those_of_the_cloud() {
             for axis in 0..3 {
                 let moment = |p: i32| xi.iter().map(|xi| (xi[axis] - mean[axis]).powi(p)).sum::<f64>() / n;
                 let expected = ((moment(4) / moment(2).powi(2) - 1.0) / n).sqrt();
-                let relative_error = measured.relative_error[axis];
+                let relative_std_error = measured.relative_error[axis];
                 if moment(2) > 1e-20 {
                     assert!(
-                        (relative_error / expected - 1.0).abs() < 1e-6,
-                        "{i}, {k}, {axis}: {relative_error}, not {expected}"
+                        (relative_std_error / expected - 1.0).abs() < 1e-6,
+                        "{i}, {k}, {axis}: {relative_std_error}, not {expected}"
                     );
                 }
             }

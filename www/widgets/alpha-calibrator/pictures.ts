@@ -53,8 +53,8 @@ export class PathPicture extends SamplesPicture<Scene> {
 
   paint: Picture<Scene>['paint'] = (brush, { legs, classes, chosen, overlays }) => {
     const { palette } = brush;
-    const keyedNames = brush.exported ? ([...LEG_CLASSES.toReversed(), 'odometry', 'outlier'] as const).filter((name) => overlays.includes(name)) : [];
-    const key = keyedNames.map((name) => {
+    const legendNames = brush.exported ? ([...LEG_CLASSES.toReversed(), 'odometry', 'outlier'] as const).filter((name) => overlays.includes(name)) : [];
+    const key = legendNames.map((name) => {
       const keyEntry = lineKey(brush, words.calibrator.overlays[name].replaceAll('*', ''), pathStyle(brush, name));
       return name === 'outlier' ? { ...keyEntry, draw: (x: number, y: number, length: number) => drawRings(brush, [[x + length / 2, y]]) } : keyEntry;
     });

@@ -61,9 +61,9 @@ export function confidenceRings(motion: Motion, { stats: { exponential: { mean, 
 
 /** Returns the commanded arc at a morph. */
 function commandAt({ config: { command: { v, omega, dt } }, contours }: Reading, morph: number) {
-  const chords = contours.command.length / 2 - 1;
-  const pointAtChord = (i: number) => morphedPoint([(i / chords) * v * dt, 0, (i / chords) * omega * dt], morph);
-  return Float64Array.from(Array.from({ length: chords + 1 }, (_, i) => pointAtChord(i)).flat());
+  const chordCount = contours.command.length / 2 - 1;
+  const pointAtChord = (i: number) => morphedPoint([(i / chordCount) * v * dt, 0, (i / chordCount) * omega * dt], morph);
+  return Float64Array.from(Array.from({ length: chordCount + 1 }, (_, i) => pointAtChord(i)).flat());
 }
 
 /**

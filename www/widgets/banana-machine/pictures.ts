@@ -209,13 +209,13 @@ function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { 
   for (let i = 0; i < robots; i++) {
     const { path, pose } = machine.inspect(i);
     // The first robot has arrived when the others start.
-    const chords = path.length / 2 - 1;
-    const position = (i === 0 && robots > 1 ? 1 : share) * chords;
-    const chord = Math.min(Math.floor(position), chords - 1);
+    const chordCount = path.length / 2 - 1;
+    const position = (i === 0 && robots > 1 ? 1 : share) * chordCount;
+    const chord = Math.min(Math.floor(position), chordCount - 1);
     const [x, y, nextX, nextY] = path.subarray(2 * chord, 2 * chord + 4);
     const [endX, endY] = [x + (position - chord) * (nextX - x), y + (position - chord) * (nextY - y)];
     drawOutline(brush, Float64Array.of(...path.subarray(0, 2 * chord + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
-    const heading = position === chords ? pose[2] : Math.atan2(nextY - y, nextX - x);
+    const heading = position === chordCount ? pose[2] : Math.atan2(nextY - y, nextX - x);
     drawRobot(brush, { x: endX, y: endY, heading, colour: palette.cloud });
   }
 }

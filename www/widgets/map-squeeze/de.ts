@@ -73,8 +73,8 @@ export const de: typeof import('./en.ts').en = {
   picture: (map) => `Grundriss von oben, x nach rechts und y nach oben. ${map}.`,
   robotAt: (x, y, theta, command) =>
     `Der Roboter steht bei x ${x} m, y ${y} m, Richtung ${theta} rad. Befohlen: ${command}.`,
-  outcome: (drawn, parts, accepted, through, density) =>
-    `${drawn} ${parts ? 'Teilschritte ' : ''}gezogen; ${accepted} ${parts ? 'Bewegungen ' : ''}angenommen, als ${density ? 'Dichte' : 'Punkte'}; davon ${through} durch eine Wand.`,
+  outcome: (drawn, subSteps, accepted, through, density) =>
+    `${drawn} ${subSteps ? 'Teilschritte ' : ''}gezogen; ${accepted} ${subSteps ? 'Bewegungen ' : ''}angenommen, als ${density ? 'Dichte' : 'Punkte'}; davon ${through} durch eine Wand.`,
   rest: (density) => `Der Rest ist verworfen${density ? '' : ', als Kreuze'}.`,
   throughThisWall: 'durch diese Wand',
   handles: {

@@ -73,8 +73,8 @@ export const en = {
   picture: (map) => `Floor plan from above, x to the right and y up. ${map}.`,
   robotAt: (x, y, theta, command) =>
     `The robot stands at x ${x} m, y ${y} m, heading ${theta} rad. Commanded: ${command}.`,
-  outcome: (drawn, parts, accepted, through, density) =>
-    `${drawn} ${parts ? 'sub-steps ' : ''}drawn; ${accepted} ${parts ? 'motions ' : ''}accepted, as ${density ? 'a density' : 'dots'}; ${through} of those through a wall.`,
+  outcome: (drawn, subSteps, accepted, through, density) =>
+    `${drawn} ${subSteps ? 'sub-steps ' : ''}drawn; ${accepted} ${subSteps ? 'motions ' : ''}accepted, as ${density ? 'a density' : 'dots'}; ${through} of those through a wall.`,
   rest: (density) => `The rest is rejected${density ? '' : ', as crosses'}.`,
   throughThisWall: 'through this wall',
   handles: {

@@ -75,11 +75,11 @@ export function pictureText({ config, stats, sorted, note }: Reading, map: strin
   const { x, y, theta } = config.start;
   const { attempts, accepted, drawn, throughWall } = stats;
   const say = words.squeeze;
-  const isSplit = config.conditioned && config.sampler === 'sub-stepped';
+  const hasSubSteps = config.conditioned && config.sampler === 'sub-stepped';
   return [
     say.picture(map),
     say.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
-    say.outcome(integer(drawn), isSplit, integer(accepted), integer(throughWall), !sorted),
+    say.outcome(integer(drawn), hasSubSteps, integer(accepted), integer(throughWall), !sorted),
     accepted < attempts && config.conditioned ? say.rest(!sorted) : '',
     note,
   ].filter(Boolean).join(' ');

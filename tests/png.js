@@ -8,16 +8,16 @@ import { crc32, deflateSync } from 'node:zlib';
  * @property {number} width
  * @property {number} height
  * @property {boolean} [opacity] true if a pixel has a second sample, its opacity
- * @property {(column: number, row: number, part: number) => number} sample value from 0 to 255; part 0 is the grey, 1 the opacity
+ * @property {(column: number, row: number, channel: number) => number} sample value from 0 to 255; channel 0 is the grey, 1 the opacity
  */
 
 export const SIGNATURE = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
 
 /** @param {Image} image */
 export function pngOf({ width, height, opacity = false, sample }) {
-  const sampleParts = opacity ? [0, 1] : [0];
+  const channels = opacity ? [0, 1] : [0];
   const columns = Array.from({ length: width }, (_, column) => column);
-  const rows = Array.from({ length: height }, (_, row) => [0, ...columns.flatMap((column) => sampleParts.map((part) => sample(column, row, part)))]);
+  const rows = Array.from({ length: height }, (_, row) => [0, ...columns.flatMap((column) => channels.map((channel) => sample(column, row, channel)))]);
   return Buffer.concat([SIGNATURE, header({ width, height, opacity }), chunk('IDAT', deflateSync(Buffer.from(rows.flat()))), chunk('IEND', [])]);
 }
 

@@ -36,8 +36,8 @@ pub fn assert_moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
         assert!(cov[(i, i)] >= 0.0, "{what}: {mean:?} {cov:?}");
         for j in 0..i {
             let max_cov = cov[(i, i)].sqrt() * cov[(j, j)].sqrt();
-            let tolerance =
-                ROUNDING * value_sizes[i] * value_sizes[j] + UNDERFLOW * (value_sizes[i] + value_sizes[j]);
+            let tolerance = ROUNDING * value_sizes[i] * value_sizes[j]
+                + MAX_UNDERFLOWING_DEVIATION * (value_sizes[i] + value_sizes[j]);
             assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{what}: {mean:?} {cov:?}");
             assert!(cov[(i, j)].abs() <= max_cov + tolerance, "{what}: {mean:?} {cov:?}");
         }
@@ -48,7 +48,7 @@ pub fn assert_moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
 pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Upper bound of the deviations whose squares underflow to 0, times two as a margin.
-pub const UNDERFLOW: f64 = 1e-161;
+pub const MAX_UNDERFLOWING_DEVIATION: f64 = 1e-161;
 
 /// Asserts that lists have the same numbers, where NaN equals NaN.
 pub fn assert_same_numbers(what: &str, a: &[f64], b: &[f64]) {

@@ -186,7 +186,7 @@ fn assert_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, us
 fn rounding_of_sums(MeasuredMoments { mean, cov, .. }: &MeasuredMoments) -> impl Fn(usize, usize) -> f64 + use<> {
     let [along, lateral, heading] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
     let sizes = [along + lateral, along + lateral, heading];
-    move |i, j| laws::ROUNDING * sizes[i] * sizes[j] + laws::UNDERFLOW * (sizes[i] + sizes[j])
+    move |i, j| laws::ROUNDING * sizes[i] * sizes[j] + laws::MAX_UNDERFLOWING_DEVIATION * (sizes[i] + sizes[j])
 }
 
 fn assert_misses(misses: &Misses, steps: usize) {

@@ -261,9 +261,9 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     };
     for leg in &sample.legs {
         let (expected, measured) = (systematic.expected(sample.options.model, leg), systematic.motion(leg));
-        let difference = libm::hypot(measured.x() - expected.x(), measured.y() - expected.y());
+        let position_difference = libm::hypot(measured.x() - expected.x(), measured.y() - expected.y());
         add_motion(&mut turns, turn(&expected), (measured.theta() - expected.theta()).abs(), MIN_TURN_ANGLE);
-        add_motion(&mut drives, distance(&expected), difference, MIN_DRIVE_DISTANCE);
+        add_motion(&mut drives, distance(&expected), position_difference, MIN_DRIVE_DISTANCE);
     }
     let median_ratio = |[mut sizes, mut differences]: [Vec<f64>; 2]| {
         (sizes.len() >= MIN_LEGS).then(|| median(&mut differences) / median(&mut sizes))

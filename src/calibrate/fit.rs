@@ -71,8 +71,8 @@ impl Sample {
         let blocks = MAX_LEGS / LEGS_PER_BLOCK;
         let mut sampled_legs = Vec::with_capacity(MAX_LEGS);
         for block in 0..blocks {
-            let from = block * (legs.len() - LEGS_PER_BLOCK) / (blocks - 1);
-            sampled_legs.extend_from_slice(&legs[from..from + LEGS_PER_BLOCK]);
+            let first_leg = block * (legs.len() - LEGS_PER_BLOCK) / (blocks - 1);
+            sampled_legs.extend_from_slice(&legs[first_leg..first_leg + LEGS_PER_BLOCK]);
             let start = sampled_legs.len() - LEGS_PER_BLOCK;
             sampled_legs[start].follows = false;
         }

@@ -185,11 +185,11 @@ impl FieldBuilder {
             return;
         };
         if size > 1 && min_distance <= UNDIVIDED_DISTANCE * radius + uncertainty / BLOCK_UNCERTAINTY {
-            let reach = max_distance + 2.0 * radius + self.slack;
+            let max_lower_bound = max_distance + 2.0 * radius + self.slack;
             self.candidates.extend(
                 self.measured
                     .iter()
-                    .filter(|(lower_bound, _)| *lower_bound <= reach)
+                    .filter(|(lower_bound, _)| *lower_bound <= max_lower_bound)
                     .map(|(_, candidate)| *candidate),
             );
             let range = [range[1], self.candidates.len()];

@@ -171,12 +171,12 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   await expect.poll(() => folds.count()).toBeGreaterThan(1);
   await unfold(widget);
   const openFolds = () => folds.evaluateAll((foldElements) => foldElements.map((fold) => /** @type {HTMLDetailsElement} */ (fold).open));
-  const openBefore = await openFolds();
+  const openFoldsBefore = await openFolds();
   const field = folds.nth(fold.at).locator(fold.field);
   await field.fill(fold.value);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await frames(page);
-  expect(await openFolds()).toEqual(openBefore);
+  expect(await openFolds()).toEqual(openFoldsBefore);
   const height = (await boxOf(widget)).height;
   const heights = await widget.evaluate(async (element) => {
     element.remove();
@@ -188,7 +188,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
     return [...heights, element.getBoundingClientRect().height];
   });
   await untilReady(widget);
-  expect(await openFolds()).toEqual(openBefore);
+  expect(await openFolds()).toEqual(openFoldsBefore);
   await expect(field).toHaveValue(fold.value);
   await expect(folds.nth(fold.at).locator('.folded')).not.toBeEmpty();
   // The height of the figure does not change meanwhile.

@@ -135,7 +135,7 @@ function fixtures(...names) {
 const TOPIC_CHOICES = [{ series: '/odom' }, { series: '/pose' }, { series: '/cmd_vel' }, { series: '/tf', frames: { parent: 'map', child: 'base' } }];
 
 /** Options of the fastest deflation. */
-const FASTEST = { level: 0, memLevel: 1 };
+const FASTEST_DEFLATE = { level: 0, memLevel: 1 };
 
 const bytesOfTexts = (/** @type {string[]} */ ...texts) => texts.map((text) => Buffer.from(text));
 
@@ -190,7 +190,7 @@ export const targets = {
   link: {
     corpus: [...bytesOfTexts(...(await Promise.all(states().map(packJson)))), ...bytesOfTexts(...states().map((state) => JSON.stringify(state)))],
     async run(bytes) {
-      const text = bytes.length % 2 ? deflateRawSync(bytes, FASTEST).toString('base64url') : bytes.toString('latin1');
+      const text = bytes.length % 2 ? deflateRawSync(bytes, FASTEST_DEFLATE).toString('base64url') : bytes.toString('latin1');
       try {
         await unpack(text);
         return true;

@@ -236,8 +236,8 @@ function nearestOptions(name: string): string {
   const letterPairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
   const ownPairs = letterPairs(name);
   const optionScores = Object.keys(OPTIONS).map((option) => {
-    const pairs = letterPairs(option);
-    const commonFraction = ownPairs.filter((pair) => pairs.includes(pair)).length / Math.max(ownPairs.length, pairs.length);
+    const optionPairs = letterPairs(option);
+    const commonFraction = ownPairs.filter((pair) => optionPairs.includes(pair)).length / Math.max(ownPairs.length, optionPairs.length);
     return { option, score: option.startsWith(name) ? 1 + commonFraction : option.endsWith(`-${name}`) ? 1 : commonFraction };
   });
   const bestScore = Math.max(0.4, ...optionScores.map(({ score }) => score));

@@ -84,8 +84,8 @@ function stopUsedKey(event: KeyboardEvent) {
   const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
   const keyTarget = event.target as Element;
   const isPress = PRESS_KEYS.test(key) && keyTarget.matches('button, input, summary');
-  const isUsed = keyTarget.matches(TEXT_FIELDS) ? key !== 'Escape' : isPress || (keyTarget.matches('input') && MOVE_KEYS.test(key));
-  if (defaultPrevented || (isUsed && !ctrlKey && !altKey && !metaKey)) event.stopPropagation();
+  const isUsedByControl = keyTarget.matches(TEXT_FIELDS) ? key !== 'Escape' : isPress || (keyTarget.matches('input') && MOVE_KEYS.test(key));
+  if (defaultPrevented || (isUsedByControl && !ctrlKey && !altKey && !metaKey)) event.stopPropagation();
 }
 
 /** Stops the events of native controls, because the element fires its own. */

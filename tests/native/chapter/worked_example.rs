@@ -27,8 +27,8 @@ fn cloud_of(model: &VelocityModel) -> Vec<SE2> {
 
 /// Asserts that a value equals a printed one with this many decimals.
 fn assert_printed(value: f64, printed: f64, decimals: i32, what: &str) {
-    let half_unit = 0.5 * 10f64.powi(-decimals) * (1.0 + 1e-9);
-    assert!((value - printed).abs() <= half_unit, "{what}: {value}, printed {printed}");
+    let tolerance = 0.5 * 10f64.powi(-decimals) * (1.0 + 1e-9);
+    assert!((value - printed).abs() <= tolerance, "{what}: {value}, printed {printed}");
 }
 
 #[test]

@@ -161,21 +161,21 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<Part> {
         calibration.systematic_stds[error as usize].map(|_| calibration.systematic.get(error))
     };
     let interval = |error: SystematicError| calibration.interval_of(error);
-    let masks = |errors: &[SystematicError]| {
+    let constant_and_corrected = |errors: &[SystematicError]| {
         let [constant, corrected] = [calibration.is_constant, calibration.is_corrected]
             .map(|mask| errors.iter().any(|error| mask[*error as usize]));
         (constant, corrected)
     };
-    let with_masks = |error| (value(error), interval(error), masks(&[error]));
+    let error_fields = |error| (value(error), interval(error), constant_and_corrected(&[error]));
     let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
     let systematic = (
         // Number of the errors, because JavaScript has them as a list. The lever arm is one error with two coordinates.
         5usize,
-        with_masks(SystematicError::ClockOffset),
-        with_masks(SystematicError::MountYaw),
-        (lever_arm.map(value), lever_arm.map(interval), masks(&lever_arm)),
-        with_masks(SystematicError::DistanceScale),
-        with_masks(SystematicError::TurnScale),
+        error_fields(SystematicError::ClockOffset),
+        error_fields(SystematicError::MountYaw),
+        (lever_arm.map(value), lever_arm.map(interval), constant_and_corrected(&lever_arm)),
+        error_fields(SystematicError::DistanceScale),
+        error_fields(SystematicError::TurnScale),
     );
     let noise = calibration.reference_noise.each_ref().map(estimate);
     let checks: Vec<_> = calibration

@@ -33,8 +33,8 @@ fn mean(terms: impl Iterator<Item = f64>) -> f64 {
     (sum.sum + sum.rounding) / count
 }
 
-fn assert_close(name: &str, found: f64, expected: f64, size: f64) {
-    assert!((found - expected).abs() <= 1e-12 * size, "{name}: {found} is not {expected}");
+fn assert_close(name: &str, found: f64, expected: f64, scale: f64) {
+    assert!((found - expected).abs() <= 1e-12 * scale, "{name}: {found} is not {expected}");
 }
 
 /// Asserts that moments of a cloud, and its skew, skew error and correlation with the heading, equal their definitions.
@@ -60,8 +60,8 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
         for j in 0..3 {
             let centred = |r: Vector3<f64>, k: usize| if k == 2 { r.z - mean_turn } else { r[k] };
             let cov = mean(residuals().map(|r| centred(r, i) * centred(r, j))) * n / (n - 1.0);
-            let size = (cartesian.cov[(i, i)] * cartesian.cov[(j, j)]).sqrt();
-            assert_close(&format!("cov {i}{j}"), cartesian.cov[(i, j)], cov, size);
+            let scale = (cartesian.cov[(i, i)] * cartesian.cov[(j, j)]).sqrt();
+            assert_close(&format!("cov {i}{j}"), cartesian.cov[(i, j)], cov, scale);
         }
     }
 
@@ -102,8 +102,8 @@ fn assert_exact(machine: &BananaMachine) {
         assert_close(&format!("twist {i}"), exponential.mean[i], twist_mean[i], 1.0);
         for j in 0..3 {
             let cov = mean(twists().map(|t| (t[i] - twist_mean[i]) * (t[j] - twist_mean[j]))) * n / (n - 1.0);
-            let size = (exponential.cov[(i, i)] * exponential.cov[(j, j)]).sqrt();
-            assert_close(&format!("twist cov {i}{j}"), exponential.cov[(i, j)], cov, size);
+            let scale = (exponential.cov[(i, i)] * exponential.cov[(j, j)]).sqrt();
+            assert_close(&format!("twist cov {i}{j}"), exponential.cov[(i, j)], cov, scale);
         }
     }
 

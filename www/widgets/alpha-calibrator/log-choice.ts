@@ -34,10 +34,10 @@ export function logChoosers(opener: LogOpener) {
   const { chosen, say } = opener;
   if (!chosen || !say) return nothing;
   const { recordings, skipped, questions, plan } = chosen;
-  const isSingle = (recording: Recording) => optionsOf(recording).length === 1;
+  const hasOneLog = (recording: Recording) => optionsOf(recording).length === 1;
   const roleChoosers = [
-    ...(recordings.every(isSingle) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, say))),
-    ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (isSingle(recording) ? [roleSelect(opener, chosen, index, say)] : [])) : []),
+    ...(recordings.every(hasOneLog) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, say))),
+    ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (hasOneLog(recording) ? [roleSelect(opener, chosen, index, say)] : [])) : []),
   ];
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="topics">${roleChoosers} ${plan?.isByOrder ? say.choose.byOrder : nothing}</div>` : nothing}

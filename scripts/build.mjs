@@ -132,7 +132,7 @@ async function compileCore(rust, name, local) {
 async function finishCore(name, local) {
   copyFileSync(pathOf(`build/bound/${name}/motion_bg.wasm`), pathOf(`build/${name}.wasm`));
   if (!local) await shrinkModule(`build/${name}.wasm`);
-  await writeGlue(name, local ? boundNames(name) : await shortNames(name));
+  await writeGlue(name, local ? boundNames(name) : await shortenNames(name));
 }
 
 /** @param {string} path of a module, which is changed */
@@ -197,7 +197,7 @@ function boundNames(name) {
 }
 
 /** Shortens the names in the module, which saves some 2 kB on the wire. @param {string} name of the core @returns {Promise<Names>} */
-async function shortNames(name) {
+async function shortenNames(name) {
   const { imports, exports } = JSON.parse(await optimize(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
   return { exports, imports: imports.map((/** @type {string[]} */ [, name, short]) => ['a', name, short]) };
 }

@@ -189,14 +189,14 @@ async function checkSliderKeys(page, tag) {
   assert.ok(sliders.length >= 2, `${sliders.length} sliders are to be seen.`);
   for (const { key } of sliders) {
     const sliderOf = async () => (await page.ask('slidersOf', tag)).find((slider) => slider.key === key);
-    const before = await sliderOf();
-    assert.ok(before && (await page.ask('focus', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
+    const sliderBefore = await sliderOf();
+    assert.ok(sliderBefore && (await page.ask('focus', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
     await page.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
     await page.untilSettled(tag);
-    const after = await sliderOf();
-    const expected = Math.min(before.shown + 2 * before.step, before.end) - before.step;
-    assert.ok(after && Math.abs(after.shown - expected) < 1e-9, `The slider of ${key} was at ${before.shown} and is at ${after?.shown}.`);
-    assert.ok((after.value - before.value) * (expected - before.shown) > 0, `${key} was ${before.value} and is ${after.value}.`);
+    const sliderAfter = await sliderOf();
+    const expected = Math.min(sliderBefore.shown + 2 * sliderBefore.step, sliderBefore.end) - sliderBefore.step;
+    assert.ok(sliderAfter && Math.abs(sliderAfter.shown - expected) < 1e-9, `The slider of ${key} was at ${sliderBefore.shown} and is at ${sliderAfter?.shown}.`);
+    assert.ok((sliderAfter.value - sliderBefore.value) * (expected - sliderBefore.shown) > 0, `${key} was ${sliderBefore.value} and is ${sliderAfter.value}.`);
   }
   await compareWithNode(page, tag);
 }

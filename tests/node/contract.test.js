@@ -72,8 +72,8 @@ test('a page finds every name of the contract', async () => {
   assert.ok(banana.poses instanceof Float64Array && banana.poses.length === 300);
 
   const squeeze = new motion.MapSqueeze({ samples: 100 });
-  const counts = ['drawn', 'accepted', 'acceptanceRate', 'throughWall', 'throughWallRate', 'drawsPerAccepted'];
-  for (const name of counts) assert.ok(name in squeeze.stats, name);
+  const statNames = ['drawn', 'accepted', 'acceptanceRate', 'throughWall', 'throughWallRate', 'drawsPerAccepted'];
+  for (const name of statNames) assert.ok(name in squeeze.stats, name);
   assert.ok('setPlan' in squeeze && 'setGrid' in squeeze);
   for (const machine of [banana, squeeze]) machine[Symbol.dispose]();
 });

@@ -111,8 +111,8 @@ function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: 
 /** Returns motions with jumps replaced by zeros. */
 function withoutJumps(motions: Motion[]): Motion[] {
   const limitOf = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(STANDSTILL, quantile(Float64Array.from(motions, size), 0.9));
-  const [drive, spin] = [limitOf(([forward, left]) => Math.hypot(forward, left)), limitOf(([, , turn]) => Math.abs(turn))];
-  return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= drive && Math.abs(motion[2]) <= spin ? motion : [0, 0, 0]));
+  const [maxDrive, maxTurn] = [limitOf(([forward, left]) => Math.hypot(forward, left)), limitOf(([, , turn]) => Math.abs(turn))];
+  return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= maxDrive && Math.abs(motion[2]) <= maxTurn ? motion : [0, 0, 0]));
 }
 
 /** Returns the agreement at a clock offset of `lag` steps. Its score is −1 if fewer than half of `count` steps overlap. */

@@ -138,8 +138,8 @@ fn assert_right_in_every_model(scenario: &Scenario, others: impl Fn(&Study) -> V
         .into_iter()
         .flat_map(|model| {
             let study = study(model, scenario, 100);
-            let others = others(&study).into_iter().map(move |report| format!("{model:?}: {report}"));
-            wrong_alphas(model, scenario, &study).into_iter().chain(others).collect::<Vec<_>>()
+            let other_reports = others(&study).into_iter().map(move |report| format!("{model:?}: {report}"));
+            wrong_alphas(model, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
         })
         .collect();
     assert!(reports.is_empty(), "{}", reports.join("\n"));

@@ -12,8 +12,8 @@ fn angles() -> Vec<f64> {
     let mut rng = seeded(9);
     let mut angles = vec![0.0, -0.0, FRAC_PI_2, -FRAC_PI_2, PI, -PI, f64::MIN_POSITIVE, 3e6, -3e6, 3.1e6];
     for _ in 0..20_000 {
-        let size = libm::pow(10.0, rng.random_range(-17.0..15.0));
-        angles.push(if rng.random() { size } else { -size });
+        let magnitude = libm::pow(10.0, rng.random_range(-17.0..15.0));
+        angles.push(if rng.random() { magnitude } else { -magnitude });
         angles.push(rng.random_range(-2.0 * PI..2.0 * PI));
         // Multiples of a quarter turn, and angles next to them.
         let quarter = f64::from(rng.random_range(-2000..2000)) * FRAC_PI_2;

@@ -98,10 +98,10 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
         let mut counts = [0; 3];
         for _ in 0..3_000 {
             let start = random_point(plan.bounds(), &mut rng);
-            let size = signed_log_uniform(&mut rng, 1e-3, 1.0);
+            let length_factor = signed_log_uniform(&mut rng, 1e-3, 1.0);
             let arc = arc_from(start, &mut rng);
             let turn = if rng.next_u32().is_multiple_of(3) { 2.0 * arc.turn } else { arc.turn };
-            let arc = Arc { length: size * arc.length, turn, ..arc };
+            let arc = Arc { length: length_factor * arc.length, turn, ..arc };
             let clearance = [0.0, 0.01, 0.13, 0.4][(rng.next_u32() % 4) as usize];
             let end = [arc.end().x(), arc.end().y()];
             let min_distance = |distance: &dyn Fn(&Segment) -> f64| {

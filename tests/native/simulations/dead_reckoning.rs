@@ -197,7 +197,7 @@ fn a_seed_gives_the_same_draws() {
     let large_cloud = machine(few(1500));
     let small_cloud = machine(few(300));
     let short_path = machine(Settings { steps: 7, ..few(300) });
-    let double = machine(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..few(300) });
+    let noisy = machine(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..few(300) });
     for index in [0, 1, 255, 256, 299] {
         let path = large_cloud.rollout(index).expect("a robot");
         assert_eq!(small_cloud.rollout(index).as_ref(), Some(&path));
@@ -209,7 +209,7 @@ fn a_seed_gives_the_same_draws() {
             let executed = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
             Vector3::new(executed.v_hat - u.v, executed.omega_hat - u.omega, executed.gamma_hat)
         };
-        let double_noise = noise(&double.rollout(index).expect("a robot"));
+        let double_noise = noise(&noisy.rollout(index).expect("a robot"));
         assert!((double_noise - noise(&path) * 2.0).amax() < 1e-12, "{double_noise}");
     }
     assert_ne!(large_cloud.rollout(0), machine(Settings { seed: 4, ..few(300) }).rollout(0));

@@ -25,7 +25,7 @@ export async function timeStart(browser, address, loads) {
     const context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
     const page = await context.newPage();
     await page.addInitScript(markStages);
-    // The robots of the first sight drive before there is a cloud.
+    // Without this, an animated introduction of single robots would delay the cloud.
     await page.addInitScript(() => sessionStorage.setItem('motion-widgets.introduced', 'yes'));
     await page.goto(address);
     await page.waitForFunction(() => performance.getEntriesByName('shown').length > 0);

@@ -189,7 +189,7 @@ export const theme = css`
       display: none !important;
     }
 
-    /* The name of a row that can be selected is kept. */
+    /* Labels in a table are names of rows, and are all printed; that of the selected row is bold. */
     th > label:has(input:checked) {
       font-weight: bold;
     }

@@ -30,7 +30,7 @@ const MESSAGES: Record<string, string> = {
     'Die α der einen Hälfte der Aufzeichnung passen nicht zur anderen: Boden, Last oder Geschwindigkeit haben sich geändert, oder die Referenz driftet. Für jede Bedingung kalibrieren, mit einer Referenz, die nicht driftet.',
   ...Object.fromEntries([1, 2, 5].map((length) => [
     `window-${length}m-covered`,
-    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders, wie bei einer driftenden Referenz. Empfohlene α gelten über 1 m: verwenden, wenn das Filter seine Pose so oft korrigiert.',
+    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders, wie bei ungleichen Raddurchmessern oder einer driftenden Referenz. Empfohlene α gelten über 1 m: verwenden, wenn das Filter seine Pose so oft korrigiert.',
   ])),
 };
 

@@ -136,7 +136,7 @@ export const de: typeof import('./en.ts').en = {
   readouts: {
     skew: 'Schiefe quer zur Fahrt',
     exactly: (value) => `genau ${value}`,
-    unwrapped: (value) => `genau ${value} ohne den Sprung bei ±π`,
+    unwrapped: (value) => `genau ${value} ohne Umbruch bei ±π`,
     gain: 'bessere Passung in *ξ* (Nat je Roboter)',
     gainOnFloor: 'bessere Passung am Boden (Nat je Roboter)',
     nat: '1 Nat: ein Faktor *e*',

@@ -142,7 +142,7 @@ export const en = {
   readouts: {
     skew: 'cross-track skew',
     exactly: (value) => `exactly ${value}`,
-    unwrapped: (value) => `exactly ${value} without the jump at ±π`,
+    unwrapped: (value) => `exactly ${value} without wrapping at ±π`,
     gain: 'gain in fit by *ξ* (nats per robot)',
     gainOnFloor: 'gain in fit on the floor (nats per robot)',
     nat: '1 nat: a factor of *e*',

@@ -38,7 +38,7 @@ test('opens with the chapter’s 6 % along the track, and says that the lateral 
     command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], compounding: 'chapter', samples: 50_000,
   });
   await expect(captionOf(widget)).toHaveText(
-    'At the end the predicted along-track variance is off by −6.1\u202f%. Before, the lateral variance is further off: predicted over measured is 0.00 (step 1), 0.44 (step 2), 0.77 (step 5).',
+    'At the end the predicted along-track variance is off by −6.1\u202f%. Before, the lateral one is 0.00 (step 1), 0.44 (step 2), 0.77 (step 5) of the measured one.',
   );
   await expect(readout(widget, 'predicted along-track variance')).toHaveText('0.94');
   expect(await missedSteps(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);

@@ -53,7 +53,7 @@ export const de: typeof import('./en.ts').en = {
     `Vorhergesagte durch gemessene Varianz je Schritt; Rekursion: ${recursion}. Bei Schritt ${step}: ${ratios}.`,
   atStep: (ratio, step) => `${ratio} (Schritt ${step})`,
   wrong: (worst, list, end) => `Am Ende ist die Vorhersage ${worst} um ${end} falsch. Davor: ${list} der gemessenen Varianz.`,
-  worse: (worst, list, end, far) => `Am Ende ist die Vorhersage ${far} um ${end} falsch. Davor ${worst} mehr: vorhergesagte durch gemessene Varianz ${list}.`,
+  worse: (worst, list, end, far) => `Am Ende ist die Vorhersage ${far} um ${end} falsch. Davor ist sie ${worst} ${list} der gemessenen.`,
   right: (robots) => `Höchstens 5 % neben dem, was ${robots} Roboter tun, in jeder Komponente bei jedem Schritt.`,
   conditions: {
     none: 'Noch keine Roboter.',

@@ -56,7 +56,7 @@ export const en = {
     `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: ${ratios}.`,
   atStep: (ratio, step) => `${ratio} (step ${step})`,
   wrong: (worst, list, end) => `At the end the predicted ${worst} variance is off by ${end}. Before, it is ${list} of the measured one.`,
-  worse: (worst, list, end, far) => `At the end the predicted ${far} variance is off by ${end}. Before, the ${worst} variance is further off: predicted over measured is ${list}.`,
+  worse: (worst, list, end, far) => `At the end the predicted ${far} variance is off by ${end}. Before, the ${worst} one is ${list} of the measured one.`,
   right: (robots) => `Within 5 % of what ${robots} robots do, in every component at every step.`,
   conditions: {
     none: 'No robots yet.',

@@ -310,8 +310,9 @@ function withShortStyles(script, transform) {
       const name = `expression${expressions.push(expression)}`;
       return /(^|\n) *$/.test(style.slice(0, at)) ? `@${name};` : name;
     });
-    const shortStyle = transform(plainStyle, { loader: 'css', minify: true }).code.trim();
-    return shortStyle.replace(/@expression(\d+);|expression(\d+)/g, (_, statement, value) => expressions[Number(statement ?? value) - 1]);
+    const { code: shortStyle, warnings } = transform(plainStyle, { loader: 'css', minify: true });
+    if (warnings.length > 0) throw new UserError(`Style that cannot be read: ${warnings[0].text} in ${plainStyle}`);
+    return shortStyle.trim().replace(/@expression(\d+);|expression(\d+)/g, (_, statement, value) => expressions[Number(statement ?? value) - 1]);
   });
 }
 

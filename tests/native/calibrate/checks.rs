@@ -82,6 +82,11 @@ fn a_copy_of_the_odometry_is_no_reference() {
         assert!(failed_checks(&calibration).contains(&ReferenceMatches), "{digits} digits");
         assert_unusable(&calibration, "a copy");
     }
+    // A robot that errs by a millimetre and half a milliradian over a metre still drifts.
+    for seed in 1..=5 {
+        let precise_robot = Simulation { violation: Violation::Times(0.01), ..good_log(600, seed) };
+        assert!(!failed_checks(&calibrated(&precise_robot)).contains(&ReferenceMatches), "{seed}");
+    }
 }
 
 /// On legs of 3 cm and 0.05 rad, a difference of odometry and reference cannot be told from the noise of a good reference.

@@ -159,13 +159,14 @@ test('names and units of columns that a table does not state are asked for, and 
   await choose(widget, { 'notes.txt': 'hello', 'empty.csv': '' });
   await expect(alert).toHaveText(/^notes\.txt: it does not look like a log,/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: empty\.csv: there is nothing in it/]);
-  await choose(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'truth.csv': example('reference') });
+  await choose(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'truth.csv': example('reference').replaceAll(/^\d+\.\d+/gm, (t) => `${Number(t) + (Number(t) > 50 ? 1 : 0)}`) });
   await expect(alert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv' }).getByLabel('time', { exact: true })).toBeFocused();
   await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');
   await expect(alert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: cm or mm or m\.$/);
   await widget.getByRole('radiogroup', { name: 'Unit of lengths in odom.csv' }).getByRole('radio', { name: 'millimetres (mm)' }).check();
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
+  await expect(widget.locator('.to-do')).toContainText('Warning: the clock of a log seems to have been set');
 });
 
 test('the files of a dropped folder are one recording, and others are not used', async ({ page }) => {

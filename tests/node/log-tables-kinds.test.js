@@ -139,11 +139,11 @@ test('pauses and jumps are found, and a heading that wraps is no jump', async ()
   assert.equal((await readTable(circleTable())).summary.jumps.count, 0);
 });
 
-test('a clock that was set forward is noted, and a pause is none', async () => {
+test('a clock that was set forward is noted, and pauses are none', async () => {
   const logOf = (/** @type {(t: number) => number} */ clock, /** @type {number[]} */ lost = []) => readTable(['t,x,y,yaw', ...CIRCLE.filter((_, i) => !lost.includes(i)).map(([t, ...pose]) => [clock(t), ...pose])].join('\n'));
-  const [setLog, pausedLog] = [await logOf((t) => t + (t > 20 ? 0.75 : 0)), await logOf((t) => t, Array.from({ length: 15 }, (_, i) => 401 + i))];
-  assert.deepEqual([setLog.summary.notes, pausedLog.summary.notes], [[{ name: 'clockSet', values: [20, 0.8000000000000007] }], []]);
-  assert.deepEqual([warningsOf([setLog, pausedLog]), warningsOf([setLog, setLog])], [['clockSet'], []]);
+  const [setLog, pausedLog, stopsLog] = [await logOf((t) => t + (t > 20 ? 0.75 : 0)), await logOf((t) => t, Array.from({ length: 15 }, (_, i) => 401 + i)), await logOf((t) => t + 5 * Math.floor(t / 15))];
+  assert.deepEqual([setLog, pausedLog, stopsLog].map(({ summary }) => summary.notes), [[{ name: 'clockSet', values: [20, 0.8000000000000007] }], [], []]);
+  assert.deepEqual([[pausedLog, setLog, setLog, setLog], [setLog, setLog, pausedLog, pausedLog]].map(warningsOf), [['clockSet'], []]);
 });
 
 test('units are guessed from two signs', async () => {

@@ -100,10 +100,13 @@ function signOfSwap(odometry: Log, reference: Log): 'name' | 'rest' | undefined 
 
 const WARNING_NAMES: Warning[] = ['localizer', 'swapped', 'clockSet'];
 
-/** Returns the notes of logs that make the α's doubtful. A clock that was set for all logs does not: a simulator may have paused. */
+/**
+ * Returns the notes that make the α's doubtful, of the logs of drives: odometry and reference in turns. A clock that was set for both logs of a
+ * drive makes nothing doubtful: a simulator may have paused.
+ */
 export function warningsOf(logs: Pick<Log, 'summary'>[]): Warning[] {
-  const countOf = (warning: Warning) => logs.filter(({ summary: { notes } }) => notes.some(({ name }) => name === warning)).length;
-  return WARNING_NAMES.filter((warning) => countOf(warning) > 0 && (warning !== 'clockSet' || countOf(warning) < logs.length));
+  const hasNote = (i: number, warning: Warning) => logs[i].summary.notes.some(({ name }) => name === warning);
+  return WARNING_NAMES.filter((warning) => logs.some((_, i) => hasNote(i, warning) && !(warning === 'clockSet' && hasNote(i ^ 1, warning))));
 }
 
 /** Returns a log with its times in seconds after another start. */

@@ -317,12 +317,13 @@ export class Rows {
       if (isJump(i)) jumpRows.push(i);
       if (jumpRows.at(-1) === i || isBroken(i)) breaks.push(i);
     }
-    const setRow = kind === 'poses' ? gapRows.find((i) => isSetForward(t, a, b, i, medianStep)) : undefined;
+    // Several such gaps are those of a node that publishes only while the robot moves, as localizers do.
+    const [setRow, ...moreRows] = kind === 'poses' ? gapRows.filter((i) => isSetForward(t, a, b, i, medianStep)) : [];
     return {
       rate: 1 / medianStep, breaks: Uint32Array.from(breaks), jumpRows,
       gaps: { count: gapRows.length, longest: max(gapRows, (i) => t[i] - t[i - 1]) ?? 0, first: t[gapRows[0] - 1] - t[0] },
       jumps: { count: jumpRows.length, first: t[jumpRows[0]] - t[0] },
-      clockSet: setRow && [t[setRow - 1] - t[0], t[setRow] - t[setRow - 1]],
+      clockSet: moreRows.length === 0 && setRow !== undefined && [t[setRow - 1] - t[0], t[setRow] - t[setRow - 1]],
     };
   }
 

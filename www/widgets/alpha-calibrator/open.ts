@@ -181,7 +181,7 @@ export class LogOpener extends FileOpener<Figure> {
       this.host.requestUpdate();
     });
     const log = { name: nameOf(plan, reader), ...reader.logOf(drives) };
-    const fitPromise = this.host.open(log, reader.warningsOf(drives.map(({ reference }) => reference)), ({ count }) => {
+    const fitPromise = this.host.open(log, reader.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
     // The summary of logs is shown while they are fitted.

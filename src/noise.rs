@@ -91,7 +91,7 @@ impl NoiseKind {
         let Variance(b2) = b2;
         match self {
             Self::Normal => -0.5 * libm::expm1(-2.0 * b2),
-            // The series in b, without its term b⁶. For a smaller variance, rounding of the difference below would be larger.
+            // The series in b up to b⁴. For such a small variance, the next term is smaller than the rounding error of the difference below.
             Self::Triangular if b2 < 1e-5 => b2 * (1.0 - 0.8 * b2),
             Self::Triangular => {
                 let cosine = sinc(SQRT_6 * b2.sqrt());

@@ -26,8 +26,8 @@ pub enum Verdict {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
-    /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. Of paths that do not drift apart,
-    /// their distance, divided by their length.
+    /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. For a reference that does not drift
+    /// from the odometry it is the distance of both paths, divided by their length.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -161,7 +161,7 @@ impl CheckName {
                 "The α's of one half of the log do not fit the other: floor, load or speed changed, or the reference drifts. Calibrate for each condition, with a reference that does not drift."
             }
             Self::Window1Covered | Self::Window2Covered | Self::Window5Covered => {
-                "Over windows of this length the fitted α's do not predict the error: it grows otherwise, as with unequal wheels or a reference that drifts. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
+                "Over windows of this length the fitted α's do not predict the error: it grows differently, as with unequal wheels or a reference that drifts. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
             }
         }
     }
@@ -271,8 +271,8 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     [turns, drives].into_iter().filter_map(median_ratio).reduce(f64::max)
 }
 
-/// Returns the median, over pieces of the drives, of the distance between the paths by odometry and by reference, divided by the
-/// length of the piece. `None` if the robot hardly drives.
+/// Returns the distance between the paths by odometry and by reference, divided by their length: the median over pieces of the drives.
+/// `None` if the robot hardly drives.
 fn drift(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     let ([max_length, min_length], base) = (COMPARED_LENGTHS, systematic.base());
     let mut ratios = Vec::new();
@@ -282,8 +282,8 @@ fn drift(sample: &Sample, systematic: &Systematic) -> Option<f64> {
         let motion = systematic.expected(sample.options.model, leg);
         expected = expected * motion;
         length += distance(&motion);
-        let seen = leg.reference[1] * base;
-        paths.push([expected, seen].map(|pose| Vector2::new(pose.x(), pose.y())));
+        let measured = leg.reference[1] * base;
+        paths.push([expected, measured].map(|pose| Vector2::new(pose.x(), pose.y())));
         if length >= max_length || legs.peek().is_none_or(|next| !next.follows) {
             if length > min_length {
                 ratios.push(paths.rms_distance() / length);
@@ -294,7 +294,7 @@ fn drift(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     (!ratios.is_empty()).then(|| median(&mut ratios))
 }
 
-/// Sums over the points of two paths.
+/// Sums over pairs of points, one of each of two paths.
 #[derive(Default)]
 struct PathPair {
     count: f64,
@@ -312,7 +312,7 @@ impl PathPair {
         self.products += Vector2::new(one.dot(&other), one.perp(&other));
     }
 
-    /// Returns the root mean square distance of the points, after the rotation and shift of one path that make it least.
+    /// Returns the root mean square distance of the points, after the rotation and shift of one path that minimize it.
     fn rms_distance(&self) -> f64 {
         let [one, other] = self.sums;
         let square_sum = self.square_sum - (one.norm_squared() + other.norm_squared()) / self.count;

@@ -115,8 +115,8 @@ impl Sample {
         let mut parameters = Parameters::zeros();
         for (component, alphas) in self.options.model.component_alphas().into_iter().enumerate() {
             let alpha_of = |observation: &Observation| {
-                let [by_first, by_second] = observation.coefficients[component];
-                observation.residuals[component].powi(2) / (by_first + by_second)
+                let [first_coefficient, second_coefficient] = observation.coefficients[component];
+                observation.residuals[component].powi(2) / (first_coefficient + second_coefficient)
             };
             let mut leg_alphas: Vec<f64> =
                 self.observations.iter().map(alpha_of).filter(|ratio| ratio.is_finite()).collect();

@@ -1,4 +1,4 @@
-//! Simulations of the widgets. They compute buffers and figures from settings, and do not depend on a browser.
+//! Simulations of the widgets. They compute buffers and statistics from settings, and do not depend on a browser.
 
 pub mod alpha_calibrator;
 pub mod arc_anatomy;

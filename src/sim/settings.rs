@@ -9,7 +9,7 @@ use thiserror::Error;
 pub struct SettingsError {
     /// Name of the setting.
     pub field: String,
-    /// The value that is not allowed.
+    /// The number that is not allowed; NaN for a word.
     pub value: f64,
     /// The values that are allowed.
     pub allowed: AllowedValues,
@@ -131,7 +131,7 @@ pub enum Setting<'a> {
     Word(&'a mut dyn Word),
     /// List of fixed length, whose numbers have one range.
     Numbers(&'a mut [f64], RangeInclusive<f64>),
-    /// Number that sets several others, with their range.
+    /// Number that sets several others in fixed ratios, with its range.
     Level(&'a mut dyn Level, RangeInclusive<f64>),
     /// Several numbers with names.
     Group(&'a mut dyn Group),
@@ -172,7 +172,7 @@ pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), Settin
 pub trait Whole {
     /// Returns the number.
     fn get(&self) -> u64;
-    /// Sets the number, which has to fit the type.
+    /// Sets the number, which must be in the range of the type.
     fn set(&mut self, whole: u64);
 }
 

@@ -111,8 +111,8 @@ impl FirstPass {
         self.multiply(&FourPoses { sinc: chart, ..*poses }, &FourArcs { length, sinc: arc, ..*arcs });
     }
 
-    /// Corrects the sums for irregular arcs: adds their values, and subtracts the values `regular` which the sums of the unit noise
-    /// include for them.
+    /// Corrects the sums for irregular arcs: adds their values, and subtracts those of the driven arcs, `regular`, which are in the sums
+    /// of the unit noise.
     #[inline(never)]
     pub fn add_irregular(&mut self, arcs: &FourArcs, regular: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference;

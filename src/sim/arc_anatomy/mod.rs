@@ -67,12 +67,12 @@ impl ArcAnatomy {
         Ok(())
     }
 
-    /// Returns the likelihoods of the final pose and the velocities that reach it.
+    /// Returns the arcs of the command and to the final pose, with the likelihood of that pose.
     pub fn stats(&self) -> Stats {
         Stats::of(&self.settings)
     }
 
-    /// Returns the variances and residuals of the noise, line by line as in Table 5.1.
+    /// Returns the values of the lines of Table 5.1.
     pub fn table(&self) -> Table {
         Table::of(&self.settings, &self.stats())
     }

@@ -242,7 +242,7 @@ impl BananaMachine {
         pose.log_near(omega * dt)
     }
 
-    /// Returns the statistics and outlines of the samples shown.
+    /// Returns the statistics of the samples shown.
     pub fn stats(&self) -> &Stats {
         &self.stats
     }

@@ -223,7 +223,7 @@ impl DeadReckoning {
         nearest.index()
     }
 
-    /// Returns the measured and predicted covariances after the selected step.
+    /// Returns the moments and predicted covariances after the selected step, and the misses of all steps.
     pub fn stats(&self) -> Stats {
         let step = self.settings.step as usize - 1;
         let MeasuredMoments { mean, cov, .. } = self.measured()[step];

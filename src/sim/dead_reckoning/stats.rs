@@ -33,13 +33,13 @@ js_structs! {
     /// Misses: steps at which the ratio of one component is off by more than 5 % ([`TOLERANCE`]).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Misses {
-        /// True if there is a spread, and enough robots to establish a miss.
+        /// True if there is a spread, and enough robots to decide whether a step is a miss.
         pub decidable: bool,
-        /// First step with a miss; null (None) if there is none, or if it cannot be established.
+        /// First step with a miss; null (None) if there is none, or if that cannot be decided.
         pub first: Option<u32>,
         /// Last step with a miss.
         pub last: Option<u32>,
-        /// Predicted over measured variance after the last step, minus 1; NaN if the measured one is 0.
+        /// Predicted over measured variance after the last step, minus 1; NaN without a prediction or a measured spread.
         pub end: f64,
         /// Standard error of `end`.
         pub error: f64,
@@ -47,7 +47,8 @@ js_structs! {
 }
 
 impl Comparison {
-    /// Compares predicted covariances after each step with those measured. `None` stands for a covariance that is not finite.
+    /// Compares predicted covariances after each step with those measured. `None` stands for a step at which
+    /// the recursion has no covariance, because its matrix is indefinite.
     pub fn new(settings: &Settings, covs: &[Option<Matrix3<f64>>], measured: &[MeasuredMoments]) -> Self {
         let smallest_spreads = smallest_spread(settings);
         let ratios: Vec<Vector3<f64>> = covs

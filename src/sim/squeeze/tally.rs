@@ -8,7 +8,7 @@ use crate::noise::NoiseKind;
 pub struct Tally {
     /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
     pub draws: usize,
-    /// Number of tests for collision with a wall.
+    /// Number of walls whose distance was computed; most collision checks need none.
     pub wall_tests: usize,
     /// Number of accepted attempts.
     pub accepted: usize,
@@ -63,11 +63,11 @@ js_structs! {
         pub through_wall: usize,
         /// Fraction of accepted attempts whose path was blocked.
         pub through_wall_rate: f64,
-        /// 95 % interval of the rate.
+        /// 95 % interval of the fraction through a wall.
         pub through_wall_interval: [f64; 2],
-        /// Number of draws.
+        /// Draws per accepted attempt.
         pub draws_per_accepted: f64,
-        /// Number of walls whose distance was computed; most collision checks need none.
+        /// Walls whose distance was computed, per accepted attempt.
         pub wall_tests_per_accepted: f64,
         /// True if the machine stopped before it had all samples, because too few draws were accepted.
         pub gave_up: bool,

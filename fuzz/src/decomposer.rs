@@ -125,13 +125,13 @@ fn assert_results(machine: &OdometryDecomposer) {
         "{exact_values:?} {measured_values:?}"
     );
 
-    for figures in machine.rules() {
-        assert_legs("legs", &figures.legs);
-        let all_values = [&figures.deviations[..], &[figures.cross_track, figures.heading]].concat();
+    for noise in machine.rules() {
+        assert_legs("legs", &noise.legs);
+        let all_values = [&noise.deviations[..], &[noise.cross_track, noise.heading]].concat();
         laws::assert_finite("a rule", &all_values);
-        assert!(all_values.iter().all(|value| *value >= 0.0), "{figures:?}");
-        if figures.rule == settings.rule {
-            assert_eq!(figures.legs, machine.legs());
+        assert!(all_values.iter().all(|value| *value >= 0.0), "{noise:?}");
+        if noise.rule == settings.rule {
+            assert_eq!(noise.legs, machine.legs());
             laws::assert_same_numbers("exact", &all_values[4..], &[exact_cross_track, exact_heading]);
         }
     }

@@ -89,9 +89,9 @@ impl JsAlphaCalibrator {
     #[wasm_bindgen(unchecked_return_type = "CalibrationPanel[]")]
     pub fn panels(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "'way' | 'turn'")] driver: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "'distance' | 'turn'")] regressor: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.panels(read_word("driver", driver)?))
+        to_plain_js(&self.0.panels(read_word("regressor", regressor)?))
     }
 
     /// One leg by its index, counted from 0; null if there are fewer legs.

@@ -75,7 +75,7 @@ impl JsOdometryDecomposer {
     }
 
     /// Legs and noises of the reading by each rule.
-    #[wasm_bindgen(getter, unchecked_return_type = "RuleFigures[]")]
+    #[wasm_bindgen(getter, unchecked_return_type = "RuleNoise[]")]
     pub fn rules(&self) -> Result<JsValue, JsValue> {
         to_plain_js(&self.0.rules())
     }

@@ -139,7 +139,7 @@ export const widgets = {
       },
       legs,
       truth,
-      panels: ['turn', 'way'].map((driver) => machine.panels(/** @type {'turn' | 'way'} */ (driver))),
+      panels: ['turn', 'distance'].map((regressor) => machine.panels(/** @type {'turn' | 'distance'} */ (regressor))),
       leg: machine.leg(5),
       nearest: machine.nearest(0.5, 1, 3),
     };

@@ -127,7 +127,7 @@ export function randomStates(seed) {
       inflation: realNumber(0.1, 5),
       seed: wholeNumber(0, 2 ** 53 - 1),
       leg: oneOf([null, wholeNumber(0, 20)]),
-      driver: oneOf(['turn', 'way']),
+      regressor: oneOf(['turn', 'distance']),
       overlays: ['likely', 'plausible', 'unlikely', 'implausible', 'outlier', 'odometry', 'predicted', 'reference'].filter(() => random() < 0.5),
     },
   };

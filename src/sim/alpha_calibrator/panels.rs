@@ -15,7 +15,7 @@ pub enum Regressor {
 }
 
 impl Words for Regressor {
-    const WORDS: &'static [(&'static str, Self)] = &[("way", Self::Distance), ("turn", Self::Turn)];
+    const WORDS: &'static [(&'static str, Self)] = &[("distance", Self::Distance), ("turn", Self::Turn)];
 }
 
 /// Number of bins of a panel, with about equal numbers of legs. Legs with equal motions are in one bin.

@@ -21,7 +21,7 @@ pub const MAX_CURVE_POINTS: u64 = 10_000;
 js_structs! {
     /// Legs of the reading under one rule, with the standard deviations of their noises.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct RuleFigures {
+    pub struct RuleNoise {
         /// Rule of the noise.
         pub rule: OdometryRule as "OdometryDecomposerSettings['rule']",
         /// Legs. If the rule takes a short reading for a spin, the second rotation is the whole turn.
@@ -216,14 +216,14 @@ impl OdometryDecomposer {
     }
 
     /// Returns the legs and noises of the reading under each rule, with the current α's.
-    pub fn rules(&self) -> [RuleFigures; 4] {
+    pub fn rules(&self) -> [RuleNoise; 4] {
         let Settings { alphas, noise, correlation, .. } = self.settings;
         let reading = self.reading();
         OdometryRule::ALL.map(|rule| {
             let legs = rule.legs(&reading);
             let variances = rule.variances(&reading, &alphas);
             let LegVariances { rot1, trans, rot2, strafe } = variances;
-            RuleFigures {
+            RuleNoise {
                 rule,
                 legs,
                 deviations: [rot1, trans, rot2, strafe].map(|variance| variance.0.sqrt()),
@@ -233,7 +233,7 @@ impl OdometryDecomposer {
         })
     }
 
-    /// Returns the variances of the three parts, and the covariance of the pose after them.
+    /// Returns the spreads of the end position and of the turn: those of the outcomes shown, and the exact ones.
     pub fn stats(&self) -> Stats {
         let Settings { noise, correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());

@@ -3,10 +3,10 @@
 use super::{model_document, page};
 use crate::simulations::odometry_decomposer::{machine, of_preset};
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
-use motion::sim::odometry_decomposer::{OdometryPose, RuleFigures, Settings};
+use motion::sim::odometry_decomposer::{OdometryPose, RuleNoise, Settings};
 
-fn figures(settings: Settings, rule: OdometryRule) -> RuleFigures {
-    machine(settings).rules().into_iter().find(|figures| figures.rule == rule).expect("all rules")
+fn noise_of(settings: Settings, rule: OdometryRule) -> RuleNoise {
+    machine(settings).rules().into_iter().find(|noise| noise.rule == rule).expect("all rules")
 }
 
 #[test]
@@ -17,7 +17,7 @@ fn the_lever_grows_faster_than_the_drive() {
     );
     let settings = of_preset("all");
     let stats = machine(settings).stats();
-    deviation.assert(figures(settings, Table).deviations[0], 0.0);
+    deviation.assert(noise_of(settings, Table).deviations[0], 0.0);
     lateral.assert(stats.exact_cross_track, 0.0);
     let OdometryPose([x, y, theta]) = settings.to;
     let long_drive = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
@@ -28,7 +28,7 @@ fn the_lever_grows_faster_than_the_drive() {
 fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
     let [of_table, of_localizers] =
         page().numbers("adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.");
-    let deviations_of = |rule| figures(of_preset("reverse"), rule).deviations;
+    let deviations_of = |rule| noise_of(of_preset("reverse"), rule).deviations;
     let [rot1_deviation, _, rot2_deviation, _] = deviations_of(Table);
     of_table.assert(rot1_deviation, 0.0);
     assert!(rot2_deviation > rot1_deviation);
@@ -60,10 +60,10 @@ fn the_variances_of_the_rules_are_those_in_the_document() {
     for ((preset, row_name), (rule, name)) in
         presets.into_iter().flat_map(|preset| rules.map(|rule| (preset, rule)))
     {
-        let deviations = figures(of_preset(preset), rule).deviations;
+        let deviations = noise_of(of_preset(preset), rule).deviations;
         model_document().assert(&format!("| {row_name} | {name} | # | # | # | # |"), deviations);
         if rule == Nav2 {
-            assert_eq!(figures(of_preset(preset), Beluga).deviations, deviations);
+            assert_eq!(noise_of(of_preset(preset), Beluga).deviations, deviations);
         }
     }
 }

@@ -116,7 +116,7 @@ fn the_curve_goes_through_the_reading() {
         assert_eq!(points.iter().map(|point| point.trans).collect::<Vec<_>>(), [0.0, trans, 2.0 * trans]);
         let CurvePoint { cross_track, lever, along, .. } = points[1];
         assert_eq!((cross_track, lever), (stats.exact_cross_track, stats.lever));
-        let of_rule = machine.rules().into_iter().find(|figures| figures.rule == rule).expect("all rules");
+        let of_rule = machine.rules().into_iter().find(|noise| noise.rule == rule).expect("all rules");
         assert_eq!((of_rule.deviations[1], of_rule.cross_track), (along, cross_track));
         assert_eq!(machine.curve(1.0, 1).len(), 1);
     }

@@ -99,8 +99,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Bins of squared residuals against the chosen regressor; empty without legs. */
   get panels() {
-    const { machine, reading: { stats, legs }, state: { elementState: { driver } } } = this;
-    return legs.count > 0 && machine ? this.#panels.get([stats, driver], () => machine.panels(driver)) : [];
+    const { machine, reading: { stats, legs }, state: { elementState: { regressor } } } = this;
+    return legs.count > 0 && machine ? this.#panels.get([stats, regressor], () => machine.panels(regressor)) : [];
   }
 
   get scene() {

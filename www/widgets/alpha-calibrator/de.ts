@@ -163,11 +163,11 @@ export const de: typeof import('./en.ts').en = {
   panels: {
     title: 'Residuen und Bewegung',
     against: 'Über dem Quadrat',
-    drivers: { turn: 'der Drehung', way: 'der Strecke' },
+    regressors: { turn: 'der Drehung', distance: 'der Strecke' },
     caption: 'Quadrierte Residuen in Klassen aus gleich vielen Etappen, ohne den Anteil des anderen *α*. Die Steigung ist das *α*, das Band sein 95-%-Intervall; Balken sind Standardfehler.',
     kinds: { rot1: 'erste Drehung', trans: 'Strecke', rot2: 'zweite Drehung', strafe: 'Seitwärtsbewegung', v: 'Geschwindigkeit v̂', omega: 'Drehrate ω̂', gamma: 'letzte Drehung γ̂' },
     turn: 'Drehung² (rad²)',
-    way: 'Strecke² (m²)',
+    distance: 'Strecke² (m²)',
     turnRate: 'Drehrate² (rad²/s²)',
     speed: 'Geschwindigkeit² (m²/s²)',
     bins: 'Klassenmittel',

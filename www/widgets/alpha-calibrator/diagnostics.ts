@@ -81,15 +81,15 @@ const MIN_REGRESSOR = 1e-6;
 
 /** Returns the plots of the squared residuals of the three noises against their regressors. */
 export function regressionPanels(figure: Figure) {
-  const { reading, reading: { fitted: { model } }, state: { elementState: { driver } }, gesture } = figure;
+  const { reading, reading: { fitted: { model } }, state: { elementState: { regressor } }, gesture } = figure;
   const say = words.calibrator.panels;
-  const axisNames = model === 'velocity' ? { turn: say.turnRate, way: say.speed } : { turn: say.turn, way: say.way };
+  const axisNames = model === 'velocity' ? { turn: say.turnRate, distance: say.speed } : { turn: say.turn, distance: say.distance };
   if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
-  const chooseDriver = (name: Regressor) => gesture.choose('driver', name);
-  return html`${radioGroup(say.against, 'driver', say.drivers, driver, chooseDriver)}
+  const chooseRegressor = (name: Regressor) => gesture.choose('regressor', name);
+  return html`${radioGroup(say.against, 'regressor', say.regressors, regressor, chooseRegressor)}
     <figure><div class="panels">
       ${figure.panels.map((panel, i) => html`<figure>
-        ${plot(panelPlot(panel, say.kinds[NOISE_COMPONENTS[model][i]], axisNames[driver as Regressor]))}
+        ${plot(panelPlot(panel, say.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}
         ${identifiabilityNote(panel, reading)}
       </figure>`)}
     </div>

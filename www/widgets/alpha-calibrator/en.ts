@@ -131,11 +131,11 @@ export const en = {
   panels: {
     title: 'Residuals vs. motion',
     against: 'Against squared',
-    drivers: { turn: 'rotation', way: 'translation' },
+    regressors: { turn: 'rotation', distance: 'translation' },
     caption: 'Squared residuals in bins of equal counts, minus the part of the other *α*. The slope is the *α*, the band its 95 % interval; bars are standard errors.',
     kinds: { rot1: 'first rotation', trans: 'translation', rot2: 'second rotation', strafe: 'sideways motion', v: 'speed v̂', omega: 'turn rate ω̂', gamma: 'last turn γ̂' },
     turn: 'rotation² (rad²)',
-    way: 'translation² (m²)',
+    distance: 'translation² (m²)',
     turnRate: 'turn rate² (rad²/s²)',
     speed: 'speed² (m²/s²)',
     bins: 'bin means',

@@ -25,7 +25,7 @@ export type LineName = keyof typeof LINE_STYLES;
 export const LEG_CLASSES = ['likely', 'plausible', 'unlikely', 'implausible'] as const satisfies LineName[];
 
 /** Motions that squared residuals are plotted against. */
-const REGRESSORS = ['turn', 'way'] as const;
+const REGRESSORS = ['turn', 'distance'] as const;
 
 export type Regressor = (typeof REGRESSORS)[number];
 
@@ -35,7 +35,7 @@ const MAX_LEG_INDEX = 9_999_999;
 export const documentation: import('../../figure/attributes.ts').Documentation = {
   state: {
     leg: { type: 'number | null', sentence: 'The leg that is shown, from 0; null, or one that is not there, for the largest residual that is no outlier.' },
-    driver: { type: "'turn' | 'way'", sentence: 'The motion that squared residuals are drawn against.' },
+    regressor: { type: "'turn' | 'distance'", sentence: 'The motion that squared residuals are drawn against.' },
   },
 };
 
@@ -77,6 +77,6 @@ export const definition = definitionOf('alpha-calibrator', {
   },
   elementFields: {
     leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MAX_LEG_INDEX)) },
-    driver: { opening: REGRESSORS[0], check: (field, driver) => checkedWord(field, driver, REGRESSORS) },
+    regressor: { opening: REGRESSORS[0], check: (field, regressor) => checkedWord(field, regressor, REGRESSORS) },
   },
 });

@@ -1,6 +1,6 @@
 /** View model of the Odometry Decomposer. */
 
-import type { OdometryDecomposer, OdometryDecomposerSettings, RuleFigures } from '../../types.d.ts';
+import type { OdometryDecomposer, OdometryDecomposerSettings, RuleNoise } from '../../types.d.ts';
 
 export type Reading = ReturnType<typeof readingOf>;
 
@@ -10,8 +10,8 @@ export function readingOf(machine: OdometryDecomposer) {
 }
 
 /** Returns the legs and standard deviations of the current rule. */
-function currentRuleParts(rules: RuleFigures[], config: OdometryDecomposerSettings) {
-  const currentRule = rules.find(({ rule }) => rule === config.rule) as RuleFigures;
+function currentRuleParts(rules: RuleNoise[], config: OdometryDecomposerSettings) {
+  const currentRule = rules.find(({ rule }) => rule === config.rule) as RuleNoise;
   const [rot1, trans, rot2, strafe] = currentRule.deviations;
   return { legs: currentRule.legs, deviations: { rot1, trans, rot2, strafe } };
 }

@@ -290,7 +290,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   await writePython();
 }
 
-/** Expression in a template. It may contain templates without backticks. */
+/** Expression in a template string. It may contain template strings, but no braces outside of them. */
 const EXPRESSION = String.raw`\$\{(?:[^{}\x60]|\x60[^\x60]*\x60)*\}`;
 const EXPRESSIONS = new RegExp(EXPRESSION, 'g');
 const STYLES = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$]|${EXPRESSION})*(?=\x60)`, 'g');
@@ -316,7 +316,7 @@ function withShortStyles(script, transform) {
   });
 }
 
-/** Removes the indentation of lines in templates of HTML, where it means as much as the line break. */
+/** Removes the indentation of lines in HTML templates: browsers show a line break with and without spaces alike. */
 const withoutIndentation = (/** @type {string} */ script) => script.replaceAll(/^ +(?=[<$@.?])/gm, '');
 
 /**

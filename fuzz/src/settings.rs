@@ -1,4 +1,4 @@
-//! Changes settings to any values, in the way in which a user changes them.
+//! Changes settings to any values, as a user does.
 
 use super::input::Input;
 use motion::sim::settings::{AllowedValues, Group, Rules, Setting, SettingsError};

@@ -37,7 +37,7 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   await play.click();
   await widget.getByRole('button', { name: 'Pin' }).click();
   await expect.poll(async () => (await bananaReadings(widget)).shown, { timeout: 20_000 }).toBe(pausedReadings.config.samples);
-  // What was pinned while the cloud grew are the numbers of the whole cloud.
+  // Numbers pinned while the cloud grows are those of the whole cloud.
   await expect(readout(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
   await expect(play).toBeVisible();
   // The robots of the paused cloud are the first robots of the complete one.

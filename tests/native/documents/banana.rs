@@ -33,7 +33,7 @@ fn the_presets_are_those_in_the_document() {
 
 /// Checks the rows of the table, and sentences of the page about their presets. Fractions may differ by 4.5 standard errors.
 #[test]
-fn figures_in_the_table_and_on_the_page_are_those_of_the_machine() {
+fn numbers_in_the_table_and_on_the_page_are_those_of_the_machine() {
     const ROBOTS: usize = 300_000;
     let error = MAX_STANDARD_ERRORS * (0.117 / ROBOTS as f64).sqrt();
     let machine_of = |name| machine(Settings { samples: ROBOTS, ..preset(name) });

@@ -30,7 +30,7 @@ fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
     std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(rng)))
 }
 
-// -------------------------------------------------------------------------------------- the chapter's figures
+// -------------------------------------------------------------------------------------- the chapter's numbers
 
 /// Asserts that a fraction equals a published one. Both come from 60 000 draws, and the published one is rounded.
 fn assert_share(name: &str, accepted: usize, all: usize, published: f64) {

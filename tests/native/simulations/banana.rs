@@ -174,7 +174,7 @@ fn a_dragged_end_is_reached() {
             // A chord d on an arc of length s = |v|Δt carries the rounding of s.
             let rounding = 1e-14 * (1.0 + (command.v * dt).abs());
             assert!(pose_distance(&end_position, &SE2::new(x, y, 0.0)) < rounding, "({x}, {y}): {end}");
-            // Of the arcs to that end, the command drives the one whose turn is nearest to the present turn. A straight line has no other arc.
+            // The command drives that arc to the end whose turn is nearest to the present turn. A straight line is the only arc to its end.
             assert!(((command.omega - omega) * dt).abs() <= PI + 1e-14 || command.omega == 0.0);
         }
     }
@@ -184,7 +184,7 @@ fn a_dragged_end_is_reached() {
 
 /// Exponential coordinates are infinite for a full turn. Statistics in them are then undefined, and the others are not.
 #[test]
-fn without_a_chart_exponential_figures_are_undefined() {
+fn without_a_chart_exponential_values_are_undefined() {
     let machine_with_turn = |omega: f64| {
         let command = VelocityCmd { v: 1.0, omega, dt: 3.0 };
         machine(Settings { command, velocity_alphas: [0.01; 6], samples: 500, ..preset("gentle") })

@@ -199,7 +199,7 @@ function boundNames(name) {
 /** Shortens the names in the module, which saves some 2 kB on the wire. @param {string} name of the core @returns {Promise<Names>} */
 async function shortenNames(name) {
   const { imports, exports } = JSON.parse(await optimize(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
-  return { exports, imports: imports.map((/** @type {string[]} */ [, name, short]) => ['a', name, short]) };
+  return { exports, imports: imports.map((/** @type {string[]} */ [, importName, short]) => ['a', importName, short]) };
 }
 
 /**
@@ -228,7 +228,7 @@ async function writeGlue(name, glueNames) {
   const { build: bundled } = await import('esbuild');
   const gluePlugin = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents: changedGlue })) };
   const { outputFiles } = await bundled({
-    stdin: { contents: `export { ${[...names, ...glueNames.imports.map(([, name]) => name), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: pathOf(`build/bound/${name}`) },
+    stdin: { contents: `export { ${[...names, ...glueNames.imports.map(([, importName]) => importName), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: pathOf(`build/bound/${name}`) },
     bundle: true,
     format: 'esm',
     write: false,
@@ -241,7 +241,7 @@ async function writeGlue(name, glueNames) {
   const lines = [
     'export default async (module) => {',
     body,
-    `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, name, key]) => `${key}: ${name}`)} } });`,
+    `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, importName, key]) => `${key}: ${importName}`)} } });`,
     '__wbg_set_wasm(exports);',
     `exports.${exportOf('__wbindgen_start')}();`,
     `return { ${names} };`,

@@ -237,7 +237,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/, { timeout: 20_000 });
   expect(page.workers().map((worker) => new URL(worker.url()).pathname)).toEqual(['/chunks/log-worker.js']);
   const { longestTaskShare, layoutShifts } = await page.evaluate((since) => {
-    const recentEntries = /** @type {(PerformanceEntry & { value?: number, hadRecentInput?: boolean })[]} */ (Reflect.get(window, 'entries')).filter(({ startTime }) => startTime > since);
+    const recentEntries = /** @type {(PerformanceEntry & { value?: number, hadRecentInput?: boolean })[]} */ (Reflect.get(window, 'entries')).filter((entry) => entry.startTime > since);
     const tasks = recentEntries.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
     return { longestTaskShare: Math.max(0, ...tasks) / (performance.now() - since), layoutShifts: recentEntries.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
   }, startTime);

@@ -37,7 +37,7 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
     await page.setViewportSize({ width, height: 900 });
     await frames(page);
     const widths = await page.locator(figure).evaluateAll((figureElements) =>
-      figureElements.map((figure) => [/** @type {HTMLElement} */ (figure.closest('section')).dataset.box ?? '', figure.getBoundingClientRect().width]));
+      figureElements.map((element) => [/** @type {HTMLElement} */ (element.closest('section')).dataset.box ?? '', element.getBoundingClientRect().width]));
     expect(widths).toHaveLength(cases.length);
     return widths.filter(([, figureWidth]) => Number(figureWidth) > width + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, width) - 0.5);
   };
@@ -168,7 +168,7 @@ const SLIDERS_BELOW_TEXTS = /** @type {const} */ ([
 for (const [name, lang, width, slider, values] of SLIDERS_BELOW_TEXTS) {
   test(`no text moves the slider ${slider} while it is dragged, or covers another: ${name}, ${lang}, ${width} px @nightly`, async ({ page }) => {
     await page.setViewportSize({ width, height: 900 });
-    const script = ['motion-widgets', 'de'].map((each) => `<script type="module" src="/${each}.js"></script>`).join('');
+    const script = ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join('');
     const widget = await mount(page, name, { attributes: `lang="${lang}"`, script, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
     const tops = [];
     for (const value of values) {
@@ -177,8 +177,8 @@ for (const [name, lang, width, slider, values] of SLIDERS_BELOW_TEXTS) {
       tops.push(await widget.locator(`#${slider}`).evaluate((element) => element.getBoundingClientRect().top + scrollY));
     }
     expect(Math.max(...tops) - Math.min(...tops)).toBeLessThan(0.5);
-    const texts = await widget.locator('.controls .slider > [for], .controls .slider .value, .controls button').evaluateAll((all) =>
-      all.map((each) => ({ text: each.textContent, box: each.getBoundingClientRect() })).filter(({ box }) => box.width > 0));
+    const texts = await widget.locator('.controls .slider > [for], .controls .slider .value, .controls button').evaluateAll((elements) =>
+      elements.map((element) => ({ text: element.textContent, box: element.getBoundingClientRect() })).filter(({ box }) => box.width > 0));
     const overlaps = texts.flatMap((one, i) => texts.slice(i + 1).filter(({ box }) =>
       box.left < one.box.right - 1 && box.right - 1 > one.box.left && box.top < one.box.bottom - 1 && box.bottom - 1 > one.box.top).map((other) => [one.text, other.text]));
     expect(overlaps).toEqual([]);

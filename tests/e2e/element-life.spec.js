@@ -170,7 +170,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   const folds = widget.locator('details');
   await expect.poll(() => folds.count()).toBeGreaterThan(1);
   await unfold(widget);
-  const openFolds = () => folds.evaluateAll((foldElements) => foldElements.map((fold) => /** @type {HTMLDetailsElement} */ (fold).open));
+  const openFolds = () => folds.evaluateAll((foldElements) => foldElements.map((details) => /** @type {HTMLDetailsElement} */ (details).open));
   const openFoldsBefore = await openFolds();
   const field = folds.nth(fold.at).locator(fold.field);
   await field.fill(fold.value);
@@ -255,9 +255,9 @@ test('a figure that comes back is drawn on the screen again, even if it was remo
   await page.emulateMedia({ media: 'print' });
   const canvas = widget.locator('canvas.plane');
   await expect(canvas).toHaveJSProperty('width', 2 * (await canvas.evaluate(({ clientWidth }) => clientWidth)));
-  const element = await widget.evaluateHandle((figure) => (figure.remove(), figure));
+  const removedFigure = await widget.evaluateHandle((element) => (element.remove(), element));
   await page.emulateMedia({ media: 'screen' });
-  await element.evaluate((figure) => document.body.append(figure));
+  await removedFigure.evaluate((element) => document.body.append(element));
   await untilReady(widget);
   await expect.poll(() => canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).width / element.clientWidth)).toBeCloseTo(1, 1);
 });

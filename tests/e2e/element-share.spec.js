@@ -253,9 +253,9 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
     // Cells that cannot be compressed.
     await widget.evaluate((element) => {
-      const bits = Array.from({ length: 1_000_000 }, () => String.fromCharCode(256 * Math.random())).join('');
-      const unknown = btoa(bits);
-      const occupied = btoa('\0'.repeat(bits.length));
+      const byteCount = (4000 * 2000) / 8;
+      const unknown = btoa(Array.from({ length: byteCount }, () => String.fromCharCode(256 * Math.random())).join(''));
+      const occupied = btoa('\0'.repeat(byteCount));
       Object.assign(element, { map: { columns: 4000, rows: 2000, resolution: 0.05, origin: [0, 0, 0], occupied, unknown } });
     });
     await widget.getByRole('button', { name: 'Copy link' }).click();

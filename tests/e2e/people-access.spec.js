@@ -133,8 +133,8 @@ test('sliders speak their value with its unit, and nothing is announced while on
   const { config } = await bananaReadings(widget);
   await page.mouse.up();
   await expect(status).toContainText(`v = ${config.command.v.toFixed(2).replace('-', '−')} m/s`);
-  for (const slider of await widget.locator('input[type=range]').all()) {
-    expect(await slider.getAttribute('aria-valuetext')).toMatch(/\d/);
+  for (const otherSlider of await widget.locator('input[type=range]').all()) {
+    expect(await otherSlider.getAttribute('aria-valuetext')).toMatch(/\d/);
   }
 });
 

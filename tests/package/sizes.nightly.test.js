@@ -16,8 +16,8 @@ const outputs = JSON.parse(readFileSync(pathOf('build/outputs.json'), 'utf8'));
 /** Returns a module with its static imports, which a browser loads with it, and without dynamic imports. @param {string} path */
 function loadedWith(path) {
   const loadedPaths = new Set([path]);
-  for (const path of loadedPaths) {
-    for (const { path: imported, kind } of outputs[path].imports) if (kind === 'import-statement') loadedPaths.add(imported);
+  for (const loadedPath of loadedPaths) {
+    for (const { path: imported, kind } of outputs[loadedPath].imports) if (kind === 'import-statement') loadedPaths.add(imported);
   }
   return [...loadedPaths];
 }

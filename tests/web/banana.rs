@@ -9,8 +9,8 @@ fn arrays_are_copies_of_the_samples() {
         "new motion.BananaMachine({ model: 'odometry', noise: 'triangular', samples: 1000, seed: 3 })",
     );
     it.assert(
-        "[it.poses, it.twists, it.executed].every((each) => each instanceof Float64Array
-        && each.length === 3000)",
+        "[it.poses, it.twists, it.executed].every((array) => array instanceof Float64Array
+        && array.length === 3000)",
     );
     it.assert("Object.values(it.contours).every((outline) => outline instanceof Float64Array)");
     it.assert("it.density('twist', -4, -4, 4, 4, 20, 10) instanceof Uint32Array");

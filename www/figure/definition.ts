@@ -53,12 +53,12 @@ const cloudState: Record<string, ElementField> = {
   },
 };
 
-export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, elementFields: ofWidget, ...parts }: Options): Definition {
+export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, elementFields: widgetFields, ...parts }: Options): Definition {
   const declared = settings[tag];
   const widgetPresets = presets[tag as keyof typeof presets];
   const elementFields: Record<string, ElementField> = {
     ...(declared.some(({ key }) => key === 'samples') && cloudState),
-    ...ofWidget,
+    ...widgetFields,
     overlays: { converter: WORD_LIST_CONVERTER, words: Object.keys(lines), opening },
   };
   const properties: Properties = {

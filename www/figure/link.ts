@@ -105,7 +105,7 @@ function keyOf(element: Element): string {
 function addressWith(key: string, text: string, first: boolean = false): string {
   const part = `${key}=${text}`;
   const allParts = fragmentParts();
-  const partIndex = allParts.findIndex((part) => part.startsWith(`${key}=`));
+  const partIndex = allParts.findIndex((fragmentPart) => fragmentPart.startsWith(`${key}=`));
   const otherParts = allParts.filter((_, i) => i !== partIndex);
   const nextParts = first ? [part, ...otherParts] : partIndex < 0 ? [...allParts, part] : allParts.with(partIndex, part);
   // The address is complete, because a base element would change a relative one.

@@ -40,7 +40,7 @@ export const reservedHeight = (tag: string) => {
 /** Returns the style sheet that reserves heights until the elements are defined. */
 export function preUpgradeCss() {
   const tags = Object.keys(HEIGHTS_EM);
-  const undefinedElements = (tags: string | string[]) => `:is(${tags}):not(:defined)`;
+  const undefinedElements = (selectors: string | string[]) => `:is(${selectors}):not(:defined)`;
   return [
     `${undefinedElements(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
     `${undefinedElements(tags)}::before{${preferredWidth}}`,

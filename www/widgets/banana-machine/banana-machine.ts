@@ -100,12 +100,12 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       overlays: shownOverlays,
       marked: this.#inspection,
       morph,
-      outlinesOf: (reading: Reading) => outlinesAt(motion, reading, morph),
+      outlinesOf: (otherReading: Reading) => outlinesAt(motion, otherReading, morph),
       callouts,
       ringsOf: () => confidenceRings(motion, reading),
       pinned,
-      pinnedAt: (morph: number) =>
-        pinned ? Object.entries(outlinesAt(motion, pinned, morph)).flatMap(([name, line]) => (shownOverlays[name] ? [...line] : [])) : [],
+      pinnedAt: (otherMorph: number) =>
+        pinned ? Object.entries(outlinesAt(motion, pinned, otherMorph)).flatMap(([name, line]) => (shownOverlays[name] ? [...line] : [])) : [],
       driving: this.cloud.driving,
       morphedEllipse: morph > 0 ? lineMorphOf(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
     };
@@ -266,7 +266,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const { min, max, step } = sliderSpecs.omega;
     // The curve depends only on some of the settings.
     const curve = this.#skewCurve.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
-    const maxSkew = curve.reduce((max, value) => Math.max(max, Math.abs(value) || 0), 0);
+    const maxSkew = curve.reduce((largest, value) => Math.max(largest, Math.abs(value) || 0), 0);
     const chartHeight = CHART_HEIGHTS.find((height) => height >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];
     return plot({

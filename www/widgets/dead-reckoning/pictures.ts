@@ -40,7 +40,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     const shownOf = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
     const shownNames = shownOf(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineKeys(brush, OUTLINE_STYLES, shownOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
-    const linesOf = (outlines: Scene['outlines']) => shownNames.map((name) => ({ points: outlines[name], ...styles[name] }));
+    const linesOf = (stepOutlines: Scene['outlines']) => shownNames.map((name) => ({ points: stepOutlines[name], ...styles[name] }));
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       for (const milestone of milestones) drawMilestone(brush, milestone.poses);

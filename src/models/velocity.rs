@@ -90,7 +90,8 @@ impl VelocityModel {
     /// Returns the covariance of (x, y, θ) that an EKF carries: the arc linearized in (v̂, ω̂, γ̂) at the command, 3 ×
     /// 3, in the frame in which `x` is given (m², m·rad, rad²). Independent of the shape of the noise.
     ///
-    /// With R the rotation to the final heading and J_r the right Jacobian of SE(2): R·(J_r R_u J_rᵀ + diag(0, 0, Δt²(α₅v² + α₆ω²)))·Rᵀ.
+    /// It is R·(J_r R_u J_rᵀ + diag(0, 0, Δt²·Var γ̂))·Rᵀ, with R_u = Δt²·diag(Var v̂, 0, Var ω̂), the right Jacobian J_r of SE(2) at the
+    /// commanded twist, and the rotation R to the final heading.
     pub fn cartesian_cov(&self, u: &VelocityCmd, x: &SE2) -> Matrix3<f64> {
         let [along, turn, last] = self.variances(u).map(|variance| u.dt * u.dt * variance.0);
         let twist = TangentNoiseModel::twist(u);

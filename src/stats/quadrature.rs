@@ -44,8 +44,8 @@ fn normal_nodes() -> Vec<Node> {
 
 /// Returns the Gauss–Legendre rule on both halves of the triangular density, which is linear on each.
 fn triangular_nodes() -> Vec<Node> {
-    /// Number of points on each half of the support. The rule is exact for polynomials of degree 63, which suffices for frequencies k
-    /// with k·√6 up to about 60.
+    /// Number of points on each half of the support. The rule is exact for polynomials of degree 63, which is accurate enough up to
+    /// the frequency k ≈ 25: k·√6 ≈ 60.
     const POINTS: usize = 32;
     let support_end = 6f64.sqrt();
     legendre_nodes(POINTS)

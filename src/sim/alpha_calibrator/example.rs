@@ -17,12 +17,12 @@ use std::f64::consts::TAU;
 /// True α's of the simulation, with the rule of Table 5.6.
 pub const ALPHAS: [f64; 4] = [0.05, 0.008, 0.004, 0.003];
 
-/// Length of the legs to which these α's apply, m: the default of AMCL's `update_min_d`.
+/// Length of the legs to which these α's apply, m: the default of `update_min_d` in Nav2's AMCL.
 const LEG_DISTANCE: f64 = 0.25;
-/// Turn of these legs, rad: the default of AMCL's `update_min_a`.
+/// Turn of these legs, rad: the default of `update_min_a` in Nav2's AMCL.
 pub const LEG_ANGLE: f64 = 0.2;
 
-/// True clock offset of the reference, s.
+/// Time by the reference's clock minus time by the odometry's, s.
 pub const CLOCK_OFFSET: f64 = 0.15;
 /// True yaw of the reference's sensor on the robot, rad.
 pub const MOUNT_YAW: f64 = 0.07;
@@ -33,8 +33,8 @@ pub const DISTANCE_SCALE: f64 = 1.02;
 /// True turns over those of the odometry.
 pub const TURN_SCALE: f64 = 0.97;
 
-/// Jumps of the reference: size (m), number of rows of a jump, and probability that one begins at a row. They make about one
-/// leg in a hundred an outlier.
+/// Jumps of the reference: size (m), number of rows of a jump, and probability that one begins at a row. On average they make
+/// one leg in 70 an outlier.
 const JUMP_SIZE: f64 = 0.5;
 const JUMP_ROWS: usize = 25;
 const JUMP_PROBABILITY: f64 = 4e-4;

@@ -47,7 +47,7 @@ js_structs! {
     pub struct Truth as "CalibrationTruth" {
         /// Noise parameters of the rule of Table 5.6, on legs of 0.25 m or 0.2 rad.
         pub alphas: [f64; 4],
-        /// Clock offset of the reference, s.
+        /// Time by the reference's clock minus time by the odometry's, s.
         pub clock_offset: f64,
         /// Yaw of the reference's sensor on the robot, rad.
         pub mount_yaw: f64,
@@ -211,7 +211,7 @@ impl AlphaCalibrator {
         })
     }
 
-    /// Returns the legs of the log, in the order of time.
+    /// Returns the legs of the log, drive by drive in the order of time.
     pub fn legs(&self) -> &[Leg] {
         &self.calibration().legs
     }

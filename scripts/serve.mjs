@@ -44,7 +44,7 @@ export async function serve(directory, { port, base = '/', headers = {} } = {}) 
 }
 
 /** @returns {number | undefined} */
-function wantedPort() {
+function requestedPort() {
   const [argument] = process.argv.slice(2);
   if (argument !== undefined) throw new UserError(`npm start has no options (got "${argument}"): PORT selects a port, as in PORT=9000 npm start.`);
   const portText = process.env.PORT;
@@ -56,7 +56,7 @@ function wantedPort() {
 }
 
 await runAsScript(import.meta.url, async () => {
-  const port = wantedPort();
+  const port = requestedPort();
   await build({ local: true });
   const { address } = await serve(join(ROOT, 'dist'), { port });
   console.log(`\nThe widgets are at ${address} (Ctrl-C stops).`);

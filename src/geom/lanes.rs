@@ -95,7 +95,7 @@ impl Trigonometry {
         }
     }
 
-    /// Returns the terms of the SE(2) logarithm for half headings (rad) within a quarter turn of 0, which are on the wanted branch.
+    /// Returns the terms of the SE(2) logarithm for half headings (rad) within a quarter turn of 0, which are on the requested branch.
     #[inline(always)]
     pub fn half_turn(&self, half: f64x4) -> HalfTurn {
         let (sinc, cos) = self.sinc_cos(half * half);

@@ -135,7 +135,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     this.#placeHandles(this.host.picture.view);
   }
 
-  /** Moves a grip along its axis by the wanted distance, within its range. Returns false if the distance is NaN. */
+  /** Moves a grip along its axis by the requested distance, within its range. Returns false if the distance is NaN. */
   #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
     this.#currentName = handleName(grip);
     const moveDistance = clamp(distanceOf(this.#pointOf(grip), grip.axis), grip.range[0], grip.range[1]);

@@ -33,10 +33,10 @@ const MAX_ONE_IN_N = 0.075;
 const MIN_NEARLY_ALL = 0.95;
 
 /** Returns a share between 0 and 1 as a simple fraction. */
-function fractionOf(share: number): [few: number, of: number] {
+function fractionOf(share: number): [count: number, total: number] {
   if (share < MAX_ONE_IN_N) return [1, Number((1 / share).toPrecision(2))];
   const simpleFractions = DENOMINATORS.map((denominator) => [clamp(Math.round(share * denominator), 1, denominator - 1), denominator] as [number, number]);
-  const roundingError = ([few, of]: [number, number]) => Math.abs(few / of - share);
+  const roundingError = ([count, total]: [number, number]) => Math.abs(count / total - share);
   return simpleFractions.reduce((best, fraction) => (roundingError(fraction) < roundingError(best) - 1e-9 ? fraction : best));
 }
 

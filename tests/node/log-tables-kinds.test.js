@@ -103,7 +103,7 @@ test('a clock that begins at 0 again goes on, also around a late row: each day o
   const clock = (/** @type {number} */ period, /** @type {number} */ unit) => (/** @type {number} */ t) => (t < 0 ? period : 0) + Number((unit * t).toFixed(2));
   for (const [header, text] of /** @type {const} */ ([
     ['t', (/** @type {number} */ t) => (t < 0 ? `23:59:${(60 + t).toFixed(2)}` : `00:00:0${t.toFixed(2)}`)],
-    ['t', clock(604_800, 1)], ['t', clock(2 ** 32, 1e6)], ['t_ms', clock(2 ** 32, 1e3)], ['t_us', clock(2 ** 32, 1e6)],
+    ['t', clock(604_800, 1)], ['t', clock(2 ** 32, 1e6)], ['millis', clock(2 ** 32, 1e3)], ['msec', clock(2 ** 32, 1e3)], ['t_useconds', clock(2 ** 32, 1e6)],
   ])) {
     const { data: { t }, summary: { notes, gaps } } = await readWithClock(header, text);
     assert.deepEqual([t.length, Number((t[199] - t[0]).toFixed(6)), notes, gaps.count], [200, 9.95, [{ name: 'rollover', values: [101] }, { name: 'sorted', values: [1] }], 0]);

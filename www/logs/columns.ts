@@ -50,8 +50,8 @@ const HEADER = '(?:header\\.)?';
 const FIELD_PATTERNS: [Field, string[]][] = [
   ['child', ['child\\.frame\\.id']],
   ['frame', [`${HEADER}frame\\.id`]],
-  ['source', ['(?:topic|robot|agent|vehicle|(?:rigid\\.?)?body|subject|tracker)(?:\\.?(?:id|name))?|tag\\.?id']],
-  ['subseconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:nano?|n|micro|u)(?:secs?|seconds?)`, '(?:nano?|n|micro|u|milli|m)(?:secs?|seconds?)']],
+  ['source', ['(?:topic|robot|agent|vehicle|(?:rigid\\.?)?body|subject|tracker)(?:\\.?(?:id|name))?']],
+  ['subseconds', [`${HEADER}(?:time\\.?)?stamp\\.n(?:ano)?(?:secs?|seconds?)`, '(?:n(?:ano)?|micro|u|m(?:illi)?)(?:secs?|seconds?)']],
   ['seconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
   ['t', [`${HEADER}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)|millis|micros|nanos', 't']],
   ...Array.from('xyzw', (axis): [Field, string[]] => [`q${axis}` as Field, [`q\\..*\\.${axis}`, `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?${axis}`]]),
@@ -79,9 +79,9 @@ const UNIT_WORDS: [RegExp, ParsedUnit['of'], ParsedUnit['unit']][] = [
   [/^(min|minutes?)$/, 'time', 'min'],
   [/^(h|hrs?|hours?)$/, 'time', 'h'],
   [/^(s|secs?|seconds?)$/, 'time', 's'],
-  [/^(ms|m?secs?|millisecs?|milliseconds?)$/, 'time', 'ms'],
-  [/^(us|µs|μs|usecs?|microsecs?|microseconds?)$/, 'time', 'us'],
-  [/^(ns|nsecs?|nano?secs?|nanoseconds?)$/, 'time', 'ns'],
+  [/^(ms|millis|m(illi)?(secs?|seconds?))$/, 'time', 'ms'],
+  [/^(us|µs|μs|micros|(u|micro)(secs?|seconds?))$/, 'time', 'us'],
+  [/^(ns|nanos|n(ano)?(secs?|seconds?))$/, 'time', 'ns'],
   [/^(m|met(er|re)s?)$/, 'length', 'm'],
   [/^(cm|centimet(er|re)s?)$/, 'length', 'cm'],
   [/^(mm|millimet(er|re)s?)$/, 'length', 'mm'],
@@ -111,7 +111,7 @@ export const isUnit = (text: string) => unitOf(text) !== undefined;
 
 /** Quantity of each field, and true if it is a rate. */
 const UNITS_OF: Partial<Record<Field, [ParsedUnit['of'], boolean]>> = {
-  t: ['time', false], x: ['length', false], y: ['length', false], z: ['length', false], yaw: ['angle', false], v: ['length', true], omega: ['angle', true],
+  t: ['time', false], seconds: ['time', false], subseconds: ['time', false], x: ['length', false], y: ['length', false], z: ['length', false], yaw: ['angle', false], v: ['length', true], omega: ['angle', true],
 };
 
 /** Returns a name in lower case, with dots between its parts. */
@@ -135,8 +135,11 @@ function readName(name: string): ColumnMeaning | undefined {
   const wholeMeaning = fieldOf(dottedPath);
   // Times of rostopic are always in nanoseconds, also the small times of a simulation.
   if (wholeMeaning?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...wholeMeaning, unit: 'ns' };
-  // Clocks of microcontrollers are named after their unit.
-  if (wholeMeaning) return { ...wholeMeaning, ...(/m(illi)?secs?$|millis(econds?)?$/.test(dottedPath) ? { unit: 'ms' } : /u(secs?|seconds?)$|micros(ec.*)?$/.test(dottedPath) ? { unit: 'us' } : /nanos$/.test(dottedPath) ? { unit: 'ns' } : {}) };
+  if (wholeMeaning) {
+    // Clocks of microcontrollers are named after their unit.
+    const unit = unitOf(dottedPath.replace(/.*\./, ''));
+    return { ...wholeMeaning, ...(unit && canHaveUnit(wholeMeaning.field, unit) && { unit: unit.unit }) };
+  }
   const [unitSuffix, word] = UNIT_AT_END.exec(bare) ?? [];
   const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
   const reading = unitSuffix !== undefined && unit ? fieldOf(dottedName(bare.slice(0, -unitSuffix.length))) : undefined;
@@ -203,15 +206,15 @@ export function groupsOf(names: string[], isTime: (index: number) => boolean = (
   return allGroups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw).map((group) => ({ ...group, name: groupName(group, names) }));
 }
 
+const clockOf = (column: Column): Clock => ({ name: column.name, columns: [column], ...(column.unit !== undefined && { unit: column.unit as TimeUnit }) });
+
 /** Returns the clocks of a group. The stamp of the message comes first, because the other clock may be the time of recording. */
 function clocksOf({ columns: { seconds, subseconds }, times }: Group): Clock[] {
-  const singleClocks = times.toSorted((one, other) => one.rank - other.rank).map((column) => ({ name: column.name, columns: [column], ...unitOfClock(column) }) as Clock);
+  const singleClocks = times.toSorted((one, other) => one.rank - other.rank).map(clockOf);
   if (seconds && subseconds) return [{ name: `${seconds.name}, ${subseconds.name}`, columns: [seconds, subseconds], unit: 's' }, ...singleClocks];
-  if (singleClocks.length > 0) return singleClocks;
-  return [...(seconds ? [{ name: seconds.name, columns: [seconds], unit: 's' } as Clock] : []), ...(subseconds ? [{ name: subseconds.name, columns: [subseconds], unit: 'ns', ...unitOfClock(subseconds) } as Clock] : [])];
+  const partOfTime = seconds ?? subseconds;
+  return singleClocks.length > 0 || !partOfTime ? singleClocks : [clockOf(partOfTime)];
 }
-
-const unitOfClock = ({ unit }: Column) => (unit === undefined ? {} : { unit: unit as TimeUnit });
 
 /** Returns the common prefix or suffix of a group's columns, as written in the table. Without either, returns the names of the columns. */
 function groupName({ name, columns }: Group, names: string[]): string {

@@ -162,7 +162,7 @@ class ClockReader {
     const text = this.#textOf(cells[at]);
     if (subseconds) {
       const [seconds, rest] = [timeOf(text, 0), numberOf(cells[subseconds.at])];
-      return seconds && rest !== undefined ? [seconds[0], seconds[1] + rest / 10 ** UNIT_EXPONENTS[(subseconds.unit ?? 'ns') as TimeUnit]] : undefined;
+      return seconds && rest !== undefined ? [seconds[0], seconds[1] + rest / 10 ** UNIT_EXPONENTS[subseconds.unit as TimeUnit]] : undefined;
     }
     if (text.trim() === '') return [NaN, NaN];
     if (this.#isDate === undefined) {

@@ -181,6 +181,6 @@ for (const [name, lang, width, slider, values] of SLIDERS_BELOW_TEXTS) {
       elements.map((element) => ({ text: element.textContent, box: element.getBoundingClientRect() })).filter(({ box }) => box.width > 0));
     const overlaps = texts.flatMap((one, i) => texts.slice(i + 1).filter(({ box }) =>
       box.left < one.box.right - 1 && box.right - 1 > one.box.left && box.top < one.box.bottom - 1 && box.bottom - 1 > one.box.top).map((other) => [one.text, other.text]));
-    expect(overlaps).toEqual([]);
+    expect([texts.length > 3, overlaps]).toEqual([true, []]);
   });
 }

@@ -3,9 +3,9 @@
 use super::input::Input;
 use motion::sim::settings::{AllowedValues, Group, Rules, Setting, SettingsError};
 
-/// Returns the present settings with some of them changed.
-pub fn with_changes<S: Rules>(present: &S, input: &mut Input) -> S {
-    let (mut settings, mut changed_keys) = (*present, Vec::new());
+/// Returns the current settings with some of them changed.
+pub fn with_changes<S: Rules>(current: &S, input: &mut Input) -> S {
+    let (mut settings, mut changed_keys) = (*current, Vec::new());
     let chosen_settings = u16::from_le_bytes(input.next_bytes());
     let mut count = 0;
     let _: Result<(), ()> = settings.try_visit_settings(|declaration, setting| {
@@ -16,7 +16,7 @@ pub fn with_changes<S: Rules>(present: &S, input: &mut Input) -> S {
         }
         Ok(())
     });
-    settings.adjust(present, &changed_keys);
+    settings.adjust(current, &changed_keys);
     settings
 }
 

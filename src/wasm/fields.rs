@@ -156,9 +156,9 @@ pub fn read_opening<S: Rules>(options: &JsValue) -> Result<S, JsValue> {
 }
 
 /// Returns the current settings with the values in `options`. The simulation checks ranges of doubles.
-pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsValue> {
+pub fn read_settings<S: Rules>(current: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = Fields::new("options", "", options, S::KEYS)?;
-    let (mut settings, mut given_keys) = (*present, Vec::new());
+    let (mut settings, mut given_keys) = (*current, Vec::new());
     settings.try_visit_settings(|declaration, setting| {
         let key = declaration.key;
         let value = fields.value(key)?;
@@ -172,7 +172,7 @@ pub fn read_settings<S: Rules>(present: &S, options: &JsValue) -> Result<S, JsVa
         given_keys.push(key);
         read_setting(key, &value, setting)
     })?;
-    settings.adjust(present, &given_keys);
+    settings.adjust(current, &given_keys);
     Ok(settings)
 }
 

@@ -30,7 +30,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   #currentName = '';
 
   /** Grips of the plan in the picture. */
-  get #presentGrips() {
+  get #currentGrips() {
     const { plan, movable } = this.host.picture;
     return this.#grips.get([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? wallGrips(plan) : []));
   }
@@ -41,7 +41,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   render() {
     const say = words.squeeze.walls;
-    return this.#presentGrips.map((grip) => {
+    return this.#currentGrips.map((grip) => {
       if (!grip) return nothing;
       const [x, y] = this.#pointOf(grip);
       const position = x * grip.axis[0] + y * grip.axis[1];
@@ -58,7 +58,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   /** Returns the entry of the handles in the legend. */
   legend() {
-    if (this.#presentGrips.every((grip) => !grip)) return nothing;
+    if (this.#currentGrips.every((grip) => !grip)) return nothing;
     return html`<span class="toggle grips">${swatch({ role: 'truth', mark: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
   }
 
@@ -75,7 +75,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   #placeHandles(view: View) {
     const root = this.host.renderRoot;
-    const placedHandles = this.#presentGrips.filter((grip) => grip !== undefined).map((grip) => {
+    const placedHandles = this.#currentGrips.filter((grip) => grip !== undefined).map((grip) => {
       const handleElement = root.querySelector(`.handle.${handleName(grip)}`) as HTMLElement | null;
       const gripPoint = grip.part === 'side' ? this.#middleIn(grip, view) : this.#gripOf(grip, view);
       const pixel = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
@@ -88,16 +88,16 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       if (isShown) this.#handleOf(grip).place(root, pixel[0], pixel[1]);
       return { name: handleName(grip), element: isShown ? handleElement : null };
     });
-    const presentHandles = placedHandles.filter(({ element }) => element);
-    const tabHandle = presentHandles.find(({ name }) => name === this.#currentName) ?? presentHandles[0];
-    for (const handle of presentHandles) (handle.element as HTMLElement).tabIndex = handle === tabHandle ? 0 : -1;
+    const shownHandles = placedHandles.filter(({ element }) => element);
+    const tabHandle = shownHandles.find(({ name }) => name === this.#currentName) ?? shownHandles[0];
+    for (const handle of shownHandles) (handle.element as HTMLElement).tabIndex = handle === tabHandle ? 0 : -1;
   }
 
   #handleOf(grip: Grip) {
     const gripName = handleName(grip);
     // The wall may be missing in a new plan, until its handle is removed.
     const callWithGrip = <Result>(use: (currentGrip: Grip) => Result) => {
-      const currentGrip = this.#presentGrips.find((candidate) => candidate && handleName(candidate) === gripName);
+      const currentGrip = this.#currentGrips.find((candidate) => candidate && handleName(candidate) === gripName);
       return currentGrip && use(currentGrip);
     };
     const handle = this.#handles.get(gripName) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${gripName}`, {
@@ -172,7 +172,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const { xMin, yMin, xMax, yMax } = view.extent;
     const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     const [dx, dy] = [x1 - x, y1 - y];
-    const fractionAtEnd = (part: Grip['part']) => (this.#presentGrips.some((otherGrip) => otherGrip?.wall === wall && otherGrip.part === part) ? 2 * this.#inward(grip, view) : 0);
+    const fractionAtEnd = (part: Grip['part']) => (this.#currentGrips.some((otherGrip) => otherGrip?.wall === wall && otherGrip.part === part) ? 2 * this.#inward(grip, view) : 0);
     let [from, to] = [fractionAtEnd('from'), 1 - fractionAtEnd('to')];
     for (const [coordinate, delta, min, max] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
       if (!delta) continue;

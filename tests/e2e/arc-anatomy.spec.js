@@ -227,7 +227,7 @@ test('without noise it says so, and draws no map @nightly', async ({ page }) => 
   await expect(widget.locator('.lines li')).toHaveCount(9);
 });
 
-test('the robot goes along the arcs by itself for users who like motion', async ({ page }) => {
+test('a button plays the drive along the arcs', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await openArcAnatomy(page);
   const { values, label } = await playSlider(widget, 'underway', 3);

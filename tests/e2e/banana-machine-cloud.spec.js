@@ -209,7 +209,7 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   await expect(measuredCell).not.toHaveText('—');
 });
 
-test('the odometry model shows its reading, the hinge noises of a marked robot, and backs up as one likes', async ({ page }) => {
+test('the odometry model shows the noise of a marked robot’s legs, and has an option for reverse', async ({ page }) => {
   const widget = await openUnfoldedBanana(page, 'preset="gentle"');
   await expect(widget.getByLabel('Reverse without half-turn noise')).toHaveCount(0);
   await widget.getByLabel('odometry').check();

@@ -166,7 +166,7 @@ const SLIDERS_BELOW_TEXTS = /** @type {const} */ ([
 ]);
 
 for (const [name, lang, width, slider, values] of SLIDERS_BELOW_TEXTS) {
-  test(`no text moves the slider ${slider} while it is dragged, or covers another: ${name}, ${lang}, ${width} px @nightly`, async ({ page }) => {
+  test(`texts do not move the slider ${slider} while it is dragged, and do not overlap: ${name}, ${lang}, ${width} px @nightly`, async ({ page }) => {
     await page.setViewportSize({ width, height: 900 });
     const script = ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join('');
     const widget = await mount(page, name, { attributes: `lang="${lang}"`, script, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });

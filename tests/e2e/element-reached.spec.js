@@ -46,7 +46,7 @@ for (const [direction, origin, key] of /** @type {const} */ ([['above', '#before
   });
 }
 
-test('a figure that starts when the user has gone on leaves the focus where it is @nightly', async ({ page, figure }) => {
+test('a figure that starts after the user has moved the focus leaves it there @nightly', async ({ page, figure }) => {
   let allowModule = () => {};
   const moduleIsAllowed = new Promise((resolve) => (allowModule = () => resolve(undefined)));
   await page.route('**/*.wasm', async (route) => {

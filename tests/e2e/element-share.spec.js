@@ -128,7 +128,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   expect(await page.evaluate(() => scrollY)).toBe(700);
 });
 
-test('an anchor that is not there, or that the user has left, scrolls nothing @nightly', FRESH, async ({ page }) => {
+test('the page does not scroll to an anchor that is missing, or after the user has scrolled @nightly', FRESH, async ({ page }) => {
   await showPage(page, '<banana-machine></banana-machine><p id="low" style="margin: 3000px 0">Low</p>', { fragment: '#nowhere&theme=a' });
   await untilReady(page.locator('banana-machine'));
   expect(await page.evaluate(() => scrollY)).toBe(0);
@@ -240,7 +240,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
   await expect(widget.getByText('Copied.')).toHaveCount(0);
 });
 
-  test('the button that copies the code to embed says that the code has no map of the user, which a link has unless it is too large @nightly', async ({ page }) => {
+  test('the message says what is not copied: the user’s map in the code to embed, and a large one in a link @nightly', async ({ page }) => {
     const widget = await mount(page, 'map-squeeze');
     await widget.getByText('Numbers and data').click();
     await widget.getByRole('button', { name: 'Copy embed code' }).click();

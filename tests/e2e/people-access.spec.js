@@ -289,7 +289,7 @@ test('paper has figures that were far from the window, with their pictures @nigh
   expect(await page.evaluate(() => Reflect.get(window, 'inked'))).toBe(true);
 });
 
-test('paper has the folds of a figure that the user opened, and nothing to press @nightly', async ({ page, figure }) => {
+test('a print shows the disclosures that the user opened, and no controls @nightly', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   const { at, part } = FIGURE_FACTS[figure].paper;
   const fold = widget.locator('.folds details').nth(at);

@@ -110,7 +110,7 @@ const JUPYTERLAB_CHECKS = {
     const refusal = await evaluatePython(page, `[exec("try: machine.omega = 2e6\\nexcept Exception as error: said = str(error)"), said][1]`);
     assert.equal(refusal, 'omega is 2000000.0; allowed is a number from -1000000 to 1000000');
   },
-  async 'what the user changes comes to Python, and no key to the notebook'(page, site) {
+  async 'changes by the user reach Python, and keys do not reach the notebook'(page, site) {
     await runNotebook(page, site);
     const slider = machineElement(page).getByRole('slider', { name: /ω/ }).first();
     await slider.focus();

@@ -4,7 +4,7 @@ import { program } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
 const CHECKS = {
-  async 'what the user changes comes to Python, and the other way'(page, site) {
+  async 'changes by the user reach Python, and changes by Python reach the figure'(page, site) {
     await page.goto(site.url);
     await untilLive(page, site);
     await page.locator('banana-machine').getByRole('slider', { name: /ω/ }).first().press('ArrowRight');

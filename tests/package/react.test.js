@@ -142,7 +142,7 @@ test('what the server has sent is taken over, before its elements are there', as
   assert.deepEqual(consoleMessages, []);
 });
 
-test('a list in JSX, and a page that is rendered at every figure, leave what the user does', async () => {
+test('renderings keep the user’s changes, and properties and events do not trigger each other endlessly', async () => {
   await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({}));
   await untilComplete();
@@ -151,7 +151,6 @@ test('a list in JSX, and a page that is rendered at every figure, leave what the
   await setProps({ omega: 0.3 });
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0.3);
   assert.notEqual(await property('v'), 1);
-  // Properties and events do not trigger each other endlessly.
   const renderings = await page.evaluate(async () => {
     const { page } = /** @type {any} */ (globalThis);
     for (let i = 0; i < 10; i++) await new Promise(requestAnimationFrame);
@@ -163,7 +162,7 @@ test('a list in JSX, and a page that is rendered at every figure, leave what the
   assert.deepEqual(consoleMessages, []);
 });
 
-test('a prop that is refused is told, one that goes leaves the element as it opens @nightly', async () => {
+test('a refused prop calls onError, and a removed one restores the opening value @nightly', async () => {
   await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({ omega: 0.8, marked: 7, conditioned: false }));
   await untilComplete();

@@ -72,7 +72,7 @@ fn error_derivative(leg: &Leg, corrected: &Systematic, error: SystematicError) -
     let motion_error = |step: f64| {
         let mut changed = *corrected;
         *changed.get_mut(error) += step;
-        // Returns a reference that equals the odometry.
+        // The reference has the corrected errors, and its robot moves as the odometry says.
         let mount = |e: &Systematic| SE2::new(e.lever_arm[0], e.lever_arm[1], e.mount_yaw);
         let reference_motion = mount(corrected).inverse() * odometry_motion * mount(corrected);
         let motion = changed.base().inverse() * (reference_motion * changed.base());

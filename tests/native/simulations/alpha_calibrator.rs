@@ -167,7 +167,7 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
 }
 
 #[test]
-fn the_nearest_leg_is_the_one_that_leads_by() {
+fn the_nearest_leg_passes_through_the_point() {
     let machine = machine(Settings::default());
     let calibration = machine.calibration();
     let [from, to] = calibration.legs[7].reference.map(|pose| pose * calibration.corrected.base());

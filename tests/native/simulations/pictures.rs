@@ -60,7 +60,7 @@ fn a_cloud_is_painted_as_it_is_dense() {
 }
 
 #[test]
-fn attempts_are_painted_by_what_became_of_most() {
+fn cells_have_the_colour_of_their_most_frequent_outcome() {
     // The robot faces a wall. The sampler tests only end poses, so that many attempts that end behind the wall are accepted.
     let (_, start) = PRESETS[1];
     let settings = squeeze::Settings { start, samples: 3000, ..squeeze::Settings::default() };

@@ -241,7 +241,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 /// Returns a rectangle of a view with few cells.
 pub fn read_grid(input: &mut Input) -> Grid {
     let min = [0; 2].map(|_| input.number_within(EXTENT_RANGE));
-    let max = min.map(|least| input.number_within(least..=*EXTENT_RANGE.end()));
+    let max = min.map(|lower| input.number_within(lower..=*EXTENT_RANGE.end()));
     let [columns, rows] = [0; 2].map(|_| 1 + input.next_choice(40));
     Grid { min, max, columns, rows }
 }

@@ -108,12 +108,12 @@ pub fn assert_verdict(plan: &FloorPlan, input: &mut Input) {
     let depth_inside = |x: f64, y: f64| depth_inside(plan, [x, y]);
 
     // Upper bound of the distance of the path from the edge of the map, from some points of the path.
-    // `least_depth - half_chord` is a lower bound.
+    // `min_depth - half_chord` is a lower bound.
     const CHORD_COUNT: u32 = 16;
-    let least_depth = (0..=CHORD_COUNT).fold(f64::INFINITY, |least, i| {
+    let min_depth = (0..=CHORD_COUNT).fold(f64::INFINITY, |smallest, i| {
         let f = f64::from(i) / f64::from(CHORD_COUNT);
         let point_on_path = Arc { length: f * length, turn: f * turn, ..arc }.end();
-        least.min(depth_inside(point_on_path.x(), point_on_path.y()))
+        smallest.min(depth_inside(point_on_path.x(), point_on_path.y()))
     });
     // A point of the arc is at most half the length between two tested points from one of them, and at most the circle's diameter.
     let circle_diameter = if turn == 0.0 { f64::INFINITY } else { 2.0 * (length / turn).abs() };
@@ -122,11 +122,11 @@ pub fn assert_verdict(plan: &FloorPlan, input: &mut Input) {
     let wall_distance = plan.walls().iter().map(|wall| wall.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min);
 
     let is_free = plan.arc_free(&arc, clearance).free;
-    let situation = format!("{arc:?} with {clearance} to spare: walls {wall_distance}, edge {least_depth}");
+    let situation = format!("{arc:?} with {clearance} to spare: walls {wall_distance}, edge {min_depth}");
     if is_free {
-        assert!(wall_distance > clearance - tolerance && least_depth >= -tolerance && !is_in_obstacle, "through a wall: {situation}");
+        assert!(wall_distance > clearance - tolerance && min_depth >= -tolerance && !is_in_obstacle, "through a wall: {situation}");
     } else {
-        let is_clear = wall_distance > clearance + tolerance && least_depth - half_chord > tolerance && !is_in_obstacle;
+        let is_clear = wall_distance > clearance + tolerance && min_depth - half_chord > tolerance && !is_in_obstacle;
         assert!(!is_clear, "refused for nothing: {situation}");
     }
 

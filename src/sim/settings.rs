@@ -377,7 +377,7 @@ macro_rules! settings {
                 $field:ident $(as $key:literal)?
                 $(: $type:ty = $default:expr $(, $unit:literal)?)?
                 $(, by $accessor:ident $(of $original:ident)? $(, $its_unit:literal)?)?
-                $(, in $range:expr $(, up to $most:ident)?)?
+                $(, in $range:expr $(, up to $max:ident)?)?
                 ;
             )+
             $(kept { $($(#[$kept_meta:meta])* $kept:ident: $kept_type:ty = $kept_default:expr;)+ })?
@@ -410,7 +410,7 @@ macro_rules! settings {
                         )
                     },
                     settings!(@place self $field $($accessor)?)
-                        .setting(settings!(@allowed self $($range $(, $most)?)?)),
+                        .setting(settings!(@allowed self $($range $(, $max)?)?)),
                 )?;)+
                 std::ops::ControlFlow::Continue(())
             }
@@ -420,7 +420,7 @@ macro_rules! settings {
     (@key $field:ident $key:literal) => { $key };
     (@allowed $this:ident) => { () };
     (@allowed $this:ident $range:expr) => { $range };
-    (@allowed $this:ident $range:expr, $most:ident) => { *($range).start()..=$this.$most() };
+    (@allowed $this:ident $range:expr, $max:ident) => { *($range).start()..=$this.$max() };
     (@place $this:ident $field:ident) => { $this.$field };
     (@place $this:ident $field:ident $accessor:ident) => { $this.$accessor() };
 }

@@ -185,8 +185,8 @@ impl JsBananaMachine {
         Ok(Uint32Array::from(&self.0.density(read_view(view)?, &grid)[..]))
     }
 
-    /// Density of the samples as RGBA pixels: a count c has the colour ramp[255·√(c/most)] of 256, and empty cells are
-    /// transparent. A view of the core's memory, valid until the next call of the machine.
+    /// Density of the samples as RGBA pixels: a count c has the colour ramp[255·√(c/max)] of 256, with the largest count max. Empty
+    /// cells are transparent. A view of the core's memory, valid until the next call of the machine.
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(

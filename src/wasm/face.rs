@@ -44,11 +44,11 @@ macro_rules! configured {
     };
 }
 
-/// Declares a class as [`configured`] does, for a machine with a cloud of at most `$most` samples, and adds the methods of the cloud.
+/// Declares a class as [`configured`] does, for a machine with a cloud of at most `$max_samples` samples, and adds the methods of the cloud.
 macro_rules! cloud {
     (
         $(#[$doc:meta])+
-        $class:ident($machine:ident), $name:literal, $settings:literal, $options:literal, $most:expr
+        $class:ident($machine:ident), $name:literal, $settings:literal, $options:literal, $max_samples:expr
     ) => {
         $crate::wasm::face::configured! {
             $(#[$doc])+
@@ -87,7 +87,7 @@ macro_rules! cloud {
             /// Shows up to `count` more samples. Returns the total number of samples shown.
             #[wasm_bindgen(js_name = addSamples)]
             pub fn add_samples(&mut self, count: f64) -> Result<usize, JsValue> {
-                let count = $crate::wasm::fields::read_integer("count", count, 0..=$most as u64)?;
+                let count = $crate::wasm::fields::read_integer("count", count, 0..=$max_samples as u64)?;
                 Ok(self.0.add_samples(count as usize))
             }
 

@@ -191,8 +191,8 @@ impl JsMapSqueeze {
 
     /// Density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. The colours are three
     /// ramps of 256: for rejected attempts, accepted ones, and those accepted through a wall. The most frequent kind in a
-    /// cell selects the ramp, and the count c of all attempts in the cell the colour 255·√(c/most) in it. Empty cells are
-    /// transparent. A view of the core's memory, valid until the next call of the machine.
+    /// cell selects the ramp. A count c of all attempts in the cell has its colour 255·√(c/max), with the largest count max. Empty
+    /// cells are transparent. A view of the core's memory, valid until the next call of the machine.
     #[expect(clippy::too_many_arguments, reason = "a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(

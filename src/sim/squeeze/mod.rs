@@ -218,8 +218,8 @@ impl MapSqueeze {
     }
 
     /// Paints a density map of the ends of the attempts shown, one pixel for each cell of the grid. The most frequent kind of
-    /// attempt in a cell selects the ramp. The colour is ramp[255·√(count/most)], where `count` is the number of attempts in
-    /// the cell and `most` the largest count of all cells. Empty cells are transparent.
+    /// attempt in a cell selects the ramp. The colour is ramp[255·√(count/max_count)], where `count` is the number of attempts in
+    /// the cell and `max_count` the largest count of all cells. Empty cells are transparent.
     pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; OUTCOME_KINDS]) -> &[[u8; 4]] {
         self.picture = picture::paint_attempts(&self.shown.attempts, grid, ramps);
         &self.picture

@@ -73,14 +73,15 @@ pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
             .iter()
             .map(|&f| (f, line_to_line([f, (f + size).min(1.0)].map(|f| position_along(arc, f)), ends)))
             .collect();
-        let least = distances.iter().fold(f64::INFINITY, |least, (_, distance)| least.min(*distance));
+        let min_distance =
+            distances.iter().fold(f64::INFINITY, |smallest, (_, distance)| smallest.min(*distance));
         if max_deviation <= 0.1 * f64::EPSILON * extent(arc, wall) || distances.len() > 1000 {
-            return [least - max_deviation, least + max_deviation];
+            return [min_distance - max_deviation, min_distance + max_deviation];
         }
         size *= 0.5;
         candidates = distances
             .into_iter()
-            .filter(|(_, distance)| *distance <= least + 2.0 * max_deviation)
+            .filter(|(_, distance)| *distance <= min_distance + 2.0 * max_deviation)
             .flat_map(|(f, _)| [f, f + size])
             .collect();
     }

@@ -163,12 +163,12 @@ testEach('a frame after an input event calls the core at most six times, and a r
   await page.mouse.down();
   await page.mouse.move(x + (share < 0.5 ? share + 0.1 : share - 0.1) * width, y + height / 2, { steps: 3 });
   const allCounts = await callsPerFrame();
-  // Map Squeeze times its samplers until the first input.
+  // Map Squeeze measures the costs of its samplers until the first input.
   const counts = allCounts.slice(allCounts.findIndex((calls) => calls.some((key) => key.startsWith('configure'))));
   expect(Math.max(...counts.map(({ length }) => length)), `${name}: ${JSON.stringify(counts)}`).toBeLessThanOrEqual(6);
   expect(counts.flat(), name).toEqual(expect.arrayContaining([expect.stringMatching(/^configure/), 'read']));
   await page.mouse.up();
-  // Map Squeeze times them again once nothing moves.
+  // Map Squeeze measures them again once nothing moves.
   expect((await callsPerFrame()).flat().filter((key) => !['picture', 'surface', 'trial'].includes(key)), name).toEqual([]);
 });
 

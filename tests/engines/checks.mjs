@@ -15,7 +15,7 @@ import { machineState } from './inside.js';
 
 /** @typedef {import('./browsers.mjs').Engine} Engine */
 
-/** Number of steps of a drag, because a user's hand does not jump either. */
+/** Number of steps of a drag: a hand does not jump to the end. */
 const STEPS = 8;
 
 /** A picture with at most so many colours counts as blank: lines, letters and a cloud have many shades. */

@@ -8,7 +8,7 @@ import { clamp } from '../ui/clamp.ts';
 /** Axis-aligned part of a view's world. */
 export type Extent = { xMin: number, yMin: number, xMax: number, yMax: number };
 
-/** Fraction of a view that its content fills at least after a change by the page. Below it the view zooms in. */
+/** Minimum fraction of a view that its content fills after a change by the page. If it fills less, the view zooms in. */
 const MIN_FILL = 0.45;
 
 /** Margin around the content of a view, relative to its size. */
@@ -27,7 +27,7 @@ export class View {
   #target: Extent | undefined;
   /** Part of the world that the view has to show, also after a change of the canvas size. */
   #neededRoom: Extent | undefined;
-  /** Fraction of the view that its content has to fill after the next fit. With 0 the view only zooms out. */
+  /** Minimum fraction of the view that its content fills after the next fit. With 0 the view only zooms out. */
   #minFill = 0;
   /** True after the view has zoomed out. The picture resets it. */
   widened = false;
@@ -66,7 +66,7 @@ export class View {
     return this.#target !== undefined;
   }
 
-  /** Lets the next fit zoom in and recenter if the content fills less than a fraction of the view: with 1 in any case. */
+  /** Lets the next fit zoom in and recenter if the content fills less than `minFill` of the view. With 1 it always does. */
   release(minFill = MIN_FILL) {
     this.#minFill = Math.max(this.#minFill, minFill);
   }

@@ -174,7 +174,7 @@ fn a_dragged_end_is_reached() {
             // A chord d on an arc of length s = |v|Δt carries the rounding of s.
             let rounding = 1e-14 * (1.0 + (command.v * dt).abs());
             assert!(pose_distance(&end_position, &SE2::new(x, y, 0.0)) < rounding, "({x}, {y}): {end}");
-            // The command drives that arc to the end whose turn is nearest to the present turn. A straight line is the only arc to its end.
+            // Arcs to one end differ by whole circles: the nearest turn is within π of the present one. A straight line is the only arc to its end.
             assert!(((command.omega - omega) * dt).abs() <= PI + 1e-14 || command.omega == 0.0);
         }
     }

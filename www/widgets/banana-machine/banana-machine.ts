@@ -125,7 +125,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return pinned ? this.#pinnedReading.get([pinned], () => readingOfSettings(this.motion, pinned)) : undefined;
   }
 
-  /** Pins the outlines and numbers for comparison, or removes those that are pinned. Those of a growing cloud are of all its robots. */
+  /** Pins the outlines and numbers for comparison, or removes those that are pinned. Those of a growing cloud are of the complete cloud. */
   #pin() {
     const { config } = this.currentReading;
     this.gesture.choose('pinned', this.state.elementState.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });

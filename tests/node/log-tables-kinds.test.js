@@ -140,10 +140,38 @@ test('pauses and jumps are found, and a heading that wraps is no jump', async ()
 });
 
 test('a clock that was set forward is noted, and pauses are none', async () => {
-  const logOf = (/** @type {(t: number) => number} */ clock, /** @type {number[]} */ lost = []) => readTable(['t,x,y,yaw', ...CIRCLE.filter((_, i) => !lost.includes(i)).map(([t, ...pose]) => [clock(t), ...pose])].join('\n'));
-  const [setLog, pausedLog, stopsLog] = [await logOf((t) => t + (t > 20 ? 0.75 : 0)), await logOf((t) => t, Array.from({ length: 15 }, (_, i) => 401 + i)), await logOf((t) => t + 5 * Math.floor(t / 15))];
-  assert.deepEqual([setLog, pausedLog, stopsLog].map(({ summary }) => summary.notes), [[{ name: 'clockSet', values: [20, 0.8000000000000007] }], [], []]);
+  const logOf = (/** @type {(t: number) => number} */ clock, /** @type {(i: number) => number[]} */ pose = (i) => CIRCLE[i].slice(1)) => readTable(['t,x,y,yaw', ...Array.from({ length: 780 }, (_, i) => [clock(i / 20), ...pose(i)])].join('\n'));
+  const set = (/** @type {number} */ t) => t + (t > 20 ? 0.75 : 0);
+  const [setLog, ...pausedLogs] = await Promise.all([
+    logOf(set),
+    logOf(set, (i) => CIRCLE[i > 400 ? i + 15 : i].slice(1)),
+    // A node that publishes only while the robot moves, messages that were held up, and a robot that brakes or turns in the gap.
+    logOf((t) => t + 5 * Math.floor(t / 15)),
+    logOf((t) => (t > 20 && t < 20.8 ? 20.8 - (20.8 - t) / 50 : t)),
+    logOf(set, (i) => [0.2 * Math.sign(i - 400.5) * (Math.hypot(1, (i - 400.5) / 8) - 1), 0, 0]),
+    logOf(set, (i) => [Math.min(i - 400, 0) / 40, Math.max(i - 401, 0) / 40, 0]),
+  ]);
+  assert.deepEqual([setLog, ...pausedLogs].map(({ summary }) => summary.notes), [[{ name: 'clockSet', values: [20, 0.8000000000000007] }], ...pausedLogs.map(() => [])]);
+  const [pausedLog] = pausedLogs;
   assert.deepEqual([[pausedLog, setLog, setLog, setLog], [setLog, setLog, pausedLog, pausedLog]].map(warningsOf), [['clockSet'], []]);
+});
+
+/** Turns on the spot at 9 m/s. @param {number[]} row */
+const spinRow = ([t]) => [t, 5 * (t - Math.sin(t / 2) * 2), 0, Math.sin(t) * Math.cos(t / 2) ** 8];
+
+test('ordinary logs are neither of two paths nor in another unit', async () => {
+  const wrapped = (/** @type {number} */ angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
+  for (const table of [
+    // Few rows a round, vibrations, a single pose elsewhere, a fast cart whose heading is noisy at rest, and a name with a unit.
+    circleTable((_, i) => [2 * i, Math.sin(i), -Math.cos(i), wrapped(i)]),
+    circleTable(([t, , , yaw], i) => [t, (i % 2) / 25, 0, yaw]),
+    circleTable(([t], i) => (i < 10 ? [t, i === 4 ? 5 : 0, 0, 0] : [])),
+    circleTable(([t], i) => {
+      const angle = (60 * Math.floor(i / 100) + Math.min(60, i % 100)) / 80;
+      return [t, 20 * Math.sin(angle), -20 * Math.cos(angle), wrapped(angle + 0.03 * Math.sin(i * i))];
+    }),
+    circleTable(spinRow, 't,x_m,y_m,yaw'),
+  ]) assert.equal((await readTable(table)).summary.units.length.unit, 'm');
 });
 
 test('units are guessed from two signs', async () => {
@@ -172,10 +200,10 @@ test('units are guessed from two signs', async () => {
 const UNIT_QUESTIONS = [
   ['millimetres', circleTable(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE[9][1]]],
   ['centimetres of a slow robot', circleTable(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: m or cm or mm\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
-  ['centimetres of a slow robot that turns on the spot', circleTable(([t]) => [t, 5 * (t - Math.sin(t / 2) * 2), 0, Math.sin(t) * Math.cos(t / 2) ** 8]), /in m, the robot would drive at 9\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['x', 0.05 * (0.45 - Math.sin(0.225) * 2)]],
+  ['centimetres of a slow robot that turns on the spot', circleTable(spinRow), /in m, the robot would drive at 9\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['x', 0.05 * (0.45 - Math.sin(0.225) * 2)]],
   ['commands in centimetres', ['t,v,omega', ...timesFrom(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
   ['metres that a name has as millimetres', circleTable(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }, ['x', CIRCLE[9][1]]],
-  ['commands in milliseconds', ['t,v,omega', ...timesFrom(50).map((t) => `${1000 * t},0.5,0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
+  ['commands in milliseconds', ['t,v,omega', ...timesFrom(50).map((t, i) => `${1000 * t},${i % 2},0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
   ['seconds that a name has as nanoseconds', circleTable(undefined, 't_ns,x,y,yaw'), /in ns, the times would mean/, { timeUnit: 's' }, ['t', CIRCLE[9][0]]],
   ['degrees of a robot that drives straight on', circleTable(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }, ['theta', (Math.sin(0.05) * Math.PI) / 9]],
   ['radians that a name has as degrees', circleTable(undefined, 't,x,y,yaw_deg'), /headings in deg .*: rad or deg\.$/, { angleUnit: 'rad' }, ['theta', CIRCLE[9][3]]],

@@ -32,8 +32,8 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
-/** Number of rows from which speeds before and after a gap are computed, twice each, and minimum speed (m/s) of a robot that drives. */
-const [SPEED_ROWS, MIN_DRIVING_SPEED] = [4, 0.1];
+/** Number of rows of a motion. Two motions before a gap and two after it show whether the robot drove on steadily. */
+const MOTION_ROWS = 4;
 
 /** Periods (s) after which clocks begin at 0 again: a day, a week of GPS, and 32-bit counters of an unstated unit, ms or µs. */
 const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
@@ -41,7 +41,11 @@ const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 /** Minimum period of a clock that wraps around, in median steps of its times. A clock that was set back might match a shorter period by chance. */
 const MIN_PERIOD_STEPS = 500;
 
-/** Two paths whose poses alternate: minimum distance (m), and minimum number of poses far from the next. Maximum number of rows and seconds until a path continues, and maximum fraction of poses that are still far then. */
+/**
+ * Limits for two paths whose poses alternate. The distance (m) has a minimum, as shorter steps may be vibrations. So has the number of poses
+ * far from the next one, as fewer may be jumps. The rows and seconds until a path continues have maxima, as a robot that drives rounds comes
+ * back later. The fraction of poses that are still far then has a maximum.
+ */
 const [MIN_PATH_DISTANCE, MIN_LONG_STEPS, MAX_RETURN_ROWS, MAX_RETURN_SECONDS, MAX_LONG_FRACTION] = [0.05, 20, 8, 1, 0.2];
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
@@ -358,12 +362,13 @@ function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): num
 /** Returns true if a robot drives on after a gap in the times from where it was before, steadily: its clock was set forward. */
 function isSetForward(t: Float64Array, x: Float64Array, y: Float64Array, i: number, medianStep: number): boolean {
   const motion = (from: number, to: number) => [x[to] - x[from], y[to] - y[from]];
-  const motions = [i - 1 - 2 * SPEED_ROWS, i - 1 - SPEED_ROWS, i, i + SPEED_ROWS].map((from) => motion(from, from + SPEED_ROWS));
+  const motions = [i - 1 - 2 * MOTION_ROWS, i - 1 - MOTION_ROWS, i, i + MOTION_ROWS].map((from) => motion(from, from + MOTION_ROWS));
   const lengths = motions.map(([dx, dy]) => Math.hypot(dx, dy));
   const slowest = Math.min(...lengths);
   const isStraight = Math.hypot(sum(motions, ([dx]) => dx), sum(motions, ([, dy]) => dy)) > 0.95 * sum(lengths);
-  const isSteady = slowest > 0.7 * Math.max(...lengths) && slowest > MIN_DRIVING_SPEED * SPEED_ROWS * medianStep;
-  return isStraight && isSteady && SPEED_ROWS * Math.hypot(...motion(i - 1, i)) < 2 * slowest && t[i + SPEED_ROWS] - t[i] > 0.5 * SPEED_ROWS * medianStep;
+  const isSteady = slowest > 0.7 * Math.max(...lengths);
+  // Messages that were held up in the gap come in quick succession after it.
+  return isStraight && isSteady && MOTION_ROWS * Math.hypot(...motion(i - 1, i)) < 2 * slowest && t[i + MOTION_ROWS] - t[i] > 0.5 * MOTION_ROWS * medianStep;
 }
 
 /** Returns a function that checks for a jump between a row and the one before it. */

@@ -1,6 +1,5 @@
 /** Units of a log, judged by two independent pieces of evidence. If they disagree, the log is refused with a question. */
 
-import { sum } from 'd3-array';
 import { LogError, type Place } from './log-error.ts';
 import { UNITS, type AngleUnit, type LogKind, type OpenOptions, type Question, type Summary, type TimeUnit } from './log.ts';
 import { quantile, sample } from './quantile.ts';
@@ -192,14 +191,15 @@ function speedOf(t: Float64Array, x: Float64Array, y: Float64Array, step: number
   return quantile(sample(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
 }
 
-/** Returns true if a robot, of this speed in its units, turns on the spot for a tenth of all its turning. */
+/** Returns true if a robot, of this speed in its units, makes a fifth of its large turns on the spot. */
 function turnsOnSpot(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array, step: number, speed: number): boolean {
   const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / step)), t.length - 1);
   const turnOf = (i: number) => Math.abs(heading[i + stride] - heading[i]);
-  // Headings that wrap would look like large turns.
-  const largestTurn = quantile(sample(t.length - stride, turnOf), 0.95);
-  const turns = (isOnSpot: boolean) => sum(sample(t.length - stride, (i) => (!isOnSpot || Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) < 0.1 * speed * (t[i + stride] - t[i]) ? Math.min(turnOf(i), largestTurn) : 0)));
-  return turns(true) > 0.1 * turns(false);
+  const isOnSpot = (i: number) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) < 0.1 * speed * (t[i + stride] - t[i]);
+  const largeTurn = quantile(sample(t.length - stride, turnOf), 0.95);
+  // Smaller turns may be noise.
+  const largeTurns = sample(t.length - stride, (i) => i).filter((i) => turnOf(i) > 0.5 * largeTurn);
+  return largeTurns.filter(isOnSpot).length > 0.2 * largeTurns.length;
 }
 
 /** Returns the 90 % quantile of the accelerations between successive steps. */

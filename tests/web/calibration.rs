@@ -132,7 +132,7 @@ fn the_figure_opens_with_a_log_of_known_alphas() {
     );
     assert_eq!(
         it.get::<Vec<usize>>(
-            "it.panels('turn').map(({ alpha }) => alpha).concat(it.panels('way').map(({ alpha }) => alpha))"
+            "it.panels('turn').map(({ alpha }) => alpha).concat(it.panels('distance').map(({ alpha }) => alpha))"
         ),
         [0, 3, 0, 1, 2, 1]
     );

@@ -59,8 +59,8 @@ impl FloorPlanError {
         let joined = |numbers: &[f64]| numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
         match self {
             Self::BadBounds(bounds) => format!(
-                "bounds is [{}]; allowed is least x, least y, greatest x, greatest y: numbers from -1000000 to \
-                 1000000, the sides from 0.01 to 100000",
+                "bounds is [{}]; allowed is min x, min y, max x, max y: numbers from -1000000 to 1000000, the sides \
+                 from 0.01 to 100000",
                 joined(bounds)
             ),
             Self::BadGrid(bounds) => format!(

@@ -120,8 +120,8 @@ fn a_malformed_plan_or_map_is_explained_and_the_present_one_stays() {
         it.machine.setPlan({ bounds: [0, 0, 1], walls: [] })
         RangeError: bounds has length 3; allowed is an array of 4 numbers
         it.machine.setPlan({ bounds: [1, 0, 0, 1], walls: [] })
-        RangeError: bounds is [1, 0, 0, 1]; allowed is least x, least y, greatest x,
-            greatest y: numbers from -1000000 to 1000000, the sides from 0.01 to 100000
+        RangeError: bounds is [1, 0, 0, 1]; allowed is min x, min y, max x,
+            max y: numbers from -1000000 to 1000000, the sides from 0.01 to 100000
         it.machine.setPlan({ bounds: [0, 0, 1, 1] })
         TypeError: walls is undefined; allowed is an array of walls, each [x, y, x, y]
         it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 1]] })

@@ -22,7 +22,7 @@ js_structs! {
         pub cartesian: CartesianMoments,
         /// Moments of the poses in exponential coordinates about the start; NaN if the coordinates are undefined for the cloud.
         pub exponential: ExponentialMoments,
-        /// Third standardized moment across the mean heading; positive with the longer tail at its left.
+        /// Third standardized moment of the position across the mean heading; positive if the longer tail is to the left.
         pub cross_track_skew: f64,
         /// Standard error of the cross-track skew.
         pub cross_track_skew_error: f64,
@@ -127,7 +127,7 @@ js_structs! {
         pub mean: Vector3<f64> as "number[]",
         /// Covariance of the pose, 3 × 3.
         pub cov: Matrix3<f64> as "number[][]",
-        /// Third standardized moment across the mean heading.
+        /// Third standardized moment of the position across the mean heading.
         pub cross_track_skew: f64,
         /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates; 0 for the linearization.
         pub likelihood_gain: LikelihoodGain,

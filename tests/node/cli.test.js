@@ -81,17 +81,6 @@ test('systematic errors are corrected or left in by name, all of them or single 
   assert.deepEqual(await correctOf('--correct clockOffset --no-correct all'), { ...noCorrection, clockOffset: true });
 });
 
-test('several drives reach the core together, with times after one start', async () => {
-  const drives = ['2', '3'].flatMap((digit) => ['odometry', 'reference'].flatMap((role) => {
-    const rows = Array.from({ length: 40 }, (_, i) => `${digit}00.${10 + i},${role === 'odometry' ? i / 10 : i / 9},0,0`);
-    return [`--${role}`, fileWith(`${role}${digit}.csv`, ['t,x,y,yaw', ...rows].join('\n'))];
-  }));
-  const { odometry: odometryLogs, reference } = await callOf(drives);
-  for (const logs of [odometryLogs, reference]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.round(t[0])), [0, 100]);
-  const { err } = await outputOf(drives.slice(0, 6));
-  assert.equal(err, 'there are 2 logs of odometry and 1 of the reference; give one of each for a drive.\n');
-});
-
 test('a recording has both logs, by topics and frames that are clear or named', async () => {
   const messages = Array.from({ length: 40 }, (_, i) => {
     const t = 100 + i / 20;

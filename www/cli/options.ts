@@ -150,7 +150,6 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
     for (const [one, other] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
       if (one.length > 0 && !values[other]) throw new UsageError(`--${other} is missing; give a file or folder, or a recording with both.`);
     }
-    if (odometry.length !== reference.length) throw new UsageError(`there are ${odometry.length} logs of odometry and ${reference.length} of the reference; give one of each for a drive.`);
     if (odometry.length === 0) throw new UsageError('no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.');
   }
   for (const role of ROLES) {

@@ -79,7 +79,7 @@ test('a question is asked where a role is not clear', async () => {
   for (const [series, sentence, what, role, choices, frames, wishes] of /** @type {[Parameters<typeof recording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
-    [{ '/odom': 'odometry', '/odometry/filtered': 'odometry' }, 'by its names and types it has no reference, but /odom (Odometry), ', 'series', 'reference', []],
+    [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/cmd_vel': 'twist' }, 'by its names and types it has no reference, but /odom (Odometry), ', 'series', 'reference', []],
     [{ '/cmd_vel': 'twist', '/amcl_pose': 'pose' }, 'by its names and types it has no odometry, but ', 'series', 'odometry', ['/cmd_vel']],
     [{ '/odom': 'odometry', '/goal_pose': 'pose' }, 'by its names and types it has no reference, but ', 'series', 'reference'],
     [{ '/odom': 'odometry' }, 'it has no transforms between frames; it has /odom (Odometry).', 'series', 'odometry', ['/odom'], [], { odometry: { frames: { parent: 'odom', child: 'base' } } }],

@@ -246,7 +246,7 @@ const REFUSED_TABLES = [
   ['hexadecimal digits', 't,x,y,yaw\n0x10,0,0,0\n', /, line 2: t is “0x10”;/],
   ['thousands beside decimal commas', 't;x;y;yaw\n0,5;1.234;0;0\n1,5;1;0;0\n', /, line 2: x is “1\.234”;/],
   ['days of a spreadsheet', circleTable(([t, ...pose]) => [45_244 + t / 86_400, ...pose]), /rows a second; write them in s, or as dates such as .* \(a spreadsheet counts days\)\.$/],
-  ['thousands in quotes', circleTable(([t, x, y, yaw]) => [`"1,7${String(1000 * t).padStart(5, '0')}"`.replace(/(?=\d{3}")/, ','), x, y, yaw], 't_ms,x,y,yaw'), /t_ms is “1,700,000”; expected is a number without separators of thousands\./],
+  ['thousands in quotes', circleTable(([t, x, y, yaw]) => [`"${1000 * t}"`.replace(/\B(?=\d{3}")/, ','), x, y, yaw], 't_ms,x,y,yaw'), /t_ms is “1,000”; expected is a number without separators of thousands\./],
   ['decimal commas between commas', 't,x,y,yaw\n0,5,1,25,2,5,0,1\n1,5,1,25,2,5,0,1\n', /has 8 cells, and the header in line 1 4;/],
   ['short rows', 't,x,y,yaw\n0,0,0,0\n0,0,0\n1,0,0,0\n', /, line 3: the row has 3 cells;/],
   ['a long line', `t,x,y,yaw\n0,0,0,0\n${'1'.repeat(400_000)}`, /, line 3: the line has more than 65536 bytes;/],

@@ -129,7 +129,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   const rows = first ? textLines.filter(({ number }) => number >= first.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];
   // Between commas, a comma in quotes may also separate thousands.
   const isDecimal = (cell: string) => DECIMAL_COMMA.test(cell) && (separator !== ',' || !THOUSANDS.test(cell));
-  const hasCommas = (separator !== ',' || rows.every((row) => !row.some((cell) => /^[+-]?\d*\.\d+$/.test(cell)))) && rows.flat().some(isDecimal);
+  const hasCommas = rows.flat().some(isDecimal);
   const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
   const commonFormat = { name: 'csv' as const, separator, hasCommas, firstLine: first?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
   const errorPlace = { file, line: first?.number ?? filledLines[0].number };
@@ -168,7 +168,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
 function groupsBySource(group: Group, rows: string[][]): Group[] {
   const at = group.columns.source?.at ?? -1;
   const sources = [...new Set(rows.map((row) => row[at]?.trim() ?? ''))].filter(Boolean);
-  return sources.length > 1 && 2 * sources.length <= rows.length ? sources.map((name) => ({ ...group, name, source: { at, name } })) : [group];
+  return sources.length > 1 ? sources.map((name) => ({ ...group, name, source: { at, name } })) : [group];
 }
 
 const bareUnit = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
@@ -176,7 +176,7 @@ const bareUnit = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
 /** Adds the units of a row below the header to the names. */
 function withUnits(names: string[], below: string[][]): string[] {
   const units = below.map((row) => row.map(bareUnit)).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
-  return names.map((name, i) => (units && isUnit(units[i]) && !/[\])}]$/.test(name) ? `${name} [${units[i]}]` : name));
+  return names.map((name, i) => (units && isUnit(units[i]) ? `${name} [${units[i]}]` : name));
 }
 
 /** Groups columns. A column without a name has times if its first cell is a date or a fraction. A whole number there is a row number. */
@@ -194,7 +194,7 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
     const isComment = /^#|^%(?!time)/.test(textLine) || textLine !== line.trim();
     const commentText = textLine.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
     // A commented header may have another separator than the rows.
-    const possibleCells = [cellsOf(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}|\t/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
+    const possibleCells = [cellsOf(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
     const names = possibleCells.find((cells) => cells.length === width) ?? possibleCells[0];
     if (!isHeader(names)) continue;
     const fieldNames = columnGroups(names, row).flatMap(({ columns }) => Object.keys(columns));

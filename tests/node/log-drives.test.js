@@ -260,6 +260,6 @@ test('a summary has the distance driven, units and how they were judged, dropped
   assert.deepEqual(summarySentences(reference, english.found), [
     '199 of 200 rows, 12.9 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m, yaw in degrees (by name)',
     'left out: 1 row, line 11: a value that is not finite', 'gaps: 1, the first 5.00 s after the start, the longest of 3.05 s',
-    'notes: 5.00 s after the start the times jump by 3.1 s, and the robot drives on from where it was, as if the clock was set: cut the log there, or use times of another clock',
+    'notes: 5.00 s after the start the times jump by 3.1 s, and the robot drives on from where it was, as if the clock had been set: cut the log there, or use times of another clock',
   ]);
 });

@@ -8,7 +8,7 @@ import type { Recording, Source } from '../logs/log.ts';
 import { openRecordings } from '../logs/open.ts';
 import type { InputPath } from './options.ts';
 
-/** Opens a file or a folder; rejects with a LogError. Files beside a log that are none are skipped, each with a call of `onSkip`. */
+/** Opens a file or a folder; rejects with a LogError. Skips files that are not logs, each with a call of `onSkip`, if there is a log beside them. */
 export async function recordingsOf({ path, open }: InputPath, onSkip: (error: LogError) => void): Promise<Recording[]> {
   const errors: LogError[] = [];
   const recordings = await openRecordings(await openSources(path), open, (error) => errors.push(error));

@@ -113,7 +113,7 @@ interface InspectArguments {
 /** Parses the arguments; throws a UsageError. */
 export function optionsOf(args: string[]): CalibrateArguments | InspectArguments | 'help' | 'version' {
   const { values, positionals: [command, ...givenPaths] } = parseArguments(args);
-  // The files that a shell gives for run/* are a recording, which is their folder.
+  // A metadata.yaml stands for its folder. A shell that expands a pattern gives all files of the folder.
   const folders = givenPaths.filter((path) => basename(path) === 'metadata.yaml').map(dirname);
   const paths = [...new Set(folders), ...givenPaths.filter((path) => !folders.includes(dirname(path)))];
   if (values.version) return 'version';

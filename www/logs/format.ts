@@ -148,7 +148,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   const header = headerOf(linesAbove, separator, rowWidth, rows[0]);
   if (header) {
     const { number } = header;
-    const names = withUnits(header.names, linesAbove.filter((each) => each.number > number).map(({ line }) => cells(line)));
+    const names = withUnits(header.names, linesAbove.flatMap((text) => (text.number > number ? [cells(text.line)] : [])));
     // Rows with decimal commas between commas have more cells than the header.
     if (rowWidth > names.length) throw new LogError({ file, line: first?.number }, (say) => say.wide(rowWidth, names.length, number));
     const groups = columnGroups(names, rows[0]).flatMap((group) => groupsBySource(group, rows));
@@ -198,7 +198,7 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
     const names = possibleCells.find((cells) => cells.length === width) ?? possibleCells[0];
     if (!isHeader(names)) continue;
     const fieldNames = columnGroups(names, row).flatMap(({ columns }) => Object.keys(columns));
-    // A row of units below the header may have V.
+    // In a row of units below the header, V for volts looks like the name of a speed.
     if (names.filter((name) => isUnit(bareUnit(name))).length > fieldNames.length) continue;
     if (isComment && (fieldNames.length < 3 || (names.length !== width && fieldNames.length < 4))) continue;
     if (isComment || fieldNames.length > 0 || !above.some((earlier) => earlier.number < number && !/^\s*["#%]?sep=/i.test(earlier.line) && columnGroups(cellsOf(earlier.line, separator), row).length > 0)) {

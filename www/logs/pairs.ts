@@ -20,7 +20,7 @@ const [COMPARED_ROWS, MIN_EQUAL_ROWS] = [500, 10];
 /** Maximum difference (m and rad) between copies of one path, due to rounding to six digits. */
 const COPY_TOLERANCE = 1e-5;
 
-/** Steps in m to which positions of a file may be rounded, and minimum length, in steps, of a path that is compared so: no odometry stays within half a step that far. */
+/** Steps in m to which positions of a file may be rounded, and minimum length of such a path, in steps. No odometry stays within half a step that far. */
 const [ROUNDING_STEPS, MIN_ROUNDED_LENGTH] = [[1e-2, 1e-3, 1e-4], 2000];
 
 /** Minimum motion, in m and rad, of paths that are compared. */
@@ -101,8 +101,8 @@ function signOfSwap(odometry: Log, reference: Log): 'name' | 'rest' | undefined 
 const WARNING_NAMES: Warning[] = ['localizer', 'swapped', 'clockSet'];
 
 /**
- * Returns the notes that make the α's doubtful, of the logs of drives: odometry and reference in turns. A clock that was set for both logs of a
- * drive makes nothing doubtful: a simulator may have paused.
+ * Returns the notes that make the α's doubtful. The logs are those of drives, the odometry of each before its reference. A clock that was set
+ * for both makes nothing doubtful: a simulator may have paused.
  */
 export function warningsOf(logs: Pick<Log, 'summary'>[]): Warning[] {
   const hasNote = (i: number, warning: Warning) => logs[i].summary.notes.some(({ name }) => name === warning);

@@ -118,7 +118,7 @@ function timeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, lengt
   return ask('timeUnit', rateWithUnit(assumed.unit), assumed.unit, units.filter((unit) => isInRange(rateWithUnit(unit), USUAL_RATES)));
 }
 
-/** Checks lengths by the speed of the robot, by its acceleration, and by its turns: nothing that is fast turns on the spot. */
+/** Checks lengths by the speed of the robot, by its acceleration, and by its turns: a fast robot does not turn on the spot. */
 function checkLength(kind: LogKind, { t, a, b, c }: Columns, { unit, by }: Units['length'], ask: Ask): void {
   const step = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const speed = kind === 'poses' ? speedOf(t, a, b, step) : quantile(sample(a.length, (i) => Math.abs(a[i])), 0.9);

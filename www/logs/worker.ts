@@ -94,8 +94,8 @@ function buffersOf(result: unknown): ArrayBuffer[] {
 const PROGRESS_INTERVAL = 50;
 
 /**
- * Answers the requests on a port. The first message has the core. `instantiate` is a parameter and not an import: in a script that is one
- * file, esbuild puts everything that a dynamic import reaches into functions, and a browser would read the bytes of the core twice.
+ * Answers the requests on a port. The first message has the core. `instantiate` is a parameter, as an import would slow down a script that
+ * is one file. esbuild wraps modules that a dynamic import reaches in functions, and a browser parses functions twice.
  */
 export function serveRequests(port: Pick<MessagePort, 'onmessage' | 'postMessage'>, instantiate: (core: SharedCore) => Promise<Motion>) {
   let session: LogSession;

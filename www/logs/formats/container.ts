@@ -118,7 +118,7 @@ export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) +
 
 /** Splits a time in nanoseconds into seconds and nanoseconds. Reading a BigInt takes as long as the rest of the message. */
 export function stampAt(view: DataView, at: number) {
-  // The number may be rounded up to the next second. The lower 32 bits of the remainder are exact, and negative then.
+  // The number may be rounded up to the next second. The remainder, whose lower 32 bits are exact, is then negative.
   const seconds = Math.floor(uint53(view, at) / 1e9);
   const nanoseconds = (view.getUint32(at, true) - Math.imul(seconds, 1e9)) | 0;
   return nanoseconds < 0 ? { seconds: seconds - 1, nanoseconds: nanoseconds + 1e9 } : { seconds, nanoseconds };

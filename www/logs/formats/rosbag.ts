@@ -39,7 +39,7 @@ class HeaderFields {
     return this.#find(name)[0] > 0;
   }
 
-  /** Returns a field; throws a RangeError if there is none. So do the following. */
+  /** Returns a field; throws a RangeError if there is none, as the methods below do. */
   text(name: string): string {
     return new TextDecoder().decode(this.#bytes.subarray(this.#position(name), this.#find(name)[1]));
   }

@@ -257,7 +257,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   resolveSettled() {
     if (!this.isAwaited) return;
     const { machine, cloud, settings, runtime, renderer } = this;
-    const isSettled = machine ? !this.isBusy && !settings.isWaiting && !renderer.isBehind && !this.isUpdatePending && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
+    const isSettled = machine ? !this.isBusy && !settings.isWaiting && !renderer.isBehind && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
     if (isSettled) for (const resolve of this.#waiting.splice(0)) resolve();
   }
 

@@ -240,8 +240,7 @@ test('units are stated for both logs, or for each', async () => {
 test('a folder gives its logs, and other files are skipped', async () => {
   const path = join(folder, 'drive');
   mkdirSync(path);
-  for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference']]) writeFileSync(join(path, name), readFileSync(example(from)));
-  writeFileSync(join(path, '._odom.csv'), readFileSync(example('odometry')));
+  for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(path, name), readFileSync(example(from)));
   writeFileSync(join(path, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
   writeFileSync(join(path, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
   let inspected = '';

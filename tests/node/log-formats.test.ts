@@ -156,7 +156,7 @@ test('a database whose transaction was never finished has the messages of all it
   bytes.fill(0, root, root + 5)[root] = 13;
   const log = await odometryOf(bytes, 'run.db3');
   assert.deepEqual(rowsOf(log), range(0, 100));
-  assert.match(summaryText(log), /notes: the file is incomplete/);
+  assert.match(summaryText(log), /notes: the file is incomplete: it ends in the middle of a row or record$/);
 });
 
 test('a damaged message is dropped, and a file of damaged headers or compression is refused', async () => {
@@ -193,11 +193,11 @@ test('LZ4 frames of another size are refused, and any damage to one with checksu
 
 test('formats that are not read are refused with the cure, by their contents', async () => {
   const magicBytes: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
-    ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['sqlitePart', '\x18\xe2\x2d\0'], ['zip', 'PK\x03\x04'],
+    ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['sqlitePart', '\x18\xe2\x2d\0'], ['sqlitePart', '\xd9\xd5\x05\xf9'], ['zip', 'PK\x03\x04'],
     ['gzip', '\x1f\x8b\x08'], ['bzip2', 'BZh9'], ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
   ];
   for (const [format, start] of magicBytes) assert.equal(await sentenceOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
-  assert.deepEqual(magicBytes.map(([format]) => format).toSorted(), Object.keys(UNSUPPORTED_FORMATS).toSorted());
+  assert.deepEqual(new Set(magicBytes.map(([format]) => format)), new Set(Object.keys(UNSUPPORTED_FORMATS)));
 });
 
 test('a recording without one whole message is incomplete, and the tool that repairs it is named', async () => {

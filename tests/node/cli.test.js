@@ -130,7 +130,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--seed', '1'], 'unknown option --seed; --help lists all.'],
     [['--update-min-d', '--json'], '--update-min-d needs a value.\n'],
     [['--columns', '-,t,x,y,yaw'], '--columns needs a value; one that begins with a dash follows “=”, as in --columns=-,t,x,y,yaw.\n'],
-    [['a.bag', '--json=3'], '--json takes no value.\n'],
+    [['a.bag', '--help=3'], '--help takes no value.\n'],
     [['-r', 'nav2', 'a.bag'], 'unknown option -r; options have whole names, as in --rule nav2, --help lists all.'],
     [['a.bag', '-rule', 'nav2'], 'unknown option -rule; the nearest is --rule, --help lists all.'],
     [[ARGS[1], fileWith('degrees.csv', readFileSync(example('reference'), 'utf8').replace('yaw', 'yaw_deg'))], 'degrees.csv: headings in deg would turn at 0.0166 rad/s, and do not agree with the path or with their range; state their unit: rad or deg. Choose with --angle-unit, as in --angle-unit rad; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit deg,rad.\n'],
@@ -246,7 +246,7 @@ test('a folder gives its logs, and other files are skipped', async () => {
   let inspected = '';
   await run(['inspect', path], { load, print: (text) => (inspected += text), complain: () => {} });
   assert.match(inspected, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
-  const { code, out, err } = await outputOf([path]);
+  const { code, out, err } = await outputOf(['metadata.yaml', 'odom.csv'].map((name) => join(path, name)));
   assert.deepEqual([code, out.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
   assert.match(err, /^skipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
 });

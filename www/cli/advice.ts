@@ -15,7 +15,7 @@ export function optionAdvice({ ask, message }: LogError): string {
   if (what in UNITS) {
     const allUnits: readonly string[] = UNITS[what as keyof typeof UNITS];
     const usualUnit = doubted ?? allUnits[0];
-    const otherUnit = [...choices, ...allUnits.toReversed()].find((unit) => unit !== usualUnit);
+    const otherUnit = [...choices, ...allUnits].find((unit) => unit !== usualUnit);
     return ` Choose with ${optionText}, as in ${optionText} ${otherUnit}; if odometry and reference differ, with --odometry FILE --reference FILE ${optionText} ${usualUnit},${otherUnit}.`;
   }
   const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];

@@ -134,6 +134,8 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['-r', 'nav2', 'a.bag'], 'unknown option -r; options have whole names, as in --rule nav2, --help lists all.'],
     [['a.bag', '-rule', 'nav2'], 'unknown option -rule; the nearest is --rule, --help lists all.'],
     [[ARGS[1], fileWith('degrees.csv', readFileSync(example('reference'), 'utf8').replace('yaw', 'yaw_deg'))], 'degrees.csv: headings in deg would turn at 0.0166 rad/s, and do not agree with the path or with their range; state their unit: rad or deg. Choose with --angle-unit, as in --angle-unit rad; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit deg,rad.\n'],
+    [[fileWith('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw.\n'],
+    [[fileWith('days.csv', ['t,x,y,yaw', ...Array.from({ length: 40 }, (_, i) => `${45_244 + i / 1_728_000},${i / 40},0,0`)].join('\n')), ARGS[3]], 'days.csv: in s, the times would mean 1.73e+6 rows a second; write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days).\n'],
     [['no/metadata.yaml', 'no/run.mcap'], 'no: there is no such file or folder.\n'],
     [['no.bag', '--rule', 'Nav2'], '--rule is "Nav2"; allowed is '],
     [

@@ -85,6 +85,12 @@ impl JsBananaMachine {
         flat_float_array(&self.0.poses().take(count).map(<[f64; 3]>::from).collect::<Vec<_>>())
     }
 
+    /// Twists as in `twists`, of the first `count` samples, or of all if there are fewer.
+    #[wasm_bindgen(js_name = firstTwists)]
+    pub fn first_twists(&self, count: usize) -> Float64Array {
+        flat_float_array(&self.0.twists().take(count).map(<[f64; 3]>::from).collect::<Vec<_>>())
+    }
+
     /// ξ along, lateral (m), heading (rad) of each sample shown; a copy.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Float64Array {

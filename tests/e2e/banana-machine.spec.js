@@ -6,7 +6,16 @@ test.use(STILL);
 /** Attribute for a bend, where every α has an effect. */
 const GENTLE_PRESET = 'preset="gentle"';
 
-test('a drag keeps the scale, and the view zooms out after it', async ({ page }) => {
+/** Returns the fraction of the robots that are inside the view of exponential coordinates. @param {import('@playwright/test').Locator} widget @returns {Promise<number>} */
+const twistShareInView = (widget) => widget.evaluate((element) => {
+  const { twists, pictures } = /** @type {any} */ (element);
+  const { xMin, xMax, yMin, yMax } = pictures[1].view.extent;
+  const isInView = (/** @type {number} */ along, /** @type {number} */ i) =>
+    i % 3 === 0 && along >= xMin && along <= xMax && twists[i + 2] >= yMin && twists[i + 2] <= yMax;
+  return twists.filter(isInView).length / (twists.length / 3);
+});
+
+test('a drag keeps the scale under the handle, and that view zooms out after it', async ({ page }) => {
   const widget = await openBanana(page, 'preset="banana"');
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   const viewExtent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
@@ -20,6 +29,7 @@ test('a drag keeps the scale, and the view zooms out after it', async ({ page })
     const { x, y } = await centreOf(handle);
     expect(Math.hypot(x - from.x - dx, y - from.y - dy)).toBeLessThan(2);
     expect(await viewExtent()).toEqual(extentBefore);
+    expect(await twistShareInView(widget)).toBeGreaterThan(0.95);
   }
   await page.mouse.up();
   await expect.poll(viewExtent).not.toEqual(extentBefore);
@@ -35,6 +45,11 @@ test('a drag keeps the scale, and the view zooms out after it', async ({ page })
   expect(await viewExtent()).toEqual(extentAfter);
   await widget.getByRole('button', { name: 'Banana' }).click();
   await expect.poll(viewExtent).toEqual(extentBefore);
+});
+
+test('the view of exponential coordinates shows most robots also if turns near 2π make tails of kilometres', async ({ page }) => {
+  const widget = await openBanana(page, 'v="1.35" omega="2"');
+  expect(await twistShareInView(widget)).toBeGreaterThan(0.94);
 });
 
 test('Home and End move the end of the arc to the ends of v, and no key scrolls the page', async ({ page }) => {

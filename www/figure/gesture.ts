@@ -13,7 +13,7 @@ export class Gesture extends FigureController {
   /** Reading of the machine (see Figure.reading) before the present or latest gesture. */
   previousReading: any;
 
-  /** True while a pointer is down on the figure. Views do not zoom meanwhile. */
+  /** True while a pointer is down on the figure. Pictures with handles keep their scale meanwhile. */
   get pressed() {
     return this.#pressListeners !== undefined;
   }

@@ -151,8 +151,8 @@ export class Renderer extends FigureController {
     host.cloud?.advance(this.printing);
     const { scene } = host;
     if (host.reading !== reading) this.#addPictures();
-    const { pressed: still, previousReading } = host.gesture;
-    const options = { elapsed, still, atOnce: this.printing || prefersReducedMotion(), previousReading, highlight: host.highlight, handles: this.printing };
+    const { pressed, previousReading } = host.gesture;
+    const options = { elapsed, atOnce: this.printing || prefersReducedMotion(), previousReading, highlight: host.highlight, handles: this.printing };
     let isMoving = false;
     this.#hasPicturesLeft = false;
     for (const picture of this.#undrawn) {
@@ -161,7 +161,9 @@ export class Renderer extends FigureController {
       const canvas = host.canvases.canvasOf(picture);
       // A figure may have replaced its picture.
       if (!host.pictures.includes(picture) || !hasPixels(canvas)) continue;
-      isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, options) || isMoving;
+      // A drag keeps the scale of pictures with handles, so that they stay under the pointer.
+      const still = pressed && canvas.parentElement!.querySelector('.handle') !== null;
+      isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...options, still }) || isMoving;
       this.#hasPicturesLeft = this.#undrawn.size > 0 && !this.#resizing && performance.now() - beganAt > MAX_PICTURES_MS;
     }
     host.placeHandles(scene);

@@ -145,8 +145,8 @@ export class View {
     const progress = atOnce ? 1 : 1 - Math.exp(-elapsed / EASING_MS);
     const nextExtent = { ...this.extent };
     for (const key of Object.keys(nextExtent) as (keyof Extent)[]) nextExtent[key] += progress * (target[key] - nextExtent[key]);
-    const remainingDistance = Math.abs(nextExtent.xMin - target.xMin) + Math.abs(nextExtent.xMax - target.xMax);
-    const hasArrived = remainingDistance * this.scaleX < 0.5;
+    const remainingDistance = (from: keyof Extent, to: keyof Extent) => Math.abs(nextExtent[from] - target[from]) + Math.abs(nextExtent[to] - target[to]);
+    const hasArrived = remainingDistance('xMin', 'xMax') * this.scaleX + remainingDistance('yMin', 'yMax') * this.scaleY < 0.5;
     this.extent = hasArrived || atOnce ? target : nextExtent;
     return this.extent !== target;
   }

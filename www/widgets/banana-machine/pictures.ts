@@ -1,5 +1,6 @@
 /** The Banana Machine's two pictures of the same robots: the floor from above, and exponential coordinates. */
 
+import { quantile } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
@@ -71,7 +72,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
   places({ machine, stats }: Scene): Float64Array {
     const { morph } = this;
-    return this.#places.get([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.twists, morph)));
+    return this.#places.get([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.firstTwists(MAX_DOTS), morph)));
   }
 
   /** Draws the robots. `area` is the area that they cover, in square pixels. */
@@ -276,10 +277,18 @@ function twistMoments({ config, stats, table }: Scene): Moments[] {
 /** Returns the middle of the cloud at a morph. */
 const morphedMiddle = (scene: Scene, morph: number) => morphedPoint(twistMoments(scene)[0].mean, morph);
 
+/** Fractions of the samples between which a view shows them where their statistics are undefined: the tails there may be kilometres long. */
+const SHOWN_QUANTILES = [0.025, 0.975];
+
 /** Returns points around everything that is visible in exponential coordinates. */
 function pointsOfTwists(scene: Scene) {
   const { v, omega, dt } = scene.config.command;
   const points = [v * dt, omega * dt];
+  if (!scene.chartHolds && scene.shown > 0) {
+    const twists = scene.machine.firstTwists(MAX_DOTS);
+    const [along, heading] = [0, 2].map((coordinate) => twists.filter((_, i) => i % 3 === coordinate));
+    for (const share of SHOWN_QUANTILES) points.push(quantile(along, share)!, quantile(heading, share)!);
+  }
   for (const { mean, cov } of twistMoments(scene)) {
     const [along, heading] = [SHOWN_DEVIATIONS * deviation(cov[0][0]), SHOWN_DEVIATIONS * deviation(cov[2][2])];
     points.push(mean[0] - along, mean[2] - heading, mean[0] + along, mean[2] + heading);

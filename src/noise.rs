@@ -37,7 +37,7 @@ pub struct NegativeVariance(pub f64);
 /// The inversion of an arc of 0.01 s at 1 m/s, a kilometre from the origin, has an error of up to 4e-9 in γ̂, and a larger one at
 /// lower speeds. A smaller bound would therefore reject poses of the sampler itself. No robot is controlled to 0.1 µm/s, so that
 /// the bound accepts no motion that deviates from the command.
-const ROUNDING: f64 = 1e-7;
+const MAX_ZERO_RESIDUAL: f64 = 1e-7;
 
 /// √6: the triangular density of variance b² lives on ±√6·b.
 const SQRT_6: f64 = 2.449_489_742_783_178;
@@ -74,7 +74,7 @@ impl NoiseKind {
     pub fn prob(self, a: f64, b2: Variance) -> f64 {
         let Variance(b2) = b2;
         if b2 == 0.0 {
-            return if a.abs() <= ROUNDING { 1.0 } else { 0.0 };
+            return if a.abs() <= MAX_ZERO_RESIDUAL { 1.0 } else { 0.0 };
         }
         match self {
             Self::Normal => libm::exp(-0.5 * a * a / b2) / (2.0 * PI * b2).sqrt(),
@@ -108,13 +108,13 @@ impl NoiseKind {
         }
     }
 
-    /// Replaces numbers by their quantiles, which have the same bits as [`NoiseKind::quantile`].
-    pub(crate) fn quantiles(self, fours: &mut [f64x4]) {
+    /// Replaces each number q by its quantile, with the same bits as [`NoiseKind::quantile`].
+    pub(crate) fn quantiles(self, numbers: &mut [f64x4]) {
         match self {
-            Self::Normal => quantile::normal_quantiles(fours),
-            Self::Triangular => {
-                fours.iter_mut().for_each(|q| *q = *q * (SQRT_6 * 2.0) / (1.0 + (1.0 - 2.0 * q.abs()).sqrt()))
-            }
+            Self::Normal => quantile::normal_quantiles(numbers),
+            Self::Triangular => numbers
+                .iter_mut()
+                .for_each(|q| *q = *q * (SQRT_6 * 2.0) / (1.0 + (1.0 - 2.0 * q.abs()).sqrt())),
         }
     }
 
@@ -124,7 +124,7 @@ impl NoiseKind {
     pub fn quantile(self, q: f64) -> f64 {
         match self {
             Self::Normal => quantile::normal_quantile(q),
-            // 1 − √(1 − 2|q|), without its cancellation near the middle.
+            // √6·(1 − √(1 − 2|q|)), expanded so that nothing cancels near the middle.
             Self::Triangular => q * (SQRT_6 * 2.0) / (1.0 + (1.0 - 2.0 * q.abs()).sqrt()),
         }
     }
@@ -141,7 +141,7 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
     let a = wrap_angle(a);
     let sd = b2.0.sqrt();
     match noise {
-        // From here on the wrapped Gaussian is uniform to the last bit: its first harmonic is exp(−b²/2) < 1e-17.
+        // Beyond this deviation the wrapped Gaussian is uniform to the last bit: its first harmonic is exp(−b²/2) < 1e-17.
         NoiseKind::Normal if sd > 9.0 => 1.0 / TAU,
         NoiseKind::Normal => {
             // Beyond nine standard deviations a term is below the rounding of the sum.

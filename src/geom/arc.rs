@@ -5,7 +5,7 @@
 //! needs no branch for straight lines. It loses no digits as φ → 0, where the centre of the circle goes to infinity.
 
 use super::angle::wrap_angle;
-use super::lanes::{Circle, Trigonometry};
+use super::lanes::{SinCos, Trigonometry};
 use super::se2::SE2;
 use super::sinc::{chord_factors, sinc};
 use std::f64::consts::{PI, TAU};
@@ -66,29 +66,29 @@ impl ArcInversion {
 /// assert!((arc.omega_hat + arc.gamma_hat - 2.0).abs() < 1e-12);
 /// ```
 pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
-    let step = x.between(x_next);
-    let distance = libm::hypot(step.x(), step.y());
+    let relative_pose = x.between(x_next);
+    let distance = libm::hypot(relative_pose.x(), relative_pose.y());
     if distance == 0.0 {
-        return ArcInversion { v_hat: 0.0, omega_hat: step.theta() / dt, gamma_hat: 0.0 };
+        return ArcInversion { v_hat: 0.0, omega_hat: relative_pose.theta() / dt, gamma_hat: 0.0 };
     }
-    let direction = if step.x() < 0.0 { -1.0 } else { 1.0 };
-    let bearing = libm::atan2(direction * step.y(), direction * step.x());
+    let drive_sign = if relative_pose.x() < 0.0 { -1.0 } else { 1.0 };
+    let bearing = libm::atan2(drive_sign * relative_pose.y(), drive_sign * relative_pose.x());
     let turn = 2.0 * bearing;
     ArcInversion {
-        v_hat: direction * distance / sinc(bearing) / dt,
+        v_hat: drive_sign * distance / sinc(bearing) / dt,
         omega_hat: turn / dt,
-        gamma_hat: wrap_angle(step.theta() - turn) / dt,
+        gamma_hat: wrap_angle(relative_pose.theta() - turn) / dt,
     }
 }
 
 /// Returns the signed length (m) and turn (rad) of the arc from `x` along its heading to the position of `x_next` whose turn is nearest to
-/// `near` (rad). The arc may be driven in reverse, and with several revolutions.
+/// `near_turn` (rad). The arc may be driven in reverse, and with several revolutions.
 ///
-/// All of them lie on one circle, where the length driven is proportional to the turn. Without displacement the length
+/// All such arcs lie on one circle, where the length driven is proportional to the turn. Without displacement the length
 /// is 0; along a straight line, which closes no circle, the turn is 0.
-pub fn arc_near(x: &SE2, x_next: &SE2, near: f64) -> (f64, f64) {
+pub fn arc_with_turn_near(x: &SE2, x_next: &SE2, near_turn: f64) -> (f64, f64) {
     let ArcInversion { v_hat: length, omega_hat: turn, .. } = invert_arc(x, x_next, 1.0);
-    let whole_circles = ((near - turn) / TAU).round();
+    let whole_circles = ((near_turn - turn) / TAU).round();
     if whole_circles == 0.0 || turn == 0.0 {
         return (length, turn);
     }
@@ -116,13 +116,13 @@ impl Arc {
         SE2::new(x, y, heading)
     }
 
-    /// Returns the points of chords that turn by about a degree, for at most two revolutions. The chords of an arc of 1 m and
+    /// Returns the end points of chords of about one degree, for at most two revolutions. The chords of an arc of 1 m and
     /// 1 rad deviate from it by up to 0.05 mm.
     pub fn points(&self) -> Vec<[f64; 2]> {
-        let chords = (self.turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
-        (0..=chords as u32)
+        let chord_count = (self.turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
+        (0..=chord_count as u32)
             .map(|i| {
-                let fraction = f64::from(i) / chords;
+                let fraction = f64::from(i) / chord_count;
                 let end = Self { length: self.length * fraction, turn: self.turn * fraction, ..*self }.end();
                 [end.x(), end.y()]
             })
@@ -134,8 +134,8 @@ impl Arc {
         // No point of the arc is further from its middle than half its length, or than the diameter of its circle.
         let middle = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
         let diameter = if self.turn == 0.0 { f64::INFINITY } else { 2.0 * (self.length / self.turn).abs() };
-        let reach = (0.5 * self.length.abs()).min(diameter);
-        [middle.x() - reach, middle.y() - reach, middle.x() + reach, middle.y() + reach]
+        let max_offset = (0.5 * self.length.abs()).min(diameter);
+        [middle.x() - max_offset, middle.y() - max_offset, middle.x() + max_offset, middle.y() + max_offset]
     }
 
     pub(crate) fn local_arc(&self) -> LocalArc {
@@ -174,7 +174,7 @@ pub(crate) struct DrivenArc {
     pub end: [f64; 2],
     /// Heading at the end in (−π, π], rad.
     pub heading: f64,
-    /// sinc(φ/2): the chord over the length.
+    /// sinc(φ/2): length of the chord divided by that of the arc.
     half_sinc: f64,
 }
 
@@ -213,14 +213,14 @@ impl PreparedPose {
         turn: f64x4,
     ) -> impl Fn(usize) -> DrivenArc {
         // The end is on the bearing φ/2, at the length of the chord.
-        let Circle { sinc, sin, cos } = trigonometry.near_or_any_circle(turn * 0.5);
+        let SinCos { sinc, sin, cos } = trigonometry.sin_cos(turn * 0.5);
         let distance = length * sinc;
         let (forward, left) = (distance * cos, distance * sin);
         let x = (forward * self.cos - left * self.sin) + self.pose.x();
         let y = (forward * self.sin + left * self.cos) + self.pose.y();
         let [length, turn, sinc, x, y] = [length, turn, sinc, x, y].map(f64x4::to_array);
-        let from = *self;
-        move |i| from.driven_arc(length[i], turn[i], sinc[i], [x[i], y[i]])
+        let start = *self;
+        move |i| start.driven_arc(length[i], turn[i], sinc[i], [x[i], y[i]])
     }
 
     fn driven_arc(&self, length: f64, turn: f64, half_sinc: f64, end: [f64; 2]) -> DrivenArc {
@@ -255,8 +255,8 @@ impl DrivenArc {
             return self.arc.bounding_box();
         }
         let ([x0, y0], [x1, y1]) = ([self.arc.start.x(), self.arc.start.y()], self.end);
-        // The arc lies in the rectangle between its chord and its middle. The middle is tan(φ/4)/2 chord lengths to the right of
-        // the chord, which is at most φ/2π of them.
+        // The arc lies in the rectangle between its chord and its middle. The middle lies tan(φ/4)/2 chord lengths to the right
+        // of the chord, at most φ/2π chord lengths.
         let rise_ratio = self.arc.turn / TAU;
         let (rise_x, rise_y) = (rise_ratio * (y1 - y0), rise_ratio * (x0 - x1));
         [
@@ -275,30 +275,37 @@ pub(crate) struct ArcPiece {
     /// Direction of travel in the middle.
     tangent: [f64; 2],
     curvature: f64,
-    /// Half its length, m.
+    /// Half the length of the piece, m.
     pub half_length: f64,
     /// Maximum error of a point, m.
     pub error: f64,
 }
 
 impl ArcPiece {
-    /// Creates the piece between two points, which has a positive `length` (m) and turns by `turn`; `half_sinc` is sinc(φ/2).
+    /// Creates the piece between two points, with a positive `length` (m) and a turn of `turn` (rad); `half_sinc` is sinc(φ/2).
     fn new(from: [f64; 2], to: [f64; 2], length: f64, turn: f64, half_sinc: f64) -> Self {
         let (per_metre, curvature) =
             if length > MIN_LENGTH { (1.0 / (length * half_sinc), turn / length) } else { (0.0, 0.0) };
         let tangent = [(to[0] - from[0]) * per_metre, (to[1] - from[1]) * per_metre];
         let half_length = 0.5 * length;
-        let flat = Self {
+        let uncorrected_piece = Self {
             middle: [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])],
             tangent,
             curvature,
             half_length,
             error: 0.0,
         };
-        let [_, rise]: [f64; 2] = flat.local_point(half_length);
-        let middle = [flat.middle[0] + rise * tangent[1], flat.middle[1] - rise * tangent[0]];
-        let square = 0.25 * turn * turn;
-        Self { middle, error: half_length * square * square * square / 2000.0, ..flat }
+        let [_, rise]: [f64; 2] = uncorrected_piece.local_point(half_length);
+        let middle = [
+            uncorrected_piece.middle[0] + rise * tangent[1],
+            uncorrected_piece.middle[1] - rise * tangent[0],
+        ];
+        let half_turn_squared = 0.25 * turn * turn;
+        Self {
+            middle,
+            error: half_length * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
+            ..uncorrected_piece
+        }
     }
 
     /// Returns the coordinates ahead and to the left of the middle, for one length or four.
@@ -366,13 +373,13 @@ impl LocalArc {
 
     /// Returns the distance from a point to the arc.
     pub fn distance(&self, point: [f64; 2]) -> f64 {
-        let to_ends =
+        let distance_to_ends =
             libm::hypot(point[0], point[1]).min(libm::hypot(point[0] - self.end[0], point[1] - self.end[1]));
         if !self.has_nearest_point(point) {
-            return to_ends;
+            return distance_to_ends;
         }
-        // |p − c| − 1/κ = (|p − c|² − 1/κ²)/(|p − c| + 1/κ), times κ above and below: the centre c may be far away.
-        let from_centre = libm::hypot(self.curvature * point[0], 1.0 - self.curvature * point[1]);
-        (2.0 * self.circle_equation(point) / (1.0 + from_centre)).abs().min(to_ends)
+        // |p − c| − 1/κ = (|p − c|² − 1/κ²)/(|p − c| + 1/κ). The quotient is expanded by κ, because the centre c may be far away.
+        let scaled_centre_distance = libm::hypot(self.curvature * point[0], 1.0 - self.curvature * point[1]);
+        (2.0 * self.circle_equation(point) / (1.0 + scaled_centre_distance)).abs().min(distance_to_ends)
     }
 }

@@ -18,7 +18,7 @@ pub struct DoubleDouble {
 const SPLITTER: f64 = 134_217_729.0;
 
 /// Number of terms of the series of sine and cosine for angles up to π/8. The first omitted term is below 2⁻¹¹⁰ of the sum.
-const TERMS: i32 = 12;
+const SERIES_TERMS: i32 = 12;
 
 /// Number of times that the angle is halved before the series, and doubled after it.
 const HALVINGS: i32 = 4;
@@ -32,15 +32,15 @@ fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
 /// Returns a + b without rounding error.
 fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
-    let b_rounded = high - a;
-    DoubleDouble { high, low: (a - (high - b_rounded)) + (b - b_rounded) }
+    let rounded_b = high - a;
+    DoubleDouble { high, low: (a - (high - rounded_b)) + (b - rounded_b) }
 }
 
 /// Returns a · b without rounding error, as long as nothing under- or overflows.
 fn two_product(a: f64, b: f64) -> DoubleDouble {
     let split_in_halves = |x: f64| {
-        let big = SPLITTER * x;
-        let high = big - (big - x);
+        let scaled = SPLITTER * x;
+        let high = scaled - (scaled - x);
         [high, x - high]
     };
     let high = a * b;
@@ -116,7 +116,7 @@ impl DoubleDouble {
         // Sine a − a³/3! + …, and versine 1 − cos a = ½a² − a⁴/4! + …
         let mut sine = Self::from(1.0);
         let mut versine = Self::from(1.0);
-        for k in (1..TERMS).rev() {
+        for k in (1..SERIES_TERMS).rev() {
             let n = f64::from(2 * k);
             sine = Self::from(1.0) - (angle_squared * sine).divided_by(n * (n + 1.0));
             versine = Self::from(1.0) - (angle_squared * versine).divided_by((n + 1.0) * (n + 2.0));
@@ -125,7 +125,7 @@ impl DoubleDouble {
         let mut versine = (angle_squared * versine).divided_by(2.0);
         for _ in 0..HALVINGS {
             let cosine = Self::from(1.0) - versine;
-            (sine, versine) = (doubled(sine * cosine), doubled(sine * sine));
+            (sine, versine) = (times_two(sine * cosine), times_two(sine * sine));
         }
         (sine, Self::from(1.0) - versine)
     }
@@ -143,6 +143,6 @@ impl DoubleDouble {
     }
 }
 
-fn doubled(x: DoubleDouble) -> DoubleDouble {
+fn times_two(x: DoubleDouble) -> DoubleDouble {
     DoubleDouble { high: 2.0 * x.high, low: 2.0 * x.low }
 }

@@ -10,13 +10,13 @@ use wide::{bytemuck, f64x2, f64x4, u64x4};
 /// Number of lanes of a SIMD vector.
 pub const LANES: usize = 4;
 
-/// Maximum absolute error of sine, cosine and sinc: about five halves of a unit in the last place of 1. The error of the
+/// Maximum absolute error of sine, cosine and sinc: about 2.5 units in the last place of 1. The error of the
 /// polynomials is at most 1.9e-16; the rest is rounding.
 pub const ACCURACY: f64 = 6e-16;
 
-/// sin x/x, sin x and cos x.
+/// sin x/x, sin x and cos x of four angles.
 #[derive(Clone, Copy)]
-pub struct Circle {
+pub struct SinCos {
     /// sin x/x; 1 at 0.
     pub sinc: f64x4,
     /// sin x.
@@ -27,7 +27,7 @@ pub struct Circle {
 
 /// Terms of the SE(2) logarithm that depend on the heading, as functions of the half heading h = ω/2.
 #[derive(Clone, Copy)]
-pub struct HalfTurn {
+pub struct LogTerms {
     /// h minus whole half circles, so that it is within a quarter circle of the requested branch.
     pub half: f64x4,
     /// h·cot h of `half`.
@@ -57,38 +57,38 @@ impl Default for Trigonometry {
 impl Trigonometry {
     /// Returns the sines and cosines of angles up to a quarter turn (rad).
     #[inline(always)]
-    pub fn circle(&self, x: f64x4) -> Circle {
+    pub fn sin_cos_small_angle(&self, x: f64x4) -> SinCos {
         let (sinc, cos) = self.sinc_cos(x * x);
-        Circle { sinc, sin: x * sinc, cos }
+        SinCos { sinc, sin: x * sinc, cos }
     }
 
-    /// Returns the sines and cosines of any finite angles (rad). It is fastest if all are up to a quarter turn.
+    /// Returns the sines and cosines of any finite angles (rad). Angles up to a quarter turn are fastest.
     #[inline(always)]
-    pub fn near_or_any_circle(&self, x: f64x4) -> Circle {
-        if any_beyond(x, FRAC_PI_2) { self.any_circle(x) } else { self.circle(x) }
+    pub fn sin_cos(&self, x: f64x4) -> SinCos {
+        if any_lane_beyond(x, FRAC_PI_2) { self.sin_cos_any_angle(x) } else { self.sin_cos_small_angle(x) }
     }
 
     /// Returns the sines and cosines of any finite angles (rad). A lane up to a quarter turn gets the bits of
-    /// [`Trigonometry::circle`].
+    /// [`Trigonometry::sin_cos_small_angle`].
     #[inline(never)]
-    pub fn any_circle(&self, x: f64x4) -> Circle {
-        let half_circles = whole_half_circles(x);
-        let reduced_circle = self.circle(without_half_circles(x, half_circles));
-        // +1 or −1: rounded to an even number, an odd one is off by one.
+    pub fn sin_cos_any_angle(&self, x: f64x4) -> SinCos {
+        let half_circles = half_circle_count(x);
+        let reduced = self.sin_cos_small_angle(subtract_half_circles(x, half_circles));
+        // Difference from the nearest even number: ±1 if the number of half circles is odd.
         let parity = half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
-        let sign = f64x4::splat(1.0) - 2.0 * parity.abs();
-        let (sin, cos) = (reduced_circle.sin * sign, reduced_circle.cos * sign);
-        let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(reduced_circle.sinc, sin / x);
-        if !any_beyond(x, MAX_REDUCED) {
-            return Circle { sinc, sin, cos };
+        let parity_sign = f64x4::splat(1.0) - 2.0 * parity.abs();
+        let (sin, cos) = (reduced.sin * parity_sign, reduced.cos * parity_sign);
+        let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(reduced.sinc, sin / x);
+        if !any_lane_beyond(x, MAX_REDUCED_ANGLE) {
+            return SinCos { sinc, sin, cos };
         }
         let lane_by_lane = |vector_results: f64x4, scalar: fn(f64) -> f64| {
             from_lanes(|i| {
                 let angle = x.to_array()[i];
-                if angle.abs() > MAX_REDUCED { scalar(angle) } else { vector_results.to_array()[i] }
+                if angle.abs() > MAX_REDUCED_ANGLE { scalar(angle) } else { vector_results.to_array()[i] }
             })
         };
-        Circle {
+        SinCos {
             sinc: lane_by_lane(sinc, super::sinc::sinc),
             sin: lane_by_lane(sin, libm::sin),
             cos: lane_by_lane(cos, libm::cos),
@@ -97,23 +97,24 @@ impl Trigonometry {
 
     /// Returns the terms of the SE(2) logarithm for half headings (rad) within a quarter turn of 0, which are on the requested branch.
     #[inline(always)]
-    pub fn half_turn(&self, half: f64x4) -> HalfTurn {
+    pub fn log_terms_small_angle(&self, half: f64x4) -> LogTerms {
         let (sinc, cos) = self.sinc_cos(half * half);
-        HalfTurn { half, cotangent: cos / sinc, sinc, sin: half * sinc, cos }
+        LogTerms { half, cotangent: cos / sinc, sinc, sin: half * sinc, cos }
     }
 
     /// Returns the terms of the SE(2) logarithm for any half headings (rad), on the branch nearest to the half heading `near` (rad).
-    /// Half headings that [`Trigonometry::half_turn`] accepts get the same bits as from it.
+    /// Half headings that [`Trigonometry::log_terms_small_angle`] accepts get the same bits as from it.
     #[inline(never)]
-    pub fn any_half_turn(&self, half: f64x4, near: f64) -> HalfTurn {
-        let mut wrapped_half = without_half_circles(half, whole_half_circles(half - near));
-        if any_beyond(half - near, MAX_REDUCED) {
+    pub fn log_terms_any_angle(&self, half: f64x4, near: f64) -> LogTerms {
+        let mut half_on_branch = subtract_half_circles(half, half_circle_count(half - near));
+        if any_lane_beyond(half - near, MAX_REDUCED_ANGLE) {
             let wrapped_near = |half: f64| near + 0.5 * wrap_angle(2.0 * (half - near));
-            let is_far = (half - near).abs().simd_gt(f64x4::splat(MAX_REDUCED));
-            wrapped_half = is_far.bitselect(from_lanes(|i| wrapped_near(half.to_array()[i])), wrapped_half);
+            let is_far = (half - near).abs().simd_gt(f64x4::splat(MAX_REDUCED_ANGLE));
+            half_on_branch =
+                is_far.bitselect(from_lanes(|i| wrapped_near(half.to_array()[i])), half_on_branch);
         }
-        let Circle { sinc, sin, cos } = self.any_circle(wrapped_half);
-        HalfTurn { half: wrapped_half, cotangent: cos / sinc, sinc, sin, cos }
+        let SinCos { sinc, sin, cos } = self.sin_cos_any_angle(half_on_branch);
+        LogTerms { half: half_on_branch, cotangent: cos / sinc, sinc, sin, cos }
     }
 
     /// Returns (sin x/x, cos x) from z = x², for |x| up to a quarter turn. Exact at 0.
@@ -133,20 +134,20 @@ impl Trigonometry {
 
 /// Returns true if a lane is greater than `limit` in absolute value.
 #[inline(always)]
-fn any_beyond(x: f64x4, limit: f64) -> bool {
+fn any_lane_beyond(x: f64x4, limit: f64) -> bool {
     any_lane_set(x.abs().simd_gt(f64x4::splat(limit)))
 }
 
 /// Returns true if a lane of a mask is set.
 #[inline(always)]
 pub(crate) fn any_lane_set(mask: f64x4) -> bool {
-    let [low, high] = halves(mask);
+    let [low, high] = lane_halves(mask);
     (low | high).any()
 }
 
-/// Returns the first two lanes and the last.
+/// Returns the first two lanes and the last two.
 #[inline(always)]
-pub(crate) fn halves(lanes: f64x4) -> [f64x2; 2] {
+pub(crate) fn lane_halves(lanes: f64x4) -> [f64x2; 2] {
     bytemuck::cast(lanes)
 }
 
@@ -193,9 +194,9 @@ const LOG_COEFFICIENTS: [f64; 7] = [
     1.479_819_860_511_658_591e-1,
 ];
 
-/// Angles up to here (rad) are reduced by a π of 119 bits in three parts, the first two of 33, so that the products with
-/// up to 20 bits are exact. Larger ones, at which no robot turns, are left to `libm`.
-const MAX_REDUCED: f64 = 3e6;
+/// Maximum angle (rad) that is reduced with [`PI_PARTS`], a π of 119 bits. Its first two parts have 33 bits, so that their products
+/// with integers of up to 20 bits are exact. `libm` computes larger angles, which no robot turns by.
+const MAX_REDUCED_ANGLE: f64 = 3e6;
 const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
 
 /// Constant that rounds a number to a whole one, if it is added and then subtracted. Twice the constant rounds to an even number.
@@ -203,7 +204,7 @@ pub(crate) const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
 /// Returns the number of half circles that are subtracted from x so that the rest is within a quarter circle of 0.
 #[inline(always)]
-fn whole_half_circles(x: f64x4) -> f64x4 {
+fn half_circle_count(x: f64x4) -> f64x4 {
     // Within a quarter circle the number is 0. At its ends the rounded quotient may be 1.
     let is_small = x.abs().simd_le(f64x4::splat(FRAC_PI_2));
     is_small.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND_TO_INTEGER - ROUND_TO_INTEGER)
@@ -211,7 +212,7 @@ fn whole_half_circles(x: f64x4) -> f64x4 {
 
 /// Returns x − kπ.
 #[inline(always)]
-fn without_half_circles(x: f64x4, half_circles: f64x4) -> f64x4 {
+fn subtract_half_circles(x: f64x4, half_circles: f64x4) -> f64x4 {
     PI_PARTS.iter().fold(x, |remainder, part| remainder - half_circles * *part)
 }
 

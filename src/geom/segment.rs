@@ -3,7 +3,7 @@
 use super::arc::{Arc, LocalArc};
 use std::f64::consts::PI;
 
-/// A straight line between two points, m. It may have no length.
+/// Straight line between two points, m. Its length may be 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// One end: x and y, m.
@@ -29,15 +29,19 @@ impl Segment {
     fn offset_of_point(&self, point: [f64; 2]) -> [f64; 2] {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let offset = [point[0] - self.from[0], point[1] - self.from[1]];
-        let squared = dot(direction, direction);
-        let t = if squared > 0.0 { (dot(offset, direction) / squared).clamp(0.0, 1.0) } else { 0.0 };
+        let squared_length = dot(direction, direction);
+        let t = if squared_length > 0.0 {
+            (dot(offset, direction) / squared_length).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
         [offset[0] - t * direction[0], offset[1] - t * direction[1]]
     }
 
     /// Returns the distance (m) between the nearest points of the segment and of an arc; 0 where they cross.
     ///
-    /// The minimum is a crossing, or an end of one with the nearest point of the other, or a pair of inner points where the
-    /// segment is parallel to the arc and outside its circle. There are no other minima, because inside the circle the distance
+    /// The minimum is a crossing, or an end of segment or arc with the nearest point of the other, or a pair of inner points where
+    /// the segment is parallel to the arc and outside its circle. There are no other minima, because inside the circle the distance
     /// to it is concave along a line.
     pub fn distance_to_arc(&self, arc: &Arc) -> f64 {
         self.distance_to_local_arc(&arc.local_arc())
@@ -46,7 +50,7 @@ impl Segment {
     /// Returns [`Segment::distance_to_arc`] for an arc that is prepared for several segments.
     pub(crate) fn distance_to_local_arc(&self, local: &LocalArc) -> f64 {
         let local_segment = self.in_arc_frame(local);
-        if local_segment.crosses_arc(local) { 0.0 } else { local_segment.distance_apart(local) }
+        if local_segment.crosses_arc(local) { 0.0 } else { local_segment.distance_without_crossing(local) }
     }
 
     /// Returns the maximum distance (m) of an arc to the right of the segment's line. The ends of the arc must not be to the right.
@@ -59,11 +63,11 @@ impl Segment {
         let first_parallel_turn = if parallel_turn < 0.0 { parallel_turn + PI } else { parallel_turn };
         [first_parallel_turn, first_parallel_turn + PI]
             .into_iter()
-            .map(|turned| turned / arc.turn.abs())
-            .filter(|share| *share < 1.0)
-            .map(|share| Arc { length: share * arc.length, turn: share * arc.turn, ..*arc }.end())
-            .map(|at| {
-                ((at.x() - self.from[0]) * direction[1] - (at.y() - self.from[1]) * direction[0]) / length
+            .map(|turn| turn / arc.turn.abs())
+            .filter(|fraction| *fraction < 1.0)
+            .map(|fraction| Arc { length: fraction * arc.length, turn: fraction * arc.turn, ..*arc }.end())
+            .map(|pose| {
+                ((pose.x() - self.from[0]) * direction[1] - (pose.y() - self.from[1]) * direction[0]) / length
             })
             .fold(0.0, f64::max)
     }
@@ -81,7 +85,7 @@ impl Segment {
         let a = 0.5 * local.curvature * dot(direction, direction);
         let b = local.curvature * dot(from, direction) - direction[1];
         let c = local.circle_equation(from);
-        // b² − 4ac, rearranged: a wall much longer than the radius would lose the difference.
+        // b² − 4ac, rearranged against cancellation if the wall is much longer than the radius.
         let line_offset = local.curvature * (from[0] * direction[1] - from[1] * direction[0]);
         let discriminant = direction[1] * direction[1] - line_offset * (line_offset + 2.0 * direction[0]);
         if discriminant < 0.0 {
@@ -95,7 +99,7 @@ impl Segment {
     }
 
     /// Returns the distance between an arc and a segment that does not cross it, in the frame of the arc.
-    fn distance_apart(&self, local: &LocalArc) -> f64 {
+    fn distance_without_crossing(&self, local: &LocalArc) -> f64 {
         let Self { from, to } = *self;
         let direction = [to[0] - from[0], to[1] - from[1]];
         let length_squared = dot(direction, direction);
@@ -111,7 +115,7 @@ impl Segment {
         if local.curvature > 0.0 && length_squared > 0.0 {
             let t = (direction[1] / local.curvature - dot(from, direction)) / length_squared;
             if (0.0..=1.0).contains(&t) {
-                // Inside the circle it is no minimum, unless rounding has put a line there that touches it.
+                // Inside the circle the foot is no minimum. Rounding may put the foot of a tangent there, which is one.
                 min_squared_distance = min_squared_distance
                     .min(local.distance([from[0] + t * direction[0], from[1] + t * direction[1]]));
             }

@@ -9,24 +9,25 @@
 //! F₀ is the position of exp ξ, and F₁ is (ξ_along, ξ_heading). In between, each arc keeps its length, and its curvature is
 //! multiplied by 1 − μ. On arcs (ξ_lateral = 0) F_μ is one-to-one for lengths above 0 and turns below π/(1 − μ).
 
-use super::arc::arc_near;
+use super::arc::arc_with_turn_near;
 use super::se2::SE2;
 use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
 use std::f64::consts::PI;
 
 /// Returns the point to which a morph from 0 to 1 takes a twist (m, m, rad).
 pub fn unbend(twist: &Vector3<f64>, morph: f64) -> [f64; 2] {
-    let bend = 1.0 - morph;
-    let pose = SE2::exp(&Vector3::new(twist.x, bend * twist.y, bend * twist.z));
+    let bend_factor = 1.0 - morph;
+    let pose = SE2::exp(&Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z));
     [pose.x(), pose.y() + morph * twist.z]
 }
 
 /// Returns the 2 × 3 Jacobian of [`unbend`] with respect to the twist.
 pub fn unbend_jacobian(twist: &Vector3<f64>, morph: f64) -> Matrix2x3<f64> {
-    let bend = 1.0 - morph;
-    let mut jacobian = position_jacobian(&Vector3::new(twist.x, bend * twist.y, bend * twist.z));
-    jacobian.column_mut(1).scale_mut(bend);
-    jacobian.column_mut(2).scale_mut(bend);
+    let bend_factor = 1.0 - morph;
+    let mut jacobian =
+        position_jacobian(&Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z));
+    jacobian.column_mut(1).scale_mut(bend_factor);
+    jacobian.column_mut(2).scale_mut(bend_factor);
     jacobian[(1, 2)] += morph;
     jacobian
 }
@@ -40,9 +41,9 @@ fn position_jacobian(twist: &Vector3<f64>) -> Matrix2x3<f64> {
 /// Returns the points to which a morph takes a line of positions. Each position counts as the end of the arc whose turn is nearest
 /// to `turn` (rad).
 ///
-/// The result is empty for a line whose arcs change between forward and reverse, such as a line around the start.
+/// The result is empty if the arcs change between forward and reverse along the line, as on a line around the start.
 pub fn unbend_line(points: &[[f64; 2]], turn: f64, morph: f64) -> Vec<[f64; 2]> {
-    let arc = |[x, y]: &[f64; 2]| arc_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), turn);
+    let arc = |[x, y]: &[f64; 2]| arc_with_turn_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), turn);
     let arcs: Vec<_> = points.iter().map(arc).collect();
     if arcs.windows(2).any(|ends| (ends[1].1 - ends[0].1).abs() > PI) {
         return Vec::new();
@@ -53,13 +54,13 @@ pub fn unbend_line(points: &[[f64; 2]], turn: f64, morph: f64) -> Vec<[f64; 2]> 
 /// Maximum number of Newton steps. From one frame of a drag to the next three suffice.
 const MAX_STEPS: usize = 20;
 
-/// Returns the length and turn of the arc that a morph takes to a point, by Newton's method from an arc near it. None if the method
+/// Returns the length and turn of the arc that a morph takes to a point, by Newton's method from an initial guess. None if the method
 /// does not converge, as on a fold.
-pub fn arc_at(place: [f64; 2], near: [f64; 2], morph: f64) -> Option<[f64; 2]> {
-    let mut arc = Vector2::from(near);
+pub fn find_arc(target: [f64; 2], initial_guess: [f64; 2], morph: f64) -> Option<[f64; 2]> {
+    let mut arc = Vector2::from(initial_guess);
     for _ in 0..MAX_STEPS {
         let twist = Vector3::new(arc.x, 0.0, arc.y);
-        let error = Vector2::from(place) - Vector2::from(unbend(&twist, morph));
+        let error = Vector2::from(target) - Vector2::from(unbend(&twist, morph));
         if error.amax() < 1e-12 * (1.0 + arc.amax()) {
             return Some(arc.into());
         }

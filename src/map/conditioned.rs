@@ -136,7 +136,7 @@ impl DrawTester<'_> {
 
     /// Returns the arc that is driven under these unit noises.
     pub fn arc(&self, unit_noise: [f64; 3]) -> Arc {
-        let [length, turn, _] = self.part.executed(unit_noise);
+        let [length, turn, _] = self.part.executed_motion(unit_noise);
         Arc { start: self.from.pose(), length, turn }
     }
 }
@@ -151,7 +151,7 @@ struct PartMotion {
 impl PartMotion {
     /// Returns the end pose under these unit noises, and the arc that is driven.
     fn motion(&self, from: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
-        let [length, turn, last] = self.executed(unit_noise);
+        let [length, turn, last] = self.executed_motion(unit_noise);
         with_last_turn(from.drive(length, turn), last)
     }
 
@@ -163,13 +163,13 @@ impl PartMotion {
         trigonometry: &Trigonometry,
         unit_noise: &[f64x4; 3],
     ) -> impl Fn(usize) -> (SE2, DrivenArc) {
-        let [length, turn, last] = self.executed(*unit_noise);
+        let [length, turn, last] = self.executed_motion(*unit_noise);
         let (driven_arc, last) = (from.drive_four(trigonometry, length, turn), last.to_array());
         move |lane| with_last_turn(driven_arc(lane), last[lane])
     }
 
-    /// Returns the length (m) and turn of the arc, and the turn after it (rad): see [`VelocityModel::executed`].
-    fn executed<T>(&self, [v, omega, gamma]: [T; 3]) -> [T; 3]
+    /// Returns the length (m) and turn of the arc, and the turn after it (rad): see [`VelocityModel::executed_motion`].
+    fn executed_motion<T>(&self, [v, omega, gamma]: [T; 3]) -> [T; 3]
     where
         T: Mul<f64, Output = T> + Add<f64, Output = T>,
     {
@@ -259,7 +259,7 @@ impl MapConditioned<'_> {
     }
 
     fn part(&self, u: &VelocityCmd) -> PartMotion {
-        PartMotion { u: *u, deviations: self.model.deviations(u) }
+        PartMotion { u: *u, deviations: self.model.noise_stds(u) }
     }
 
     fn unit_noise<R: Rng + ?Sized>(&self, rng: &mut R) -> [f64; 3] {

@@ -19,8 +19,8 @@ pub struct OdomDelta {
     pub rot2: f64,
 }
 
-/// Displacement (m) below which a reading counts as a turn on the spot. The direction of such a displacement is only rounding. No
-/// encoder resolves a nanometre. With a larger bound slow motion would count as a turn.
+/// Displacement (m) below which a reading counts as a turn on the spot, because its direction is only rounding. No encoder resolves
+/// a nanometre. With a larger bound slow motion would count as a turn.
 const MIN_TRANSLATION: f64 = 1e-9;
 
 impl OdomDelta {
@@ -78,7 +78,7 @@ pub trait RotTransRot {
 
     /// Returns the legs driven when their noises take the values `unit_noise` times their standard deviations. As in
     /// Table 5.6, noise is subtracted.
-    fn executed(&self, u: &OdomDelta, unit_noise: [f64; 3]) -> OdomDelta {
+    fn executed_motion(&self, u: &OdomDelta, unit_noise: [f64; 3]) -> OdomDelta {
         let [rot1, trans, rot2] = self.variances(u).map(|variance| variance.0.sqrt());
         OdomDelta {
             rot1: u.rot1 - rot1 * unit_noise[0],
@@ -90,7 +90,7 @@ pub trait RotTransRot {
     /// Returns the pose reached from `x` when the noises of the three legs take the values `unit_noise` times their
     /// standard deviations: Table 5.6 after its three draws.
     fn apply_noise(&self, u: &OdomDelta, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
-        self.executed(u, unit_noise).apply(x)
+        self.executed_motion(u, unit_noise).apply(x)
     }
 
     /// Returns the covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the
@@ -127,16 +127,16 @@ impl<M: RotTransRot> MotionModel for M {
             return None;
         }
         let [rot1_variance, trans_variance, rot2_variance] = variances;
-        let step = x.between(x_next);
-        let distance = libm::hypot(step.x(), step.y());
-        let bearing = libm::atan2(step.y(), step.x());
+        let relative_pose = x.between(x_next);
+        let distance = libm::hypot(relative_pose.x(), relative_pose.y());
+        let bearing = libm::atan2(relative_pose.y(), relative_pose.x());
         let leg_density: f64 = [(bearing, distance), (bearing + PI, -distance)]
             .into_iter()
             .map(|(rot1, trans)| {
                 product_or_zero([
                     wrapped_prob(noise, rot1 - u.rot1, rot1_variance),
                     noise.prob(trans - u.trans, trans_variance),
-                    wrapped_prob(noise, step.theta() - rot1 - u.rot2, rot2_variance),
+                    wrapped_prob(noise, relative_pose.theta() - rot1 - u.rot2, rot2_variance),
                 ])
             })
             .sum();
@@ -149,13 +149,18 @@ impl<M: RotTransRot> MotionModel for M {
     }
 }
 
-/// Function that gives the size at which a rotation counts in the noise variances.
-pub(super) type RotationSize = fn(f64) -> f64;
+/// Function from a rotation to the angle that enters the noise variances, rad.
+pub(super) type EffectiveAngle = fn(f64) -> f64;
 
 /// Returns the variances of the three legs of `delta` (rad², m², rad²).
-pub(super) fn variances_with(alphas: OdomAlphas, delta: &OdomDelta, size: RotationSize) -> [Variance; 3] {
+pub(super) fn variances_with(
+    alphas: OdomAlphas,
+    delta: &OdomDelta,
+    effective_angle: EffectiveAngle,
+) -> [Variance; 3] {
     let [a1, a2, a3, a4] = alphas.0;
-    let [rot1_sq, rot2_sq] = [delta.rot1, delta.rot2].map(|rotation| size(rotation) * size(rotation));
+    let [rot1_sq, rot2_sq] =
+        [delta.rot1, delta.rot2].map(|rotation| effective_angle(rotation) * effective_angle(rotation));
     let trans_sq = delta.trans * delta.trans;
     [
         Variance(a1 * rot1_sq + a2 * trans_sq),
@@ -181,8 +186,8 @@ impl RotTransRot for OdometryModel {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReverseAware(pub OdometryModel);
 
-/// Returns the absolute turn of a rotation, or that of a robot which drives backwards instead, whichever is smaller.
-pub(super) fn turn_either_way(rotation: f64) -> f64 {
+/// Returns min(|δ|, |π − |δ||) of a rotation δ: the absolute turn of a robot that may drive in reverse instead.
+pub(super) fn turn_allowing_reverse(rotation: f64) -> f64 {
     let turn = rotation.abs();
     turn.min((PI - turn).abs())
 }
@@ -193,11 +198,11 @@ impl RotTransRot for ReverseAware {
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        variances_with(self.0.alphas, delta, turn_either_way)
+        variances_with(self.0.alphas, delta, turn_allowing_reverse)
     }
 }
 
-/// Odometry model that is [`ReverseAware`] or not, by a setting.
+/// Odometry model that is [`ReverseAware`] if `reverse_aware` is true.
 pub(crate) struct ConfiguredOdometry {
     pub model: OdometryModel,
     pub reverse_aware: bool,
@@ -209,7 +214,8 @@ impl RotTransRot for ConfiguredOdometry {
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        let size: RotationSize = if self.reverse_aware { turn_either_way } else { f64::abs };
-        variances_with(self.model.alphas, delta, size)
+        let effective_angle: EffectiveAngle =
+            if self.reverse_aware { turn_allowing_reverse } else { f64::abs };
+        variances_with(self.model.alphas, delta, effective_angle)
     }
 }

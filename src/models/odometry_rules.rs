@@ -1,6 +1,6 @@
 //! Rules by which localizers add noise to an odometry reading: Table 5.6, and those of deployed software.
 
-use super::odometry::{OdomAlphas, OdomDelta, RotationSize, turn_either_way, variances_with};
+use super::odometry::{EffectiveAngle, OdomAlphas, OdomDelta, turn_allowing_reverse, variances_with};
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::noise::{NoiseKind, Variance};
 
@@ -39,11 +39,11 @@ pub type RuleAlphas = [f64; 5];
 /// Variances of the noises of a reading: of its three legs, and across the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegVariances {
-    /// rad².
+    /// Variance of the first rotation, rad².
     pub rot1: Variance,
-    /// m².
+    /// Variance of the length of the drive, m².
     pub trans: Variance,
-    /// rad².
+    /// Variance of the second rotation, rad².
     pub rot2: Variance,
     /// Variance across the drive, m²; 0 if the robot cannot slide.
     pub strafe: Variance,
@@ -75,13 +75,13 @@ impl OdometryRule {
     pub fn variances(self, reading: &OdomDelta, alphas: &RuleAlphas) -> LegVariances {
         let [a1, a2, a3, a4, a5] = *alphas;
         let legs = self.legs(reading);
-        let differential_variances = |size: RotationSize| {
-            let [rot1, trans, rot2] = variances_with(OdomAlphas([a1, a2, a3, a4]), &legs, size);
+        let differential_variances = |effective_angle: EffectiveAngle| {
+            let [rot1, trans, rot2] = variances_with(OdomAlphas([a1, a2, a3, a4]), &legs, effective_angle);
             LegVariances { rot1, trans, rot2, strafe: Variance(0.0) }
         };
         match self {
             Self::Table => differential_variances(f64::abs),
-            Self::Nav2 | Self::Beluga => differential_variances(turn_either_way),
+            Self::Nav2 | Self::Beluga => differential_variances(turn_allowing_reverse),
             Self::Omni => {
                 let turn = wrap_angle(legs.rot1 + legs.rot2);
                 let (trans_sq, turn_sq) = (legs.trans * legs.trans, turn * turn);
@@ -120,33 +120,33 @@ impl LegVariances {
     /// Returns the executed legs when the noises are these multiples of their standard deviations. `across` is the noise of the first
     /// rotation or of sliding (no rule has both), `along` that of the drive, `turn` that of the second rotation. As in Table 5.6,
     /// noise is subtracted.
-    pub fn executed(&self, legs: &OdomDelta, [across, along, turn]: [f64; 3]) -> ExecutedLegs {
+    pub fn executed_motion(&self, legs: &OdomDelta, [across, along, turn]: [f64; 3]) -> ExecutedLegs {
         ExecutedLegs {
             legs: OdomDelta {
-                rot1: legs.rot1 - std_of(self.rot1) * across,
-                trans: legs.trans - std_of(self.trans) * along,
-                rot2: legs.rot2 - std_of(self.rot2) * turn,
+                rot1: legs.rot1 - std_from_variance(self.rot1) * across,
+                trans: legs.trans - std_from_variance(self.trans) * along,
+                rot2: legs.rot2 - std_from_variance(self.rot2) * turn,
             },
-            strafe: -std_of(self.strafe) * across,
+            strafe: -std_from_variance(self.strafe) * across,
         }
     }
 
-    /// Returns the variance (m²) of where the robot is across the measured bearing, after a drive of `trans` metres, in
+    /// Returns the variance (m²) of the end position across the measured bearing, after a drive of `trans` metres, in
     /// closed form: (t² + σ²_trans)·E[sin² ε_rot1] + σ²_strafe. Its mean is 0.
-    pub fn cross_track(&self, trans: f64, noise: NoiseKind) -> f64 {
+    pub fn cross_track_variance(&self, trans: f64, noise: NoiseKind) -> f64 {
         (trans * trans + self.trans.0) * noise.mean_squared_sine(self.rot1) + self.strafe.0
     }
 
     /// Returns the variance (rad²) of the turn made, unwrapped, for a `correlation` of the noises of the two rotations:
     /// σ₁² + σ₂² + 2ρσ₁σ₂.
-    pub fn heading(&self, correlation: f64) -> f64 {
-        let [first, second] = [self.rot1, self.rot2].map(std_of);
-        // As squares: for opposite noises of one size the sum of the three terms might round below 0.
+    pub fn heading_variance(&self, correlation: f64) -> f64 {
+        let [first, second] = [self.rot1, self.rot2].map(std_from_variance);
+        // A sum of squares: for equal variances and ρ = −1 the three terms might add up to slightly less than 0.
         let correlated_std = first + correlation * second;
         correlated_std * correlated_std + (1.0 - correlation * correlation) * second * second
     }
 }
 
-fn std_of(variance: Variance) -> f64 {
+fn std_from_variance(variance: Variance) -> f64 {
     variance.0.sqrt()
 }

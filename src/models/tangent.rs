@@ -31,15 +31,15 @@ use thiserror::Error;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentNoiseModel {
-    /// Covariance R. [`TangentNoiseModel::new`] makes a model with another R, because the model also has its factor.
+    /// Covariance R. To change it, create a model with [`TangentNoiseModel::new`], because the model also has its Cholesky factor.
     pub r: Matrix3<f64>,
     /// Variance (rad²) of the turn after the arc.
-    last_turn: f64,
+    last_turn_variance: f64,
     /// L with L·Lᵀ = R.
-    root: Matrix3<f64>,
+    cov_root: Matrix3<f64>,
 }
 
-/// Recursions that carry the covariance of x_k ⊟ x̄_k over one more step.
+/// Recursion that propagates the covariance of x_k ⊟ x̄_k by one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compounding {
     /// The chapter's recursion A·Σ·Aᵀ + R, A = Ad(exp(τ)⁻¹). It approximates exp(τ + w) by exp(τ)·exp(w).
@@ -66,12 +66,12 @@ pub enum TangentNoiseError {
 
 /// Tolerance for symmetry and positive semidefiniteness of R, relative to its largest entry. A smaller one would refuse
 /// computed covariances because of rounding; a larger one would accept mistakes.
-const ROUNDING: f64 = 1e-12;
+const RELATIVE_TOLERANCE: f64 = 1e-12;
 
 /// Variance (m² and rad²) that [`TangentNoiseModel::log_prob`] adds to the diagonal of R, so that a singular R has a
 /// density: a lateral standard deviation of a micrometre. A larger one would change measurable densities; with a smaller
 /// one, rounding errors of a residual would give density 0.
-const PADDING: f64 = 1e-12;
+const PADDING_VARIANCE: f64 = 1e-12;
 
 impl TangentNoiseModel {
     /// Creates the model with all of its noise inside the arc.
@@ -83,7 +83,7 @@ impl TangentNoiseModel {
     }
 
     /// Returns the velocity model under one command, with the final turn γ̂Δt kept apart: R = R_u, and a turn of variance Δt²(α₅v² +
-    /// α₆ω²) after the arc. The noise is Gaussian for any kind of noise of the velocity model, of which only the variances are used.
+    /// α₆ω²) after the arc. Only the variances of the velocity model are used; the noise here is Gaussian.
     ///
     /// # Errors
     /// [`TangentNoiseError`] where α's or command make a variance negative or not finite.
@@ -92,14 +92,14 @@ impl TangentNoiseModel {
         Self::with_last_turn(Matrix3::from_diagonal(&Vector3::new(along, 0.0, turn)), last)
     }
 
-    fn with_last_turn(r: Matrix3<f64>, last_turn: f64) -> Result<Self, TangentNoiseError> {
-        if !last_turn.is_finite() {
+    fn with_last_turn(r: Matrix3<f64>, last_turn_variance: f64) -> Result<Self, TangentNoiseError> {
+        if !last_turn_variance.is_finite() {
             return Err(TangentNoiseError::NotFinite);
         }
-        if last_turn < 0.0 {
+        if last_turn_variance < 0.0 {
             return Err(TangentNoiseError::NotPositiveSemidefinite);
         }
-        Ok(Self { r, last_turn, root: covariance_root(&r)? })
+        Ok(Self { r, last_turn_variance, cov_root: covariance_root(&r)? })
     }
 
     /// Returns τ = (vΔt, 0, ωΔt), whose exponential is the arc of the command.
@@ -109,8 +109,8 @@ impl TangentNoiseModel {
 
     /// Returns a draw of x_t.
     pub fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
-        let w = self.root * Vector3::from_fn(|_, _| NoiseKind::Normal.sample(Variance(1.0), rng));
-        let last_turn = NoiseKind::Normal.sample(Variance(self.last_turn), rng);
+        let w = self.cov_root * Vector3::from_fn(|_, _| NoiseKind::Normal.sample(Variance(1.0), rng));
+        let last_turn = NoiseKind::Normal.sample(Variance(self.last_turn_variance), rng);
         x.boxplus(Self::twist(u) + w) * SE2::new(0.0, 0.0, last_turn)
     }
 
@@ -121,14 +121,18 @@ impl TangentNoiseModel {
     /// That density is multiplied by sinc²(ξ_ω/2) and divided by v̂Δt·sinc²(ω̂Δt/2)/2, the determinant of the map from noises to
     /// (x, y, θ).
     pub fn log_prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
-        if self.last_turn == 0.0 {
-            let padded_cov = self.r + Matrix3::identity() * PADDING;
+        if self.last_turn_variance == 0.0 {
+            let padded_cov = self.r + Matrix3::identity() * PADDING_VARIANCE;
             return log_normal(&(x_next.boxminus(x) - Self::twist(u)), &padded_cov);
         }
-        let executed = invert_arc(x, x_next, u.dt);
-        let (length, turn) = (executed.v_hat * u.dt, executed.omega_hat * u.dt);
-        let residual = Vector3::new(length - u.v * u.dt, turn - u.omega * u.dt, executed.gamma_hat * u.dt);
-        let variances = Vector3::new(self.r[(0, 0)] + PADDING, self.r[(2, 2)] + PADDING, self.last_turn);
+        let inversion = invert_arc(x, x_next, u.dt);
+        let (length, turn) = (inversion.v_hat * u.dt, inversion.omega_hat * u.dt);
+        let residual = Vector3::new(length - u.v * u.dt, turn - u.omega * u.dt, inversion.gamma_hat * u.dt);
+        let variances = Vector3::new(
+            self.r[(0, 0)] + PADDING_VARIANCE,
+            self.r[(2, 2)] + PADDING_VARIANCE,
+            self.last_turn_variance,
+        );
         let twist_sinc = sinc(0.5 * x.between(x_next).theta());
         let arc_sinc = sinc(0.5 * turn);
         log_normal(&residual, &Matrix3::from_diagonal(&variances))
@@ -145,16 +149,16 @@ impl TangentNoiseModel {
     /// happens at the end of the arc.
     pub fn propagate(&self, sigma: &Matrix3<f64>, tau: &Vector3<f64>, order: Compounding) -> Matrix3<f64> {
         let inverse_adjoint = SE2::exp(tau).inverse().adjoint();
-        let carried_cov = inverse_adjoint * sigma * inverse_adjoint.transpose();
-        let last_turn = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, self.last_turn));
+        let transported_cov = inverse_adjoint * sigma * inverse_adjoint.transpose();
+        let last_turn_cov = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, self.last_turn_variance));
         if order == Compounding::Chapter {
-            return carried_cov + self.r + last_turn;
+            return transported_cov + self.r + last_turn_cov;
         }
         let jacobian = SE2::right_jacobian(tau);
-        let added_cov = jacobian * self.r * jacobian.transpose() + last_turn;
-        let first_order = carried_cov + added_cov;
+        let step_cov = jacobian * self.r * jacobian.transpose() + last_turn_cov;
+        let first_order = transported_cov + step_cov;
         match order {
-            Compounding::FourthOrder => first_order + fourth_order(&carried_cov, &added_cov),
+            Compounding::FourthOrder => first_order + fourth_order(&transported_cov, &step_cov),
             _ => first_order,
         }
     }
@@ -196,28 +200,29 @@ fn log_normal(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     -0.5 * (whitened.norm_squared() + log_det + 3.0 * libm::log(2.0 * PI))
 }
 
-/// Returns a lower triangular L with L·Lᵀ = cov, zero columns where the covariance has no extent.
+/// Returns a lower triangular L with L·Lᵀ = cov. Columns of directions without variance are 0.
 pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, TangentNoiseError> {
     if cov.iter().any(|entry| !entry.is_finite()) {
         return Err(TangentNoiseError::NotFinite);
     }
-    if (cov - cov.transpose()).amax() > ROUNDING * cov.amax() {
+    if (cov - cov.transpose()).amax() > RELATIVE_TOLERANCE * cov.amax() {
         return Err(TangentNoiseError::NotSymmetric);
     }
     let mut cov_root = Matrix3::zeros();
     for j in 0..3 {
         let remaining_covariance =
             |row: usize| cov[(row, j)] - (0..j).map(|k| cov_root[(row, k)] * cov_root[(j, k)]).sum::<f64>();
-        let column = [remaining_covariance(0), remaining_covariance(1), remaining_covariance(2)];
-        let (pivot, rounding) = (column[j], ROUNDING * cov[(j, j)].abs());
+        let remaining_column = [remaining_covariance(0), remaining_covariance(1), remaining_covariance(2)];
+        let (pivot, rounding) = (remaining_column[j], RELATIVE_TOLERANCE * cov[(j, j)].abs());
         if pivot > rounding {
             for row in j..3 {
-                cov_root[(row, j)] = column[row] / pivot.sqrt();
+                cov_root[(row, j)] = remaining_column[row] / pivot.sqrt();
             }
             continue;
         }
         // A coordinate with no variance left can have no covariance left: |c_ij| ≤ √(c_ii · c_jj).
-        let has_no_covariance = |row: usize| column[row].abs() <= (rounding * cov[(row, row)].abs()).sqrt();
+        let has_no_covariance =
+            |row: usize| remaining_column[row].abs() <= (rounding * cov[(row, row)].abs()).sqrt();
         if pivot < -rounding || !(j + 1..3).all(has_no_covariance) {
             return Err(TangentNoiseError::NotPositiveSemidefinite);
         }

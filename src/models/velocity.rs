@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::TAU;
 
-/// A velocity command: `v` (m/s) and `omega` (rad/s, counter-clockwise) held for `dt` (s, positive).
+/// Velocity command: `v` (m/s) and `omega` (rad/s, counter-clockwise) held for `dt` (s, positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityCmd {
     /// Speed, m/s; negative in reverse.
@@ -19,7 +19,7 @@ pub struct VelocityCmd {
     pub dt: f64,
 }
 
-/// α₁…α₆: the variances of v̂, ω̂ and γ̂ are α₁v² + α₂ω², α₃v² + α₄ω² and α₅v² + α₆ω². Each is 0 or more.
+/// Noise parameters α₁…α₆: the variances of v̂, ω̂ and γ̂ are α₁v² + α₂ω², α₃v² + α₄ω² and α₅v² + α₆ω². Each is 0 or more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityAlphas(pub [f64; 6]);
 
@@ -59,8 +59,8 @@ impl VelocityModel {
 
     /// Returns the motion that the robot executes when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
     /// deviations. With constant unit noise, other commands and α's move the same robot.
-    pub fn executed(&self, u: &VelocityCmd, unit_noise: [f64; 3]) -> ArcInversion {
-        let [v_noise, omega_noise, gamma_noise] = self.deviations(u);
+    pub fn executed_motion(&self, u: &VelocityCmd, unit_noise: [f64; 3]) -> ArcInversion {
+        let [v_noise, omega_noise, gamma_noise] = self.noise_stds(u);
         ArcInversion {
             v_hat: u.v + v_noise * unit_noise[0],
             omega_hat: u.omega + omega_noise * unit_noise[1],
@@ -69,26 +69,26 @@ impl VelocityModel {
     }
 
     /// Returns the standard deviations of v̂, ω̂ and γ̂.
-    pub(crate) fn deviations(&self, u: &VelocityCmd) -> [f64; 3] {
+    pub(crate) fn noise_stds(&self, u: &VelocityCmd) -> [f64; 3] {
         self.variances(u).map(|variance| variance.0.sqrt())
     }
 
-    /// Returns the number of circles either way that [`VelocityModel::pose_density`] sums over, about the turn that is nearest to
-    /// the commanded one.
+    /// Returns the number of full turns in each direction over which [`VelocityModel::pose_density`] sums, beside the turn that is
+    /// nearest to the commanded one.
     pub(crate) fn windings(&self, u: &VelocityCmd) -> i32 {
-        let [_, omega_deviation, _] = self.deviations(u);
+        let [_, omega_deviation, _] = self.noise_stds(u);
         (9.0 * omega_deviation * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32
     }
 
     /// Returns the pose reached from `x` with these unit noises: Table 5.3 after its three draws.
     pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
-        let ArcInversion { v_hat, omega_hat, gamma_hat } = self.executed(u, unit_noise);
+        let ArcInversion { v_hat, omega_hat, gamma_hat } = self.executed_motion(u, unit_noise);
         let (forward, left) = chord(v_hat * u.dt, omega_hat * u.dt);
         *x * SE2::new(forward, left, (omega_hat + gamma_hat) * u.dt)
     }
 
     /// Returns the covariance of (x, y, θ) that an EKF carries: the arc linearized in (v̂, ω̂, γ̂) at the command, 3 ×
-    /// 3, in the frame in which `x` is given (m², m·rad, rad²). Independent of the shape of the noise.
+    /// 3, in the frame in which `x` is given (m², m·rad, rad²). It does not depend on the shape of the noise.
     ///
     /// It is R·(J_r R_u J_rᵀ + diag(0, 0, Δt²·Var γ̂))·Rᵀ, with R_u = Δt²·diag(Var v̂, 0, Var ω̂), the right Jacobian J_r of SE(2) at the
     /// commanded twist, and the rotation R to the final heading.
@@ -108,12 +108,12 @@ impl MotionModel for VelocityModel {
     type Control = VelocityCmd;
 
     fn prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
-        let executed = invert_arc(x, x_next, u.dt);
+        let inversion = invert_arc(x, x_next, u.dt);
         let [v_variance, omega_variance, gamma_variance] = self.variances(u);
         product_or_zero([
-            self.noise.prob(u.v - executed.v_hat, v_variance),
-            self.noise.prob(u.omega - executed.omega_hat, omega_variance),
-            self.noise.prob(executed.gamma_hat, gamma_variance),
+            self.noise.prob(u.v - inversion.v_hat, v_variance),
+            self.noise.prob(u.omega - inversion.omega_hat, omega_variance),
+            self.noise.prob(inversion.gamma_hat, gamma_variance),
         ])
     }
 
@@ -125,23 +125,23 @@ impl MotionModel for VelocityModel {
             return None;
         }
         let [v_variance, omega_variance, gamma_variance] = variances;
-        let executed = invert_arc(x, x_next, u.dt);
-        let step = x.between(x_next);
-        let distance = libm::hypot(step.x(), step.y());
-        let shortest_turn = executed.omega_hat * u.dt;
+        let inversion = invert_arc(x, x_next, u.dt);
+        let relative_pose = x.between(x_next);
+        let distance = libm::hypot(relative_pose.x(), relative_pose.y());
+        let shortest_turn = inversion.omega_hat * u.dt;
         let squared_distance_dt = distance * distance * u.dt;
         if squared_distance_dt == 0.0 {
             return Some(if self.noise.prob(u.v, v_variance) > 0.0 { f64::INFINITY } else { 0.0 });
         }
         // All turns that lead to the pose are on one circle, so that the length is proportional to the turn. A line has no windings.
-        let density = |windings: f64| {
+        let density_of_turn = |windings: f64| {
             let (v_hat, turn) = if windings == 0.0 {
-                (executed.v_hat, shortest_turn)
-            } else if executed.omega_hat == 0.0 {
+                (inversion.v_hat, shortest_turn)
+            } else if inversion.omega_hat == 0.0 {
                 return 0.0;
             } else {
                 let turn = shortest_turn + TAU * windings;
-                (executed.v_hat * (turn / shortest_turn), turn)
+                (inversion.v_hat * (turn / shortest_turn), turn)
             };
             // With |sinc(φ/2)| = d/|v̂Δt| the determinant is d²Δt/(2|v̂|) times the Δt of γ̂.
             product_or_zero([
@@ -153,11 +153,15 @@ impl MotionModel for VelocityModel {
         // Nine standard deviations reach every turn whose Gaussian density is above the rounding of the sum.
         let nearest_winding = ((u.omega * u.dt - shortest_turn) / TAU).round();
         let max_windings = self.windings(u);
-        let arcs: f64 = (-max_windings..=max_windings).map(|k| density(nearest_winding + f64::from(k))).sum();
+        let arc_density: f64 =
+            (-max_windings..=max_windings).map(|k| density_of_turn(nearest_winding + f64::from(k))).sum();
 
-        let last_turn = step.theta() - shortest_turn;
+        let last_turn = relative_pose.theta() - shortest_turn;
         let dt2 = u.dt * u.dt;
-        Some(product_or_zero([arcs, wrapped_prob(self.noise, last_turn, Variance(dt2 * gamma_variance.0))]))
+        Some(product_or_zero([
+            arc_density,
+            wrapped_prob(self.noise, last_turn, Variance(dt2 * gamma_variance.0)),
+        ]))
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {

@@ -25,44 +25,46 @@ pub(super) fn normal_quantile(q: f64) -> f64 {
     tail_quantile.copysign(q)
 }
 
-/// Number of vectors in a chunk, whose tails are gathered into full vectors. 1024 numbers take 10 kB of stack. Smaller chunks
+/// Number of vectors in a chunk, whose numbers in the tails are gathered into full vectors. 1024 numbers take 10 kB of stack. Smaller chunks
 /// would leave more incomplete vectors.
 const CHUNK: usize = 256;
 
-/// Replaces numbers by their quantiles, which have the same bits as [`normal_quantile`].
-pub(super) fn normal_quantiles(fours: &mut [f64x4]) {
-    fours.chunks_mut(CHUNK).for_each(normals_of_chunk);
+/// Replaces each number q by its quantile, with the same bits as [`normal_quantile`].
+pub(super) fn normal_quantiles(numbers: &mut [f64x4]) {
+    numbers.chunks_mut(CHUNK).for_each(replace_chunk);
 }
 
-/// Replaces the numbers of a chunk. One number in seven is in a tail, and every second vector has one. The tails are gathered
-/// into full vectors, which saves most of their cost, and unpredictable branches.
-fn normals_of_chunk(fours: &mut [f64x4]) {
-    let mut tails = [0.0; LANES * CHUNK + LANES];
-    let mut places = [0u16; LANES * CHUNK + LANES];
-    let mut count = 0;
-    for (four, q) in fours.iter_mut().enumerate() {
+/// Replaces the numbers of a chunk by their quantiles. One number in seven is in a tail, and every second vector has one. Gathering
+/// these numbers into full vectors saves most of their cost, and unpredictable branches.
+fn replace_chunk(numbers: &mut [f64x4]) {
+    let mut tail_numbers = [0.0; LANES * CHUNK + LANES];
+    let mut tail_indices = [0u16; LANES * CHUNK + LANES];
+    let mut tail_count = 0;
+    for (group, q) in numbers.iter_mut().enumerate() {
         let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();
         for (lane, tail) in q.to_array().into_iter().enumerate() {
             // The next number overwrites this one unless it is in a tail.
-            tails[count] = tail;
-            places[count] = (LANES * four + lane) as u16;
-            count += (tail_mask >> lane & 1) as usize;
+            tail_numbers[tail_count] = tail;
+            tail_indices[tail_count] = (LANES * group + lane) as u16;
+            tail_count += (tail_mask >> lane & 1) as usize;
         }
         let r = f64x4::splat(0.180_625) - *q * *q;
         *q *= rational_function(r, &CENTRE_NUMERATOR, &CENTRE_DENOMINATOR);
     }
-    let chunk_numbers: &mut [f64] = bytemuck::cast_slice_mut(fours);
-    for (tails, places) in tails[..count].chunks(LANES).zip(places[..count].chunks(LANES)) {
-        let tail_quantiles = tail_lanes(from_lanes(|lane| *tails.get(lane).unwrap_or(&0.45)));
-        for (place, quantile) in places.iter().zip(tail_quantiles.to_array()) {
-            chunk_numbers[usize::from(*place)] = quantile;
+    let chunk_numbers: &mut [f64] = bytemuck::cast_slice_mut(numbers);
+    for (numbers, indices) in
+        tail_numbers[..tail_count].chunks(LANES).zip(tail_indices[..tail_count].chunks(LANES))
+    {
+        let tail_quantiles = tail_quantile_lanes(from_lanes(|lane| *numbers.get(lane).unwrap_or(&0.45)));
+        for (index, quantile) in indices.iter().zip(tail_quantiles.to_array()) {
+            chunk_numbers[usize::from(*index)] = quantile;
         }
     }
 }
 
 /// Returns [`normal_quantile`] of four numbers, each in one of the tails.
 #[inline(always)]
-fn tail_lanes(q: f64x4) -> f64x4 {
+fn tail_quantile_lanes(q: f64x4) -> f64x4 {
     let r = (-log(f64x4::splat(0.5) - q.abs())).sqrt();
     if any_lane_set(r.simd_gt(f64x4::splat(5.0))) {
         return q.to_array().map(normal_quantile).into();

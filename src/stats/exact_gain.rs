@@ -51,7 +51,7 @@ struct PolarMotion {
 impl ExactGain {
     /// Returns the gain of the velocity model.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
-        let [v, omega, gamma] = model.deviations(u).map(|deviation| deviation * u.dt);
+        let [v, omega, gamma] = model.noise_stds(u).map(|deviation| deviation * u.dt);
         let turn = u.omega * u.dt;
         let motion = PolarMotion {
             noise: model.noise,

@@ -10,7 +10,7 @@ use super::gain::{ChartGaussians, Differences, FourRobots, MeasuredGain, Moments
 use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
 use super::sums::{PairSums, Sums, add};
 use crate::geom::angle::wrap_angle;
-use crate::geom::lanes::{LANES, any_lane_set, halves};
+use crate::geom::lanes::{LANES, any_lane_set, lane_halves};
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
@@ -94,7 +94,7 @@ impl FirstPass {
     #[inline(always)]
     pub fn multiply(&mut self, poses: &FourPoses, arcs: &FourArcs) {
         let lane_product = |lanes: f64x4| {
-            let [low, high] = halves(lanes);
+            let [low, high] = lane_halves(lanes);
             low * high
         };
         let (chart, arc) = (lane_product(poses.sinc), lane_product(arcs.sinc));

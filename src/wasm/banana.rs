@@ -100,8 +100,8 @@ impl JsBananaMachine {
     /// Motion executed by each of the samples that are shown: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1
     /// (rad), δ̂_trans (m), δ̂_rot2 (rad). A copy.
     #[wasm_bindgen(getter)]
-    pub fn executed(&self) -> Float64Array {
-        flat_float_array(&self.0.executed().collect::<Vec<_>>())
+    pub fn executed_motion(&self) -> Float64Array {
+        flat_float_array(&self.0.executed_motion().collect::<Vec<_>>())
     }
 
     /// Noise-free odometry reading of the command.

@@ -145,7 +145,7 @@ fn finish_leg(leg: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro25
     let mut end = driven;
     for (time, pose) in rows {
         unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_share, rng));
-        [.., end] = variances.executed(&reading, unit_noise).poses(&SE2::identity());
+        [.., end] = variances.executed_motion(&reading, unit_noise).poses(&SE2::identity());
         truth.push((*time, leg.truth * pose.boxplus(end.boxminus(&driven))));
     }
     leg.truth * end

@@ -254,8 +254,11 @@ impl AlphaCalibrator {
         }
         let legs = OdomDelta { rot1: first, trans: second, rot2: third };
         let alphas: RuleAlphas = std::array::from_fn(alpha);
-        let [.., end] =
-            settings.rule.variances(&legs, &alphas).executed(&legs, unit_noise).poses(&SE2::identity());
+        let [.., end] = settings
+            .rule
+            .variances(&legs, &alphas)
+            .executed_motion(&legs, unit_noise)
+            .poses(&SE2::identity());
         end
     }
 

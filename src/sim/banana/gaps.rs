@@ -1,7 +1,7 @@
 //! Parts of the 2σ ellipse in (x, y) where no robot stops.
 
 use super::{BananaMachine, OUTLINE_SEGMENTS};
-use crate::geom::arc::arc_near;
+use crate::geom::arc::arc_with_turn_near;
 use crate::geom::se2::SE2;
 use crate::sim::cloud::START_POSE;
 use crate::stats::{Ellipse, ExponentialContour};
@@ -31,7 +31,7 @@ impl BananaMachine {
             .into_iter()
             .map(|point| {
                 let [x, y] = plane_ellipse.inside(point, GAP_FRACTION);
-                let (length, turn) = arc_near(&START_POSE, &SE2::new(x, y, 0.0), mean.z);
+                let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), mean.z);
                 ([x, y], contour.ellipse().distance([length, turn]), length < mean.x)
             })
             .filter(|(_, distance, _)| *distance > MIN_DISTANCE)

@@ -13,10 +13,10 @@ use super::cloud::picture::{self, Ramp};
 use super::cloud::views::{Grid, Nearest, View};
 use super::cloud::{Cloud, START_POSE};
 use super::settings::{Rules, SettingsError};
-use crate::geom::arc::{Arc, ArcInversion, arc_near};
+use crate::geom::arc::{Arc, ArcInversion, arc_with_turn_near};
 use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
-use crate::geom::unbend::arc_at;
+use crate::geom::unbend::find_arc;
 use crate::models::{
     ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, RotTransRot, TangentNoiseModel,
     VelocityAlphas, VelocityCmd, VelocityModel,
@@ -72,12 +72,14 @@ impl ModelWithInput {
         }
     }
 
-    fn executed(&self, unit_noise: [f64; 3]) -> ExecutedMotion {
+    fn executed_motion(&self, unit_noise: [f64; 3]) -> ExecutedMotion {
         match self {
             Self::Velocity(model, command) => {
-                ExecutedMotion::Arc { arc: model.executed(command, unit_noise), dt: command.dt }
+                ExecutedMotion::Arc { arc: model.executed_motion(command, unit_noise), dt: command.dt }
             }
-            Self::Odometry(model, reading) => ExecutedMotion::Legs(model.executed(reading, unit_noise)),
+            Self::Odometry(model, reading) => {
+                ExecutedMotion::Legs(model.executed_motion(reading, unit_noise))
+            }
         }
     }
 
@@ -100,7 +102,7 @@ impl ModelWithInput {
 /// whose turn is nearest to that of `near`.
 pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
     let dt = near.dt;
-    let (length, turn) = arc_near(&START_POSE, &SE2::new(x, y, 0.0), near.omega * dt);
+    let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), near.omega * dt);
     VelocityCmd { v: length / dt, omega: turn / dt, dt }
 }
 
@@ -111,7 +113,7 @@ pub fn command_seen_at([x, y]: [f64; 2], near: &VelocityCmd, morph: f64) -> Velo
     if morph == 0.0 {
         return command_reaching(x, y, near);
     }
-    let found_arc = arc_at([x, y], [v * dt, omega * dt], morph);
+    let found_arc = find_arc([x, y], [v * dt, omega * dt], morph);
     found_arc.map_or(*near, |[length, turn]| VelocityCmd { v: length / dt, omega: turn / dt, dt })
 }
 
@@ -372,7 +374,8 @@ impl BananaMachine {
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
         let no_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
-        let executed = self.settings.motion(self.settings.command).executed(self.cloud.unit_noise(index));
+        let executed =
+            self.settings.motion(self.settings.command).executed_motion(self.cloud.unit_noise(index));
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs, path) = match executed {
             ExecutedMotion::Arc { arc, dt } => (arc, None, arc_points(arc.v_hat * dt, arc.omega_hat * dt)),
             ExecutedMotion::Legs(legs) => {
@@ -385,9 +388,9 @@ impl BananaMachine {
 
     /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s). Under the odometry model they are
     /// δ̂_rot1 (rad), δ̂_trans (m) and δ̂_rot2 (rad).
-    pub fn executed(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+    pub fn executed_motion(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let motion = self.settings.motion(self.settings.command);
-        (0..self.shown()).map(move |index| match motion.executed(self.cloud.unit_noise(index)) {
+        (0..self.shown()).map(move |index| match motion.executed_motion(self.cloud.unit_noise(index)) {
             ExecutedMotion::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
             ExecutedMotion::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],
         })

@@ -1,6 +1,6 @@
 //! Common form of both models for a start at the origin: a distance in a direction, and a final heading.
 
-use crate::geom::lanes::{Circle, HalfTurn, Trigonometry, any_lane_set};
+use crate::geom::lanes::{LogTerms, SinCos, Trigonometry, any_lane_set};
 use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
 use crate::stats::fused::{FourArcs, FourPoses, JacobianScale, Reference};
 use std::f64::consts::FRAC_PI_2;
@@ -95,8 +95,11 @@ impl Drive {
     pub fn end_points(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;
         let is_far = self.is_far(motions);
-        let circle =
-            if is_far { self.trigonometry.any_circle(bearing) } else { self.trigonometry.circle(bearing) };
+        let circle = if is_far {
+            self.trigonometry.sin_cos_any_angle(bearing)
+        } else {
+            self.trigonometry.sin_cos_small_angle(bearing)
+        };
         let ends = self.ends_on(motions, &circle);
         if is_far || !self.is_arc {
             return (ends, self.other_arcs(bearing, ends), false);
@@ -105,7 +108,7 @@ impl Drive {
     }
 
     #[inline(always)]
-    fn ends_on(&self, motions: &Motions, circle: &Circle) -> [f64x4; 2] {
+    fn ends_on(&self, motions: &Motions, circle: &SinCos) -> [f64x4; 2] {
         let distance = if self.is_arc { motions.length * circle.sinc } else { motions.length };
         [distance * circle.cos, distance * circle.sin]
     }
@@ -129,7 +132,7 @@ impl Drive {
     /// Returns the arcs that lead to the points (x, y), which lie in the directions of these bearings.
     #[inline(never)]
     fn other_arcs(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
-        let HalfTurn { half, sinc, sin, cos, .. } = self.trigonometry.any_half_turn(bearing, self.near);
+        let LogTerms { half, sinc, sin, cos, .. } = self.trigonometry.log_terms_any_angle(bearing, self.near);
         FourArcs { length: (x * cos + y * sin) / sinc, half, sinc }
     }
 
@@ -138,9 +141,9 @@ impl Drive {
     #[inline(always)]
     pub fn poses(&self, motions: &Motions, ends: &[f64x4; 2]) -> FourPoses {
         let turn = if self.is_far(motions) {
-            self.trigonometry.any_half_turn(motions.half, self.near)
+            self.trigonometry.log_terms_any_angle(motions.half, self.near)
         } else {
-            self.trigonometry.half_turn(motions.half)
+            self.trigonometry.log_terms_small_angle(motions.half)
         };
         with_logarithms(ends, turn)
     }
@@ -150,7 +153,7 @@ impl Drive {
     pub fn unbent(&self, motions: &Motions, ends: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
         let FourPoses { along, lateral, half, .. } = self.poses(motions, ends);
         let remaining_bend = 1.0 - morph;
-        let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(half * remaining_bend);
+        let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(half * remaining_bend);
         let (along, lateral) = (along * sinc, lateral * sinc * remaining_bend);
         [along * cos - lateral * sin, along * sin + lateral * cos + half * (2.0 * morph)]
     }
@@ -168,9 +171,9 @@ impl Drive {
     #[inline(never)]
     pub fn four_robots(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);
-        let circle = self.trigonometry.any_circle(motions.bearing);
+        let circle = self.trigonometry.sin_cos_any_angle(motions.bearing);
         let ends = self.ends_on(&motions, &circle);
-        let turn = self.trigonometry.any_half_turn(motions.half, self.near);
+        let turn = self.trigonometry.log_terms_any_angle(motions.half, self.near);
         (with_logarithms(&ends, turn), self.other_arcs(motions.bearing, ends))
     }
 
@@ -198,8 +201,8 @@ impl Drive {
 
 /// Returns the poses at `ends` with the half headings of `turn`, and their logarithms.
 #[inline(always)]
-fn with_logarithms(ends: &[f64x4; 2], turn: HalfTurn) -> FourPoses {
-    let ([x, y], HalfTurn { half, cotangent, sinc, sin, cos }) = (*ends, turn);
+fn with_logarithms(ends: &[f64x4; 2], turn: LogTerms) -> FourPoses {
+    let ([x, y], LogTerms { half, cotangent, sinc, sin, cos }) = (*ends, turn);
     let (along, lateral) = (cotangent * x + half * y, cotangent * y - half * x);
     FourPoses { x, y, along, lateral, half, half_sin: sin, half_cos: cos, sinc }
 }

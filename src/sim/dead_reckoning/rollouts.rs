@@ -1,7 +1,7 @@
 //! Monte Carlo rollouts: many robots drive one command repeatedly, four at a time. Sums after each step give mean and covariance.
 
 use super::settings::Settings;
-use crate::geom::lanes::{Circle, HalfTurn, LANES, Trigonometry, any_lane_set, from_lanes};
+use crate::geom::lanes::{LANES, LogTerms, SinCos, Trigonometry, any_lane_set, from_lanes};
 use crate::geom::se2::SE2;
 use crate::models::TangentNoiseModel;
 use crate::noise::{NoiseKind, centred_uniform};
@@ -93,7 +93,7 @@ impl StepInErrorFrame {
         let [length, turn, last] = settings.model().variances(u).map(|variance| variance.0.sqrt() * u.dt);
         let (mean_length, mean_half) = (u.v * u.dt, 0.5 * (u.omega * u.dt));
         let trigonometry = Trigonometry::default();
-        let circle = trigonometry.near_or_any_circle(f64x4::splat(mean_half));
+        let circle = trigonometry.sin_cos(f64x4::splat(mean_half));
         let chord = f64x4::splat(mean_length) * circle.sinc;
         let (sin, cos) = libm::sincos(2.0 * mean_half);
         Self {
@@ -112,7 +112,7 @@ impl StepInErrorFrame {
     fn drive(&self, four: &mut ErrorPoses, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
         let length = *first * self.length[1] + self.length[0];
         let turn_noise = *second * self.half_turn[1];
-        let Circle { sinc, sin, cos } = self.trigonometry.near_or_any_circle(turn_noise + self.half_turn[0]);
+        let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(turn_noise + self.half_turn[0]);
         let chord = length * sinc;
         // The bearing of the chord is the heading of the robot plus half the turn of its arc.
         let heading_sin = 2.0 * four.sin * four.cos;
@@ -121,10 +121,10 @@ impl StepInErrorFrame {
         let y = four.y + chord * (heading_sin * cos + heading_cos * sin) - self.end[1];
         let half_turn = four.half + (turn_noise + *third * self.half_last);
         let is_far = any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
-        let HalfTurn { half, cotangent, sin, cos, .. } = if is_far {
-            self.trigonometry.any_half_turn(half_turn, 0.0)
+        let LogTerms { half, cotangent, sin, cos, .. } = if is_far {
+            self.trigonometry.log_terms_any_angle(half_turn, 0.0)
         } else {
-            self.trigonometry.half_turn(half_turn)
+            self.trigonometry.log_terms_small_angle(half_turn)
         };
         *four = ErrorPoses { x: x * self.cos + y * self.sin, y: y * self.cos - x * self.sin, half, sin, cos };
         [cotangent * four.x + half * four.y, cotangent * four.y - half * four.x, half * 2.0]

@@ -154,7 +154,7 @@ impl OdometryDecomposer {
         self.draws.restart(self.settings.seed, self.settings.noise);
         self.draws.extend_to(self.shown);
         let start = self.start();
-        self.poses = self.executed(self.shown).map(|executed| executed.poses(&start)[3]).collect();
+        self.poses = self.executed_motion(self.shown).map(|executed| executed.poses(&start)[3]).collect();
     }
 
     /// Returns the odometry reading: the motion from the first odometry pose to the second.
@@ -176,13 +176,13 @@ impl OdometryDecomposer {
     }
 
     /// Returns the executed legs of each of the first `count` outcomes.
-    fn executed(&self, count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
+    fn executed_motion(&self, count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
         let rho = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
         (0..count).map(move |index| {
             let [across, along, independent] = self.draws.noise_of_sample(index);
             let turn_noise = rho * across + (1.0 - rho * rho).sqrt() * independent;
-            variances.executed(&legs, [across, along, turn_noise])
+            variances.executed_motion(&legs, [across, along, turn_noise])
         })
     }
 
@@ -200,7 +200,7 @@ impl OdometryDecomposer {
     /// Returns the linkages of the first outcomes shown, as [`OdometryDecomposer::linkage`].
     pub fn ghosts(&self, count: usize) -> Vec<[SE2; 4]> {
         let start = self.start();
-        self.executed(count.min(self.shown)).map(|executed| executed.poses(&start)).collect()
+        self.executed_motion(count.min(self.shown)).map(|executed| executed.poses(&start)).collect()
     }
 
     /// Returns the pose of the robot at the selected phase of the motion.
@@ -227,8 +227,8 @@ impl OdometryDecomposer {
                 rule,
                 legs,
                 deviations: [rot1, trans, rot2, strafe].map(|variance| variance.0.sqrt()),
-                cross_track: variances.cross_track(legs.trans, noise).sqrt(),
-                heading: variances.heading(correlation).sqrt(),
+                cross_track: variances.cross_track_variance(legs.trans, noise).sqrt(),
+                heading: variances.heading_variance(correlation).sqrt(),
             }
         })
     }
@@ -237,7 +237,7 @@ impl OdometryDecomposer {
     pub fn stats(&self) -> Stats {
         let Settings { noise, correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());
-        let outcomes = self.executed(self.shown);
+        let outcomes = self.executed_motion(self.shown);
         let cross_track_offsets = outcomes.clone().map(|ExecutedLegs { legs: executed, strafe }| {
             let (sin, cos) = libm::sincos(executed.rot1 - legs.rot1);
             executed.trans * sin + strafe * cos
@@ -250,12 +250,12 @@ impl OdometryDecomposer {
             n: self.shown,
             cross_track,
             cross_track_error,
-            exact_cross_track: variances.cross_track(legs.trans, noise).sqrt(),
+            exact_cross_track: variances.cross_track_variance(legs.trans, noise).sqrt(),
             lever: legs.trans * variances.rot1.0.sqrt(),
             heading,
             heading_error,
-            exact_heading: variances.heading(correlation).sqrt(),
-            independent_heading: variances.heading(0.0).sqrt(),
+            exact_heading: variances.heading_variance(correlation).sqrt(),
+            independent_heading: variances.heading_variance(0.0).sqrt(),
         }
     }
 
@@ -271,7 +271,7 @@ impl OdometryDecomposer {
                 let variances = rule.variances(&OdomDelta { trans, ..reading }, &alphas);
                 CurvePoint {
                     trans,
-                    cross_track: variances.cross_track(trans, noise).sqrt(),
+                    cross_track: variances.cross_track_variance(trans, noise).sqrt(),
                     lever: trans * variances.rot1.0.sqrt(),
                     along: variances.trans.0.sqrt(),
                 }

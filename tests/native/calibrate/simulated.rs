@@ -115,7 +115,7 @@ impl Simulation {
             }
             let from = base.last().expect("some").1;
             unit_noise = self.unit_noise(legs as f64 / self.count as f64, unit_noise, &mut rng);
-            let to = from * executed(self.model, &ALPHAS, &motion, time - start_time, unit_noise);
+            let to = from * executed_motion(self.model, &ALPHAS, &motion, time - start_time, unit_noise);
             // The noise of a leg is distributed evenly over its rows.
             let noise = (motion.inverse() * from.inverse() * to).log();
             let progress = |time: f64| (time - start_time) / (leg_rows.len() as f64 * STEP);
@@ -173,13 +173,14 @@ impl Simulation {
 }
 
 /// Returns the motion that a robot executed if its odometry read the motion `read` within `dt`, from noises with variance 1.
-pub fn executed(model: Model, alphas: &[f64; 6], read: &SE2, dt: f64, unit_noise: [f64; 3]) -> SE2 {
+pub fn executed_motion(model: Model, alphas: &[f64; 6], read: &SE2, dt: f64, unit_noise: [f64; 3]) -> SE2 {
     let start = SE2::identity();
     match model {
         Model::Odometry(rule) => {
             let reading = OdomDelta::from_poses(&start, read);
             let alphas = std::array::from_fn(|k| alphas[k]);
-            rule.variances(&reading, &alphas).executed(&rule.legs(&reading), unit_noise).poses(&start)[3]
+            rule.variances(&reading, &alphas).executed_motion(&rule.legs(&reading), unit_noise).poses(&start)
+                [3]
         }
         Model::Velocity => {
             let twist = read.log();

@@ -1,7 +1,7 @@
 //! Recommended α's, tested on windows of a metre of another log of the same robot.
 
 use super::calibrated;
-use super::simulated::{MODELS, Simulation, Violation, executed};
+use super::simulated::{MODELS, Simulation, Violation, executed_motion};
 use crate::common::seeded;
 use motion::calibrate::{Leg, Model, split_into_legs};
 use motion::geom::se2::SE2;
@@ -28,7 +28,7 @@ fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng)
     let odom_motion = composed(&mut legs.iter().map(motion_of));
     let mut sample = |leg| {
         let noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
-        executed(model, alphas, &motion_of(leg), leg.duration(), noise)
+        executed_motion(model, alphas, &motion_of(leg), leg.duration(), noise)
     };
     let samples: Vec<Vector3<f64>> =
         (0..SAMPLES).map(|_| composed(&mut legs.iter().map(&mut sample)).boxminus(&odom_motion)).collect();

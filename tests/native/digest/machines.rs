@@ -50,7 +50,7 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
     vec![
         Part::new("poses", machine.poses().flat_map(coordinates).collect::<Vec<_>>()),
         Part::new("twists", machine.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),
-        Part::new("executed", machine.executed().flatten().collect::<Vec<_>>()),
+        Part::new("executed", machine.executed_motion().flatten().collect::<Vec<_>>()),
         Part::new(
             "statistics",
             (machine.shown(), machine.chart_holds(), (reading.rot1, reading.trans, reading.rot2), stats),

@@ -30,7 +30,7 @@ fn first_lane(lanes: f64x4) -> f64 {
 fn circles_agree_with_libm_over_the_whole_range() {
     let trigonometry = Trigonometry::default();
     for angle in angles() {
-        let circle = trigonometry.any_circle(f64x4::splat(angle));
+        let circle = trigonometry.sin_cos_any_angle(f64x4::splat(angle));
         let sinc = if angle == 0.0 { 1.0 } else { libm::sin(angle) / angle };
         assert!((first_lane(circle.sin) - libm::sin(angle)).abs() <= ACCURACY, "sin {angle}");
         assert!((first_lane(circle.cos) - libm::cos(angle)).abs() <= ACCURACY, "cos {angle}");
@@ -50,7 +50,7 @@ fn half_turns_lie_on_the_requested_branch() {
     let trigonometry = Trigonometry::default();
     for near in [0.0, 0.25, -1.5, 1.7, -2.9] {
         for half in angles().into_iter().step_by(7) {
-            let turn = trigonometry.any_half_turn(f64x4::splat(half), near);
+            let turn = trigonometry.log_terms_any_angle(f64x4::splat(half), near);
             let expected = near + 0.5 * wrap_angle(2.0 * (half - near));
             let half_turn = first_lane(turn.half);
             // The reduction by half circles rounds in proportion to their number. At the end of the branch either side
@@ -86,11 +86,12 @@ fn a_lane_does_not_depend_on_its_neighbours() {
         let mut mixed = large_angles;
         mixed[lane] = *angle;
         let mixed = f64x4::from(mixed);
-        let (short, long) = (trigonometry.circle(alone), trigonometry.any_circle(mixed));
+        let (short, long) = (trigonometry.sin_cos_small_angle(alone), trigonometry.sin_cos_any_angle(mixed));
         for (short, long) in [(short.sinc, long.sinc), (short.sin, long.sin), (short.cos, long.cos)] {
             assert_eq!(bits(short, lane), bits(long, lane), "{angle}");
         }
-        let (short, long) = (trigonometry.half_turn(alone), trigonometry.any_half_turn(mixed, 0.0));
+        let (short, long) =
+            (trigonometry.log_terms_small_angle(alone), trigonometry.log_terms_any_angle(mixed, 0.0));
         for (short, long) in [
             (short.half, long.half),
             (short.cotangent, long.cotangent),

@@ -1,7 +1,7 @@
 //! Arcs, and motions of rotation, translation and rotation: computed from two poses, and then executed.
 
 use super::doubles::{assert_same_pose, cases, extent, poses, up_to};
-use motion::geom::arc::{Arc, arc_near, chord, invert_arc};
+use motion::geom::arc::{Arc, arc_with_turn_near, chord, invert_arc};
 use motion::geom::se2::SE2;
 use motion::models::OdomDelta;
 use proptest::prelude::*;
@@ -49,7 +49,7 @@ proptest! {
     #[test]
     fn wound_arcs_end_at_the_same_place(x in -50.0..50.0, y in -50.0..50.0, near in -300.0..300.0) {
         let next = SE2::new(x, y, 0.0);
-        let (length, turn) = arc_near(&SE2::identity(), &next, near);
+        let (length, turn) = arc_with_turn_near(&SE2::identity(), &next, near);
         // A straight line has no circle. The circle of a nearly straight one is so long that its end cannot be
         // represented.
         prop_assume!(length.abs() < 1e6);

@@ -77,7 +77,7 @@ fn the_last_turn_is_not_part_of_the_path() {
         let draw = endpoint.draw_tester(&command, &start).judge([v, omega, gamma]);
         let without_turn = endpoint.draw_tester(&command, &start).judge([v, omega, 0.0]);
         assert_eq!((draw.arc, draw.end, draw.path), (without_turn.arc, without_turn.end, without_turn.path));
-        let executed = model().executed(&command, [v, omega, gamma]);
+        let executed = model().executed_motion(&command, [v, omega, gamma]);
         assert!((draw.arc.length - 2.0 * executed.v_hat).abs() < 1e-15);
         assert!((draw.arc.turn - 2.0 * executed.omega_hat).abs() < 1e-15);
         let pose = model().apply_noise(&command, &start, [v, omega, gamma]);
@@ -104,7 +104,7 @@ fn samples_are_those_of_table_5_7() {
                 let pose = loop {
                     let mut noise_rng = expected_rng.clone();
                     let pose = model().sample(&command, &start, &mut expected_rng);
-                    let executed = model().executed(&command, unit_noise(&mut noise_rng));
+                    let executed = model().executed_motion(&command, unit_noise(&mut noise_rng));
                     let arc = Arc { start, length: 2.0 * executed.v_hat, turn: 2.0 * executed.omega_hat };
                     draws += 1;
                     let end = plan.point_free([pose.x(), pose.y()], 0.13).free;

@@ -122,7 +122,7 @@ fn legs_of_every_rule_end_where_the_reading_does() {
         for rule in OdometryRule::ALL {
             for (to, tolerance) in [(to, 1e-13), (nearby, MAX_SPIN_DISTANCE)] {
                 let legs = rule.legs(&OdomDelta::from_poses(&from, &to));
-                let without_noise = rule.variances(&legs, &[0.0; 5]).executed(&legs, [1.0; 3]);
+                let without_noise = rule.variances(&legs, &[0.0; 5]).executed_motion(&legs, [1.0; 3]);
                 assert!(pose_distance(&without_noise.poses(&from)[3], &to) < tolerance, "{rule:?}");
                 assert_eq!(rule.legs(&legs), legs, "a rule does not change its own legs");
             }
@@ -161,14 +161,15 @@ fn exact_spreads_match_samples() {
             let outcomes: Vec<[f64; 2]> = (0..SAMPLES)
                 .map(|_| {
                     let [a, b, c] = [draw(), draw(), draw()];
-                    let executed = variances.executed(&legs, [a, b, rho * a + (1.0 - rho * rho).sqrt() * c]);
+                    let executed =
+                        variances.executed_motion(&legs, [a, b, rho * a + (1.0 - rho * rho).sqrt() * c]);
                     let [_, _, driven, _] = executed.poses(&start);
                     let (dx, dy) = (driven.x() - start.x(), driven.y() - start.y());
                     let turn_error = executed.legs.rot1 + executed.legs.rot2 - legs.rot1 - legs.rot2;
                     [dy * bearing.cos() - dx * bearing.sin(), turn_error]
                 })
                 .collect();
-            let exact = [variances.cross_track(legs.trans, kind), variances.heading(rho)];
+            let exact = [variances.cross_track_variance(legs.trans, kind), variances.heading_variance(rho)];
             for (k, exact) in exact.into_iter().enumerate() {
                 let mean = |power| {
                     outcomes.iter().map(|outcome| outcome[k].powi(power)).sum::<f64>() / SAMPLES as f64

@@ -4,7 +4,7 @@ use crate::common::{preset, winds_around};
 use crate::simulations::banana::machine;
 use motion::VelocityCmd;
 use motion::geom::se2::SE2;
-use motion::geom::unbend::{arc_at, unbend, unbend_line};
+use motion::geom::unbend::{find_arc, unbend, unbend_line};
 use motion::sim::View;
 use motion::sim::banana::{ModelKind, OUTLINE_SEGMENTS, Settings};
 use motion::stats::ExponentialContour;
@@ -129,7 +129,7 @@ fn a_place_leads_back_to_its_arc() {
     for morph in MORPHS {
         for [length, turn] in [[1.0, 0.5], [2.0, -1.0], [1.4, 1.7], [0.3, 0.0]] {
             let position = unbend(&Vector3::new(length, 0.0, turn), morph);
-            let arc = arc_at(position, [length + 0.1, turn - 0.1], morph).expect("an arc");
+            let arc = find_arc(position, [length + 0.1, turn - 0.1], morph).expect("an arc");
             assert!(distance(arc, [length, turn]) < 1e-9, "{morph}: {arc:?}");
         }
     }

@@ -1,7 +1,7 @@
 //! Likelihood gains and ratios of areas: compared with their definitions and references, and undefined for degenerate clouds.
 
 use crate::common::{NOISE_KINDS, Table, mean, preset, variance};
-use motion::geom::arc::{arc_near, chord};
+use motion::geom::arc::{arc_with_turn_near, chord};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Preset, Settings, Stats};
 use motion::stats::{CartesianMoments, ExactGain};
@@ -80,7 +80,7 @@ fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
         cloud.iter().map(|p| DVector::from_column_slice(p.log_near(turn).as_slice())).collect();
     let arcs: Vec<_> = cloud
         .iter()
-        .map(|p| arc_near(&SE2::identity(), p, turn))
+        .map(|p| arc_with_turn_near(&SE2::identity(), p, turn))
         .map(|(length, turn)| DVector::from_vec(vec![length, turn]))
         .collect();
     let pose_of_twist = |xi: &DVector<f64>| {

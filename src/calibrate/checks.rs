@@ -8,7 +8,7 @@ use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::OdometryRule;
-use nalgebra::Vector2;
+use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 /// Overall judgement of a calibration.
@@ -27,7 +27,7 @@ pub enum Verdict {
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
     /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. For a reference that does not drift
-    /// from the odometry it is the distance of both paths, divided by their length.
+    /// from the odometry it is the drift of both paths, divided by their length.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -185,12 +185,12 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 /// measurements differ by more than 0.05 %: one that differs by less is a copy of the other.
 const MISMATCH_RANGE: [f64; 2] = [0.0005, 0.7];
 
-/// Root mean square distance between two paths, over their length, below which one is a copy of the other with rounded numbers. The error
-/// of wheels grows with the distance, but that of rounding does not: a robot that errs by 1 mm and 0.5 mrad over a metre drifts by 1e-4.
+/// Distance by which two paths drift apart, over their length, below which one is a copy of the other. Errors of wheels add up along a path,
+/// but those of rounded or noisy numbers do not: a robot that errs by 1 mm and 0.5 mrad over a metre drifts by 1e-4.
 const MAX_COPY_DRIFT: f64 = 3e-5;
 
-/// Maximum and minimum length (m) of the pieces in which paths are compared.
-const COMPARED_LENGTHS: [f64; 2] = [200.0, 2.0];
+/// Lengths (m) of the long and of the short pieces in which paths are compared.
+const PIECE_LENGTHS: [f64; 2] = [200.0, 5.0];
 
 /// Scales that wheels can have. Any other scale shows that the reference has another unit.
 const PLAUSIBLE_SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
@@ -216,8 +216,7 @@ pub(super) fn log_checks(
     let has_plausible_scales = scales.iter().all(|scale| PLAUSIBLE_SCALES.contains(&systematic.get(*scale)));
     let mismatch = if has_plausible_scales {
         // A copy with rounded numbers differs in each leg, but hardly drifts.
-        let copy_drift = drift(sample, systematic).filter(|drift| *drift < MAX_COPY_DRIFT);
-        copy_drift.or_else(|| mismatch(sample, systematic))
+        copy_drift(sample, systematic).or_else(|| mismatch(sample, systematic))
     } else {
         Some(f64::INFINITY)
     };
@@ -271,53 +270,71 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     [turns, drives].into_iter().filter_map(median_ratio).reduce(f64::max)
 }
 
-/// Returns the distance between the paths by odometry and by reference, divided by their length: the median over pieces of the drives.
-/// `None` if the robot hardly drives.
-fn drift(sample: &Sample, systematic: &Systematic) -> Option<f64> {
-    let ([max_length, min_length], base) = (COMPARED_LENGTHS, systematic.base());
-    let mut ratios = Vec::new();
-    let (mut paths, mut expected, mut length) = (PathPair::default(), SE2::identity(), 0.0);
-    let mut legs = sample.legs.iter().peekable();
-    while let Some(leg) = legs.next() {
-        let motion = systematic.expected(sample.options.model, leg);
-        expected = expected * motion;
-        length += distance(&motion);
-        let measured = leg.reference[1] * base;
-        paths.push([expected, measured].map(|pose| Vector2::new(pose.x(), pose.y())));
-        if length >= max_length || legs.peek().is_none_or(|next| !next.follows) {
-            if length > min_length {
-                ratios.push(paths.rms_distance() / length);
-            }
-            (paths, expected, length) = (PathPair::default(), SE2::identity(), 0.0);
-        }
-    }
-    (!ratios.is_empty()).then(|| median(&mut ratios))
+/// Returns the distance by which the paths by odometry and by reference drift apart, over their length, if one is a copy of the other.
+/// The noise of the reference is equal in long and in short pieces, so the drift is the difference.
+fn copy_drift(sample: &Sample, systematic: &Systematic) -> Option<f64> {
+    let [long, short] = PIECE_LENGTHS.map(|length| PathDistances::new(sample, systematic, length));
+    // Both have the same noise, and the short pieces more alignments.
+    let growth_std = short.mean_square() * (short.freedom.recip() - long.freedom.recip()).sqrt();
+    let growth = long.mean_square() - short.mean_square() + 2.0 * growth_std;
+    let square = growth / (long.mean_length() - short.mean_length()) / long.mean_length();
+    (square < MAX_COPY_DRIFT * MAX_COPY_DRIFT).then(|| square.max(0.0).sqrt())
 }
 
-/// Sums over pairs of points, one of each of two paths.
+/// Distances between the paths by odometry and by reference, summed over pieces. Each piece is moved, rotated and scaled to be closest.
 #[derive(Default)]
-struct PathPair {
-    count: f64,
-    sums: [Vector2<f64>; 2],
+struct PathDistances {
     square_sum: f64,
-    /// Sums of the scalar products and of the vector products of the points of both paths.
-    products: Vector2<f64>,
+    /// Number of points less two for each piece, which its alignment takes.
+    freedom: f64,
+    /// Lengths of the pieces, multiplied by their freedom.
+    length_sum: f64,
 }
 
-impl PathPair {
-    fn push(&mut self, [one, other]: [Vector2<f64>; 2]) {
-        self.count += 1.0;
-        self.sums = [self.sums[0] + one, self.sums[1] + other];
-        self.square_sum += one.norm_squared() + other.norm_squared();
-        self.products += Vector2::new(one.dot(&other), one.perp(&other));
+impl PathDistances {
+    fn new(sample: &Sample, systematic: &Systematic, piece_length: f64) -> Self {
+        let (mut distances, base) = (Self::default(), systematic.base());
+        let (mut points, mut expected, mut length) = (Vec::new(), SE2::identity(), 0.0);
+        let mut legs = sample.legs.iter().peekable();
+        while let Some(leg) = legs.next() {
+            let motion = systematic.expected(sample.options.model, leg);
+            expected = expected * motion;
+            length += distance(&motion);
+            let measured = leg.reference[1] * base;
+            points.push([expected, measured].map(|pose| Complex::new(pose.x(), pose.y())));
+            if length >= piece_length || legs.peek().is_none_or(|next| !next.follows) {
+                distances.add(&points, length);
+                (expected, length) = (SE2::identity(), 0.0);
+                points.clear();
+            }
+        }
+        distances
     }
 
-    /// Returns the root mean square distance of the points, after the rotation and shift of one path that minimize it.
-    fn rms_distance(&self) -> f64 {
-        let [one, other] = self.sums;
-        let square_sum = self.square_sum - (one.norm_squared() + other.norm_squared()) / self.count;
-        let products = self.products - Vector2::new(one.dot(&other), one.perp(&other)) / self.count;
-        ((square_sum - 2.0 * products.norm()) / self.count).max(0.0).sqrt()
+    fn add(&mut self, points: &[[Complex<f64>; 2]], length: f64) {
+        let count = points.len() as f64;
+        if count <= 2.0 {
+            return;
+        }
+        let means = [0, 1].map(|path| points.iter().map(|point| point[path]).sum::<Complex<f64>>() / count);
+        let (mut square_sums, mut product_sum) = ([0.0; 2], Complex::new(0.0, 0.0));
+        for point in points {
+            let [expected, measured] = [0, 1].map(|path| point[path] - means[path]);
+            square_sums[0] += expected.norm_sqr();
+            square_sums[1] += measured.norm_sqr();
+            product_sum += expected.conj() * measured;
+        }
+        self.square_sum += (square_sums[1] - product_sum.norm_sqr() / square_sums[0]).max(0.0);
+        self.freedom += count - 2.0;
+        self.length_sum += (count - 2.0) * length;
+    }
+
+    fn mean_square(&self) -> f64 {
+        self.square_sum / self.freedom
+    }
+
+    fn mean_length(&self) -> f64 {
+        self.length_sum / self.freedom
     }
 }
 

@@ -134,7 +134,7 @@ fn assert_results(machine: &BananaMachine) {
     let (n, stats) = (machine.shown(), machine.stats());
     machine.poses().for_each(|pose| laws::assert_pose("a pose", &pose));
     assert_eq!(machine.poses().len(), n);
-    laws::assert_finite("executed", machine.executed_motion().collect::<Vec<_>>().as_flattened());
+    laws::assert_finite("executed", machine.executed_motions().collect::<Vec<_>>().as_flattened());
     let is_charted = machine.chart_holds();
     if is_charted {
         machine.twists().for_each(|twist| laws::assert_finite("a twist", twist.as_slice()));

@@ -5,7 +5,7 @@ use super::plan;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{
-    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION_RANGE, Unknown,
+    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION_RANGE, UnknownCells,
 };
 use motion::sim::settings::QUANTITY_RANGE;
 
@@ -32,7 +32,7 @@ pub fn run(bytes: &[u8]) {
     let grid = plan.grid().expect("made of a grid");
     assert_outlined(grid, unknown);
     for (middle, blocks) in cell_middles(grid, unknown) {
-        assert_eq!(plan.point_free(middle, 0.0).free, !blocks, "{middle:?} in {grid:?}");
+        assert_eq!(plan.test_point(middle, 0.0).free, !blocks, "{middle:?} in {grid:?}");
     }
     for _ in 0..MAX_ARCS {
         plan::assert_verdict(&plan, &mut input);
@@ -44,14 +44,14 @@ pub fn run(bytes: &[u8]) {
 
 /// Returns the middle of each cell, and whether the cell is an obstacle; empty if the coordinates are too large to
 /// distinguish cells.
-fn cell_middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)> {
+fn cell_middles(grid: &OccupancyGrid, unknown: UnknownCells) -> Vec<([f64; 2], bool)> {
     let ([columns, rows], origin, cell_side) = (grid.size(), grid.origin(), grid.resolution());
     let largest_coordinate = origin.x().abs().max(origin.y().abs()) + (columns + rows) as f64 * cell_side;
     if cell_side <= 1e3 * f64::EPSILON * largest_coordinate {
         return Vec::new();
     }
     let is_blocking =
-        |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown == Unknown::Blocked);
+        |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown == UnknownCells::Blocked);
     let cells = grid.cells().enumerate();
     let middle_of = |i: usize| {
         let [u, v] = [i % columns, i / columns].map(|at| (at as f64 + 0.5) * cell_side);
@@ -63,7 +63,7 @@ fn cell_middles(grid: &OccupancyGrid, unknown: Unknown) -> Vec<([f64; 2], bool)>
 
 /// Asserts that each cell contains its middle, and that outlines separate obstacle cells from other cells: their total
 /// length equals that of the sides between obstacle cells and others.
-fn assert_outlined(grid: &OccupancyGrid, unknown: Unknown) {
+fn assert_outlined(grid: &OccupancyGrid, unknown: UnknownCells) {
     let middles = cell_middles(grid, unknown);
     for (middle, blocks) in &middles {
         assert_eq!(grid.is_blocked_at(*middle), *blocks, "{middle:?} in {grid:?}");
@@ -95,7 +95,7 @@ fn length_of(wall: &Segment) -> f64 {
 }
 
 /// Reads a grid of a few cells, and the treatment of its unknown cells.
-pub fn read(input: &mut Input) -> Option<(OccupancyGrid, Unknown)> {
+pub fn read(input: &mut Input) -> Option<(OccupancyGrid, UnknownCells)> {
     let resolution = input.number_near(&RESOLUTION_RANGE);
     let [x, y, yaw] = [0; 3].map(|_| input.number_near(&QUANTITY_RANGE));
     if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|number| QUANTITY_RANGE.contains(number)) {
@@ -106,7 +106,7 @@ pub fn read(input: &mut Input) -> Option<(OccupancyGrid, Unknown)> {
     let negate = input.next_bool();
     let [a, b] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
     let interpretation = Interpretation { mode, negate, occupied_thresh: a.max(b), free_thresh: a.min(b) };
-    let unknown = input.one_of(&[Unknown::Free, Unknown::Blocked]);
+    let unknown = input.one_of(&[UnknownCells::Free, UnknownCells::Blocked]);
     let is_opaque = input.next_bool();
     let pixels: Vec<Pixel> = (0..width * height)
         .map(|_| Pixel {

@@ -121,7 +121,7 @@ pub fn assert_verdict(plan: &FloorPlan, input: &mut Input) {
     let is_in_obstacle = plan.grid().is_some_and(|grid| grid.is_blocked_at([start.x(), start.y()]));
     let wall_distance = plan.walls().iter().map(|wall| wall.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min);
 
-    let is_free = plan.arc_free(&arc, clearance).free;
+    let is_free = plan.test_arc(&arc, clearance).free;
     let situation = format!("{arc:?} with {clearance} to spare: walls {wall_distance}, edge {min_depth}");
     if is_free {
         assert!(wall_distance > clearance - tolerance && min_depth >= -tolerance && !is_in_obstacle, "through a wall: {situation}");
@@ -133,7 +133,7 @@ pub fn assert_verdict(plan: &FloorPlan, input: &mut Input) {
     let end = arc.end();
     let point = [end.x(), end.y()];
     let wall_distance = plan.walls().iter().map(|wall| wall.distance_to_point(point)).fold(f64::INFINITY, f64::min);
-    let is_free = plan.point_free(point, clearance).free;
+    let is_free = plan.test_point(point, clearance).free;
     let is_in_obstacle = plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
     let depth_of_end = depth_inside(point[0], point[1]);
     if is_free {

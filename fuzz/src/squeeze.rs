@@ -42,7 +42,7 @@ pub fn run(bytes: &[u8]) {
 /// robot that cannot move in one part of the command takes 10 000 draws.
 fn with_few_samples(settings: Settings, with_parts: bool) -> Settings {
     let steps = settings.steps.min(MAX_PARTS);
-    let sampler = if with_parts { settings.sampler.in_parts(steps) } else { without_parts(settings.sampler) };
+    let sampler = if with_parts { settings.sampler.with_parts(steps) } else { without_parts(settings.sampler) };
     Settings { samples: settings.samples.min(MAX_SAMPLES), steps, sampler, ..settings }
 }
 
@@ -128,9 +128,9 @@ fn assert_as_new(machine: &MapSqueeze) {
 
 /// Asserts that the robot fits at the free pose that the machine finds.
 fn assert_free_pose(machine: &MapSqueeze) {
-    let Some(free_pose) = machine.open_place() else { return };
+    let Some(free_pose) = machine.find_free_pose() else { return };
     laws::assert_pose("in the open", &free_pose);
-    let fits_there = machine.plan().point_free([free_pose.x(), free_pose.y()], machine.settings().clearance).free;
+    let fits_there = machine.plan().test_point([free_pose.x(), free_pose.y()], machine.settings().clearance).free;
     assert!(fits_there, "{free_pose:?}");
 }
 

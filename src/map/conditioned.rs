@@ -11,7 +11,7 @@ use std::ops::{Add, Mul, Range};
 use thiserror::Error;
 use wide::f64x4;
 
-/// Condition for accepting a draw.
+/// Sampler, by its condition for accepting a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampler {
     /// The last pose of the draw is free, as in Table 5.7. The path may lead through a wall.
@@ -19,7 +19,7 @@ pub enum Sampler {
     /// The whole arc driven is free.
     WholeArc,
     /// The command is split into this many shorter ones (1 or more), and each is drawn until its last pose is free.
-    /// Each part has its own noise, so that the total spread shrinks with √steps.
+    /// Each part has its own noise, so that the total spread shrinks with the root of the number of parts.
     SubStepped(u32),
 }
 
@@ -30,7 +30,7 @@ impl Sampler {
     }
 
     /// Returns this sampler with another number of parts, if it splits motions.
-    pub fn in_parts(self, parts: u32) -> Self {
+    pub fn with_parts(self, parts: u32) -> Self {
         if let Self::SubStepped(_) = self { Self::SubStepped(parts) } else { self }
     }
 }
@@ -59,7 +59,7 @@ pub struct MapConditioned<'a> {
     pub plan: &'a FloorPlan,
     /// Radius of the robot, m: its centre stays further away from walls.
     pub clearance: f64,
-    /// Part of a motion that is tested.
+    /// Condition for accepting a draw.
     pub sampler: Sampler,
 }
 
@@ -97,7 +97,7 @@ pub struct Cost {
     pub wall_tests: usize,
 }
 
-/// No motion was accepted: [`MAX_DRAWS`] draws in a row were rejected, or too many in total.
+/// Error if no motion was accepted: [`MAX_DRAWS`] draws in a row were rejected, or too many in total.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("the robot is wedged: {} draws were tried and too few accepted", .0.draws)]
 pub struct NoAcceptedSample(pub Cost);
@@ -116,22 +116,22 @@ pub struct DrawTester<'a> {
 }
 
 impl DrawTester<'_> {
-    /// Returns the draw for three random numbers of variance 1, with both collision tests.
-    pub fn judge(&self, unit_noise: [f64; 3]) -> Draw {
+    /// Returns the draw for three random numbers of variance 1, with the results of both collision tests.
+    pub fn test_draw(&self, unit_noise: [f64; 3]) -> Draw {
         self.test_motion(self.part.motion(&self.from, unit_noise))
     }
 
     /// Tests some lanes of four samples, and calls `visit` with each result. The poses may differ by rounding from those of
-    /// [`DrawTester::judge`].
-    pub fn test_four(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(Draw)) {
+    /// [`DrawTester::test_draw`].
+    pub fn test_group(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(Draw)) {
         let motion = self.part.four_motions(&self.from, &self.trigonometry, unit_noise);
         lanes.map(|lane| self.test_motion(motion(lane))).for_each(visit);
     }
 
     fn test_motion(&self, (pose, driven): (SE2, DrivenArc)) -> Draw {
         let MapConditioned { plan, clearance, .. } = *self.conditioned;
-        let end = plan.point_free(driven.end, clearance);
-        Draw { pose, arc: driven.arc, end, path: plan.path_free(&driven, end, clearance) }
+        let end = plan.test_point(driven.end, clearance);
+        Draw { pose, arc: driven.arc, end, path: plan.test_path(&driven, end, clearance) }
     }
 
     /// Returns the arc that is driven under these unit noises.
@@ -198,7 +198,7 @@ impl MapConditioned<'_> {
         self.sample_along(u, x, rng, |_| ())
     }
 
-    /// Returns an accepted motion as [`MapConditioned::sample`] does, and calls `along` with each arc of the motion.
+    /// Returns an accepted motion as [`MapConditioned::sample`] does, after calling `along` with each of its arcs.
     pub fn sample_along<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -210,7 +210,7 @@ impl MapConditioned<'_> {
         let mut cost = Cost::default();
         let pose = self.drive(u, x, rng, &mut cost, &mut |driven, end| {
             along(&driven.arc);
-            path_free = path_free && self.plan.path_free(driven, end, self.clearance).free;
+            path_free = path_free && self.plan.test_path(driven, end, self.clearance).free;
         })?;
         Ok(AcceptedMotion { pose, path_free, cost })
     }
@@ -230,8 +230,8 @@ impl MapConditioned<'_> {
         Ok(cost)
     }
 
-    /// Returns the last part of a motion without rejection, and true if all parts are free. The motion has as many parts as
-    /// the sampler. Up to the first rejection the draws are those of [`MapConditioned::sample_along`].
+    /// Draws a motion without rejection, in as many parts as the sampler has. Returns its last part, and true if all parts are free.
+    /// Up to the first rejection the draws are those of [`MapConditioned::sample_along`].
     pub fn sample_unconditioned<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -239,23 +239,23 @@ impl MapConditioned<'_> {
         rng: &mut R,
         mut along: impl FnMut(&Arc),
     ) -> (Draw, bool) {
-        let (steps, step) = self.parts(u);
-        let draw_from = |from: &SE2, unit_noise| self.tester_of_part(step, from).judge(unit_noise);
-        let mut complete_draw = draw_from(x, self.unit_noise(rng));
-        along(&complete_draw.arc);
-        let mut path_free = complete_draw.path.free;
-        for _ in 1..steps {
-            complete_draw = draw_from(&complete_draw.pose, self.unit_noise(rng));
-            along(&complete_draw.arc);
-            path_free &= complete_draw.path.free;
+        let (part_count, part) = self.parts(u);
+        let draw_from = |from: &SE2, unit_noise| self.tester_of_part(part, from).test_draw(unit_noise);
+        let mut last_draw = draw_from(x, self.unit_noise(rng));
+        along(&last_draw.arc);
+        let mut path_free = last_draw.path.free;
+        for _ in 1..part_count {
+            last_draw = draw_from(&last_draw.pose, self.unit_noise(rng));
+            along(&last_draw.arc);
+            path_free &= last_draw.path.free;
         }
-        (complete_draw, path_free)
+        (last_draw, path_free)
     }
 
     /// Returns the number of parts of a motion, and each of them.
     fn parts(&self, u: &VelocityCmd) -> (u32, PartMotion) {
-        let steps = if let Sampler::SubStepped(steps) = self.sampler { steps.max(1) } else { 1 };
-        (steps, self.part(&VelocityCmd { dt: u.dt / f64::from(steps), ..*u }))
+        let part_count = self.sampler.parts().max(1);
+        (part_count, self.part(&VelocityCmd { dt: u.dt / f64::from(part_count), ..*u }))
     }
 
     fn part(&self, u: &VelocityCmd) -> PartMotion {
@@ -266,6 +266,8 @@ impl MapConditioned<'_> {
         std::array::from_fn(|_| self.model.noise.quantile(centred_uniform(rng)))
     }
 
+    /// Draws each part of a motion until it is accepted. Calls `along` with its arc and the verdict on its end, and returns the last
+    /// end pose.
     fn drive<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -274,9 +276,9 @@ impl MapConditioned<'_> {
         cost: &mut Cost,
         along: &mut dyn FnMut(&DrivenArc, Verdict),
     ) -> Result<SE2, NoAcceptedSample> {
-        let (steps, step) = self.parts(u);
-        (0..steps).try_fold(*x, |pose, _| {
-            let (pose, arc, end) = self.draw_until_accepted(&step, &PreparedPose::new(pose), rng, cost)?;
+        let (part_count, part) = self.parts(u);
+        (0..part_count).try_fold(*x, |pose, _| {
+            let (pose, arc, end) = self.draw_until_accepted(&part, &PreparedPose::new(pose), rng, cost)?;
             along(&arc, end);
             Ok(pose)
         })
@@ -292,9 +294,9 @@ impl MapConditioned<'_> {
     ) -> Result<(SE2, DrivenArc, Verdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
             let (end_pose, driven_arc) = part.motion(from, self.unit_noise(rng));
-            let end_verdict = self.plan.point_free(driven_arc.end, self.clearance);
+            let end_verdict = self.plan.test_point(driven_arc.end, self.clearance);
             let deciding_verdict = if self.sampler == Sampler::WholeArc {
-                self.plan.path_free(&driven_arc, end_verdict, self.clearance)
+                self.plan.test_path(&driven_arc, end_verdict, self.clearance)
             } else {
                 end_verdict
             };
@@ -322,7 +324,7 @@ impl MapConditioned<'_> {
     }
 
     /// Returns the result of the test that decides on a draw.
-    pub fn deciding(&self, draw: &Draw) -> Verdict {
+    pub fn deciding_test(&self, draw: &Draw) -> Verdict {
         if self.sampler == Sampler::WholeArc { draw.path } else { draw.end }
     }
 }

@@ -15,12 +15,12 @@ pub(super) struct DistanceField {
     cells_per_metre: f64,
     columns: usize,
     /// Index of the last column and of the last row.
-    last: [f64; 2],
+    last_cell: [f64; 2],
     /// Half the diagonal of a cell, m.
     radius: f64,
     /// Uncertainty of the distance from the middle of a cell, m.
     uncertainty: f64,
-    /// Distances row by row from the bottom, m. Negative if a wall passes through the cell or its neighbour, −∞ if the
+    /// Lower bounds row by row from the bottom, m. Negative if a wall passes through the cell or its neighbour, −∞ if the
     /// cell is inside an occupied one, [`NOT_COMPUTED`] if unknown.
     lower_bounds: Vec<f32>,
 }
@@ -32,8 +32,8 @@ const CELLS_PER_WALL: f64 = MIN_CELLS;
 const MIN_CELLS: f64 = if cfg!(fuzzing) { 64.0 } else { 4096.0 };
 const MAX_CELLS: f64 = 1_048_576.0;
 
-/// Maximum number of walls or nodes that are measured for a block, and additional number for each of its cells. Where more are
-/// near, as in the middle of a star, filling would take seconds. The distance is then [`NOT_COMPUTED`], and the tree is searched.
+/// Maximum number of walls or nodes that are measured for a block, and additional number for each of its cells. If more are near, as
+/// where many walls meet, filling would take seconds. The distance is then [`NOT_COMPUTED`], and the tree is searched.
 const MAX_WALLS_PER_BLOCK: usize = 32;
 const MAX_WALLS_PER_CELL: usize = 3;
 
@@ -48,12 +48,12 @@ const NOT_COMPUTED: f32 = f32::MIN;
 const UNDIVIDED_DISTANCE: f64 = 8.0;
 
 impl DistanceField {
-    /// Fills the field of the walls of a tree within `bounds` (minimum x, minimum y, maximum x, maximum y; m). `solid` are the
+    /// Fills the field of the walls of a tree within `bounds` (minimum x, minimum y, maximum x, maximum y; m). `occupied_grid` has the
     /// cells that the walls outline.
-    pub fn new(tree: &WallTree, bounds: [f64; 4], solid: Option<&OccupancyGrid>) -> Self {
+    pub fn new(tree: &WallTree, bounds: [f64; 4], occupied_grid: Option<&OccupancyGrid>) -> Self {
         let mut builder = FieldBuilder::new(tree, bounds);
         while let Some(block) = builder.blocks.pop() {
-            builder.fill_block(tree, solid, block);
+            builder.fill_block(tree, occupied_grid, block);
         }
         builder.field
     }
@@ -79,13 +79,17 @@ impl DistanceField {
         // On the border of two cells both are correct, so that rounding may select either.
         let [column, row] = [0, 1].map(|axis| {
             let cell = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
-            cell.fast_max(zero).fast_min(f64x4::splat(self.last[axis])) + ROUND_TO_INTEGER - ROUND_TO_INTEGER
+            cell.fast_max(zero).fast_min(f64x4::splat(self.last_cell[axis])) + ROUND_TO_INTEGER
+                - ROUND_TO_INTEGER
         });
         // Adding this number to a small whole number puts that number into the last bits of the sum.
-        let cells = (row * self.columns as f64 + column + ROUND_TO_INTEGER).to_array();
+        let cell_indices = (row * self.columns as f64 + column + ROUND_TO_INTEGER).to_array();
         from_lanes(|i| {
             f64::from(
-                self.lower_bounds.get(cells[i].to_bits() as u32 as usize).copied().unwrap_or(NOT_COMPUTED),
+                self.lower_bounds
+                    .get(cell_indices[i].to_bits() as u32 as usize)
+                    .copied()
+                    .unwrap_or(NOT_COMPUTED),
             )
         })
     }
@@ -102,22 +106,22 @@ impl DistanceField {
     }
 }
 
-/// A field that is being filled.
+/// Distance field that is being filled, with the state of the search.
 struct FieldBuilder {
     field: DistanceField,
     rows: usize,
-    side: f64,
+    cell_side: f64,
     /// Bound on the rounding error of any coordinate on the map, m.
-    slack: f64,
+    rounding_slack: f64,
     /// Stack of candidates for the nearest wall, for the blocks that are still to be filled.
     candidates: Vec<Candidate>,
     blocks: Vec<Block>,
     /// Candidates of the current block: not yet measured, and measured.
-    open: Vec<Candidate>,
+    unmeasured: Vec<Candidate>,
     measured: Vec<(f64, Candidate)>,
 }
 
-/// `size` · `size` cells.
+/// Block of `size` · `size` cells.
 #[derive(Clone, Copy, Debug)]
 struct Block {
     first: [usize; 2],
@@ -154,23 +158,23 @@ impl FieldBuilder {
                 corner: [left, bottom],
                 cells_per_metre: 1.0 / cell_side,
                 columns,
-                last: [columns, rows].map(|count| count as f64 - 1.0),
+                last_cell: [columns, rows].map(|count| count as f64 - 1.0),
                 radius,
                 uncertainty: if tree.is_leaf(1) { 0.0 } else { BLOCK_UNCERTAINTY * radius },
                 lower_bounds: vec![NOT_COMPUTED; columns * rows],
             },
             rows,
-            side: cell_side,
-            slack: rounding_bound(&bounds),
+            cell_side,
+            rounding_slack: rounding_bound(&bounds),
             candidates,
             blocks: vec![whole_block],
-            open: Vec::new(),
+            unmeasured: Vec::new(),
             measured: Vec::new(),
         }
     }
 
     /// Fills a block or divides it.
-    fn fill_block(&mut self, tree: &WallTree, solid: Option<&OccupancyGrid>, block: Block) {
+    fn fill_block(&mut self, tree: &WallTree, occupied_grid: Option<&OccupancyGrid>, block: Block) {
         let Block { first: [left, bottom], size, range } = block;
         if left >= self.field.columns || bottom >= self.rows {
             return;
@@ -181,11 +185,12 @@ impl FieldBuilder {
         let uncertainty = size as f64 * self.field.uncertainty;
         // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
         self.candidates.truncate(range[1]);
-        let Some([min_distance, max_distance]) = self.measure(tree, centre, block, uncertainty) else {
+        let Some([min_distance, max_distance]) = self.measure_candidates(tree, centre, block, uncertainty)
+        else {
             return;
         };
         if size > 1 && min_distance <= UNDIVIDED_DISTANCE * radius + uncertainty / BLOCK_UNCERTAINTY {
-            let max_lower_bound = max_distance + 2.0 * radius + self.slack;
+            let max_lower_bound = max_distance + 2.0 * radius + self.rounding_slack;
             self.candidates.extend(
                 self.measured
                     .iter()
@@ -199,19 +204,19 @@ impl FieldBuilder {
             }
             return;
         }
-        // If `min_distance > radius`, no wall passes through the block, so that all of it is on one side of each outline.
-        let is_in_blocked_cell =
-            min_distance > radius && solid.is_some_and(|solid| solid.is_blocked_at(centre));
+        // If `min_distance > radius`, no wall passes through the block, so that it is inside or outside of all outlines as a whole.
+        let is_in_blocked_cell = min_distance > radius
+            && occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(centre));
         for row in bottom..top {
             for column in left..right {
                 let [x, y] = self.centre([column, row], 1);
-                let offset = self.field.radius
+                let max_offset = self.field.radius
                     + ((x - centre[0]) * (x - centre[0]) + (y - centre[1]) * (y - centre[1])).sqrt();
                 // A relative error of 1e-6 is larger than the rounding of an f32.
                 let cell_bound = if is_in_blocked_cell {
                     f64::NEG_INFINITY
                 } else {
-                    min_distance * (1.0 - 1e-6) - offset - self.slack
+                    min_distance * (1.0 - 1e-6) - max_offset - self.rounding_slack
                 };
                 self.field.lower_bounds[row * self.field.columns + column] = cell_bound as f32;
             }
@@ -220,67 +225,70 @@ impl FieldBuilder {
 
     /// Returns bounds on the distance from the middle of a block to the nearest wall, at most `uncertainty` apart (m); None if
     /// too many walls are near. Afterwards `measured` has all walls, or nodes, that may be nearest to a point of the block.
-    fn measure(
+    fn measure_candidates(
         &mut self,
         tree: &WallTree,
         point: [f64; 2],
         block: Block,
         uncertainty: f64,
     ) -> Option<[f64; 2]> {
-        let Self { candidates, open, measured, .. } = self;
+        let Self { candidates, unmeasured, measured, .. } = self;
         let Block { size, range: [from, to], .. } = block;
-        // A wall that is nearest to some point of the block is at most one diameter of the block further from the middle
-        // than the wall nearest to the middle.
-        let max_excess = 2.0 * size as f64 * self.field.radius + self.slack;
+        // Take the wall that is nearest to some point of the block. Its distance from the middle exceeds that of the wall nearest
+        // to the middle by at most one diameter of the block.
+        let max_excess = 2.0 * size as f64 * self.field.radius + self.rounding_slack;
         measured.clear();
-        open.clear();
-        open.extend_from_slice(&candidates[from..to]);
-        let mut upper = f64::INFINITY;
+        unmeasured.clear();
+        unmeasured.extend_from_slice(&candidates[from..to]);
+        let mut least_upper_bound = f64::INFINITY;
         let mut measured_count = 0;
-        while let Some(candidate) = open.pop() {
+        while let Some(candidate) = unmeasured.pop() {
             measured_count += 1;
             if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * size * size {
                 return None;
             }
-            let distance_to_wall = |wall: usize| tree.line(wall).squared_distance(point).sqrt();
+            let distance_to_wall = |wall: usize| tree.prepared_wall(wall).squared_distance(point).sqrt();
             let lower_bound = match candidate {
                 Candidate::Wall(wall) => distance_to_wall(wall as usize),
                 Candidate::Node(node) => tree.node(node as usize).lower_bound(point),
             };
-            if lower_bound > upper + max_excess {
+            if lower_bound > least_upper_bound + max_excess {
                 continue;
             }
-            if lower_bound < upper {
-                upper = upper.min(match candidate {
+            if lower_bound < least_upper_bound {
+                least_upper_bound = least_upper_bound.min(match candidate {
                     Candidate::Wall(_) => lower_bound,
                     Candidate::Node(node) => distance_to_wall(tree.distinct_walls(node as usize).start),
                 });
             }
-            if size == 1 && upper <= uncertainty {
-                return Some([0.0, upper]);
+            if size == 1 && least_upper_bound <= uncertainty {
+                return Some([0.0, least_upper_bound]);
             }
             match candidate {
                 Candidate::Node(node)
-                    if lower_bound < upper - uncertainty
+                    if lower_bound < least_upper_bound - uncertainty
                         || tree.node(node as usize).thickness > 0.5 * max_excess =>
                 {
                     if tree.is_leaf(node as usize) {
-                        open.extend(
+                        unmeasured.extend(
                             tree.distinct_walls(node as usize).map(|wall| Candidate::Wall(wall as u32)),
                         );
                     } else {
-                        open.extend([2 * node, 2 * node + 1].map(Candidate::Node));
+                        unmeasured.extend([2 * node, 2 * node + 1].map(Candidate::Node));
                     }
                 }
                 _ => measured.push((lower_bound, candidate)),
             }
         }
-        Some([measured.iter().map(|(lower_bound, _)| *lower_bound).fold(upper, f64::min), upper])
+        Some([
+            measured.iter().map(|(lower_bound, _)| *lower_bound).fold(least_upper_bound, f64::min),
+            least_upper_bound,
+        ])
     }
 
     fn centre(&self, first: [usize; 2], size: usize) -> [f64; 2] {
         std::array::from_fn(|axis| {
-            self.field.corner[axis] + (first[axis] as f64 + 0.5 * size as f64) * self.side
+            self.field.corner[axis] + (first[axis] as f64 + 0.5 * size as f64) * self.cell_side
         })
     }
 }

@@ -20,9 +20,9 @@ pub struct FloorPlan {
     /// Minimum x, minimum y, maximum x, maximum y, m.
     bounds: [f64; 4],
     /// Cells of a grid whose outlines are the walls, if the plan is from a grid. A point inside an occupied cell is never free.
-    solid: Option<OccupancyGrid>,
+    occupied_grid: Option<OccupancyGrid>,
     /// Distance field, created when the first motion is tested.
-    survey: OnceLock<CollisionIndex>,
+    collision_index: OnceLock<CollisionIndex>,
 }
 
 /// Search tree and distance field for collision tests.
@@ -56,21 +56,25 @@ pub enum FloorPlanError {
 impl FloorPlanError {
     /// Returns the message, with numbers as `number` prints them.
     pub fn message(&self, number: impl Fn(f64) -> String) -> String {
-        let joined = |numbers: &[f64]| numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
+        let join_numbers =
+            |numbers: &[f64]| numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
         match self {
             Self::BadBounds(bounds) => format!(
                 "bounds is [{}]; allowed is min x, min y, max x, max y: numbers from -1000000 to 1000000, the sides \
                  from 0.01 to 100000",
-                joined(bounds)
+                join_numbers(bounds)
             ),
             Self::BadGrid(bounds) => format!(
                 "origin has the cells from [{}] to [{}]; allowed are coordinates from -1000000 to 1000000, and a grid with \
                  sides from 0.01 to 100000",
-                joined(&bounds[..2]),
-                joined(&bounds[2..])
+                join_numbers(&bounds[..2]),
+                join_numbers(&bounds[2..])
             ),
             Self::BadWall { index, end } => {
-                format!("walls[{index}] ends at [{}]; allowed is a point inside the bounds", joined(end))
+                format!(
+                    "walls[{index}] ends at [{}]; allowed is a point inside the bounds",
+                    join_numbers(end)
+                )
             }
             Self::TooManyWalls(count) => {
                 format!("walls has a length of {count} or more; allowed is at most {}", FloorPlan::MAX_WALLS)
@@ -131,30 +135,32 @@ impl FloorPlan {
     fn with_grid(
         walls: Vec<Segment>,
         bounds: [f64; 4],
-        solid: Option<OccupancyGrid>,
+        occupied_grid: Option<OccupancyGrid>,
     ) -> Result<Self, FloorPlanError> {
         let [left, bottom, right, top] = bounds;
         let side_lengths = [right - left, top - bottom];
         if !bounds.iter().all(|bound| COORDINATE_RANGE.contains(bound))
             || !side_lengths.iter().all(|side| SIDE_RANGE.contains(side))
         {
-            let error = if solid.is_some() { FloorPlanError::BadGrid } else { FloorPlanError::BadBounds };
+            let error =
+                if occupied_grid.is_some() { FloorPlanError::BadGrid } else { FloorPlanError::BadBounds };
             return Err(error(bounds));
         }
         if walls.len() > Self::MAX_WALLS {
             return Err(FloorPlanError::TooManyWalls(walls.len()));
         }
-        // Rounding can move a corner of a turned grid slightly outside the grid's own bounds.
-        let slack = rounding_bound(&bounds);
+        // Rounding can move a corner of a rotated grid slightly outside the grid's own bounds.
+        let rounding_slack = rounding_bound(&bounds);
         let is_inside = |[x, y]: [f64; 2]| {
-            (left - slack..=right + slack).contains(&x) && (bottom - slack..=top + slack).contains(&y)
+            (left - rounding_slack..=right + rounding_slack).contains(&x)
+                && (bottom - rounding_slack..=top + rounding_slack).contains(&y)
         };
         for (index, wall) in walls.iter().enumerate() {
             if let Some(end) = [wall.from, wall.to].into_iter().find(|end| !is_inside(*end)) {
                 return Err(FloorPlanError::BadWall { index, end });
             }
         }
-        Ok(Self { walls, bounds, solid, survey: OnceLock::new() })
+        Ok(Self { walls, bounds, occupied_grid, collision_index: OnceLock::new() })
     }
 
     /// Creates the plan of the apartment of Map Squeeze: 12 m × 9 m, 18 walls.
@@ -175,11 +181,11 @@ impl FloorPlan {
 
     /// Returns the cells of the grid, if the plan is from one.
     pub fn grid(&self) -> Option<&OccupancyGrid> {
-        self.solid.as_ref()
+        self.occupied_grid.as_ref()
     }
 
     /// Tests whether a disc of radius `clearance` (m) around a point touches no wall and its centre is inside the bounds.
-    pub fn point_free(&self, point: [f64; 2], clearance: f64) -> Verdict {
+    pub fn test_point(&self, point: [f64; 2], clearance: f64) -> Verdict {
         if !self.contains(point) {
             return Verdict::BLOCKED;
         }
@@ -192,25 +198,25 @@ impl FloorPlan {
             return Verdict::BLOCKED;
         }
         let mut wall_tests = 0;
-        let free = self.all_near_walls(
+        let is_free = self.all_near_walls(
             point,
             clearance,
             &mut wall_tests,
-            |node| node.is_beyond(point, clearance),
+            |node| node.is_farther_than(point, clearance),
             |wall| wall.distance_to_point(point) > clearance,
         );
-        Verdict { free, wall_tests }
+        Verdict { free: is_free, wall_tests }
     }
 
     /// Tests whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the
     /// bounds.
-    pub fn arc_free(&self, arc: &Arc, clearance: f64) -> Verdict {
+    pub fn test_arc(&self, arc: &Arc, clearance: f64) -> Verdict {
         let driven_arc = PreparedPose::new(arc.start).drive(arc.length, arc.turn);
-        self.path_free(&driven_arc, self.point_free(driven_arc.end, clearance), clearance)
+        self.test_path(&driven_arc, self.test_point(driven_arc.end, clearance), clearance)
     }
 
-    /// Tests an arc as [`FloorPlan::arc_free`] does, after its end was tested. The result includes the cost of that test.
-    pub(super) fn path_free(&self, driven: &DrivenArc, end: Verdict, clearance: f64) -> Verdict {
+    /// Tests an arc as [`FloorPlan::test_arc`] does, after its end was tested. The result includes the cost of that test.
+    pub(super) fn test_path(&self, driven: &DrivenArc, end: Verdict, clearance: f64) -> Verdict {
         let start = [driven.arc.start.x(), driven.arc.start.y()];
         if !end.free || self.leaves_bounds(driven) || self.is_in_blocked_cell(start) {
             return Verdict { free: false, ..end };
@@ -220,18 +226,18 @@ impl FloorPlan {
             field: self.field(),
             arc: &driven.arc,
             clearance,
-            unrolled: OnceCell::new(),
+            local_arc: OnceCell::new(),
             wall_tests: end.wall_tests,
         };
-        let free =
+        let is_free =
             driven.arc_pieces().all(|piece| sweep.is_free(&piece, -piece.half_length, piece.half_length));
-        Verdict { free, wall_tests: sweep.wall_tests }
+        Verdict { free: is_free, wall_tests: sweep.wall_tests }
     }
 
     fn collision_index(&self) -> &CollisionIndex {
-        self.survey.get_or_init(|| {
+        self.collision_index.get_or_init(|| {
             let tree = WallTree::new(&self.walls, self.bounds);
-            let field = DistanceField::new(&tree, self.bounds, self.solid.as_ref());
+            let field = DistanceField::new(&tree, self.bounds, self.occupied_grid.as_ref());
             CollisionIndex { tree, field }
         })
     }
@@ -240,10 +246,10 @@ impl FloorPlan {
         &self.collision_index().field
     }
 
-    /// Returns true if a point is on the map: on the grid where there is one, which may be turned, else inside the bounds.
+    /// Returns true if a point is on the map: on its grid, which may be rotated, or inside the bounds if there is no grid.
     #[inline(always)]
     fn contains(&self, point: [f64; 2]) -> bool {
-        if let Some(grid) = &self.solid {
+        if let Some(grid) = &self.occupied_grid {
             return grid.contains(point);
         }
         let ([x, y], [left, bottom, right, top]) = (point, self.bounds);
@@ -254,12 +260,12 @@ impl FloorPlan {
     fn corners(&self) -> [[f64; 2]; 4] {
         let [left, bottom, right, top] = self.bounds;
         let bounds_corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
-        self.solid.as_ref().map_or(bounds_corners, OccupancyGrid::corners)
+        self.occupied_grid.as_ref().map_or(bounds_corners, OccupancyGrid::corners)
     }
 
     #[inline(always)]
     fn is_in_blocked_cell(&self, point: [f64; 2]) -> bool {
-        self.solid.as_ref().is_some_and(|solid| solid.is_blocked_at(point))
+        self.occupied_grid.as_ref().is_some_and(|occupied_grid| occupied_grid.is_blocked_at(point))
     }
 
     fn leaves_bounds(&self, driven: &DrivenArc) -> bool {
@@ -276,10 +282,10 @@ impl FloorPlan {
         }
         // Both ends are inside. An arc that only touches an edge counts as inside, up to rounding.
         let corners = self.corners();
-        let slack = rounding_bound(corners.as_flattened());
+        let rounding_slack = rounding_bound(corners.as_flattened());
         (0..4).any(|i| {
             let edge = Segment { from: corners[i], to: corners[(i + 1) % 4] };
-            edge.max_distance_on_right(arc) > slack
+            edge.max_distance_on_right(arc) > rounding_slack
         })
     }
 
@@ -314,7 +320,7 @@ struct Sweep<'a> {
     arc: &'a Arc,
     clearance: f64,
     /// Arc in the frame of its start, computed when the distance to a wall is first measured.
-    unrolled: OnceCell<LocalArc>,
+    local_arc: OnceCell<LocalArc>,
     wall_tests: usize,
 }
 
@@ -322,11 +328,11 @@ impl Sweep<'_> {
     /// Tests whether an arc piece is free between `from` and `to` metres after its middle. Tests four parts of it at once.
     fn is_free(&mut self, piece: &ArcPiece, from: f64, to: f64) -> bool {
         let field = self.field;
-        let half_part = (to - from) / (2 * LANES) as f64;
-        let needed = self.clearance + piece.error + half_part;
-        let middles = piece.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_part + from);
-        let lower_bounds = field.lower_bounds(&middles);
-        if !any_lane_set(lower_bounds.simd_le(f64x4::splat(needed))) {
+        let half_part_length = (to - from) / (2 * LANES) as f64;
+        let needed_distance = self.clearance + piece.error + half_part_length;
+        let part_middles = piece.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_part_length + from);
+        let lower_bounds = field.lower_bounds(&part_middles);
+        if !any_lane_set(lower_bounds.simd_le(f64x4::splat(needed_distance))) {
             return true;
         }
         let distances = lower_bounds.to_array();
@@ -335,41 +341,41 @@ impl Sweep<'_> {
             return false;
         }
         // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Walls near it are measured.
-        let is_divisible = half_part > field.radius();
-        let [x, y] = middles.map(|lanes| lanes.to_array());
+        let is_divisible = half_part_length > field.radius();
+        let [x, y] = part_middles.map(|lanes| lanes.to_array());
         (0..LANES).all(|i| {
-            distances[i] > needed
+            distances[i] > needed_distance
                 || if is_divisible {
-                    let start = from + (2 * i) as f64 * half_part;
-                    self.is_free(piece, start, start + 2.0 * half_part)
+                    let start = from + (2 * i) as f64 * half_part_length;
+                    self.is_free(piece, start, start + 2.0 * half_part_length)
                 } else {
-                    self.walls_keep_clear([x[i], y[i]], half_part + piece.error, piece.error)
+                    self.walls_are_clear([x[i], y[i]], half_part_length + piece.error, piece.error)
                 }
         })
     }
 
-    /// Tests whether all walls near a part of the arc keep the clearance. For most walls the distance to the middle of the part
-    /// decides already.
-    fn walls_keep_clear(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
+    /// Tests whether all walls near a part of the arc keep the clearance. For most walls the distance to the middle of the part is
+    /// enough to decide.
+    fn walls_are_clear(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
-        let local_arc = || self.unrolled.get_or_init(|| arc.local_arc());
+        let prepared_arc = || self.local_arc.get_or_init(|| arc.local_arc());
         let (outer, inner) = (reach + clearance, (clearance - error).max(0.0));
         self.plan.all_near_walls(
             middle,
             outer,
             &mut self.wall_tests,
             |node| {
-                node.is_beyond(middle, outer)
-                    // Worth its cost only if the walls of the node are closer to one line than the part is long.
+                node.is_farther_than(middle, outer)
+                    // This test saves time only if the node is thinner than the part is long.
                     || node.thickness < reach
-                        && node.line().distance_to_local_arc(local_arc()) - node.thickness > clearance
+                        && node.axis().distance_to_local_arc(prepared_arc()) - node.thickness > clearance
             },
             |wall| {
-                let squared = wall.squared_distance_to_point(middle);
-                if squared > outer * outer || squared < inner * inner {
-                    return squared > outer * outer;
+                let squared_distance = wall.squared_distance_to_point(middle);
+                if squared_distance > outer * outer || squared_distance < inner * inner {
+                    return squared_distance > outer * outer;
                 }
-                wall.distance_to_local_arc(local_arc()) > clearance
+                wall.distance_to_local_arc(prepared_arc()) > clearance
             },
         )
     }

@@ -5,7 +5,7 @@ use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use std::ops::RangeInclusive;
 
-/// Rules that convert pixels to cells, as in the YAML file of `map_server`.
+/// Conversion of pixels to cells, as in the YAML file of `map_server`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interpretation {
     /// Meaning of the pixels.
@@ -52,7 +52,7 @@ pub enum Cell {
 
 /// Treatment of unknown cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Unknown {
+pub enum UnknownCells {
     /// Unknown cells are free, as in particle filters.
     #[default]
     Free,
@@ -93,7 +93,7 @@ impl Interpretation {
     pub fn cell(&self, pixel: Pixel) -> Cell {
         let Pixel { shade, opacity } = pixel;
         let occupancy = if self.negate { shade } else { 1.0 - shade };
-        // Rounded as the grey value is, so that a pixel at a threshold is not beyond it.
+        // Rounded to f32, as the shade is, so that a pixel at a threshold is not beyond it.
         let (occupied_threshold, free_threshold) = (self.occupied_thresh as f32, self.free_thresh as f32);
         // Computed only if needed: rounding is slow on processors without an instruction for it.
         let grey_value = || (shade * 255.0).round();
@@ -125,7 +125,7 @@ pub struct OccupancyGrid {
     to_local: PreparedPose,
     /// Cells row by row from the bottom.
     cells: Vec<Cell>,
-    unknown: Unknown,
+    unknown: UnknownCells,
 }
 
 impl OccupancyGrid {
@@ -141,7 +141,7 @@ impl OccupancyGrid {
     ) -> Self {
         let Image { width, height, ref pixels } = *image;
         let cells = vec![Cell::Free; width * height];
-        let (to_local, unknown) = (PreparedPose::new(origin.inverse()), Unknown::default());
+        let (to_local, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
         let mut grid = Self { width, height, resolution, origin, to_local, cells, unknown };
         let is_transparent = grid.fill_cells(pixels.clone(), interpretation, false);
         if is_transparent && interpretation.mode == Mode::Trinary {
@@ -150,12 +150,12 @@ impl OccupancyGrid {
         grid
     }
 
-    /// Converts pixels to cells; returns true if a pixel is not opaque. If `four_colours` is true, opacity counts as a colour.
+    /// Converts pixels to cells; returns true if a pixel is not opaque. If `opacity_as_colour` is true, opacity counts as a colour.
     fn fill_cells<P: Copy + PartialEq + Into<Pixel>>(
         &mut self,
         pixels: impl IntoIterator<Item = P>,
         interpretation: &Interpretation,
-        four_colours: bool,
+        opacity_as_colour: bool,
     ) -> bool {
         let mut pixels = pixels.into_iter();
         let mut is_transparent = false;
@@ -163,19 +163,19 @@ impl OccupancyGrid {
         let mut previous_pixel = None;
         // The first row of an image is its highest, the first of a grid its lowest.
         for row in self.cells.chunks_mut(self.width.max(1)).rev() {
-            for (cell, raw) in row.iter_mut().zip(&mut pixels) {
+            for (cell, raw_pixel) in row.iter_mut().zip(&mut pixels) {
                 *cell = match previous_pixel {
-                    Some((like, cell)) if like == raw => cell,
+                    Some((cached_pixel, cell)) if cached_pixel == raw_pixel => cell,
                     _ => {
-                        let mut pixel: Pixel = raw.into();
+                        let mut pixel: Pixel = raw_pixel.into();
                         is_transparent |= pixel.opacity < 1.0;
-                        if four_colours {
+                        if opacity_as_colour {
                             pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
                         }
                         interpretation.cell(pixel)
                     }
                 };
-                previous_pixel = Some((raw, *cell));
+                previous_pixel = Some((raw_pixel, *cell));
             }
         }
         is_transparent
@@ -183,7 +183,7 @@ impl OccupancyGrid {
 
     /// Returns the grid with another treatment of unknown cells.
     #[must_use]
-    pub fn with_unknown(self, unknown: Unknown) -> Self {
+    pub fn with_unknown(self, unknown: UnknownCells) -> Self {
         Self { unknown, ..self }
     }
 
@@ -207,7 +207,7 @@ impl OccupancyGrid {
         self.cells.iter().copied()
     }
 
-    /// Returns true if a point of the plane lies in a cell that is in a robot's way.
+    /// Returns true if a point of the plane lies in a cell that is an obstacle.
     pub fn is_blocked_at(&self, point: [f64; 2]) -> bool {
         let [column, row] = self.cell_coordinates(point).map(f64::floor);
         column >= 0.0 && row >= 0.0 && self.is_blocked(self.row(row as usize), column as usize)
@@ -246,11 +246,11 @@ impl OccupancyGrid {
         self.to_local.transform([x, y]).map(|coordinate| coordinate / self.resolution)
     }
 
-    /// Returns true if a cell of a row is in a robot's way; cells off the grid are not.
+    /// Returns true if a cell of a row is an obstacle; cells off the grid are not.
     fn is_blocked(&self, row: &[Cell], column: usize) -> bool {
         match row.get(column) {
             Some(Cell::Occupied) => true,
-            Some(Cell::Unknown) => self.unknown == Unknown::Blocked,
+            Some(Cell::Unknown) => self.unknown == UnknownCells::Blocked,
             _ => false,
         }
     }
@@ -268,7 +268,7 @@ impl OccupancyGrid {
     /// A lower bound of their number, where there are more than `max_count`.
     pub fn outlines(&self, max_count: usize) -> Result<Vec<Segment>, usize> {
         let [columns, rows] = self.size();
-        let (mut walls, mut upright) = (Vec::new(), Vec::new());
+        let (mut walls, mut vertical_walls) = (Vec::new(), Vec::new());
         // An outline separates blocked cells from all others. `outline_starts` has, for each grid line between columns, the
         // row at which the current outline began.
         let mut outline_starts = vec![None; columns + 1];
@@ -282,33 +282,37 @@ impl OccupancyGrid {
             for (column, outline_start) in outline_starts.iter_mut().enumerate() {
                 let [blocked, below_blocked] = [cells, cells_below].map(|row| self.is_blocked(row, column));
                 if let Some(from) = outline_end(&mut row_start, below_blocked != blocked, column) {
-                    walls.push(self.side([from, row], [column, row]));
+                    walls.push(self.wall_between([from, row], [column, row]));
                 }
-                if let Some(began) = outline_end(outline_start, was_left_different != blocked, row) {
-                    upright.push([column, began, row]);
+                if let Some(start) = outline_end(outline_start, was_left_different != blocked, row) {
+                    vertical_walls.push([column, start, row]);
                 }
                 was_left_different = blocked;
             }
-            if walls.len() + upright.len() > max_count {
+            if walls.len() + vertical_walls.len() > max_count {
                 return Err(max_count + 1);
             }
         }
-        upright.sort_unstable();
-        walls.extend(upright.into_iter().map(|[column, from, to]| self.side([column, from], [column, to])));
+        vertical_walls.sort_unstable();
+        walls.extend(
+            vertical_walls
+                .into_iter()
+                .map(|[column, from, to]| self.wall_between([column, from], [column, to])),
+        );
         Ok(walls)
     }
 
-    fn side(&self, from: [usize; 2], to: [usize; 2]) -> Segment {
+    fn wall_between(&self, from: [usize; 2], to: [usize; 2]) -> Segment {
         Segment { from: self.corner(from[0], from[1]), to: self.corner(to[0], to[1]) }
     }
 }
 
-/// Returns the start of the outline that ends at position `at` of a grid line. `is_outline` is true if an outline continues from `at`
-/// on; its start is kept in `began`.
-fn outline_end(began: &mut Option<usize>, is_outline: bool, at: usize) -> Option<usize> {
-    match *began {
-        None if is_outline => *began = Some(at),
-        Some(_) if !is_outline => return began.take(),
+/// Returns the start of the outline that ends at `position` on a grid line. `is_outline` is true if an outline continues from
+/// `position` on; its start is kept in `start`.
+fn outline_end(start: &mut Option<usize>, is_outline: bool, position: usize) -> Option<usize> {
+    match *start {
+        None if is_outline => *start = Some(position),
+        Some(_) if !is_outline => return start.take(),
         _ => (),
     }
     None

@@ -30,30 +30,31 @@ const MAX_QUOTED_CHARACTERS: usize = 20;
 ///
 /// # Errors
 /// [`PgmError`] with the line of the header, or the line where plain pixels end.
-pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
-    let mut reader = Reader { bytes, at: 0, line: 1 };
-    let is_plain = match reader.token() {
+pub fn read_pgm(bytes: &[u8]) -> Result<Image<PgmPixels<'_>>, PgmError> {
+    let mut reader = Reader { bytes, position: 0, line: 1 };
+    let is_plain = match reader.next_token() {
         b"P5" => false,
         b"P2" => true,
         token => return Err(reader.error("the magic number", token, "P5 or P2".to_owned())),
     };
-    let width = reader.number("the width", 1, MAX_PIXELS)?;
-    let height = reader.number("the height", 1, MAX_PIXELS / width)?;
-    let max_value = reader.number("the greatest value", 1, 65_535)?;
+    let width = reader.read_number("the width", 1, MAX_PIXELS)?;
+    let height = reader.read_number("the height", 1, MAX_PIXELS / width)?;
+    let max_value = reader.read_number("the greatest value", 1, 65_535)?;
     let count = width * height;
     let coding = if is_plain {
         let mut pixels = reader.clone();
         for _ in 0..count {
-            pixels.number("a pixel", 0, max_value)?;
+            pixels.read_number("a pixel", 0, max_value)?;
         }
         PixelCoding::Plain
     } else {
         let (coding, size) = if max_value < 256 { (PixelCoding::Bytes, 1) } else { (PixelCoding::Words, 2) };
         let raster_bytes = count * size;
         // One white space character ends the header. Windows editors write two: carriage return and line feed.
-        let is_crlf = bytes[reader.at..].starts_with(b"\r\n") && bytes.len() >= reader.at + 2 + raster_bytes;
-        reader.at += if is_crlf { 2 } else { 1 };
-        let available_bytes = bytes.len().saturating_sub(reader.at);
+        let is_crlf = bytes[reader.position..].starts_with(b"\r\n")
+            && bytes.len() >= reader.position + 2 + raster_bytes;
+        reader.position += if is_crlf { 2 } else { 1 };
+        let available_bytes = bytes.len().saturating_sub(reader.position);
         if available_bytes < raster_bytes {
             let allowed = format!("{raster_bytes} for {width} × {height} pixels");
             let (field, value) = ("the length of the raster in bytes", available_bytes.to_string());
@@ -64,7 +65,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<Shades<'_>>, PgmError> {
     Ok(Image {
         width,
         height,
-        pixels: Shades { reader, remaining: count, greatest: max_value as u16, coding },
+        pixels: PgmPixels { reader, remaining: count, max_value: max_value as u16, coding },
     })
 }
 
@@ -80,46 +81,46 @@ enum PixelCoding {
 
 /// Pixel of a PGM image, from 0 (black) to the maximum of the header (white).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shade {
+pub struct PgmPixel {
     value: u16,
-    greatest: u16,
+    max_value: u16,
 }
 
-impl From<Shade> for Pixel {
-    fn from(Shade { value, greatest }: Shade) -> Self {
-        Self { shade: f32::from(value) / f32::from(greatest), opacity: 1.0 }
+impl From<PgmPixel> for Pixel {
+    fn from(PgmPixel { value, max_value }: PgmPixel) -> Self {
+        Self { shade: f32::from(value) / f32::from(max_value), opacity: 1.0 }
     }
 }
 
 /// Iterator over the pixels of a PGM image, row by row from the top. Storing them as numbers would take several times the memory
 /// of the file.
 #[derive(Clone, Debug)]
-pub struct Shades<'a> {
+pub struct PgmPixels<'a> {
     reader: Reader<'a>,
     /// Number of pixels that are still to be read. They have been checked.
     remaining: usize,
-    greatest: u16,
+    max_value: u16,
     coding: PixelCoding,
 }
 
-impl Iterator for Shades<'_> {
-    type Item = Shade;
+impl Iterator for PgmPixels<'_> {
+    type Item = PgmPixel;
 
-    fn next(&mut self) -> Option<Shade> {
+    fn next(&mut self) -> Option<PgmPixel> {
         self.remaining = self.remaining.checked_sub(1)?;
-        let Self { reader: Reader { bytes, at, .. }, greatest, .. } = *self;
+        let Self { reader: Reader { bytes, position, .. }, max_value, .. } = *self;
         let value = match self.coding {
-            PixelCoding::Plain => parse_decimal(self.reader.token())? as u16,
+            PixelCoding::Plain => parse_decimal(self.reader.next_token())? as u16,
             PixelCoding::Bytes => {
-                self.reader.at += 1;
-                u16::from(*bytes.get(at)?)
+                self.reader.position += 1;
+                u16::from(*bytes.get(position)?)
             }
             PixelCoding::Words => {
-                self.reader.at += 2;
-                u16::from_be_bytes(*bytes.get(at..)?.first_chunk()?)
+                self.reader.position += 2;
+                u16::from_be_bytes(*bytes.get(position..)?.first_chunk()?)
             }
         };
-        Some(Shade { value: value.min(greatest), greatest })
+        Some(PgmPixel { value: value.min(max_value), max_value })
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
@@ -127,7 +128,7 @@ impl Iterator for Shades<'_> {
     }
 }
 
-impl ExactSizeIterator for Shades<'_> {}
+impl ExactSizeIterator for PgmPixels<'_> {}
 
 /// Parses decimal digits; None for a number larger than [`MAX_PIXELS`].
 fn parse_decimal(token: &[u8]) -> Option<usize> {
@@ -142,15 +143,15 @@ fn parse_decimal(token: &[u8]) -> Option<usize> {
 #[derive(Clone, Debug)]
 struct Reader<'a> {
     bytes: &'a [u8],
-    at: usize,
+    position: usize,
     line: usize,
 }
 
 impl<'a> Reader<'a> {
     /// Returns the next run of characters that are neither white space nor in a comment; empty at the end.
-    fn token(&mut self) -> &'a [u8] {
+    fn next_token(&mut self) -> &'a [u8] {
         let mut in_comment = false;
-        while let Some(byte) = self.bytes.get(self.at) {
+        while let Some(byte) = self.bytes.get(self.position) {
             match byte {
                 b'\n' => {
                     self.line += 1;
@@ -160,17 +161,17 @@ impl<'a> Reader<'a> {
                 _ if in_comment || byte.is_ascii_whitespace() => (),
                 _ => break,
             }
-            self.at += 1;
+            self.position += 1;
         }
-        let from = self.at;
-        while self.bytes.get(self.at).is_some_and(|byte| !byte.is_ascii_whitespace() && *byte != b'#') {
-            self.at += 1;
+        let from = self.position;
+        while self.bytes.get(self.position).is_some_and(|byte| !byte.is_ascii_whitespace() && *byte != b'#') {
+            self.position += 1;
         }
-        &self.bytes[from..self.at]
+        &self.bytes[from..self.position]
     }
 
-    fn number(&mut self, field: &'static str, min: usize, max: usize) -> Result<usize, PgmError> {
-        let token = self.token();
+    fn read_number(&mut self, field: &'static str, min: usize, max: usize) -> Result<usize, PgmError> {
+        let token = self.next_token();
         parse_decimal(token)
             .filter(|number| (min..=max).contains(number))
             .ok_or_else(|| self.error(field, token, format!("a whole number from {min} to {max}")))

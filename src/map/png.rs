@@ -46,13 +46,13 @@ pub fn read_png(bytes: &[u8]) -> Result<Image<Vec<[u8; 4]>>, PngError> {
     Ok(Image { width: width as usize, height: height as usize, pixels })
 }
 
-fn damage_error(source: &Cursor<&[u8]>) -> PngError {
-    PngError::Damaged { at: source.position(), length: source.get_ref().len() }
+fn damage_error(cursor: &Cursor<&[u8]>) -> PngError {
+    PngError::Damaged { at: cursor.position(), length: cursor.get_ref().len() }
 }
 
-fn decode_pixels(source: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
+fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
     // The largest image has eight bytes a pixel.
-    let mut decoder = Decoder::new_with_limits(source, Limits { bytes: 8 * MAX_PIXELS });
+    let mut decoder = Decoder::new_with_limits(cursor, Limits { bytes: 8 * MAX_PIXELS });
     decoder.set_transformations(Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
@@ -64,13 +64,13 @@ fn decode_pixels(source: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingErr
     if depth == BitDepth::Sixteen {
         samples = samples.as_chunks().0.iter().map(|pair| nearest_byte(u16::from_be_bytes(*pair))).collect();
     }
-    let opaque = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
+    let with_full_opacity = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
     Ok(match kind {
-        ColorType::Grayscale => samples.iter().map(|grey| opaque([*grey; 3])).collect(),
+        ColorType::Grayscale => samples.iter().map(|grey| with_full_opacity([*grey; 3])).collect(),
         ColorType::GrayscaleAlpha => {
             samples.as_chunks().0.iter().map(|&[grey, opacity]| [grey, grey, grey, opacity]).collect()
         }
-        ColorType::Rgb => samples.as_chunks().0.iter().map(|colours| opaque(*colours)).collect(),
+        ColorType::Rgb => samples.as_chunks().0.iter().map(|colours| with_full_opacity(*colours)).collect(),
         ColorType::Rgba => samples.as_chunks().0.to_vec(),
         ColorType::Indexed => unreachable!("a palette is expanded"),
     })

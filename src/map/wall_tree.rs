@@ -3,14 +3,14 @@
 use crate::geom::segment::Segment;
 use std::ops::Range;
 
-/// Tree of walls by position and direction. Each node has a capsule, all points within its thickness of one line, that contains its
-/// walls. Thus long walls side by side need as few comparisons as short walls in one place. Walls that are nearly equal are compared as
+/// Tree of walls by position and direction. Each node has a capsule that contains its walls: all points within its thickness of a
+/// line segment. Thus long walls side by side need as few comparisons as short walls in one place. Walls that are nearly equal are compared as
 /// one, and a node of equal walls is measured once.
 ///
 /// It is a full binary tree without pointers: the children of node i are 2i and 2i + 1, the root is 1.
 #[derive(Clone, Debug)]
 pub(super) struct WallTree {
-    /// Walls, those of each node side by side.
+    /// Walls in an order in which those of each node are contiguous.
     walls: Vec<Segment>,
     /// Walls prepared for distances, in the same order.
     lines: Vec<PreparedSegment>,
@@ -21,11 +21,11 @@ pub(super) struct WallTree {
     slack: f64,
 }
 
-/// Walls of a subtree.
+/// Node of the tree: the capsule of the walls of its subtree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     hull: PreparedSegment,
-    /// Maximum distance of a wall of the node from the line, m.
+    /// Maximum distance of a wall of the node from the axis of the capsule, m.
     pub thickness: f64,
     /// True if all walls of the node are equal, so that one represents them.
     all_equal: bool,
@@ -64,26 +64,27 @@ impl WallTree {
     /// Sorts the walls of a node into two halves, one for each child. The sort key is the coordinate of [`sort_keys`] that varies
     /// most: x or y of the midpoint, or x or y of the direction.
     fn divide_in_half(&mut self, at: usize) {
-        let (range, middle) = (self.range(at), self.range(2 * at).end);
-        let walls = &mut self.walls[range.clone()];
+        let (wall_range, middle) = (self.wall_range(at), self.wall_range(2 * at).end);
+        let walls = &mut self.walls[wall_range.clone()];
         let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
         for wall in &*walls {
-            for ([min, max], place) in ranges.iter_mut().zip(sort_keys(wall)) {
-                (*min, *max) = (min_of(*min, place), max_of(*max, place));
+            for ([min, max], key) in ranges.iter_mut().zip(sort_keys(wall)) {
+                (*min, *max) = (min_of(*min, key), max_of(*max, key));
             }
         }
         let widths = ranges.map(|[min, max]| max - min);
         let axis = (1..4).fold(0, |widest, axis| if widths[axis] > widths[widest] { axis } else { widest });
-        select_smallest(walls, middle - range.start, axis);
+        select_smallest(walls, middle - wall_range.start, axis);
     }
 
     fn make_node(&self, at: usize) -> Node {
-        let walls = &self.walls[self.range(at)];
+        let walls = &self.walls[self.wall_range(at)];
         // The capsule lies along the mean direction of the walls or along an axis, whichever makes it narrowest.
-        let sum = walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], place| [x + place[2], y + place[3]]);
+        let sum = walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], key| [x + key[2], y + key[3]]);
         let length = libm::hypot(sum[0], sum[1]);
-        let mean = if length > 0.0 { sum.map(|coordinate| coordinate / length) } else { [1.0, 0.0] };
-        let axes = [mean, [1.0, 0.0], [0.0, 1.0]];
+        let mean_direction =
+            if length > 0.0 { sum.map(|coordinate| coordinate / length) } else { [1.0, 0.0] };
+        let axes = [mean_direction, [1.0, 0.0], [0.0, 1.0]];
         let mut extents = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
             for ([x, y], [back, right, front, left]) in axes.iter().zip(&mut extents) {
@@ -111,20 +112,20 @@ impl WallTree {
     }
 
     /// Returns the range of the walls of a node.
-    fn range(&self, at: usize) -> Range<usize> {
+    fn wall_range(&self, at: usize) -> Range<usize> {
         let depth = at.ilog2();
         let (count, index_in_level) = (self.walls.len() as u64, (at - (1 << depth)) as u64);
-        let end_index = |place: u64| ((count * place) >> depth) as usize;
+        let end_index = |key: u64| ((count * key) >> depth) as usize;
         end_index(index_in_level)..end_index(index_in_level + 1)
     }
 
     /// Returns the indices of the walls of a node: one if all of them are equal.
     pub fn distinct_walls(&self, at: usize) -> Range<usize> {
-        let range = self.range(at);
-        if self.nodes[at].all_equal { range.start..range.start + 1 } else { range }
+        let wall_range = self.wall_range(at);
+        if self.nodes[at].all_equal { wall_range.start..wall_range.start + 1 } else { wall_range }
     }
 
-    pub fn line(&self, wall: usize) -> &PreparedSegment {
+    pub fn prepared_wall(&self, wall: usize) -> &PreparedSegment {
         &self.lines[wall]
     }
 
@@ -142,17 +143,21 @@ impl WallTree {
         at >> self.depth > 0 || self.nodes[at].all_equal
     }
 
-    /// Returns true if `kept` holds for all walls. Walls of nodes for which `far` holds are skipped.
+    /// Returns true if `wall_test` holds for all walls. Walls of nodes for which `is_far` holds are skipped.
     #[inline(always)]
-    pub fn all(&self, mut far: impl FnMut(&Node) -> bool, mut kept: impl FnMut(&Segment) -> bool) -> bool {
+    pub fn all(
+        &self,
+        mut is_far: impl FnMut(&Node) -> bool,
+        mut wall_test: impl FnMut(&Segment) -> bool,
+    ) -> bool {
         let mut at = 1;
         loop {
-            if at == 1 || !far(&self.nodes[at]) {
+            if at == 1 || !is_far(&self.nodes[at]) {
                 if !self.is_leaf(at) {
                     at *= 2;
                     continue;
                 }
-                if !self.walls[self.distinct_walls(at)].iter().all(&mut kept) {
+                if !self.walls[self.distinct_walls(at)].iter().all(&mut wall_test) {
                     return false;
                 }
             }
@@ -169,14 +174,14 @@ impl WallTree {
 
 impl Node {
     /// Returns the axis of the capsule.
-    pub fn line(&self) -> Segment {
+    pub fn axis(&self) -> Segment {
         let PreparedSegment { from, along, .. } = self.hull;
         Segment { from, to: [from[0] + along[0], from[1] + along[1]] }
     }
 
     /// Returns true if no wall of the node comes within `reach` (m) of a point.
     #[inline(always)]
-    pub fn is_beyond(&self, point: [f64; 2], reach: f64) -> bool {
+    pub fn is_farther_than(&self, point: [f64; 2], reach: f64) -> bool {
         let reach_of_hull = reach + self.thickness;
         self.hull.squared_distance(point) > reach_of_hull * reach_of_hull
     }
@@ -202,8 +207,8 @@ impl PreparedSegment {
 
     fn new(wall: &Segment) -> Self {
         let along = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
-        let inverse = 1.0 / (along[0] * along[0] + along[1] * along[1]);
-        let inverse_square_length = if inverse.is_finite() { inverse } else { 0.0 };
+        let inverse_square = 1.0 / (along[0] * along[0] + along[1] * along[1]);
+        let inverse_square_length = if inverse_square.is_finite() { inverse_square } else { 0.0 };
         Self { from: wall.from, along, inverse_square_length }
     }
 
@@ -259,13 +264,13 @@ const MAX_SELECTION_ROUNDS: usize = 64;
 
 /// Returns the smaller of two numbers, neither of which is NaN. `f64::min` and `f64::max` take several times as long.
 #[inline(always)]
-fn min_of(one: f64, other: f64) -> f64 {
-    if other < one { other } else { one }
+fn min_of(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
 }
 
 #[inline(always)]
-fn max_of(one: f64, other: f64) -> f64 {
-    if other > one { other } else { one }
+fn max_of(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }
 
 /// Returns the coordinates by which walls are divided: twice the midpoint, and the vector from the left end to the right one. They

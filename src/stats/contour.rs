@@ -1,6 +1,6 @@
 //! 2σ contours of two Gaussians: one in the plane, and one in exponential coordinates, mapped to the plane by exp.
 
-use super::cross_track::NO_SPREAD;
+use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::{CartesianMoments, ExponentialMoments};
 use crate::geom::se2::SE2;
 use crate::geom::sinc::sinc;
@@ -11,11 +11,11 @@ use std::f64::consts::{PI, TAU};
 use wide::f64x4;
 
 /// Mahalanobis distance of the contours. A Gaussian in the plane has 1 − exp(−2²/2) = 86.5 % of its mass inside.
-const SIGMAS: f64 = 2.0;
+const CONTOUR_SIGMAS: f64 = 2.0;
 
-/// Value of 1 − ρ² up to which an ellipse counts as a line, because rounding may be all of it. A larger bound would
-/// take narrow ellipses for lines. A smaller one would divide by rounding errors.
-const NO_AREA: f64 = 1e-12;
+/// Value of 1 − ρ², with the correlation ρ, up to which an ellipse counts as a line, because it may only be rounding. A larger bound
+/// would take narrow ellipses for lines. A smaller one would divide by rounding errors.
+const MIN_UNCORRELATED_FRACTION: f64 = 1e-12;
 
 /// The 2σ ellipse of a Gaussian in two coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,16 +31,19 @@ impl Ellipse {
     /// Creates the ellipse around `centre` with covariance `cov` (symmetric, 2 × 2, in the squared units of the
     /// coordinates).
     pub fn new(centre: Vector2<f64>, cov: Matrix2<f64>) -> Self {
-        let rounding = NO_SPREAD * NO_SPREAD * (centre.norm_squared() + cov.trace());
+        let rounding_variance = MIN_RELATIVE_STD * MIN_RELATIVE_STD * (centre.norm_squared() + cov.trace());
         let sqrt_above =
             |variance: f64, min_variance: f64| if variance > min_variance { variance.sqrt() } else { 0.0 };
-        let first = sqrt_above(cov[(0, 0)], rounding);
-        let shared = if first > 0.0 { cov[(1, 0)] / first } else { 0.0 };
-        let second = sqrt_above(cov[(1, 1)] - shared * shared, rounding.max(NO_AREA * cov[(1, 1)]));
-        let inverse = |extent: f64| if extent > 0.0 { 1.0 / extent } else { 0.0 };
-        let (z, w) = (inverse(first), inverse(second));
-        let whitening = Matrix2::new(z, 0.0, -shared * z * w, w);
-        Self { centre, root: Matrix2::new(first, 0.0, shared, second), whitening }
+        let first_std = sqrt_above(cov[(0, 0)], rounding_variance);
+        let cross_term = if first_std > 0.0 { cov[(1, 0)] / first_std } else { 0.0 };
+        let second_std = sqrt_above(
+            cov[(1, 1)] - cross_term * cross_term,
+            rounding_variance.max(MIN_UNCORRELATED_FRACTION * cov[(1, 1)]),
+        );
+        let inverse_or_zero = |std: f64| if std > 0.0 { 1.0 / std } else { 0.0 };
+        let (z, w) = (inverse_or_zero(first_std), inverse_or_zero(second_std));
+        let whitening = Matrix2::new(z, 0.0, -cross_term * z * w, w);
+        Self { centre, root: Matrix2::new(first_std, 0.0, cross_term, second_std), whitening }
     }
 
     /// Returns the ellipse of the position (x, y), m.
@@ -55,7 +58,7 @@ impl Ellipse {
 
     /// Returns the area, in the product of the units of the coordinates; 0 for a line or a point.
     pub fn area(&self) -> f64 {
-        PI * SIGMAS * SIGMAS * self.root[(0, 0)] * self.root[(1, 1)]
+        PI * CONTOUR_SIGMAS * CONTOUR_SIGMAS * self.root[(0, 0)] * self.root[(1, 1)]
     }
 
     /// Returns true if the Gaussian has no extent at all.
@@ -65,7 +68,9 @@ impl Ellipse {
 
     /// Returns the closed outline as `segments` chords: `segments` + 1 points, the last equal to the first.
     pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
-        unit_circle(segments).map(|direction| (self.centre + self.root * direction * SIGMAS).into()).collect()
+        unit_circle_points(segments)
+            .map(|direction| (self.centre + self.root * direction * CONTOUR_SIGMAS).into())
+            .collect()
     }
 
     /// Returns the Mahalanobis distance of a point from the centre, in standard deviations.
@@ -73,9 +78,9 @@ impl Ellipse {
         (self.whitening * (Vector2::new(first, second) - self.centre)).norm()
     }
 
-    /// Returns a point on the way from the centre (0) to the boundary (1).
-    pub fn inside(&self, [x, y]: [f64; 2], share: f64) -> [f64; 2] {
-        (self.centre + (Vector2::new(x, y) - self.centre) * share).into()
+    /// Returns the point at a fraction of the line from the centre (0) to a point (1).
+    pub fn interpolate_from_centre(&self, [x, y]: [f64; 2], fraction: f64) -> [f64; 2] {
+        (self.centre + (Vector2::new(x, y) - self.centre) * fraction).into()
     }
 
     /// Returns true if a point lies inside.
@@ -93,7 +98,7 @@ impl Ellipse {
         let (first, second) = (first - self.centre.x, second - self.centre.y);
         let z = first * self.whitening[(0, 0)];
         let w = first * self.whitening[(1, 0)] + second * self.whitening[(1, 1)];
-        (z * z + w * w).simd_le(f64x4::splat(SIGMAS * SIGMAS))
+        (z * z + w * w).simd_le(f64x4::splat(CONTOUR_SIGMAS * CONTOUR_SIGMAS))
     }
 }
 
@@ -113,8 +118,8 @@ pub struct ExponentialContour {
 }
 
 impl ExponentialContour {
-    /// Creates the contour of `moments`, whose chart is anchored at `start`; drawn in the frame of `start`'s
-    /// coordinates.
+    /// Creates the contour of `moments`, which are of exponential coordinates about `start`. Its points are in the frame in which
+    /// `start` is given.
     pub fn new(moments: &ExponentialMoments, start: &SE2) -> Self {
         let ExponentialMoments { mean, cov } = *moments;
         let along_heading = Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);
@@ -137,9 +142,9 @@ impl ExponentialContour {
         self.outline(segments).map(|(_, point)| point).collect()
     }
 
-    /// Returns the closed outline at a morph from 0, where it is [`ExponentialContour::boundary`], to 1, where it is that of
-    /// [`ExponentialContour::ellipse`]; in the frame of the start.
-    pub fn unbent(&self, segments: usize, morph: f64) -> Vec<[f64; 2]> {
+    /// Returns the closed outline at a morph, in the frame of the start. At 0 it is [`ExponentialContour::boundary`], and at 1 the
+    /// boundary of [`ExponentialContour::ellipse`].
+    pub fn morphed_boundary(&self, segments: usize, morph: f64) -> Vec<[f64; 2]> {
         self.silhouette(segments, morph).map(|twist| unbend(&twist, morph)).collect()
     }
 
@@ -180,12 +185,12 @@ impl ExponentialContour {
     /// perpendicular to the null vector k with H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the
     /// great circle perpendicular to the principal direction of k approximates the silhouette.
     fn silhouette(&self, segments: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
-        let at = move |u: &Vector3<f64>| self.mean + self.root * u * SIGMAS;
-        // Samples k at the six ends of the axes. The cross product weights it by the area that H·G maps to the plane.
+        let twist_at = move |u: &Vector3<f64>| self.mean + self.root * u * CONTOUR_SIGMAS;
+        // Sums k·kᵀ over the six ends of the axes. The cross product weights k by the area that H·G maps to the plane.
         let mut null_scatter = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for end in [axis, -axis] {
-                let jacobian = unbend_jacobian(&at(&end), morph) * self.root;
+                let jacobian = unbend_jacobian(&twist_at(&end), morph) * self.root;
                 let null_direction = jacobian.row(0).transpose().cross(&jacobian.row(1).transpose());
                 null_scatter += null_direction * null_direction.transpose();
             }
@@ -195,7 +200,8 @@ impl ExponentialContour {
         let axis = Matrix3::identity().column(null_direction.iamin()).into_owned();
         let first = (axis - null_direction * axis.dot(&null_direction)).normalize();
         let second = null_direction.cross(&first);
-        unit_circle(segments).map(move |direction| at(&(first * direction.x + second * direction.y)))
+        unit_circle_points(segments)
+            .map(move |direction| twist_at(&(first * direction.x + second * direction.y)))
     }
 
     /// Returns true if the exponential coordinates of `pose` lie inside the ellipse.
@@ -208,20 +214,21 @@ impl ExponentialContour {
 /// Returns the unit eigenvector of the largest eigenvalue of a symmetric, positive semidefinite matrix; the second axis
 /// for the zero matrix. Ten squarings raise the ratio of the eigenvalues to its 1024th power.
 fn principal_direction(matrix: &Matrix3<f64>) -> Vector3<f64> {
-    let mut power = *matrix;
+    let mut matrix_power = *matrix;
     for _ in 0..10 {
-        let largest_entry = power.amax();
+        let largest_entry = matrix_power.amax();
         if largest_entry == 0.0 || !largest_entry.is_finite() {
             return Vector3::y();
         }
-        power /= largest_entry;
-        power *= power;
+        matrix_power /= largest_entry;
+        matrix_power *= matrix_power;
     }
-    let longest = (0..3).map(|i| power.column(i).into_owned()).max_by(|a, b| a.norm().total_cmp(&b.norm()));
-    longest.and_then(|column| column.try_normalize(0.0)).unwrap_or_else(Vector3::y)
+    let longest_column =
+        (0..3).map(|i| matrix_power.column(i).into_owned()).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    longest_column.and_then(|column| column.try_normalize(0.0)).unwrap_or_else(Vector3::y)
 }
 
-fn unit_circle(segments: usize) -> impl Iterator<Item = Vector2<f64>> {
+fn unit_circle_points(segments: usize) -> impl Iterator<Item = Vector2<f64>> {
     (0..=segments).map(move |i| {
         // The last point has the index of the first, so that the outline is closed exactly.
         let (sin, cos) = libm::sincos(TAU * (i % segments) as f64 / segments as f64);

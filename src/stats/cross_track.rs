@@ -21,7 +21,7 @@ pub struct CrossTrack {
 
 /// Standard deviation, relative to the extent and distance of the cloud, below which it counts as 0. Rounding is about 1e-16
 /// per step. A larger bound would take narrow clouds for lines.
-pub(super) const NO_SPREAD: f64 = 1e-12;
+pub(super) const MIN_RELATIVE_STD: f64 = 1e-12;
 
 /// Variance (m²) below which a standard deviation also counts as 0. The sixth power of 10⁻⁵⁰ m nearly underflows, so that the
 /// standard error would be 0.
@@ -65,7 +65,7 @@ impl CrossTrack {
     pub(super) fn from_moments(count: usize, moments: &TrackMoments) -> Self {
         let TrackMoments { products, extent_squared, resultant } = *moments;
         let [ad, ad2, m2, m3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = products;
-        if count < 3 || m2 <= (NO_SPREAD * NO_SPREAD * extent_squared).max(MIN_VARIANCE) {
+        if count < 3 || m2 <= (MIN_RELATIVE_STD * MIN_RELATIVE_STD * extent_squared).max(MIN_VARIANCE) {
             return Self::UNDEFINED;
         }
         // Means of dᵏ for k = 0 … 6, and of sin(t)·dᵏ for k = 0 … 3. The means of d and of sin(t) are 0.
@@ -85,7 +85,7 @@ impl CrossTrack {
             }
         }
         let heading_variance = tt - t * t;
-        let rho_heading = if heading_variance > NO_SPREAD * NO_SPREAD {
+        let rho_heading = if heading_variance > MIN_RELATIVE_STD * MIN_RELATIVE_STD {
             (td / (m2 * heading_variance).sqrt()).clamp(-1.0, 1.0)
         } else {
             f64::NAN

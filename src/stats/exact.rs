@@ -1,6 +1,6 @@
 //! Exact moments of a model, by quadrature over the heading noise. The other noises have a closed form.
 
-use super::cross_track::NO_SPREAD;
+use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::non_negative;
 use super::quadrature::nodes;
 use crate::geom::se2::wrap_angle;
@@ -29,7 +29,7 @@ struct Ray {
     excess_turn: f64,
 }
 
-/// Weighted moments of rays: of `unit`, called u, and of `excess_turn`. The weights may sum to less than 1.
+/// Weighted sums over rays of `unit`, called u, and `excess_turn`. The weights may sum to less than 1.
 #[derive(Default)]
 pub(super) struct RayMoments {
     /// First value of u. Sums contain differences from it, so that few digits are lost if u varies little.
@@ -60,11 +60,11 @@ impl RayMoments {
         }
         let [x, y] = self.reference.unwrap_or_default();
         let mean_ray = [mean.x + x, mean.y + y, 0.0];
-        let factors = [length, length, 1.0];
+        let length_factors = [length, length, 1.0];
         let cov = Matrix3::from_fn(|i, j| {
             // The spread of the length moves the position along u.
             let length_term = if i < 2 && j < 2 { ray_cov[(i, j)] + mean_ray[i] * mean_ray[j] } else { 0.0 };
-            ray_cov[(i, j)] * factors[i] * factors[j] + length_term * deviation * deviation
+            ray_cov[(i, j)] * length_factors[i] * length_factors[j] + length_term * deviation * deviation
         });
         (Vector3::new(length * mean_ray[0], length * mean_ray[1], mean.z), cov)
     }
@@ -80,7 +80,7 @@ impl ExactMoments {
             Ray { weight: node.weight, unit: chord_factors(u.omega * u.dt + excess_turn).into(), excess_turn }
         });
         let (rays, dt2) = (rays.collect::<Vec<_>>(), u.dt * u.dt);
-        Self::of_rays(&rays, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
+        Self::from_rays(&rays, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
     }
 
     /// Returns the moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear
@@ -92,21 +92,28 @@ impl ExactMoments {
             let (sin, cos) = libm::sincos(u.rot1 + excess_turn);
             Ray { weight: node.weight, unit: [cos, sin], excess_turn }
         });
-        Self::of_rays(&rays.collect::<Vec<_>>(), u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
+        Self::from_rays(&rays.collect::<Vec<_>>(), u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
     }
 
     /// Combines the rays with the mean and variance of the length, and with the mean `turn` (rad). `last_turn_variance` is added
     /// to the heading variance.
     #[inline(never)]
-    fn of_rays(rays: &[Ray], length: f64, length_variance: f64, turn: f64, last_turn_variance: f64) -> Self {
+    fn from_rays(
+        rays: &[Ray],
+        length: f64,
+        length_variance: f64,
+        turn: f64,
+        last_turn_variance: f64,
+    ) -> Self {
         let mut moments = RayMoments::default();
         rays.iter().for_each(|ray| moments.add(ray.weight, ray.unit, ray.excess_turn));
         let (mean, mut cov) = moments.finish([length, length_variance.sqrt()]);
         cov[(2, 2)] += last_turn_variance;
         let (sin, cos) = libm::sincos(turn);
         let lateral_components = rays.iter().map(|Ray { weight, unit, .. }| {
-            let lateral = unit[1] * cos - unit[0] * sin;
-            let (mean, variance) = (length * lateral, length_variance * lateral * lateral);
+            let lateral_direction = unit[1] * cos - unit[0] * sin;
+            let (mean, variance) =
+                (length * lateral_direction, length_variance * lateral_direction * lateral_direction);
             Component { weight: *weight, mean, variance }
         });
         Self {
@@ -124,12 +131,13 @@ impl ExactMoments {
 /// positive semidefinite 3 × 3 matrix.
 pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let heading_variance = cov[(2, 2)];
-    let regression = if heading_variance > 0.0 {
+    let regression_coefficients = if heading_variance > 0.0 {
         cov.fixed_view::<2, 1>(0, 2) / heading_variance
     } else {
         nalgebra::Vector2::zeros()
     };
-    let residual = cov.fixed_view::<2, 2>(0, 0) - regression * regression.transpose() * heading_variance;
+    let residual = cov.fixed_view::<2, 2>(0, 0)
+        - regression_coefficients * regression_coefficients.transpose() * heading_variance;
     let (sin, cos) = libm::sincos(mean.z);
     let lateral_components = nodes(NoiseKind::Normal).iter().map(|node| {
         let excess_turn = heading_variance.max(0.0).sqrt() * node.value;
@@ -138,7 +146,7 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
         let row = nalgebra::RowVector2::new(b * cos - a * sin, a * cos + b * sin);
         Component {
             weight: node.weight,
-            mean: (row * (mean.xy() + regression * excess_turn)).x,
+            mean: (row * (mean.xy() + regression_coefficients * excess_turn)).x,
             variance: (row * residual * row.transpose()).x.max(0.0),
         }
     });
@@ -155,12 +163,12 @@ struct Component {
 /// Returns the third standardized moment of the mixture; NaN if its spread is only rounding relative to
 /// `extent_squared`.
 fn mixture_skew(components: impl Iterator<Item = Component> + Clone, extent_squared: f64) -> f64 {
-    let mixture_mean: f64 = components.clone().map(|part| part.weight * part.mean).sum();
+    let mixture_mean: f64 = components.clone().map(|component| component.weight * component.mean).sum();
     let (mut m2, mut m3) = (0.0, 0.0);
     for Component { weight, mean, variance } in components {
         let component_offset = mean - mixture_mean;
         m2 += weight * (component_offset * component_offset + variance);
         m3 += weight * component_offset * (component_offset * component_offset + 3.0 * variance);
     }
-    if m2 > NO_SPREAD * NO_SPREAD * extent_squared { m3 / (m2 * m2.sqrt()) } else { f64::NAN }
+    if m2 > MIN_RELATIVE_STD * MIN_RELATIVE_STD * extent_squared { m3 / (m2 * m2.sqrt()) } else { f64::NAN }
 }

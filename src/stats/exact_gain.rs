@@ -2,9 +2,9 @@
 //! a closed form.
 
 use super::exact::{ExactMoments, RayMoments};
-use super::gain::{ChartGaussians, LikelihoodGain, Moments};
+use super::gain::{ChartGaussians, LikelihoodGain, MeanAndCov};
 use super::moments::ExponentialMoments;
-use super::quadrature::{Node, broken_nodes};
+use super::quadrature::{Node, piecewise_nodes};
 use crate::geom::angle::wrap_angle;
 use crate::geom::sinc::sinc;
 use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
@@ -32,7 +32,7 @@ pub struct ExactGain {
 /// smaller limit would change the fourth digit. A larger one would reach a full circle for commands whose clouds do not.
 const MAX_SIGMAS: f64 = 6.0;
 
-/// Breaks of a function that is smooth everywhere, see [`broken_nodes`].
+/// Breaks of a function that is smooth everywhere, see [`piecewise_nodes`].
 const NO_BREAKS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// Motion of either model: a length in the direction of a bearing, and a turn.
@@ -81,20 +81,20 @@ impl ExactGain {
 }
 
 impl PolarMotion {
-    fn gain(&self, plain: &ExactMoments) -> ExactGain {
+    fn gain(&self, cartesian: &ExactMoments) -> ExactGain {
         let (mean_log_length, [bearing, deviation]) = (self.mean_log_length(), self.bearing);
         let (twist, chart) = self.twist_moments();
         let (arc, ratio) = self.arc_moments();
         let mean_log_jacobians = [chart, mean_log_length + ratio - LN_2];
-        let charts = ChartGaussians::new((plain.mean, plain.cov), twist, arc, mean_log_jacobians);
-        let [turn, by_bearing, turn_after] = self.turn;
-        let defined = |turn: f64, reach: f64| if turn.abs() + reach < TAU { 1.0 } else { f64::NAN };
-        let pose = defined(turn, self.integration_limit(by_bearing, turn_after));
-        let floor = defined(2.0 * bearing, self.integration_limit(2.0 * deviation, 0.0));
+        let charts = ChartGaussians::new((cartesian.mean, cartesian.cov), twist, arc, mean_log_jacobians);
+        let [turn, bearing_turn_std, last_turn_std] = self.turn;
+        let one_if_defined = |turn: f64, reach: f64| if turn.abs() + reach < TAU { 1.0 } else { f64::NAN };
+        let pose_factor = one_if_defined(turn, self.integration_limit(bearing_turn_std, last_turn_std));
+        let floor_factor = one_if_defined(2.0 * bearing, self.integration_limit(2.0 * deviation, 0.0));
         let gain = charts.gain();
         ExactGain {
-            value: LikelihoodGain { pose: gain.pose * pose, floor: gain.floor * floor },
-            exponential: ExponentialMoments { mean: twist.0 * pose, cov: twist.1 * pose },
+            value: LikelihoodGain { pose: gain.pose * pose_factor, floor: gain.floor * floor_factor },
+            exponential: ExponentialMoments { mean: twist.0 * pose_factor, cov: twist.1 * pose_factor },
         }
     }
 
@@ -103,29 +103,29 @@ impl PolarMotion {
         if deviation == 0.0 {
             return vec![Node { value: 0.0, weight: 1.0 }];
         }
-        broken_nodes(self.noise, self.integration_limit(1.0, 0.0), breaks)
+        piecewise_nodes(self.noise, self.integration_limit(1.0, 0.0), breaks)
     }
 
     /// Returns the integration limit of the sum of two noises with these standard deviations.
-    fn integration_limit(&self, one: f64, other: f64) -> f64 {
+    fn integration_limit(&self, first_std: f64, second_std: f64) -> f64 {
         match self.noise {
-            NoiseKind::Normal => MAX_SIGMAS * libm::hypot(one, other),
-            NoiseKind::Triangular => 6f64.sqrt() * (one + other),
+            NoiseKind::Normal => MAX_SIGMAS * libm::hypot(first_std, second_std),
+            NoiseKind::Triangular => 6f64.sqrt() * (first_std + second_std),
         }
     }
 
     /// Returns the moments of ξ, and the mean of ln sinc²(ξ_ω/2). A chord r on the bearing β with the final heading θ
     /// has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
-    fn twist_moments(&self) -> (Moments, f64) {
-        let ([bearing, deviation], [turn, by_bearing, turn_after]) = (self.bearing, self.turn);
-        let limit = self.integration_limit(by_bearing, turn_after);
-        let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
-        let last_turn_nodes = self.nodes(turn_after, NO_BREAKS);
+    fn twist_moments(&self) -> (MeanAndCov, f64) {
+        let ([bearing, deviation], [turn, bearing_turn_std, last_turn_std]) = (self.bearing, self.turn);
+        let limit = self.integration_limit(bearing_turn_std, last_turn_std);
+        let (mut moments, mut mean_log) = (RayMoments::default(), MeanLog::default());
+        let last_turn_nodes = self.nodes(last_turn_std, NO_BREAKS);
         for bearing_node in self.nodes(deviation, NO_BREAKS) {
             let bearing = bearing + deviation * bearing_node.value;
             let chord = if self.is_arc { sinc(bearing) } else { 1.0 };
             for turn_node in &last_turn_nodes {
-                let excess_turn = by_bearing * bearing_node.value + turn_after * turn_node.value;
+                let excess_turn = bearing_turn_std * bearing_node.value + last_turn_std * turn_node.value;
                 let weight = bearing_node.weight * turn_node.weight;
                 if excess_turn.abs() > limit {
                     continue;
@@ -133,36 +133,36 @@ impl PolarMotion {
                 let half_turn = 0.5 * (turn + excess_turn);
                 let twist_sinc = sinc(half_turn);
                 let (sin, cos) = libm::sincos(bearing - half_turn);
-                let unit = [cos, sin].map(|part| part * (chord / twist_sinc));
-                logs.add(weight, twist_sinc * twist_sinc);
-                moments.add(weight, unit, excess_turn);
+                let scaled_direction = [cos, sin].map(|component| component * (chord / twist_sinc));
+                mean_log.add(weight, twist_sinc * twist_sinc);
+                moments.add(weight, scaled_direction, excess_turn);
             }
         }
         let (mean, cov) = moments.finish(self.length);
-        ((mean + Vector3::z() * turn, cov), logs.finish())
+        ((mean + Vector3::z() * turn, cov), mean_log.finish())
     }
 
     /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
     /// mean of ln|c·sinc²(φ/2)|, with c the length of that arc divided by the driven length.
-    fn arc_moments(&self) -> (Moments, f64) {
-        let ([bearing, deviation], half_nominal) = (self.bearing, 0.5 * self.turn[0]);
-        let (mut moments, mut logs) = (RayMoments::default(), MeanLog::default());
+    fn arc_moments(&self) -> (MeanAndCov, f64) {
+        let ([bearing, deviation], half_commanded_turn) = (self.bearing, 0.5 * self.turn[0]);
+        let (mut moments, mut mean_log) = (RayMoments::default(), MeanLog::default());
         // Statistics of a cloud use the arc whose turn is nearest to the commanded one. That arc is driven in the opposite
         // direction if the bearing differs from half the commanded turn by more than π/2.
-        let breaks = [-0.5 * PI, 0.5 * PI].map(|aside| (half_nominal + aside - bearing) / deviation);
+        let breaks = [-0.5 * PI, 0.5 * PI].map(|offset| (half_commanded_turn + offset - bearing) / deviation);
         for node in self.nodes(deviation, breaks) {
             let driven_bearing = bearing + deviation * node.value;
-            let half_circles = ((driven_bearing - half_nominal) / PI).round();
+            let half_circles = ((driven_bearing - half_commanded_turn) / PI).round();
             let half_turn = driven_bearing - half_circles * PI;
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
             let half_sinc = sinc(half_turn);
             let length_ratio = drive_sign * if self.is_arc { sinc(driven_bearing) } else { 1.0 } / half_sinc;
-            logs.add(node.weight, (length_ratio * half_sinc * half_sinc).abs());
+            mean_log.add(node.weight, (length_ratio * half_sinc * half_sinc).abs());
             moments.add(node.weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
         }
         let (mean, cov) = moments.finish(self.length);
         let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);
-        ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), logs.finish())
+        ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), mean_log.finish())
     }
 
     /// Returns the mean of ln|driven length|.
@@ -178,7 +178,7 @@ impl PolarMotion {
     }
 }
 
-/// A weighted mean of logarithms.
+/// Weighted mean of logarithms.
 #[derive(Default)]
 struct MeanLog {
     total: f64,
@@ -187,9 +187,9 @@ struct MeanLog {
 
 impl MeanLog {
     #[inline(never)]
-    fn add(&mut self, weight: f64, of: f64) {
+    fn add(&mut self, weight: f64, value: f64) {
         self.total += weight;
-        self.sum += weight * libm::log(of);
+        self.sum += weight * libm::log(value);
     }
 
     fn finish(&self) -> f64 {
@@ -203,10 +203,10 @@ impl MeanLog {
 /// a Poisson distribution of mean m²/2. The mean logarithm of χ² with 1 + 2j degrees is ln 2 + ψ(½ + j).
 fn normal_mean_log(m: f64) -> f64 {
     /// Value of m from which the fourth term of the asymptotic series is below 1e-10. Far beyond it, exp(−m²/2) underflows.
-    const FAR: f64 = 30.0;
+    const ASYMPTOTIC_FROM: f64 = 30.0;
     /// ψ(½) = −γ − 2 ln 2.
     const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
-    if m > FAR {
+    if m > ASYMPTOTIC_FROM {
         // Terms of the series use E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
         let inverse_square = 1.0 / (m * m);
         return libm::log(m) - inverse_square * (0.5 + inverse_square * (0.75 + inverse_square * 2.5));
@@ -223,11 +223,11 @@ fn normal_mean_log(m: f64) -> f64 {
     0.5 * sum
 }
 
-/// Returns E ln|m + T| to 1e-14, with T triangular on ±`edge`. Far from 0 it is a series of moments. Elsewhere it is a
+/// Returns E ln|m + T| to 1e-14, with T triangular on ±`half_width`. Far from 0 it is a series of moments. Elsewhere it is a
 /// second difference of the second antiderivative of the logarithm, because T is a sum of two uniform numbers.
-fn triangular_mean_log(m: f64, edge: f64) -> f64 {
-    if edge < 0.5 * m {
-        let ratio_squared = (edge / m) * (edge / m);
+fn triangular_mean_log(m: f64, half_width: f64) -> f64 {
+    if half_width < 0.5 * m {
+        let ratio_squared = (half_width / m) * (half_width / m);
         let (mut ratio_power, mut sum) = (1.0, libm::log(m));
         for k in 1..=24 {
             let even_index = f64::from(2 * k);
@@ -237,5 +237,6 @@ fn triangular_mean_log(m: f64, edge: f64) -> f64 {
         return sum;
     }
     let antiderivative = |x: f64| if x == 0.0 { 0.0 } else { x * x * (0.5 * libm::log(x.abs()) - 0.75) };
-    (antiderivative(m + edge) - 2.0 * antiderivative(m) + antiderivative(m - edge)) / (edge * edge)
+    (antiderivative(m + half_width) - 2.0 * antiderivative(m) + antiderivative(m - half_width))
+        / (half_width * half_width)
 }

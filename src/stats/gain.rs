@@ -1,7 +1,7 @@
 //! Gain in log-likelihood of a Gaussian in exponential or arc coordinates over one in (x, y, θ). It also
-//! detects bananas that bend symmetrically to both sides, which have no skew.
+//! detects banana-shaped clouds that bend symmetrically to both sides, which have no skew.
 
-use super::cross_track::NO_SPREAD;
+use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::non_negative;
 use crate::geom::lanes::log;
 use crate::models::covariance_root;
@@ -28,7 +28,7 @@ pub struct LikelihoodGain {
 
 impl LikelihoodGain {
     /// Undefined gains.
-    pub const NONE: Self = Self { pose: f64::NAN, floor: f64::NAN };
+    pub const UNDEFINED: Self = Self { pose: f64::NAN, floor: f64::NAN };
 }
 
 /// Gain with its standard errors.
@@ -36,7 +36,7 @@ impl LikelihoodGain {
 pub struct MeasuredGain {
     /// Gain of the samples.
     pub value: LikelihoodGain,
-    /// Standard errors: of the per-robot differences of the two log-densities, the standard deviation over √n. The fitted
+    /// Standard errors: the standard deviation, over all robots, of the difference of the two log-densities, divided by √n. The fitted
     /// moments add nothing to first order, because each Gaussian's likelihood is at its maximum over them. NaN where the
     /// gain is not finite.
     pub error: LikelihoodGain,
@@ -46,7 +46,7 @@ pub struct MeasuredGain {
 #[derive(Clone, Copy)]
 pub(super) struct FourRobots {
     /// x and y (m), and the heading relative to the mean heading (rad).
-    pub plain: [f64x4; 3],
+    pub cartesian: [f64x4; 3],
     pub twist: [f64x4; 3],
     /// Length (m) and turn (rad) of the arc that ends at x, y, and 0.
     pub arc: [f64x4; 3],
@@ -57,30 +57,32 @@ pub(super) struct FourRobots {
 /// Gaussians fitted to a cloud or model, one in each of three coordinate systems.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ChartGaussians {
-    plain: Normal,
-    twist: Normal,
-    arc: Normal,
+    cartesian: Gaussian,
+    twist: Gaussian,
+    arc: Gaussian,
     gain: LikelihoodGain,
     /// Geometric mean of the Jacobian dx dy over ds dφ.
     jacobian: f64,
 }
 
 /// Mean and covariance.
-pub(super) type Moments = (Vector3<f64>, Matrix3<f64>);
+pub(super) type MeanAndCov = (Vector3<f64>, Matrix3<f64>);
 
 impl ChartGaussians {
     /// Creates the Gaussians from the moments of the coordinates in [`FourRobots`], and the mean logarithms of their
     /// Jacobians.
-    pub fn new(plain: Moments, twist: Moments, arc: Moments, log_jacobians: [f64; 2]) -> Self {
-        let (plain, twist, arc) = (Normal::new(&plain, 2), Normal::new(&twist, 2), Normal::new(&arc, 1));
-        let gain = |dimensions: usize, bent: &Normal| {
-            let (plain, bent) = (plain.log_volumes[dimensions - 1], bent.log_volumes[dimensions - 1]);
-            let gain = plain - bent - log_jacobians[3 - dimensions];
+    pub fn new(cartesian: MeanAndCov, twist: MeanAndCov, arc: MeanAndCov, log_jacobians: [f64; 2]) -> Self {
+        let (cartesian, twist, arc) =
+            (Gaussian::new(&cartesian, 2), Gaussian::new(&twist, 2), Gaussian::new(&arc, 1));
+        let gain_in = |dimensions: usize, curved: &Gaussian| {
+            let (cartesian, curved) =
+                (cartesian.log_volumes[dimensions - 1], curved.log_volumes[dimensions - 1]);
+            let gain = cartesian - curved - log_jacobians[3 - dimensions];
             // If the Gaussian in (x, y, θ), or (x, y), has no volume, up to rounding, the gain is undefined.
             if gain > f64::NEG_INFINITY { gain } else { f64::NAN }
         };
-        let gain = LikelihoodGain { pose: gain(3, &twist), floor: gain(2, &arc) };
-        Self { plain, twist, arc, gain, jacobian: libm::exp(log_jacobians[1]) }
+        let gain = LikelihoodGain { pose: gain_in(3, &twist), floor: gain_in(2, &arc) };
+        Self { cartesian, twist, arc, gain, jacobian: libm::exp(log_jacobians[1]) }
     }
 
     pub fn gain(&self) -> LikelihoodGain {
@@ -90,45 +92,46 @@ impl ChartGaussians {
 
 /// Sums for the standard errors: differences of two log-densities over a sample.
 #[derive(Clone, Debug)]
-pub(super) struct Differences {
+pub(super) struct LogDensityDifferences {
     charts: ChartGaussians,
     weights: f64x4,
     /// Squared deviations of the log-density difference from the gain, for pose and floor. The mean difference is the
     /// gain of all robots, so that its own sum is not needed.
-    squares: [f64x4; 2],
-    /// Sums of u, u², h·u and h² for [`Differences::log_area_error`]. u is the Jacobian over its geometric mean, less 1. h is half
+    squared_deviations: [f64x4; 2],
+    /// Sums of u, u², h·u and h² for [`LogDensityDifferences::log_area_error`]. u is the Jacobian over its geometric mean, less 1. h is half
     /// the difference of the squared distances on the floor and in the arc's coordinates.
-    areas: [f64x4; 4],
+    area_sums: [f64x4; 4],
 }
 
-impl Differences {
+impl LogDensityDifferences {
     pub fn new(charts: ChartGaussians) -> Self {
         Self {
             charts,
             weights: f64x4::splat(0.0),
-            squares: [f64x4::splat(0.0); 2],
-            areas: [f64x4::splat(0.0); 4],
+            squared_deviations: [f64x4::splat(0.0); 2],
+            area_sums: [f64x4::splat(0.0); 4],
         }
     }
 
     /// Adds four robots with these weights; 0 for a lane without a robot.
     #[inline(never)]
     pub fn add(&mut self, robots: &FourRobots, weights: f64x4) {
-        let ChartGaussians { plain, twist, arc, gain, jacobian } = &self.charts;
+        let ChartGaussians { cartesian, twist, arc, gain, jacobian } = &self.charts;
         let has_robot = weights.simd_gt(f64x4::splat(0.0));
-        let plain_distances = plain.squared_distances(&robots.plain);
+        let cartesian_distances = cartesian.squared_distances(&robots.cartesian);
         let twist_distance = twist.squared_distances(&robots.twist)[2];
         let arc_distance = arc.squared_distances(&robots.arc)[1];
-        let plain_log_volumes = [2, 1].map(|last| plain.log_volumes[last]);
-        let (bent_log_volumes, gains) = ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
-        let distances = [plain_distances[2] - twist_distance, plain_distances[1] - arc_distance];
+        let cartesian_log_volumes = [2, 1].map(|last| cartesian.log_volumes[last]);
+        let (curved_log_volumes, gains) =
+            ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
+        let distances = [cartesian_distances[2] - twist_distance, cartesian_distances[1] - arc_distance];
         for i in 0..2 {
-            let log_ratio = plain_log_volumes[i] - bent_log_volumes[i] - gains[i];
+            let log_ratio = cartesian_log_volumes[i] - curved_log_volumes[i] - gains[i];
             let differences = (distances[i] * 0.5 - log(robots.jacobians[i]) + log_ratio) & has_robot;
-            self.squares[i] += differences * differences * weights;
+            self.squared_deviations[i] += differences * differences * weights;
         }
         let (u, h) = (robots.jacobians[1] / *jacobian - 1.0, distances[1] * 0.5);
-        for (sum, term) in self.areas.iter_mut().zip([u, u * u, h * u, h * h]) {
+        for (sum, term) in self.area_sums.iter_mut().zip([u, u * u, h * u, h * h]) {
             *sum += (term & has_robot) * weights;
         }
         self.weights += weights;
@@ -137,8 +140,9 @@ impl Differences {
     /// Returns the gain of a cloud of `count` poses, of which the added ones are a weighted sample.
     pub fn finish(&self, count: usize) -> MeasuredGain {
         let degrees_of_freedom = self.weights.reduce_add() - 1.0;
-        let [pose, floor] =
-            self.squares.map(|squares| (squares.reduce_add() / degrees_of_freedom / count as f64).sqrt());
+        let [pose, floor] = self.squared_deviations.map(|squared_deviations| {
+            (squared_deviations.reduce_add() / degrees_of_freedom / count as f64).sqrt()
+        });
         MeasuredGain { value: self.charts.gain, error: LikelihoodGain { pose, floor } }
     }
 
@@ -147,20 +151,20 @@ impl Differences {
     ///
     /// The areas are 4π√(det Σ_xy) and 4π√(det Σ_sφ) times the mean Jacobian over the ellipse. Uniform points of a 2σ ellipse have the
     /// Gaussian's own covariance, so that to third order this mean is that of the robots. The influence of a robot is then
-    /// ½(z² − w²) − J/mean J, up to a constant, with z and w its two Mahalanobis distances. Also the error for the outline in ξ, which
-    /// is that of the arcs to first order. With the presets it is 0 to 14 % smaller than the spread of the ratio.
+    /// ½(z² − w²) − J/mean J, up to a constant, with z and w its two Mahalanobis distances. The outline in ξ has the
+    /// same error to first order. With the presets it is 0 to 14 % smaller than the spread of the ratio.
     pub fn log_area_error(&self, count: usize) -> f64 {
-        let total = self.weights.reduce_add();
-        let [u, uu, hu, hh] = self.areas.map(|sum| sum.reduce_add() / total);
-        let mean = 1.0 + u;
-        let variance = hh - 2.0 * hu / mean + (uu - u * u) / (mean * mean);
-        (non_negative(variance) / (total - 1.0) * total / count as f64).sqrt()
+        let total_weight = self.weights.reduce_add();
+        let [u, uu, hu, hh] = self.area_sums.map(|sum| sum.reduce_add() / total_weight);
+        let mean_jacobian = 1.0 + u;
+        let variance = hh - 2.0 * hu / mean_jacobian + (uu - u * u) / (mean_jacobian * mean_jacobian);
+        (non_negative(variance) / (total_weight - 1.0) * total_weight / count as f64).sqrt()
     }
 }
 
 /// Gaussian of up to three dimensions, with its leading marginals.
 #[derive(Clone, Copy, Debug)]
-struct Normal {
+struct Gaussian {
     mean: Vector3<f64>,
     /// Lower triangular L with L·Lᵀ = covariance. The diagonal has the reciprocals, 0 for a direction without extent.
     root: Matrix3<f64>,
@@ -168,16 +172,17 @@ struct Normal {
     log_volumes: [f64; 3],
 }
 
-impl Normal {
-    /// Creates the Gaussian. The first `lengths` coordinates are in metres, the others in rad.
+impl Gaussian {
+    /// Creates the Gaussian. The first `length_count` coordinates are in metres, the others in rad.
     #[inline(never)]
-    fn new((mean, cov): &Moments, lengths: usize) -> Self {
-        let squared_extent: f64 = (0..lengths).map(|i| mean[i] * mean[i] + cov[(i, i)]).sum();
+    fn new((mean, cov): &MeanAndCov, length_count: usize) -> Self {
+        let squared_extent: f64 = (0..length_count).map(|i| mean[i] * mean[i] + cov[(i, i)]).sum();
         let mut root = covariance_root(cov).unwrap_or_else(|_| Matrix3::zeros());
         let mut sum = 0.0;
         let log_volumes = std::array::from_fn(|j| {
             let deviation = root[(j, j)];
-            let is_flat = deviation <= NO_SPREAD * if j < lengths { squared_extent.sqrt() } else { 1.0 };
+            let is_flat =
+                deviation <= MIN_RELATIVE_STD * if j < length_count { squared_extent.sqrt() } else { 1.0 };
             sum += if is_flat { f64::NEG_INFINITY } else { libm::log(deviation) };
             root[(j, j)] = if is_flat { 0.0 } else { 1.0 / deviation };
             sum

@@ -12,11 +12,11 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
     let rows = values.len() / columns.max(1);
     // The previous and the next edge of a line, for each edge of the grid that it crosses. Edge 2i leads from point i to the
     // next point in its row, and edge 2i + 1 to the point in the next row.
-    let mut links = vec![[NO_EDGE; 2]; 2 * values.len()];
-    let mut link_edges = |one: usize, other: usize| {
-        for (from, to) in [(one, other), (other, one)] {
-            let free_slot = usize::from(links[from][0] != NO_EDGE);
-            links[from][free_slot] = to;
+    let mut edge_links = vec![[NO_EDGE; 2]; 2 * values.len()];
+    let mut link_edges = |edge_a: usize, edge_b: usize| {
+        for (from, to) in [(edge_a, edge_b), (edge_b, edge_a)] {
+            let first_free_slot = usize::from(edge_links[from][0] != NO_EDGE);
+            edge_links[from][first_free_slot] = to;
         }
     };
     for row in 1..rows {
@@ -41,32 +41,34 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
         }
     }
     let crossing_point = |edge: usize| {
-        let (i, up) = (edge / 2, edge % 2 == 1);
-        let (from, to) = (values[i], values[if up { i + columns } else { i + 1 }]);
+        let (i, is_vertical) = (edge / 2, edge % 2 == 1);
+        let (from, to) = (values[i], values[if is_vertical { i + columns } else { i + 1 }]);
         let fraction = ((level - from) / (to - from)).clamp(0.0, 1.0);
         let (column, row) = ((i % columns) as f64, (i / columns) as f64);
-        if up { [column, row + fraction] } else { [column + fraction, row] }
+        if is_vertical { [column, row + fraction] } else { [column + fraction, row] }
     };
     let mut lines = Vec::new();
-    let borders = (0..links.len()).filter(|edge| links[*edge][0] != NO_EDGE && links[*edge][1] == NO_EDGE);
+    let border_edges = (0..edge_links.len())
+        .filter(|edge| edge_links[*edge][0] != NO_EDGE && edge_links[*edge][1] == NO_EDGE);
     // Lines that end at the border are followed first. The remaining lines are closed.
-    for first in borders.chain(0..links.len()).collect::<Vec<_>>() {
-        if links[first][0] == NO_EDGE {
+    for first_edge in border_edges.chain(0..edge_links.len()).collect::<Vec<_>>() {
+        if edge_links[first_edge][0] == NO_EDGE {
             continue;
         }
-        let (mut line, mut at) = (vec![crossing_point(first)], first);
+        let (mut line, mut edge) = (vec![crossing_point(first_edge)], first_edge);
         loop {
-            let [one, other] = std::mem::replace(&mut links[at], [NO_EDGE; 2]);
-            let next = if one != NO_EDGE && links[one][0] != NO_EDGE { one } else { other };
-            if next == NO_EDGE || links[next][0] == NO_EDGE {
+            let [edge_a, edge_b] = std::mem::replace(&mut edge_links[edge], [NO_EDGE; 2]);
+            let next_edge =
+                if edge_a != NO_EDGE && edge_links[edge_a][0] != NO_EDGE { edge_a } else { edge_b };
+            if next_edge == NO_EDGE || edge_links[next_edge][0] == NO_EDGE {
                 // The line is closed if its first and its last edge are linked.
-                if (one == first || other == first) && line.len() > 2 {
+                if (edge_a == first_edge || edge_b == first_edge) && line.len() > 2 {
                     line.push(line[0]);
                 }
                 break;
             }
-            line.push(crossing_point(next));
-            at = next;
+            line.push(crossing_point(next_edge));
+            edge = next_edge;
         }
         lines.push(line);
     }

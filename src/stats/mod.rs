@@ -4,12 +4,12 @@ mod contour;
 mod cross_track;
 mod exact;
 mod exact_gain;
-pub(crate) mod fused;
 mod gain;
 mod level_set;
 mod moments;
 pub mod quadrature;
 pub(crate) mod sums;
+pub(crate) mod two_pass;
 
 pub use contour::{Ellipse, ExponentialContour};
 pub use cross_track::{CrossTrack, cross_track_skew};

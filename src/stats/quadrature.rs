@@ -18,7 +18,7 @@ pub struct Node {
 /// The rule is correct to rounding if f is a polynomial times trigonometric functions of k·z with k below 16. The third
 /// moment of headings with a standard deviation of five radians needs that frequency.
 pub fn nodes(noise: NoiseKind) -> &'static [Node] {
-    // Cached, because every event needs the nodes.
+    // Cached, because every evaluation needs the nodes.
     static NORMAL: OnceLock<Vec<Node>> = OnceLock::new();
     static TRIANGULAR: OnceLock<Vec<Node>> = OnceLock::new();
     match noise {
@@ -33,8 +33,8 @@ fn normal_nodes() -> Vec<Node> {
     /// Step of the rule. The error stays below rounding up to k ≈ 16; with twice the step it would only up to 4.
     const STEP: f64 = 0.25;
     /// Number of steps on each side of 0: nine standard deviations, where the density is 1e-18 of its maximum.
-    const HALF_COUNT: i32 = 36;
-    (-HALF_COUNT..=HALF_COUNT)
+    const STEPS_PER_SIDE: i32 = 36;
+    (-STEPS_PER_SIDE..=STEPS_PER_SIDE)
         .map(|i| {
             let node_value = STEP * f64::from(i);
             Node { value: node_value, weight: STEP * libm::exp(-0.5 * node_value * node_value) / TAU.sqrt() }
@@ -61,7 +61,7 @@ fn triangular_nodes() -> Vec<Node> {
 /// Returns a rule from −`end` to `end` for a function with two `breaks`, one on each side of 0, which is smooth between
 /// them. It uses Gauss–Legendre between the breaks. Moments of normal noise up to six standard deviations are off by 1e-10.
 #[inline(never)]
-pub(super) fn broken_nodes(noise: NoiseKind, end: f64, breaks: [f64; 2]) -> Vec<Node> {
+pub(super) fn piecewise_nodes(noise: NoiseKind, end: f64, breaks: [f64; 2]) -> Vec<Node> {
     /// Number of nodes between breaks. Two noises are combined, so that the cost grows with its square. Fewer nodes would
     /// make displayed digits wrong.
     const POINTS: usize = 16;
@@ -90,19 +90,19 @@ fn legendre_nodes(points: usize) -> Vec<Node> {
     let n = points as f64;
     (0..points)
         .map(|i| {
-            // Tricomi's guess is within 1e-4; Newton doubles the digits, so that four steps leave only rounding.
+            // Tricomi's guess is within 1e-4. Newton's method doubles the correct digits in each of four steps.
             let mut x = libm::cos(PI * (i as f64 + 0.75) / (n + 0.5));
-            let mut slope = 1.0;
+            let mut derivative = 1.0;
             for _ in 0..4 {
                 let (mut previous, mut value) = (1.0, x);
                 for k in 2..=points {
                     let k = k as f64;
                     (previous, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k);
                 }
-                slope = n * (x * value - previous) / (x * x - 1.0);
-                x -= value / slope;
+                derivative = n * (x * value - previous) / (x * x - 1.0);
+                x -= value / derivative;
             }
-            Node { value: x, weight: 2.0 / ((1.0 - x * x) * slope * slope) }
+            Node { value: x, weight: 2.0 / ((1.0 - x * x) * derivative * derivative) }
         })
         .collect()
 }

@@ -27,7 +27,7 @@ impl<const N: usize> Sums<N> {
     }
 }
 
-/// Adds blocks to their totals, keeping what rounding loses (Knuth's two-sum).
+/// Adds blocks to their totals, and the rounding errors to `compensation` (Knuth's two-sum).
 #[inline(never)]
 fn close_blocks(blocks: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
     for ((block, total), compensation) in blocks.iter_mut().zip(totals).zip(compensation) {

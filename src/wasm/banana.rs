@@ -101,7 +101,7 @@ impl JsBananaMachine {
     /// (rad), δ̂_trans (m), δ̂_rot2 (rad). A copy.
     #[wasm_bindgen(getter)]
     pub fn executed_motion(&self) -> Float64Array {
-        flat_float_array(&self.0.executed_motion().collect::<Vec<_>>())
+        flat_float_array(&self.0.executed_motions().collect::<Vec<_>>())
     }
 
     /// Noise-free odometry reading of the command.
@@ -242,5 +242,7 @@ pub fn gaussian_unbent(moments: &[f64], morph: f64) -> Result<Float64Array, JsVa
         .ok_or_else(|| RangeError::new(&format!("moments has length {}; allowed is 12", moments.len())))?;
     let moments =
         ExponentialMoments { mean: Vector3::from_column_slice(mean), cov: Matrix3::from_row_slice(cov) };
-    Ok(flat_float_array(&ExponentialContour::new(&moments, &SE2::identity()).unbent(OUTLINE_SEGMENTS, morph)))
+    Ok(flat_float_array(
+        &ExponentialContour::new(&moments, &SE2::identity()).morphed_boundary(OUTLINE_SEGMENTS, morph),
+    ))
 }

@@ -125,8 +125,8 @@ impl JsMapSqueeze {
     /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
     /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
     #[wasm_bindgen(getter, js_name = openPlace, unchecked_return_type = "Start | null")]
-    pub fn open_place(&self) -> JsValue {
-        let free_pose = self.0.open_place();
+    pub fn find_free_pose(&self) -> JsValue {
+        let free_pose = self.0.find_free_pose();
         free_pose.map_or(JsValue::NULL, |place| group_to_js(&mut <[f64; 3]>::from(place)))
     }
 
@@ -176,7 +176,7 @@ impl JsMapSqueeze {
         count: f64,
     ) -> Result<JsValue, JsValue> {
         let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
-        let sampler = read_word::<Sampler>("sampler", sampler)?.in_parts(steps as u32);
+        let sampler = read_word::<Sampler>("sampler", sampler)?.with_parts(steps as u32);
         let count = read_integer("count", count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
         let cost = self.0.trial(sampler, count).map_err(|wedged| {
             let max_total_draws = max_draws(sampler.parts() as usize * count);

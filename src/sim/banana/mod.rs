@@ -388,7 +388,7 @@ impl BananaMachine {
 
     /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s). Under the odometry model they are
     /// δ̂_rot1 (rad), δ̂_trans (m) and δ̂_rot2 (rad).
-    pub fn executed_motion(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+    pub fn executed_motions(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let motion = self.settings.motion(self.settings.command);
         (0..self.shown()).map(move |index| match motion.executed_motion(self.cloud.unit_noise(index)) {
             ExecutedMotion::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],

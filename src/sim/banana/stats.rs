@@ -5,7 +5,7 @@ use crate::geom::arc::ArcInversion;
 use crate::js::js_structs;
 use crate::models::OdomDelta;
 use crate::sim::cloud::START_POSE;
-use crate::stats::fused::CloudStats;
+use crate::stats::two_pass::CloudStats;
 use crate::stats::{
     CartesianMoments, Ellipse, ExponentialContour, ExponentialMoments, LikelihoodGain,
     predicted_cross_track_skew,
@@ -77,8 +77,8 @@ impl Stats {
             gaussian_skew: f64::NAN,
             rho_cross_heading: f64::NAN,
             coverage: Coverage { ellipse: f64::NAN, exponential: f64::NAN },
-            likelihood_gain: LikelihoodGain::NONE,
-            likelihood_gain_error: LikelihoodGain::NONE,
+            likelihood_gain: LikelihoodGain::UNDEFINED,
+            likelihood_gain_error: LikelihoodGain::UNDEFINED,
             area_ratio: f64::NAN,
             area_ratio_error: f64::NAN,
         }

@@ -2,7 +2,7 @@
 
 use crate::geom::lanes::{LogTerms, SinCos, Trigonometry, any_lane_set};
 use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
-use crate::stats::fused::{FourArcs, FourPoses, JacobianScale, Reference};
+use crate::stats::two_pass::{FourArcs, FourPoses, JacobianScale, ReferenceCoordinates};
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
 
@@ -178,7 +178,7 @@ impl Drive {
     }
 
     /// Returns the coordinates of the noise-free end, which are subtracted in all sums, and the scales of the Jacobians.
-    pub fn nominal(&self) -> (Reference, JacobianScale) {
+    pub fn nominal(&self) -> (ReferenceCoordinates, JacobianScale) {
         let (poses, arcs) = self.four_robots(&[f64x4::splat(0.0); 3]);
         let mut reference_coordinates =
             [poses.x, poses.y, poses.along, poses.lateral, poses.half, arcs.length, arcs.half]

@@ -10,7 +10,7 @@ pub use views::View;
 use crate::geom::lanes::{LANES, from_lanes};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
-use crate::stats::fused::{CloudStats, FirstPass, SecondPass};
+use crate::stats::two_pass::{CloudStats, FirstPass, SecondPass};
 use draws::Draws;
 use drive::Drive;
 use std::collections::TryReserveError;
@@ -181,9 +181,9 @@ fn add_to_first_pass(
         let poses = drive.poses(&motions, ends);
         sums.add(&poses, mask);
         if is_full_group {
-            sums.multiply(&poses, &arcs);
+            sums.multiply_jacobians(&poses, &arcs);
         } else {
-            sums.multiply_some(&poses, &arcs, mask);
+            sums.multiply_masked_jacobians(&poses, &arcs, mask);
         }
         if !is_regular {
             sums.add_irregular(&arcs, drive.regular_deviations(noise), mask);

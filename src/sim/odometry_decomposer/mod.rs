@@ -154,7 +154,7 @@ impl OdometryDecomposer {
         self.draws.restart(self.settings.seed, self.settings.noise);
         self.draws.extend_to(self.shown);
         let start = self.start();
-        self.poses = self.executed_motion(self.shown).map(|executed| executed.poses(&start)[3]).collect();
+        self.poses = self.executed_motions(self.shown).map(|executed| executed.poses(&start)[3]).collect();
     }
 
     /// Returns the odometry reading: the motion from the first odometry pose to the second.
@@ -176,7 +176,7 @@ impl OdometryDecomposer {
     }
 
     /// Returns the executed legs of each of the first `count` outcomes.
-    fn executed_motion(&self, count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
+    fn executed_motions(&self, count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
         let rho = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
         (0..count).map(move |index| {
@@ -200,7 +200,7 @@ impl OdometryDecomposer {
     /// Returns the linkages of the first outcomes shown, as [`OdometryDecomposer::linkage`].
     pub fn ghosts(&self, count: usize) -> Vec<[SE2; 4]> {
         let start = self.start();
-        self.executed_motion(count.min(self.shown)).map(|executed| executed.poses(&start)).collect()
+        self.executed_motions(count.min(self.shown)).map(|executed| executed.poses(&start)).collect()
     }
 
     /// Returns the pose of the robot at the selected phase of the motion.
@@ -237,7 +237,7 @@ impl OdometryDecomposer {
     pub fn stats(&self) -> Stats {
         let Settings { noise, correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());
-        let outcomes = self.executed_motion(self.shown);
+        let outcomes = self.executed_motions(self.shown);
         let cross_track_offsets = outcomes.clone().map(|ExecutedLegs { legs: executed, strafe }| {
             let (sin, cos) = libm::sincos(executed.rot1 - legs.rot1);
             executed.trans * sin + strafe * cos

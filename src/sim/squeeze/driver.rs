@@ -67,8 +67,8 @@ impl<'a> Driver<'a> {
         let conditioned = self.settings.conditioned;
         let (group, first) = (indices.start / LANES, indices.start % LANES);
         let lane_range = first..LANES.min(first + indices.len());
-        self.draw_tester.test_four(&self.draws.groups()[group], lane_range, |draw| {
-            let deciding_verdict = self.model.deciding(&draw);
+        self.draw_tester.test_group(&self.draws.groups()[group], lane_range, |draw| {
+            let deciding_verdict = self.model.deciding_test(&draw);
             let attempt = Attempt {
                 pose: draw.pose,
                 accepted: !conditioned || deciding_verdict.free,

@@ -261,15 +261,15 @@ impl MapSqueeze {
         Ok(total_cost)
     }
 
-    /// Returns a free pose, see [`FloorPlan::open_place`].
-    pub fn open_place(&self) -> Option<SE2> {
-        self.plan.open_place(self.settings.clearance)
+    /// Returns a free pose, see [`FloorPlan::find_free_pose`].
+    pub fn find_free_pose(&self) -> Option<SE2> {
+        self.plan.find_free_pose(self.settings.clearance)
     }
 
     /// Returns true if the robot collides with nothing at its start pose.
     pub fn start_free(&self) -> bool {
         let [x, y, _] = self.settings.start;
-        self.plan.point_free([x, y], self.settings.clearance).free
+        self.plan.test_point([x, y], self.settings.clearance).free
     }
 
     /// Returns the noise-free arc of the command.

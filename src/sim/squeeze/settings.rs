@@ -1,7 +1,7 @@
 //! Settings of Map Squeeze, except for the map.
 
 use crate::geom::se2::SE2;
-use crate::map::{Sampler, Unknown};
+use crate::map::{Sampler, UnknownCells};
 use crate::models::VelocityCmd;
 use crate::sim::noise_level::{NoiseLevel, alphas_of_noise};
 use crate::sim::settings::{
@@ -18,7 +18,7 @@ impl Words for Sampler {
     ];
 }
 
-impl Words for Unknown {
+impl Words for UnknownCells {
     const WORDS: &'static [(&'static str, Self)] = &[("free", Self::Free), ("blocked", Self::Blocked)];
 }
 
@@ -57,7 +57,7 @@ settings! {
         /// True if draws are judged by the map; otherwise all are accepted.
         conditioned: bool = true;
         /// Treatment of unknown cells as free or blocked.
-        unknown: Unknown = Unknown::Free;
+        unknown: UnknownCells = UnknownCells::Free;
         /// Sampler that judges the draws.
         sampler: Sampler = Sampler::Endpoint;
         // The default is the smallest number of parts with a visible effect.
@@ -93,7 +93,7 @@ impl Settings {
 impl Rules for Settings {
     /// Copies the setting `steps` into the sub-stepped sampler. Other samplers leave it unchanged.
     fn adjust(&mut self, _: &Self, _: &[&str]) {
-        self.sampler = self.sampler.in_parts(self.steps);
+        self.sampler = self.sampler.with_parts(self.steps);
     }
 
     fn check_together(&self) -> Result<(), SettingsError> {

@@ -50,7 +50,7 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
     vec![
         Part::new("poses", machine.poses().flat_map(coordinates).collect::<Vec<_>>()),
         Part::new("twists", machine.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),
-        Part::new("executed", machine.executed_motion().flatten().collect::<Vec<_>>()),
+        Part::new("executed", machine.executed_motions().flatten().collect::<Vec<_>>()),
         Part::new(
             "statistics",
             (machine.shown(), machine.chart_holds(), (reading.rot1, reading.trans, reading.rot2), stats),
@@ -97,7 +97,7 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
         Part::new("verdicts", attempts.iter().map(Attempt::verdict).collect::<Vec<_>>()),
         Part::new(
             "statistics",
-            (attempts.len(), machine.start_free(), machine.open_place(), noise, statistics),
+            (attempts.len(), machine.start_free(), machine.find_free_pose(), noise, statistics),
         ),
         Part::new("picture", flattened(machine.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
     ]

@@ -161,7 +161,7 @@ fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
             let (mut accepted, mut differing) = (0u32, 0u32);
             for _ in 0..40_000 {
                 let noise = std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(&mut rng)));
-                let draw = draw_tester.judge(noise);
+                let draw = draw_tester.test_draw(noise);
                 if !draw.end.free {
                     continue;
                 }
@@ -170,7 +170,7 @@ fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
                 let geodesic_start = SE2::new(x, y, theta + xi.y.atan2(xi.x));
                 let geodesic = Arc { start: geodesic_start, length: xi.xy().norm(), turn: xi.z };
                 accepted += 1;
-                differing += u32::from(plan.arc_free(&geodesic, 0.13).free != draw.path.free);
+                differing += u32::from(plan.test_arc(&geodesic, 0.13).free != draw.path.free);
             }
             let share = f64::from(differing) / f64::from(accepted);
             let error = MAX_STANDARD_ERRORS * (share * (1.0 - share) / f64::from(accepted)).sqrt();

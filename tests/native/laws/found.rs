@@ -31,8 +31,8 @@ fn an_arc_of_subnormal_length_is_judged() {
     for length in [0.0, 1e-300, 9.7e-310, 5e-324, -5e-324] {
         for turn in [0.0, 1.7e-308, 0.5, 3.0, 100.0] {
             let start = SE2::new(2.05, 2.6, 1.0);
-            assert!(plan.arc_free(&Arc { start, length, turn }, 0.13).free, "{length} {turn}");
-            assert!(!plan.arc_free(&Arc { start: SE2::new(2.05, 0.1, 1.0), length, turn }, 0.13).free);
+            assert!(plan.test_arc(&Arc { start, length, turn }, 0.13).free, "{length} {turn}");
+            assert!(!plan.test_arc(&Arc { start: SE2::new(2.05, 0.1, 1.0), length, turn }, 0.13).free);
         }
     }
 }
@@ -75,7 +75,7 @@ fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
 fn a_narrow_plan_has_an_open_place() {
     for bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {
         let plan = FloorPlan::new(Vec::new(), bounds).expect("bounds");
-        let open_place = plan.open_place(0.0).expect("nothing is in the way");
-        assert!(plan.point_free([open_place.x(), open_place.y()], 0.0).free, "{open_place:?}");
+        let open_place = plan.find_free_pose(0.0).expect("nothing is in the way");
+        assert!(plan.test_point([open_place.x(), open_place.y()], 0.0).free, "{open_place:?}");
     }
 }

@@ -55,8 +55,9 @@ fn the_published_shares() {
     ] {
         let (start, command) = (preset(name), VelocityCmd { omega, ..AHEAD });
         let mut rng = seeded(5);
-        let draws: Vec<_> =
-            (0..DRAWS).map(|_| endpoint.draw_tester(&command, &start).judge(unit_noise(&mut rng))).collect();
+        let draws: Vec<_> = (0..DRAWS)
+            .map(|_| endpoint.draw_tester(&command, &start).test_draw(unit_noise(&mut rng)))
+            .collect();
         let accepted_count = draws.iter().filter(|draw| draw.end.free).count();
         let through_wall_count = draws.iter().filter(|draw| draw.end.free && !draw.path.free).count();
         assert_share(name, accepted_count, DRAWS, acceptance);
@@ -74,8 +75,8 @@ fn the_last_turn_is_not_part_of_the_path() {
     let mut rng = seeded(7);
     for _ in 0..1000 {
         let [v, omega, gamma] = unit_noise(&mut rng);
-        let draw = endpoint.draw_tester(&command, &start).judge([v, omega, gamma]);
-        let without_turn = endpoint.draw_tester(&command, &start).judge([v, omega, 0.0]);
+        let draw = endpoint.draw_tester(&command, &start).test_draw([v, omega, gamma]);
+        let without_turn = endpoint.draw_tester(&command, &start).test_draw([v, omega, 0.0]);
         assert_eq!((draw.arc, draw.end, draw.path), (without_turn.arc, without_turn.end, without_turn.path));
         let executed = model().executed_motion(&command, [v, omega, gamma]);
         assert!((draw.arc.length - 2.0 * executed.v_hat).abs() < 1e-15);
@@ -107,9 +108,9 @@ fn samples_are_those_of_table_5_7() {
                     let executed = model().executed_motion(&command, unit_noise(&mut noise_rng));
                     let arc = Arc { start, length: 2.0 * executed.v_hat, turn: 2.0 * executed.omega_hat };
                     draws += 1;
-                    let end = plan.point_free([pose.x(), pose.y()], 0.13).free;
+                    let end = plan.test_point([pose.x(), pose.y()], 0.13).free;
                     let free =
-                        end && (sampler.sampler == Sampler::Endpoint || plan.arc_free(&arc, 0.13).free);
+                        end && (sampler.sampler == Sampler::Endpoint || plan.test_arc(&arc, 0.13).free);
                     if free {
                         break pose;
                     }

@@ -82,7 +82,7 @@ fn a_collision_check_in_a_hard_plan_measures_few_walls() {
         let plan = FloorPlan::new(walls, ROOM).expect("allowed");
         assert_eq!(plan.walls().len(), FloorPlan::MAX_WALLS);
         let mut rng = seeded(9802);
-        let tests: usize = (0..300).map(|_| plan.arc_free(&some_arc(&mut rng), 0.13).wall_tests).sum();
+        let tests: usize = (0..300).map(|_| plan.test_arc(&some_arc(&mut rng), 0.13).wall_tests).sum();
         assert!(tests < 300 * MAX_MEAN_WALL_TESTS, "{name}: {tests}");
     }
 }

@@ -4,7 +4,9 @@ use crate::common::{seeded, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{Cell, FloorPlan, FloorPlanError, Image, Interpretation, OccupancyGrid, Pixel, Unknown};
+use motion::map::{
+    Cell, FloorPlan, FloorPlanError, Image, Interpretation, OccupancyGrid, Pixel, UnknownCells,
+};
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -80,7 +82,7 @@ fn the_walls_are_as_far_as_the_cells() {
             let distance = cells.distance(point);
             if distance == 0.0 {
                 assert!(
-                    cells.grid().is_blocked_at(point) && !plan.point_free(point, 0.0).free,
+                    cells.grid().is_blocked_at(point) && !plan.test_point(point, 0.0).free,
                     "inside a cell"
                 );
                 points_inside += 1;
@@ -92,7 +94,7 @@ fn the_walls_are_as_far_as_the_cells() {
             assert!(nearest == distance || (nearest - distance).abs() < 1e-13, "{nearest}, {distance}");
             let clearance = uniform(&mut rng, 0.0, 1.0);
             if (clearance - distance).abs() > 1e-12 {
-                assert_eq!(plan.point_free(point, clearance).free, distance > clearance);
+                assert_eq!(plan.test_point(point, clearance).free, distance > clearance);
             }
             points_outside += 1;
         }
@@ -162,7 +164,7 @@ fn a_grid_that_reaches_too_far_is_refused() {
 
 /// Returns a grid drawn with `#` (occupied), `?` (unknown) and `.` (free), the first row at the top, with cells of 10
 /// cm.
-fn grid_of(rows: &[&str], unknown: Unknown) -> OccupancyGrid {
+fn grid_of(rows: &[&str], unknown: UnknownCells) -> OccupancyGrid {
     let shade = |cell| match cell {
         '#' => 0.0,
         '?' => 0.5,
@@ -187,8 +189,9 @@ fn unknown_cells_are_free_or_blocked_as_set() {
         let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
         FloorPlan::from_grid(grid_of(&rows, unknown)).expect("a small grid")
     };
-    for (unknown, replaced) in [(Unknown::Blocked, with("?", "#")), (Unknown::Free, with("?", "."))] {
-        let (plan1, plan2) = (plan(&rows, unknown), plan(&replaced, Unknown::Free));
+    for (unknown, replaced) in [(UnknownCells::Blocked, with("?", "#")), (UnknownCells::Free, with("?", "."))]
+    {
+        let (plan1, plan2) = (plan(&rows, unknown), plan(&replaced, UnknownCells::Free));
         assert_eq!(plan1.walls(), plan2.walls(), "{unknown:?}");
         for _ in 0..2_000 {
             let start = SE2::new(
@@ -199,11 +202,11 @@ fn unknown_cells_are_free_or_blocked_as_set() {
             let arc = Arc { start, length: uniform(&mut rng, 0.0, 0.5), turn: uniform(&mut rng, -2.0, 2.0) };
             let clearance = uniform(&mut rng, 0.0, 0.1);
             let point = [start.x(), start.y()];
-            assert_eq!(plan1.point_free(point, clearance), plan2.point_free(point, clearance), "{point:?}");
-            assert_eq!(plan1.arc_free(&arc, clearance), plan2.arc_free(&arc, clearance), "{arc:?}");
+            assert_eq!(plan1.test_point(point, clearance), plan2.test_point(point, clearance), "{point:?}");
+            assert_eq!(plan1.test_arc(&arc, clearance), plan2.test_arc(&arc, clearance), "{arc:?}");
         }
     }
-    let grid = grid_of(&["#?."], Unknown::Blocked);
+    let grid = grid_of(&["#?."], UnknownCells::Blocked);
     let cells: Vec<_> = grid.cells().collect();
     assert_eq!(cells, [Cell::Occupied, Cell::Unknown, Cell::Free], "the cells themselves are unchanged");
 }
@@ -224,22 +227,24 @@ fn the_open_place_has_the_most_room() {
         "#........#??????",
         "##########??????",
     ];
-    for unknown in [Unknown::Free, Unknown::Blocked] {
+    for unknown in [UnknownCells::Free, UnknownCells::Blocked] {
         let plan = FloorPlan::from_grid(grid_of(&rows, unknown)).expect("a small grid");
-        let open_pose = plan.open_place(0.1).expect("there is room");
+        let open_pose = plan.find_free_pose(0.1).expect("there is room");
         // The pose is in the middle of the first square of four free cells, and heads through the door.
         assert!((open_pose.x() - 0.3).abs() + (open_pose.y() - 0.3).abs() < 1e-12, "{open_pose:?}");
-        assert!(plan.point_free([open_pose.x(), open_pose.y()], 0.1).free);
+        assert!(plan.test_point([open_pose.x(), open_pose.y()], 0.1).free);
         let drive = Arc { start: open_pose, length: 0.5, turn: 0.0 };
-        assert!(plan.arc_free(&drive, 0.0).free && open_pose.theta().abs() < 0.5, "{open_pose:?}");
+        assert!(plan.test_arc(&drive, 0.0).free && open_pose.theta().abs() < 0.5, "{open_pose:?}");
     }
     // A robot that just fits cannot move: the heading is then 0.
-    let room = FloorPlan::from_grid(grid_of(&["###", "#.#", "###"], Unknown::Free)).expect("a small grid");
-    assert_eq!(room.open_place(0.0499).expect("there is room").theta(), 0.0);
+    let room =
+        FloorPlan::from_grid(grid_of(&["###", "#.#", "###"], UnknownCells::Free)).expect("a small grid");
+    assert_eq!(room.find_free_pose(0.0499).expect("there is room").theta(), 0.0);
     // All cells are unknown: free or blocked, as the setting says.
-    let unknown = grid_of(&["???", "???", "???"], Unknown::Free);
-    let open_pose = FloorPlan::from_grid(unknown).expect("no walls").open_place(0.1).expect("there is room");
+    let unknown = grid_of(&["???", "???", "???"], UnknownCells::Free);
+    let open_pose =
+        FloorPlan::from_grid(unknown).expect("no walls").find_free_pose(0.1).expect("there is room");
     assert!((open_pose.x() - 0.05).abs() + (open_pose.y() - 0.05).abs() < 1e-12, "the first: {open_pose:?}");
-    let blocked = grid_of(&["???", "???", "???"], Unknown::Blocked);
-    assert_eq!(FloorPlan::from_grid(blocked).expect("four walls").open_place(0.1), None);
+    let blocked = grid_of(&["???", "???", "???"], UnknownCells::Blocked);
+    assert_eq!(FloorPlan::from_grid(blocked).expect("four walls").find_free_pose(0.1), None);
 }

@@ -60,8 +60,8 @@ fn a_plan_is_checked() {
     for count in [0, 1, 16, 17, FloorPlan::MAX_WALLS] {
         let plan = FloorPlan::new(vec![wall_segment; count], ROOM).expect("allowed");
         assert_eq!(plan.walls().len(), count);
-        assert_eq!(plan.point_free([5.0, 1.5], 0.51).free, count == 0);
-        assert!(plan.point_free([5.0, 1.5], 0.49).free);
+        assert_eq!(plan.test_point([5.0, 1.5], 0.51).free, count == 0);
+        assert!(plan.test_point([5.0, 1.5], 0.49).free);
     }
 }
 
@@ -123,8 +123,8 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
             let in_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
             let end_free = on_map(end) && !in_cell(end) && to_end > clearance;
             let path_free = on_map(start) && !leaves && !in_cell(start) && end_free && to_arc > clearance;
-            assert_eq!(plan.point_free(end, clearance).free, end_free, "{number}: {arc:?} {clearance}");
-            assert_eq!(plan.arc_free(&arc, clearance).free, path_free, "{number}: {arc:?} {clearance}");
+            assert_eq!(plan.test_point(end, clearance).free, end_free, "{number}: {arc:?} {clearance}");
+            assert_eq!(plan.test_arc(&arc, clearance).free, path_free, "{number}: {arc:?} {clearance}");
             counts[usize::from(end_free) + usize::from(path_free)] += 1;
         }
         assert!(counts.iter().all(|count| *count > 25), "{number}: {counts:?}");
@@ -134,39 +134,39 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
 #[test]
 fn touching_is_not_free() {
     let plan = FloorPlan::new(vec![wall(1.0, 2.0, 9.0, 2.0)], ROOM).expect("a valid plan");
-    assert!(!plan.point_free([5.0, 2.25], 0.25).free);
-    assert!(plan.point_free([5.0, 2.25], 0.2499).free);
-    assert!(!plan.point_free([5.0, 2.0], 0.0).free, "a point on the wall");
+    assert!(!plan.test_point([5.0, 2.25], 0.25).free);
+    assert!(plan.test_point([5.0, 2.25], 0.2499).free);
+    assert!(!plan.test_point([5.0, 2.0], 0.0).free, "a point on the wall");
     let parallel_arc = Arc { start: SE2::new(4.0, 2.25, 0.0), length: 2.0, turn: 0.0 };
-    assert!(!plan.arc_free(&parallel_arc, 0.25).free);
-    assert!(plan.arc_free(&parallel_arc, 0.2499).free);
+    assert!(!plan.test_arc(&parallel_arc, 0.25).free);
+    assert!(plan.test_arc(&parallel_arc, 0.2499).free);
     // A half circle leads around the end of the wall. Its middle is 0.25 m from that end, the rest is farther away.
     let half_circle = Arc { start: SE2::new(9.0, 2.25, 0.0), length: -0.25 * PI, turn: PI };
-    assert!(!plan.arc_free(&half_circle, 0.0).free, "in reverse it goes through the wall");
+    assert!(!plan.test_arc(&half_circle, 0.0).free, "in reverse it goes through the wall");
     let half_circle = Arc { length: 0.25 * PI, turn: -PI, ..half_circle };
-    assert!(plan.arc_free(&half_circle, 0.2499).free && !plan.arc_free(&half_circle, 0.2501).free);
+    assert!(plan.test_arc(&half_circle, 0.2499).free && !plan.test_arc(&half_circle, 0.2501).free);
 }
 
 #[test]
 fn the_open_place_has_the_most_room() {
     let apartment = FloorPlan::apartment();
     for clearance in [0.0, 0.13, 0.5, 1.0] {
-        let pose = apartment.open_place(clearance).expect("there is room");
-        assert!(apartment.point_free([pose.x(), pose.y()], clearance).free);
+        let pose = apartment.find_free_pose(clearance).expect("there is room");
+        assert!(apartment.test_point([pose.x(), pose.y()], clearance).free);
         // The largest room has a square of 4 m between the closet's side and the wall opposite.
         assert!((pose.x() - 4.0).abs() < 0.1 && (pose.y() - 7.0).abs() < 0.1, "{pose:?}");
         let ahead = Arc { start: pose, length: 2.0, turn: 0.0 };
-        assert!(apartment.arc_free(&ahead, 0.13).free, "{pose:?}");
+        assert!(apartment.test_arc(&ahead, 0.13).free, "{pose:?}");
     }
-    assert_eq!(apartment.open_place(2.5), None, "no room is that large");
+    assert_eq!(apartment.find_free_pose(2.5), None, "no room is that large");
     for bounds in [[-3.0, -2.0, 7.0, 5.0], [3.0, 2.0, 7.0, 5.0]] {
         let empty_plan = FloorPlan::new(vec![], bounds).expect("a valid plan");
-        let pose = empty_plan.open_place(0.3).expect("there is room");
+        let pose = empty_plan.find_free_pose(0.3).expect("there is room");
         let [left, bottom, right, top] = bounds;
         let room = [pose.x() - left, right - pose.x(), pose.y() - bottom, top - pose.y()];
         assert!(room.into_iter().all(|room| room > 1.4), "not at the edge: {pose:?}");
     }
     let walls = (0..=20).map(|i| wall(0.0, 0.5 * f64::from(i), 10.0, 0.5 * f64::from(i))).collect();
     let narrow_gaps = FloorPlan::new(walls, ROOM).expect("a valid plan");
-    assert!(narrow_gaps.open_place(0.3).is_none(), "walls are half a metre apart everywhere");
+    assert!(narrow_gaps.find_free_pose(0.3).is_none(), "walls are half a metre apart everywhere");
 }

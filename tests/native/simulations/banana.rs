@@ -233,7 +233,7 @@ fn both_views_find_the_nearest_sample() {
 fn the_executed_motion_leads_to_the_pose() {
     for settings in settings_of_models() {
         let machine = machine(Settings { samples: 200, ..settings });
-        for ((i, executed), pose) in machine.executed_motion().enumerate().zip(machine.poses()) {
+        for ((i, executed), pose) in machine.executed_motions().enumerate().zip(machine.poses()) {
             let Sample { v_hat, omega_hat, gamma_hat, legs, .. } = machine.inspect(i).unwrap();
             let end = match legs {
                 None => {

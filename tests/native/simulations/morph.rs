@@ -75,7 +75,7 @@ fn outlines_keep_their_robots() {
         let contour = ExponentialContour::new(&machine.stats().exponential, &SE2::identity());
         let inside = |morph: f64| {
             let ellipse = unbend_line(&machine.contours().ellipse, omega * 2.0, morph);
-            let outline = contour.unbent(OUTLINE_SEGMENTS, morph);
+            let outline = contour.morphed_boundary(OUTLINE_SEGMENTS, morph);
             [ellipse, outline].map(|outline| {
                 machine
                     .twists()
@@ -100,8 +100,8 @@ fn the_outline_ends_as_both_views_have_it() {
     let machine = machine(Settings { samples: 5000, ..preset("hard") });
     let stats = machine.stats();
     let contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
-    assert_eq!(contour.unbent(OUTLINE_SEGMENTS, 0.0), machine.contours().exponential);
-    for point in contour.unbent(OUTLINE_SEGMENTS, 1.0) {
+    assert_eq!(contour.morphed_boundary(OUTLINE_SEGMENTS, 0.0), machine.contours().exponential);
+    for point in contour.morphed_boundary(OUTLINE_SEGMENTS, 1.0) {
         assert!((contour.ellipse().distance(point) - 2.0).abs() < 1e-9);
     }
 }

@@ -95,7 +95,7 @@ fn attempts_have_the_arcs_that_they_drove() {
             assert_eq!(arcs.len(), parts as usize);
             let end = arcs[arcs.len() - 1].end();
             assert!((end.x() - attempt.pose.x()).abs() + (end.y() - attempt.pose.y()).abs() < 1e-12);
-            let free = arcs.iter().all(|arc| machine.plan().arc_free(arc, 0.13).free);
+            let free = arcs.iter().all(|arc| machine.plan().test_arc(arc, 0.13).free);
             assert_eq!(attempt.path_free, free);
             let are_joined = arcs.windows(2).all(|pair| {
                 let end = pair[0].end();

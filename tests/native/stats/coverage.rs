@@ -107,7 +107,7 @@ fn share_through_walls(settings: &squeeze::Settings) -> f64 {
     for v in (0..NODES).map(node_value) {
         for omega in (0..NODES).map(node_value) {
             let weight = libm::exp(-0.5 * (v * v + omega * omega));
-            let draw = draw_tester.judge([v, omega, 0.0]);
+            let draw = draw_tester.test_draw([v, omega, 0.0]);
             if draw.end.free {
                 free_weight += weight;
                 wall_weight += if draw.path.free { 0.0 } else { weight };

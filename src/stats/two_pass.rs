@@ -6,7 +6,7 @@
 
 use super::contour::{Ellipse, ExponentialContour};
 use super::cross_track::{CrossTrack, TrackMoments};
-use super::gain::{ChartGaussians, Differences, FourRobots, MeasuredGain, Moments};
+use super::gain::{ChartGaussians, FourRobots, LogDensityDifferences, MeanAndCov, MeasuredGain};
 use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
 use super::sums::{PairSums, Sums, add};
 use crate::geom::angle::wrap_angle;
@@ -32,8 +32,8 @@ pub struct FourPoses {
     pub sinc: f64x4,
 }
 
-/// Arcs that end at the positions of four poses: signed length (m), half the turn φ (rad), and sinc(φ/2). Of the arcs to a
-/// position, the one with the turn nearest to the command is used.
+/// Arcs that end at the positions of four poses: signed length (m), half the turn φ (rad), and sinc(φ/2). Each is the arc whose turn
+/// is nearest to that of the command.
 #[derive(Clone, Copy)]
 pub struct FourArcs {
     pub length: f64x4,
@@ -42,7 +42,7 @@ pub struct FourArcs {
 }
 
 /// Point whose coordinates are subtracted in all sums: x, y, along, lateral, half heading; length and half turn of the arc.
-pub type Reference = [f64; 7];
+pub type ReferenceCoordinates = [f64; 7];
 
 /// Factors that scale two terms of the Jacobians to about 1, so that a product of many does not underflow. One term is
 /// sinc(ξ_ω/2), with the turn ξ_ω of a twist. The other is |s|·sinc²(φ/2), with the length s and the turn φ of an arc.
@@ -51,7 +51,7 @@ pub type JacobianScale = [f64; 2];
 /// First pass: accumulates means, covariances and the mean logarithms of the Jacobians.
 #[derive(Clone, Debug)]
 pub struct FirstPass {
-    reference: Reference,
+    reference: ReferenceCoordinates,
     scale: JacobianScale,
     sums: Sums<16>,
     /// Corrections for irregular arcs, which are not the driven ones (see `Drive::end_points`). Each adds the values
@@ -65,7 +65,7 @@ pub struct FirstPass {
 }
 
 impl FirstPass {
-    pub fn new(reference: Reference, scale: JacobianScale) -> Self {
+    pub fn new(reference: ReferenceCoordinates, scale: JacobianScale) -> Self {
         Self {
             reference,
             scale,
@@ -76,7 +76,7 @@ impl FirstPass {
         }
     }
 
-    /// Adds the poses for which `mask` has all bits set.
+    /// Adds the poses whose lanes of `mask` have all bits set.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let [x, y, along, lateral, half, ..] = self.reference;
@@ -92,7 +92,7 @@ impl FirstPass {
 
     /// Multiplies the products by the Jacobians of four poses.
     #[inline(always)]
-    pub fn multiply(&mut self, poses: &FourPoses, arcs: &FourArcs) {
+    pub fn multiply_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs) {
         let lane_product = |lanes: f64x4| {
             let [low, high] = lane_halves(lanes);
             low * high
@@ -103,12 +103,15 @@ impl FirstPass {
         self.products[1] *= lane_product(arcs.length) * (arc * arc) * (arc_scale * arc_scale);
     }
 
-    /// Multiplies the products by the Jacobians of the poses for which `mask` has all bits set.
+    /// Multiplies the products by the Jacobians of the poses whose lanes of `mask` have all bits set.
     #[inline(never)]
-    pub fn multiply_some(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
+    pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
         let masked_or_one = |values: f64x4| mask.bitselect(values, f64x4::splat(1.0));
         let [chart, length, arc] = [poses.sinc, arcs.length, arcs.sinc].map(masked_or_one);
-        self.multiply(&FourPoses { sinc: chart, ..*poses }, &FourArcs { length, sinc: arc, ..*arcs });
+        self.multiply_jacobians(
+            &FourPoses { sinc: chart, ..*poses },
+            &FourArcs { length, sinc: arc, ..*arcs },
+        );
     }
 
     /// Corrects the sums for irregular arcs: adds their values, and subtracts those of the driven arcs, `regular`, which are in the sums
@@ -130,7 +133,7 @@ impl FirstPass {
         }
     }
 
-    /// Returns the moments of `count` poses. Of the Cartesian covariance it has only the position. `regular` are the sums
+    /// Returns the moments of `count` poses. Their Cartesian covariance is that of the position only. `regular` are the sums
     /// over regular arcs, in the order of [`PairSums`].
     pub fn finish(&self, count: usize, regular: [f64; 5]) -> FirstPassMoments {
         let n = count as f64;
@@ -146,11 +149,11 @@ impl FirstPass {
         // sin θ and cos θ of the double angle, turned so that the reference's heading is 0.
         let (sin, cos) = libm::sincos(2.0 * half);
         let (sum_sin, sum_cos) = (2.0 * sin_cos, n - 2.0 * sin_sin);
-        let turned_sums = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);
+        let rotated_sums = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);
         // Equal headings have spread 0, although their sines may be rounded.
-        let turn_from_reference = if hh == 0.0 { 0.0 } else { libm::atan2(turned_sums.0, turned_sums.1) };
+        let turn_from_reference = if hh == 0.0 { 0.0 } else { libm::atan2(rotated_sums.0, rotated_sums.1) };
         let mean_turn = 2.0 * half + turn_from_reference;
-        let position_entries = [variance(xx, x), cov(xy, x, y), variance(yy, y)];
+        let position_cov = [variance(xx, x), cov(xy, x, y), variance(yy, y)];
         let [aa, al, ll] = [variance(aa, a), cov(al, a, l), variance(ll, l)];
         let [ah, lh, hh] = [2.0 * cov(ah, a, h), 2.0 * cov(lh, l, h), 4.0 * variance(hh, h)];
         let [ss, st, tt] = [variance(ss, s), 2.0 * cov(st, s, t), 4.0 * variance(tt, t)];
@@ -159,9 +162,9 @@ impl FirstPass {
         let [chart, floor] = [0, 1].map(|i| (self.logs[i] - scaled_count * libm::log(self.scale[i])) / n);
         FirstPassMoments {
             position: [x0 + x / n, y0 + y / n],
-            position_cov: position_entries,
+            position_cov,
             mean_turn,
-            resultant: libm::hypot(turned_sums.0, turned_sums.1) / n,
+            resultant: libm::hypot(rotated_sums.0, rotated_sums.1) / n,
             exponential: ExponentialMoments {
                 mean: Vector3::new(along + a / n, lateral + l / n, 2.0 * (half + h / n)),
                 cov: Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh),
@@ -176,7 +179,7 @@ impl FirstPass {
 
     /// Returns the means as a better reference if cancellation lost more than two digits of the sums. That happens if the
     /// mean of a small cloud is many of its standard deviations away from the reference.
-    pub fn better_reference(&self, count: usize) -> Option<Reference> {
+    pub fn better_reference(&self, count: usize) -> Option<ReferenceCoordinates> {
         let n = count as f64;
         let sums = self.sums.finish();
         let means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
@@ -202,7 +205,7 @@ pub struct FirstPassMoments {
     resultant: f64,
     pub exponential: ExponentialMoments,
     /// Moments of the arcs.
-    arc: Moments,
+    arc: MeanAndCov,
     /// Mean logarithms of the Jacobians of [`FourRobots`].
     log_jacobians: [f64; 2],
 }
@@ -210,7 +213,7 @@ pub struct FirstPassMoments {
 /// Second pass: accumulates moments across the track and counts poses inside the contours.
 #[derive(Clone, Debug)]
 pub struct SecondPass {
-    spread: FirstPassMoments,
+    first_pass: FirstPassMoments,
     /// Sine and cosine of the mean heading.
     heading: (f64, f64),
     ellipse: Ellipse,
@@ -234,26 +237,26 @@ pub struct CloudStats {
 
 impl SecondPass {
     /// Starts the second pass over the same poses, which were driven from `start`.
-    pub fn new(spread: FirstPassMoments, start: &SE2) -> Self {
-        let [xx, xy, yy] = spread.position_cov;
+    pub fn new(first_pass: FirstPassMoments, start: &SE2) -> Self {
+        let [xx, xy, yy] = first_pass.position_cov;
         Self {
-            spread,
-            heading: libm::sincos(spread.mean_turn),
-            ellipse: Ellipse::new(spread.position.into(), Matrix2::new(xx, xy, xy, yy)),
-            twist_ellipse: *ExponentialContour::new(&spread.exponential, start).ellipse(),
+            first_pass,
+            heading: libm::sincos(first_pass.mean_turn),
+            ellipse: Ellipse::new(first_pass.position.into(), Matrix2::new(xx, xy, xy, yy)),
+            twist_ellipse: *ExponentialContour::new(&first_pass.exponential, start).ellipse(),
             sums: Sums::new(),
         }
     }
 
-    /// Adds the poses for which `mask` has all bits set.
+    /// Adds the poses whose lanes of `mask` have all bits set.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
-        let ([mean_x, mean_y], (sin, cos)) = (self.spread.position, self.heading);
+        let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.position, self.heading);
         let (x, y) = (poses.x - mean_x, poses.y - mean_y);
         // The letters are those of `TrackMoments`.
         let d = (y * cos - x * sin) & mask;
         let a = (x * cos + y * sin) & mask;
-        let t = wrapped_difference(poses.half * 2.0 - self.spread.mean_turn) & mask;
+        let t = wrapped_difference(poses.half * 2.0 - self.first_pass.mean_turn) & mask;
         // sin(θ − h), from the double angle of θ/2.
         let theta_sin = poses.half_sin * poses.half_cos * 2.0;
         let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
@@ -284,7 +287,7 @@ impl SecondPass {
         let means = self.sums.finish().map(|sum| sum / n);
         let [products @ .., ta, inside, inside_contour] = means;
         let [.., t, tt, td] = products;
-        let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.spread;
+        let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;
         let (sin, cos) = self.heading;
         let bessel_factor = if count > 1 { n / (n - 1.0) } else { f64::NAN };
         let [x_turn, y_turn, turn_variance] =
@@ -293,34 +296,38 @@ impl SecondPass {
         let track_moments = TrackMoments {
             products,
             extent_squared: x * x + y * y + if count > 1 { (xx + yy) / bessel_factor } else { 0.0 },
-            resultant: self.spread.resultant,
+            resultant: self.first_pass.resultant,
         };
-        let FirstPassMoments { exponential, arc, log_jacobians, .. } = self.spread;
+        let FirstPassMoments { exponential, arc, log_jacobians, .. } = self.first_pass;
         let charts = ChartGaussians::new(
             (Vector3::new(x, y, t), cov),
             (exponential.mean, exponential.cov),
             arc,
             log_jacobians,
         );
-        let mut differences = Differences::new(charts);
+        let mut differences = LogDensityDifferences::new(charts);
         for (poses, arcs, weights) in sample {
             let FourPoses { x, y, along, lateral, half, sinc, .. } = poses;
-            let turn = wrapped_difference(half * 2.0 - self.spread.mean_turn);
+            let turn = wrapped_difference(half * 2.0 - self.first_pass.mean_turn);
             let robots = FourRobots {
-                plain: [x, y, turn],
+                cartesian: [x, y, turn],
                 twist: [along, lateral, half * 2.0],
                 arc: [arcs.length, arcs.half * 2.0, f64x4::splat(0.0)],
                 jacobians: [sinc * sinc, arcs.length.abs() * 0.5 * (arcs.sinc * arcs.sinc)],
             };
             differences.add(&robots, weights);
         }
-        let share = |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
+        let fraction_or_nan =
+            |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
         CloudStats {
-            cartesian: CartesianMoments { mean: Vector3::new(x, y, wrap_angle(self.spread.mean_turn)), cov },
-            exponential: self.spread.exponential,
+            cartesian: CartesianMoments {
+                mean: Vector3::new(x, y, wrap_angle(self.first_pass.mean_turn)),
+                cov,
+            },
+            exponential: self.first_pass.exponential,
             cross_track: CrossTrack::from_moments(count, &track_moments),
-            inside_ellipse: share(&self.ellipse, inside),
-            inside_exponential: share(&self.twist_ellipse, inside_contour),
+            inside_ellipse: fraction_or_nan(&self.ellipse, inside),
+            inside_exponential: fraction_or_nan(&self.twist_ellipse, inside_contour),
             gain: differences.finish(count),
             log_area_error: differences.log_area_error(count),
         }

@@ -5,7 +5,7 @@ use super::occupancy::OccupancyGrid;
 use crate::geom::se2::SE2;
 use std::f64::consts::TAU;
 
-/// Number of headings that are tried, one in five degrees.
+/// Number of headings that are tried: one every five degrees.
 const HEADING_COUNT: u32 = 72;
 
 /// Number of squares along the longer side of a plan without a grid.
@@ -14,10 +14,10 @@ const SQUARES_ALONG_SIDE: f64 = 256.0;
 impl FloorPlan {
     /// Returns a free pose for a disc of radius `clearance` (m): the centre of the largest square that is known to be free, with the
     /// heading of the longest free path. If the disc does not fit there, takes the first square where it fits; None if it fits nowhere.
-    pub fn open_place(&self, clearance: f64) -> Option<SE2> {
+    pub fn find_free_pose(&self, clearance: f64) -> Option<SE2> {
         let raster = SquareRaster::of(self);
         let largest_middle = raster.middle_of_largest_free_square().map(|middle| raster.point(middle));
-        let disc_fits = |point: &[f64; 2]| self.point_free(*point, clearance).free;
+        let disc_fits = |point: &[f64; 2]| self.test_point(*point, clearance).free;
         let [x, y] = largest_middle.filter(disc_fits).or_else(|| raster.square_middles().find(disc_fits))?;
         Some(SE2::new(x, y, raster.heading_of_longest_path([x, y], disc_fits)))
     }
@@ -78,16 +78,16 @@ impl<'a> SquareRaster<'a> {
         is_inside && self.plan.field().lower_bound(square_middle) > 0.75 * self.longer_side()
     }
 
-    /// Returns the middle of the largest square of free ones, in squares from the lower left corner; None where none is
-    /// free. Of several, takes the one whose upper right corner comes first, row by row.
+    /// Returns the middle of the largest square that consists of free squares, in squares from the lower left corner; None if none is
+    /// free. Of equally large ones it takes the first, row by row, by their upper right corners.
     fn middle_of_largest_free_square(&self) -> Option<[f64; 2]> {
         let (mut largest_side, mut middle) = (0, None);
         // Row from which on each column has been free so far.
         let mut free_from_row = vec![0u32; self.columns];
         for row in 0..self.rows {
-            for (column, from) in free_from_row.iter_mut().enumerate() {
+            for (column, first_free_row) in free_from_row.iter_mut().enumerate() {
                 if !self.is_free_square(column, row) {
-                    *from = row as u32 + 1;
+                    *first_free_row = row as u32 + 1;
                 }
             }
             // A square with a side of `largest_side + 1` ends at this row if each column from `left` to `right` has been free for as many rows.
@@ -110,7 +110,7 @@ impl<'a> SquareRaster<'a> {
         middle
     }
 
-    /// Returns the heading in which the robot gets furthest over free squares.
+    /// Returns the heading along which the path over free squares is longest.
     fn heading_of_longest_path(&self, [x, y]: [f64; 2], fits: impl Fn(&[f64; 2]) -> bool) -> f64 {
         let (mut max_steps, mut heading) = (0, 0.0);
         for i in 0..HEADING_COUNT {

@@ -83,7 +83,13 @@ impl Check {
 
     /// Returns the meaning for the α's of a check that failed, and the remedy; nothing where it passed.
     pub fn message(&self) -> &'static str {
-        if self.passed { "" } else { self.name.meaning_of_failure() }
+        match self {
+            Self { passed: true, .. } => "",
+            Self { name: CheckName::ReferenceMatches, value, expected: [min, _], .. } if value < min => {
+                "The reference has the errors of the odometry: it is a copy of it, or computed from it. The α's mean nothing. Use an independent measurement, such as motion capture or SLAM."
+            }
+            _ => self.name.meaning_of_failure(),
+        }
     }
 }
 
@@ -125,7 +131,7 @@ impl CheckName {
     fn meaning_of_failure(self) -> &'static str {
         match self {
             Self::ReferenceMatches => {
-                "The reference is not an independent measurement of this drive. Either it does not follow the odometry: it may be of another drive, have other units (degrees, millimetres) or a mirrored y axis, or its columns may be swapped. Or it is a copy of the odometry. The α's mean nothing. Compare both files row by row."
+                "The reference does not follow the odometry: it may be of another drive, have other units (degrees, millimetres) or a mirrored y axis, or its columns may be swapped. The α's mean nothing. Compare both files row by row."
             }
             Self::EnoughLegs => {
                 "There are few legs, so the intervals are wide and the other checks weak. Drive on: a quarter of an hour of straight drives, arcs and turns on the spot."
@@ -152,7 +158,7 @@ impl CheckName {
                 "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps or drifts, slip."
             }
             Self::ResidualsUncorrelated => {
-                "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. Over longer ways the α's of legs are too small if errors persist, and too large if they cancel. Recommended α's hold over 1 m."
+                "Errors of neighbouring legs are correlated: they persist over several legs, or a systematic error is left in. Over longer distances the α's of legs are too small if errors persist, and too large if they cancel. Recommended α's hold over 1 m."
             }
             Self::TailsNormal => {
                 "A few errors are much larger than normal noise has them. Intervals of the predicted pose are too narrow in the tails. Look at the largest residuals. Recommended α's allow for it."

@@ -5,7 +5,7 @@ import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as shared } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { adviceOf, alphaOrBound, correctFirst, formatInterval, failedOf, fixed, isOfNav2, nav2Lines, percent, toText } from '../widgets/alpha-calibrator/lines.ts';
+import { alphaOrBound, correctFirst, formatInterval, failedOf, fixed, isOfNav2, missingAlphas, nav2Lines, percent, toText } from '../widgets/alpha-calibrator/lines.ts';
 
 type Interval = [number, number] | null;
 
@@ -59,7 +59,7 @@ export function reportText({ calibration, options, logs, start, begins, date }: 
   const excludedLegs = [...(lossTexts.length ? [`lost legs: ${lossTexts.join(', ')}`] : []), ...outlierLines(legs, begins)];
   const text = [
     '',
-    ...verdictLines({ calibration, logs }),
+    ...verdictLines({ calibration, options, logs }),
     '',
     `${legs.count} legs ${legLengthText(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
@@ -84,31 +84,37 @@ const [RED, GREEN, YELLOW] = [31, 32, 33];
 
 const inColor = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
-/** Returns the verdict, and warnings of the logs. */
-export const verdictLines = ({ calibration, logs }: Pick<CalibrationResult, 'calibration' | 'logs'>): string[] => [
+/** Returns the verdict, what to drive for α's that are not identifiable, and warnings of the logs. */
+export const verdictLines = ({ calibration, options, logs }: Pick<CalibrationResult, 'calibration' | 'options' | 'logs'>): string[] => [
   verdictSentence(calibration),
+  ...missingAlphas(en.alphas.lacking, options.model, calibration).map(({ indices, lack, drive }) => `${alphaNames(indices)} not identifiable: ${lack}; ${drive}`),
   ...warningsOf(logs).map((name) => en.nav2[name]),
   ...correctFirst(calibration, en.nav2),
 ];
 
 /** Returns the verdict with the advice. */
-function verdictSentence({ diagnostics: { verdict, checks } }: any): string {
+function verdictSentence({ alphas, diagnostics: { verdict, checks } }: any): string {
   const failedChecks = failedOf(checks);
-  if (verdict === 'consistent') return 'Consistent: all checks passed. Use the recommended α’s with legs of this length.';
+  if (verdict === 'consistent') {
+    const missing = alphas.flatMap((alpha: number | null, i: number) => (alpha === null ? [i] : []));
+    return `Consistent: all checks passed${missing.length ? `, but ${alphaNames(missing)} cannot be identified` : ''}. Use the recommended α’s with legs of this length.`;
+  }
   if (verdict === 'questionable') {
     const failedText = failedChecks.length === 1 ? 'one check' : `${failedChecks.length} of ${checks.length} checks`;
     return `Questionable: ${failedText} failed (${failedChecks.map(({ name }) => name).join(', ')}). If the log cannot be improved, use the recommended α’s.`;
   }
-  const checkMessage = failedChecks.find(({ name }) => DECISIVE_CHECKS.includes(name))?.message ?? 'It does not identify any α: see below what to drive.';
+  const checkMessage = failedChecks.find(({ name }) => DECISIVE_CHECKS.includes(name))?.message ?? 'It does not identify any α.';
   return `Unusable: no α’s are recommended from this log. ${checkMessage}`;
 }
+
+const alphaNames = (indices: number[]) => new Intl.ListFormat('en').format(indices.map((i) => `alpha${i + 1}`));
 
 function legLengthText({ distance, angle, duration }: { distance?: number; angle?: number; duration?: number }): string {
   return duration === undefined ? en.nav2.moved(toText(distance ?? null), toText(angle ?? null)) : en.nav2.lasted(toText(duration));
 }
 
-/** Returns the table of the α's, the reason for the inflation, and what to drive for those that are not identifiable. */
-function alphaTable({ alphas, intervals, notIdentifiable, recommended, diagnostics }: any, model: string): string[] {
+/** Returns the table of the α's, and the reason for the inflation. */
+function alphaTable({ alphas, intervals, recommended }: any, model: string): string[] {
   const alphaRows = alphas.map((alpha: number | null, i: number) => [
     `alpha${i + 1}`,
     alpha === null ? 'not identifiable' : alphaOrBound(alpha, intervals[i]),
@@ -116,15 +122,7 @@ function alphaTable({ alphas, intervals, notIdentifiable, recommended, diagnosti
     recommended && alpha !== null ? alphaOrBound(alpha, intervals[i], recommended.inflation) : '–',
     shared.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i],
   ]);
-  const { lacking } = en.alphas;
-  // Driving differently does not help if the reference is of another drive, or has other units.
-  const referenceMatches = diagnostics.checks.every(({ name, passed }: any) => passed || name !== 'reference-matches');
-  const advice = !referenceMatches ? [] : (Object.keys(lacking) as (keyof typeof lacking)[]).flatMap((reason) => {
-    const alphaNames = notIdentifiable.flatMap((reasonOfAlpha: string | null, i: number) => (reasonOfAlpha === reason ? [`alpha${i + 1}`] : []));
-    const { lack, drive } = adviceOf(lacking, model, reason);
-    return alphaNames.length ? [`${new Intl.ListFormat('en').format(alphaNames)} not identifiable: ${lack}; ${drive}`] : [];
-  });
-  return [...alignRows([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...advice, ...(recommended ? [recommended.reason] : [])];
+  return [...alignRows([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...(recommended ? [recommended.reason] : [])];
 }
 
 function noiseRows({ referenceNoise }: any, options: CalibrationResult['options']): string[][] {

@@ -79,7 +79,11 @@ fn a_copy_of_the_odometry_is_no_reference() {
             (time + 0.1, SE2::new(round(shifted.x()), round(shifted.y()), round(shifted.theta())))
         });
         let calibration = calibrated_log(&[odometry.clone(), trajectory(copy)], &sim.options());
-        assert!(failed_checks(&calibration).contains(&ReferenceMatches), "{digits} digits");
+        let message = calibration.diagnostics.checks[0].message();
+        assert!(
+            message.starts_with("The reference has the errors of the odometry: "),
+            "{digits} digits: {message}"
+        );
         assert_unusable(&calibration, "a copy");
     }
     // A robot that errs by a millimetre and half a milliradian over a metre still drifts, even if the reference is noisy.

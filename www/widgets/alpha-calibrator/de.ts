@@ -5,8 +5,10 @@ const parts = (count: string, more: string = 'n') => `${count} Etappe${count ===
 
 /** Messages of failed checks. */
 const MESSAGES: Record<string, string> = {
+  'reference-copied':
+    'Die Referenz hat die Fehler der Odometrie: Sie ist eine Kopie davon oder daraus berechnet. Die α sind bedeutungslos. Eine unabhängige Messung verwenden, zum Beispiel Motion Capture oder SLAM.',
   'reference-matches':
-    'Die Referenz ist keine unabhängige Messung dieser Fahrt. Entweder folgt sie der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Millimeter) oder eine gespiegelte y-Achse, oder ihre Spalten sind vertauscht. Oder sie ist eine Kopie der Odometrie. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
+    'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Millimeter) oder eine gespiegelte y-Achse, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
   'enough-legs':
     'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Weiter aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
   'legs-lost':
@@ -72,6 +74,8 @@ export const de: typeof import('./en.ts').en = {
   passed: (count) => `Alle ${count} Prüfungen bestanden.`,
   failed: (name, failed, count) => `Prüfung nicht bestanden: ${name} (${failed} von ${count}).`,
   use: 'Die empfohlenen α mit Etappen dieser Länge verwenden.',
+  useAnyway: 'Lässt sich die Aufzeichnung nicht verbessern, die empfohlenen α verwenden.',
+  missing: (alphas, drive) => `Von dieser Aufzeichnung nicht bestimmt: ${alphas}; ${drive}.`,
   noAlpha: 'Die Aufzeichnung bestimmt kein α.',
   none: 'Nicht genug Daten: weniger als 8 Etappen, oder keine gemeinsame Zeit. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
   longer: 'Länger aufzeichnen oder kürzere Etappen wählen.',

@@ -40,6 +40,8 @@ export const en = {
   passed: (count) => `All ${count} checks passed.`,
   failed: (name, failed, count) => `Failed check: ${name} (${failed} of ${count} failed).`,
   use: 'Use the recommended α’s with legs of this length.',
+  useAnyway: 'If the log cannot be improved, use the recommended α’s.',
+  missing: (alphas, drive) => `Not determined by this log: ${alphas}; ${drive}.`,
   noAlpha: 'The log identifies no α.',
   none: 'Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.',
   longer: 'Record a longer drive, or choose shorter legs.',

@@ -89,6 +89,16 @@ export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, mo
   return { lack, drive: model === 'velocity' ? byCommands : drive };
 }
 
+/** Returns the α's (indices from 0) that are not identifiable by each reason, and the drive that would identify them. */
+export function missingAlphas(lacking: typeof import('./en.ts').en.alphas.lacking, model: string, { notIdentifiable, diagnostics: { checks } }: any) {
+  // Driving differently does not help if the reference is of another drive, or has other units.
+  if (failedOf(checks).some(({ name }) => name === 'reference-matches')) return [];
+  return (Object.keys(lacking) as (keyof typeof lacking)[]).flatMap((reason) => {
+    const indices: number[] = notIdentifiable.flatMap((reasonOfAlpha: string | null, i: number) => (reasonOfAlpha === reason ? [i] : []));
+    return indices.length ? [{ indices, ...adviceOf(lacking, model, reason) }] : [];
+  });
+}
+
 /** Returns the kind of motion of which a log has too little to distinguish an α (index from 0) from 0. */
 export function missingMotion(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
   const isOfRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;

@@ -3,7 +3,8 @@
 import { addEnglish, words } from '../../messages/registry.ts';
 import { integer, fixed, percent, powerOfTen } from '../../ui/format.ts';
 import { en } from './en.ts';
-import { correctFirst, failedOf } from './lines.ts';
+import { subscriptOf } from '../shared/sliders.ts';
+import { correctFirst, failedOf, missingAlphas } from './lines.ts';
 import { uncorrectedText } from './systematic.ts';
 import type { CalibrationCheck, LegView } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -17,16 +18,17 @@ type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'read
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
 /**
- * Returns the rating of the α's, the finding in a sentence, and a text on what to do. A warning makes consistent α's questionable, for
- * example that the reference is a localizer.
+ * Returns the rating of the α's, the finding in a sentence, and a text on what to do. A missing α or a warning makes consistent α's
+ * questionable, for example that the reference is a localizer.
  */
 export function judgementOf(reading: Reading, given: Warning[]) {
-  const { stats, legs } = reading;
+  const { stats, legs, fitted } = reading;
   const { verdict, checks } = stats.diagnostics;
   const say = words.calibrator;
-  const warnings = [uncorrectedText(reading), ...given.map((name) => say.nav2[name])].filter(Boolean);
+  const missing = missingAlphas(say.alphas.lacking, fitted.model, stats).map(({ indices, drive }) => say.missing(indices.map((i) => `α${subscriptOf(i)}`).join(', '), drive));
+  const warnings = [...missing, uncorrectedText(reading), ...given.map((name) => say.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
-  const judgement = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: toDo.join(' ') });
+  const judgement = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: [...toDo, ...(rating === 'questionable' ? [say.useAnyway] : [])].join(' ') });
   if (legs.count === 0) return judgement(say.none, say.longer, ...warnings);
   const failedChecks = failedOf(checks);
   const correction = correctFirst(stats, say.nav2, localized);
@@ -35,8 +37,8 @@ export function judgementOf(reading: Reading, given: Warning[]) {
   return warnings.length > 0 ? judgement(warnings[0], ...warnings.slice(1), ...correction) : judgement(say.passed(integer(checks.length)), say.use, ...correction);
 }
 
-/** Returns what a failed check means and what to do. */
-export const messageOf = ({ name, passed, message }: CalibrationCheck) => (passed ? '' : words.calibrator.checks.message(name, message));
+/** Returns what a failed check means and what to do. A reference that matches too closely has its own message. */
+export const messageOf = ({ name, value, expected: [low], passed, message }: CalibrationCheck) => (passed ? '' : words.calibrator.checks.message(name === 'reference-matches' && value < low ? 'reference-copied' : name, message));
 
 /** Prints the value of a check, or a limit of it. */
 export function checkText(name: CalibrationCheck['name'], value: number) {

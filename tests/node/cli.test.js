@@ -356,6 +356,8 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   assert.equal((await outputOf([a, b, '--json'])).err, orderWarning);
   const inMillimetres = fileWith('mm.csv', readFileSync(example('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
   assert.match(await inspectionOf([inMillimetres], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
+  const alternating = fileWith('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
+  assert.equal((await inspectionOf([alternating], 2)).match(/give the log of one robot/g)?.length, 1);
   assert.match(await inspectionOf([inMillimetres, '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry DIR\/mm\.csv --reference FILE --length-unit mm --rule nav2$/m);
   const positionsOnly = fileWith('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
   const { recordings: [{ series }], ...contents } = JSON.parse(await inspectionOf([positionsOnly, '--json'], 2));

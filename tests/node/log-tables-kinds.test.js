@@ -255,6 +255,7 @@ const REFUSED_TABLES = [
   ['a quaternion in another order', circleTable(([t, x, y, yaw]) => [t, x, y, 0, Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)]).slice('t,x,y,yaw\n'.length), /do not turn about a vertical Z axis;/],
   ['several frames', circleTable((row, i) => [...row, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames, topics or robots \(wheel, base\); keep/],
   ['robots one after the other', circleTable((row, i) => [...row, i >> 9], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
+  ['robots one after the other, with a prefix', circleTable((row, i) => [...row, i >> 9], 't,odom_x,odom_y,odom_yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
   ['two paths', circleTable(([t, x, ...rest], i) => [t, i % 6 ? x : x + 1, ...rest]), /poses of two paths alternate, 1\.\d m apart: .*; keep those of one\.$/],
   ['poses of KITTI', `${KITTI_ROW}\n${KITTI_ROW}\n`, /poses of KITTI, which have no times; add/],
   ['Euler angles of Motive', 'Format Version,1.23,Take Name,x,Rotation Type,XYZ,Length Units,Meters\n\n,Type,Rigid Body\n,Name,Robot\n,ID,1\n,,Rotation\nFrame,Time (Seconds),X\n0,0.0,1\n1,0.1,1\n', /Euler angles \(XYZ\); export/],

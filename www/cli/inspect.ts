@@ -58,7 +58,7 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
     const seriesLabel = choice?.frames ? `${seriesName} (${framesText(choice.frames)})` : seriesName;
     return { name: seriesLabel, type, rows: log?.summary.rows ?? count, uses, ...(log && { summary: log.summary, sentences: summarySentences(log, english.found) }) };
   });
-  return { name, format, series, refused: reasons };
+  return { name, format, series, refused: [...new Set(reasons)] };
 }
 
 /** Returns the contents as text. */

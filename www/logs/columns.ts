@@ -193,7 +193,9 @@ export function groupsOf(names: string[], isTime: (index: number) => boolean = (
   const clocksByGroup = new Map(allGroups.map((group) => [group, clocksOf(group)]));
   const sharedClocks = groups.get('') ? (clocksByGroup.get(groups.get('') as Group) ?? []) : [];
   const allClocks = allGroups.flatMap((group) => clocksByGroup.get(group) ?? []);
+  const { source } = groups.get('')?.columns ?? {};
   for (const group of allGroups) {
+    if (source) group.columns.source ??= source;
     group.clocks = [...new Set([...(clocksByGroup.get(group) ?? []), ...sharedClocks])].slice(0, 2);
     // If a table has only one clock, all of its groups use it.
     if (group.clocks.length === 0 && allClocks.length === 1) group.clocks = allClocks;

@@ -166,9 +166,11 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
 
 /** Splits a group whose rows are of several topics or robots. */
 function groupsBySource(group: Group, rows: string[][]): Group[] {
-  const at = group.columns.source?.at ?? -1;
-  const sources = [...new Set(rows.map((row) => row[at]?.trim() ?? ''))].filter(Boolean);
-  return sources.length > 1 ? sources.map((name) => ({ ...group, name, source: { at, name } })) : [group];
+  const { source: { at } = { at: -1 }, x, v } = group.columns;
+  // In a row of another topic the cells of this one are empty.
+  const ownRows = rows.filter((row) => row[(x ?? v)?.at ?? at]?.trim());
+  const sources = [...new Set(ownRows.map((row) => row[at]?.trim() ?? ''))].filter(Boolean);
+  return sources.length > 1 ? sources.map((name) => ({ ...group, name: group.name ? `${name}/${group.name}` : name, source: { at, name } })) : [group];
 }
 
 const bareUnit = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');

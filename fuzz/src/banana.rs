@@ -21,10 +21,10 @@ pub fn run(bytes: &[u8]) {
     let [checks_curves, checks_second_machine] = [0; 2].map(|_| input.next_choice(4) == 1);
     let first_settings = with_changes(&with_few_samples(Settings::default()), &mut input);
     if !are_allowed(&first_settings) {
-        assert!(BananaMachine::showing(first_settings, 0).is_err());
+        assert!(BananaMachine::with_shown_count(first_settings, 0).is_err());
         return;
     }
-    let mut machine = BananaMachine::showing(with_few_samples(first_settings), 0).expect("allowed");
+    let mut machine = BananaMachine::with_shown_count(with_few_samples(first_settings), 0).expect("allowed");
     if input.next_bool() {
         machine.add_samples(MAX_SAMPLES);
     }
@@ -54,14 +54,14 @@ fn call(machine: &mut BananaMachine, input: &mut Input) {
         0 => configure(machine, input),
         1 => assert_same_in_blocks(machine, input),
         2 => {
-            let count_before = machine.shown();
+            let count_before = machine.shown_count();
             let count = input.next_choice(MAX_SAMPLES);
             let count_after = machine.add_samples(count);
             assert_eq!(count_after, (count_before + count).min(machine.settings().samples));
         }
         3 => {
             machine.configure_first(*machine.settings(), 0).expect("allowed");
-            assert_eq!(machine.shown(), 0);
+            assert_eq!(machine.shown_count(), 0);
         }
         4 => assert_painted(machine, input),
         5 => assert_nearest(machine, input),
@@ -99,7 +99,7 @@ fn assert_same_in_blocks(machine: &mut BananaMachine, input: &mut Input) {
     machine_in_one_call.configure(with_few_samples(settings)).expect("allowed");
     let count = 1 + usize::from(input.next_byte());
     machine.configure_first(with_few_samples(settings), count).expect("allowed");
-    while machine.shown() < machine.settings().samples {
+    while machine.shown_count() < machine.settings().samples {
         machine.add_samples(count);
     }
     laws::assert_same_numbers("in blocks", &all_results(machine), &all_results(&machine_in_one_call));
@@ -107,9 +107,9 @@ fn assert_same_in_blocks(machine: &mut BananaMachine, input: &mut Input) {
 
 /// Asserts that a machine depends on its settings only, and not on earlier calls.
 fn assert_as_new(machine: &BananaMachine) {
-    let mut new_machine = BananaMachine::showing(*machine.settings(), 0).expect("allowed");
-    if machine.shown() > 0 {
-        new_machine.add_samples(machine.shown());
+    let mut new_machine = BananaMachine::with_shown_count(*machine.settings(), 0).expect("allowed");
+    if machine.shown_count() > 0 {
+        new_machine.add_samples(machine.shown_count());
         laws::assert_same_numbers("as if new", &all_results(machine), &all_results(&new_machine));
     }
 }
@@ -131,11 +131,11 @@ fn all_results(machine: &BananaMachine) -> Vec<f64> {
 
 /// Asserts that all results are finite, or NaN where they are undefined.
 fn assert_results(machine: &BananaMachine) {
-    let (n, stats) = (machine.shown(), machine.stats());
+    let (n, stats) = (machine.shown_count(), machine.stats());
     machine.poses().for_each(|pose| laws::assert_pose("a pose", &pose));
     assert_eq!(machine.poses().len(), n);
     laws::assert_finite("executed", machine.executed_motions().collect::<Vec<_>>().as_flattened());
-    let is_charted = machine.chart_holds();
+    let is_charted = machine.is_chart_defined();
     if is_charted {
         machine.twists().for_each(|twist| laws::assert_finite("a twist", twist.as_slice()));
     }
@@ -183,8 +183,8 @@ fn assert_contours(machine: &BananaMachine) {
     for outline in [&ellipse, &linearized, &exponential, &twist_ellipse, &additive] {
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
-    assert_eq!(ellipse.is_empty(), machine.shown() < 2);
-    assert_eq!(exponential.is_empty(), machine.shown() < 2 || !machine.chart_holds());
+    assert_eq!(ellipse.is_empty(), machine.shown_count() < 2);
+    assert_eq!(exponential.is_empty(), machine.shown_count() < 2 || !machine.is_chart_defined());
 }
 
 /// Checks every column of the table. Quadrature makes this slow.
@@ -209,7 +209,7 @@ fn assert_table(machine: &BananaMachine) {
 
 fn assert_executed(machine: &BananaMachine, index: usize) {
     let Some(sample) = machine.inspect(index) else {
-        assert!(index >= machine.shown());
+        assert!(index >= machine.shown_count());
         return;
     };
     laws::assert_pose("inspected", &sample.pose.into());
@@ -250,7 +250,7 @@ fn assert_painted(machine: &mut BananaMachine, input: &mut Input) {
     let (view, grid) = (input.one_of(&[View::Plane, View::Twist]), read_grid(input));
     let counts = machine.density(view, &grid);
     assert_eq!(counts.len(), grid.columns * grid.rows);
-    assert!(counts.iter().sum::<u32>() as usize <= machine.shown(), "{grid:?}: {counts:?}");
+    assert!(counts.iter().sum::<u32>() as usize <= machine.shown_count(), "{grid:?}: {counts:?}");
     let pixels = machine.paint(view, &grid, &[[1; 4]; RAMP_STEPS]);
     assert_eq!(pixels.len(), counts.len());
     assert!(pixels.iter().zip(&counts).all(|(pixel, count)| (pixel[3] > 0) == (*count > 0)), "{grid:?}");

@@ -48,7 +48,7 @@ fn call(machine: &mut OdometryDecomposer, input: &mut Input) {
             assert!(machine.poses().is_empty());
         }
         4 => {
-            let ghosts = machine.ghosts(usize::from(input.next_byte()));
+            let ghosts = machine.sample_linkages(usize::from(input.next_byte()));
             assert!(ghosts.len() <= shown_count);
             ghosts.as_flattened().iter().for_each(|pose| laws::assert_pose("a ghost", pose));
             assert!(ghosts.iter().zip(machine.poses()).all(|(ghost, pose)| ghost[3] == *pose));
@@ -73,7 +73,7 @@ fn configure(machine: &mut OdometryDecomposer, input: &mut Input) {
 }
 
 fn assert_curve(machine: &OdometryDecomposer, longest: f64, count: usize) {
-    let points = machine.curve(longest, count);
+    let points = machine.deviation_curve(longest, count);
     assert_eq!(points.len(), count);
     for point in points {
         laws::assert_finite("curve", &[point.trans, point.cross_track, point.lever, point.along]);
@@ -97,8 +97,8 @@ fn assert_results(machine: &OdometryDecomposer) {
     let settings = machine.settings();
     machine.poses().iter().for_each(|pose| laws::assert_pose("an outcome", pose));
     machine.linkage().iter().for_each(|pose| laws::assert_pose("the linkage", pose));
-    laws::assert_pose("the robot", &machine.robot());
-    let Drifted { frame, from, to, legs } = machine.drifted();
+    laws::assert_pose("the robot", &machine.robot_pose());
+    let Drifted { frame, from, to, legs } = machine.drifted_odometry();
     [frame, from, to].iter().for_each(|pose| laws::assert_pose("drifted", pose));
     assert_legs("drifted legs", &legs);
     assert_legs("reading", &machine.reading());
@@ -125,7 +125,7 @@ fn assert_results(machine: &OdometryDecomposer) {
         "{exact_values:?} {measured_values:?}"
     );
 
-    for noise in machine.rules() {
+    for noise in machine.rule_noises() {
         assert_legs("legs", &noise.legs);
         let all_values = [&noise.deviations[..], &[noise.cross_track, noise.heading]].concat();
         laws::assert_finite("a rule", &all_values);

@@ -100,11 +100,11 @@ impl Input<'_> {
 
     /// Returns a whole number, mostly in this range.
     pub fn whole_near(&mut self, range: &RangeInclusive<u64>) -> u64 {
-        let whole_number = match self.next_choice(4) {
+        let integer = match self.next_choice(4) {
             0 => u64::from_le_bytes(self.next_bytes()),
             1 => u64::from(u16::from_le_bytes(self.next_bytes())),
             _ => u64::from(self.next_byte()),
         };
-        if self.next_choice(8) == 0 { whole_number } else { whole_number.clamp(*range.start(), *range.end()) }
+        if self.next_choice(8) == 0 { integer } else { integer.clamp(*range.start(), *range.end()) }
     }
 }

@@ -20,12 +20,12 @@ pub fn run(bytes: &[u8]) {
     let first_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
     let first_settings = with_changes(&first_settings, &mut input);
     if !are_allowed(&first_settings) {
-        assert!(DeadReckoning::showing(first_settings, 0).is_err());
+        assert!(DeadReckoning::with_shown_count(first_settings, 0).is_err());
         return;
     }
     let max_samples = if is_one_in(16, bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
     let with_few_robots = |settings| with_few_robots(settings, max_samples);
-    let mut machine = DeadReckoning::showing(with_few_robots(first_settings), 0).expect("allowed");
+    let mut machine = DeadReckoning::with_shown_count(with_few_robots(first_settings), 0).expect("allowed");
     if input.next_bool() {
         machine.add_samples(MAX_SAMPLES);
     }
@@ -56,7 +56,7 @@ fn with_few_robots(settings: Settings, max_samples: usize) -> Settings {
 }
 
 fn call(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(Settings) -> Settings, input: &mut Input) {
-    let shown_count = machine.shown();
+    let shown_count = machine.shown_count();
     match input.next_choice(9) {
         0 | 1 => configure(machine, with_few_robots, input),
         2 | 3 => assert_same_in_blocks(machine, with_few_robots, input),
@@ -66,7 +66,7 @@ fn call(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(Settings) -> Setti
         }
         5 => {
             machine.configure_first(*machine.settings(), 0).expect("allowed");
-            assert_eq!(machine.shown(), 0);
+            assert_eq!(machine.shown_count(), 0);
         }
         6 => assert_nearest(machine, input),
         7 => assert_outlines(machine, 1 + input.next_choice(MAX_STEPS as usize) as u32),
@@ -96,7 +96,7 @@ fn assert_same_in_blocks(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(S
     machine_in_one_call.configure(settings).expect("allowed");
     let count = 1 + usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
     machine.configure_first(settings, count).expect("allowed");
-    while machine.shown() < settings.samples {
+    while machine.shown_count() < settings.samples {
         machine.add_samples(count);
     }
     assert_eq!(all_results(machine), all_results(&machine_in_one_call));
@@ -105,14 +105,14 @@ fn assert_same_in_blocks(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(S
 
 /// Asserts that a machine depends on its settings only, and not on earlier calls.
 fn assert_as_new(machine: &DeadReckoning) {
-    let mut new_machine = DeadReckoning::showing(*machine.settings(), 0).expect("allowed");
-    new_machine.add_samples(machine.shown());
+    let mut new_machine = DeadReckoning::with_shown_count(*machine.settings(), 0).expect("allowed");
+    new_machine.add_samples(machine.shown_count());
     assert_eq!(all_results(&new_machine), all_results(machine));
 }
 
 /// Returns all results: those of the selected step as bits, and the others as text, in which NaN equals NaN.
 fn all_results(machine: &DeadReckoning) -> (String, Vec<u64>) {
-    let (settings, stats, measured) = (machine.settings(), machine.stats(), machine.measured());
+    let (settings, stats, measured) = (machine.settings(), machine.stats(), machine.measured_moments());
     let outlines = machine.outlines(settings.step);
     let lines = outlines.iter().flat_map(|Outlines { ellipse, exponential, predicted, measured }| {
         [ellipse, exponential, predicted, measured].into_iter().flat_map(|line| line.as_flattened())
@@ -124,12 +124,12 @@ fn all_results(machine: &DeadReckoning) -> (String, Vec<u64>) {
 /// Asserts that all results are finite, or NaN or empty where they are undefined.
 fn assert_results(machine: &DeadReckoning) {
     let settings = machine.settings();
-    let (n, steps) = (machine.shown(), settings.steps as usize);
+    let (n, steps) = (machine.shown_count(), settings.steps as usize);
     assert!(n <= MAX_SAMPLES && (1..=settings.steps).contains(&settings.step), "{settings:?} of {n}");
-    assert_eq!([machine.measured().len(), machine.nominal().len()], [steps; 2]);
-    machine.nominal().iter().for_each(|pose| laws::assert_pose("nominal", pose));
-    laws::assert_finite("commanded", machine.commanded().as_flattened());
-    for measured in machine.measured() {
+    assert_eq!([machine.measured_moments().len(), machine.nominal_poses().len()], [steps; 2]);
+    machine.nominal_poses().iter().for_each(|pose| laws::assert_pose("nominal", pose));
+    laws::assert_finite("commanded", machine.commanded_path().as_flattened());
+    for measured in machine.measured_moments() {
         if n > 0 {
             laws::assert_finite("mean", measured.mean.as_slice());
         }
@@ -150,7 +150,7 @@ fn assert_results(machine: &DeadReckoning) {
     machine.twists().for_each(|twist| laws::assert_finite("a twist", &twist));
     assert_eq!(machine.twists().len(), n.min(MAX_SHOWN_ROBOTS));
     for order in RECURSIONS {
-        let (predicted, comparison) = (machine.predicted(order), machine.comparison(order));
+        let (predicted, comparison) = (machine.predicted_covariances(order), machine.comparison(order));
         assert_eq!([predicted.len(), comparison.ratios.len()], [steps; 2]);
         for (cov, ratio) in predicted.iter().zip(&comparison.ratios) {
             assert!(
@@ -218,15 +218,15 @@ fn assert_outlines(machine: &DeadReckoning, step: u32) {
         laws::assert_finite("an outline", outline.as_flattened());
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
-    let has_no_covariance = machine.predicted(settings.compounding)[step as usize - 1].is_none();
+    let has_no_covariance = machine.predicted_covariances(settings.compounding)[step as usize - 1].is_none();
     assert!([&ellipse, &exponential, &predicted].iter().all(|outline| outline.is_empty() == has_no_covariance));
-    assert_eq!(measured.is_empty(), machine.shown() < 2);
+    assert_eq!(measured.is_empty(), machine.shown_count() < 2);
 }
 
 /// Asserts that the path of one robot has the poses that the steps show.
 fn assert_rollout(machine: &DeadReckoning, index: usize) {
     let Some(path) = machine.rollout(index) else {
-        assert!(index >= machine.shown());
+        assert!(index >= machine.shown_count());
         return;
     };
     assert_eq!(path.len(), machine.settings().steps as usize);

@@ -23,12 +23,12 @@ pub fn with_changes<S: Rules>(current: &S, input: &mut Input) -> S {
 fn set_any_value(setting: Setting, input: &mut Input) {
     match setting {
         Setting::Number(slot, allowed) => *slot = input.number_near(&allowed),
-        Setting::Whole(slot, allowed) => slot.set(input.whole_near(&allowed)),
-        Setting::WholeOrNone(slot, allowed) => {
+        Setting::Integer(slot, allowed) => slot.set(input.whole_near(&allowed)),
+        Setting::OptionalInteger(slot, allowed) => {
             *slot = input.next_bool().then(|| input.whole_near(&allowed) as usize);
         }
-        Setting::Truth(slot) => *slot = input.next_bool(),
-        Setting::Word(slot) => {
+        Setting::Boolean(slot) => *slot = input.next_bool(),
+        Setting::Keyword(slot) => {
             let words = slot.all();
             assert!(slot.set(input.one_of(&words)) && !slot.set("") && !slot.set("__proto__"));
         }
@@ -58,11 +58,11 @@ pub fn are_allowed<S: Rules>(settings: &S) -> bool {
     assert!(message.starts_with(field) && message.contains("; allowed is "), "{message}");
     match allowed {
         AllowedValues::Real(range) => assert!(!range.contains(value), "{message}"),
-        AllowedValues::Whole(range) => {
-            let whole_number = *value as u64;
-            assert!(whole_number as f64 != *value || !range.contains(&whole_number), "{message}");
+        AllowedValues::Integer(range) => {
+            let integer = *value as u64;
+            assert!(integer as f64 != *value || !range.contains(&integer), "{message}");
         }
-        AllowedValues::LessMemory | AllowedValues::Word { .. } => panic!("{message}"),
+        AllowedValues::FitsInMemory | AllowedValues::Keyword { .. } => panic!("{message}"),
     }
     false
 }
@@ -73,11 +73,13 @@ fn assert_in_range<S: Rules>(settings: &S) {
     let _: Result<(), ()> = settings.try_visit_settings(|declaration, setting| {
         let all_in_range = match setting {
             Setting::Number(number, range) => range.contains(number),
-            Setting::Whole(whole, range) => range.contains(&whole.get()),
-            Setting::WholeOrNone(whole, range) => whole.is_none_or(|whole| range.contains(&(whole as u64))),
+            Setting::Integer(whole, range) => range.contains(&whole.get()),
+            Setting::OptionalInteger(whole, range) => {
+                whole.is_none_or(|whole| range.contains(&(whole as u64)))
+            }
             Setting::Numbers(numbers, range) => numbers.iter().all(|number| range.contains(number)),
             Setting::Group(group) => is_group_in_range(group),
-            Setting::Truth(_) | Setting::Word(_) | Setting::Level(..) => true,
+            Setting::Boolean(_) | Setting::Keyword(_) | Setting::Level(..) => true,
         };
         assert!(all_in_range, "{}", declaration.key);
         Ok(())

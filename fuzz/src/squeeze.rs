@@ -6,7 +6,7 @@ use super::{banana, grid, laws, plan};
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, Sampler};
 use motion::sim::picture::RAMP_STEPS;
-use motion::sim::squeeze::{OUTCOME_KINDS, MapSqueeze, Settings};
+use motion::sim::squeeze::{OUTCOME_KIND_COUNT, MapSqueeze, Settings};
 use std::cell::LazyCell;
 
 /// Maximum numbers of samples, of parts of a sample, and of calls in a run.
@@ -21,7 +21,7 @@ thread_local! {
         let plan = FloorPlan::new(vec![wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
         let mut machine = MapSqueeze::new(with_few_samples(Settings::default(), false)).expect("the opening state");
         machine.set_plan(plan);
-        assert!(machine.start_free());
+        assert!(machine.is_start_free());
         machine
     });
 }
@@ -112,7 +112,7 @@ fn assert_same_in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
     machine_in_one_call.configure(settings).expect("allowed");
     let count = 1 + input.next_choice(MAX_SAMPLES);
     machine.configure_first(settings, count).expect("allowed");
-    while machine.shown() < settings.samples && !machine.gave_up() {
+    while machine.shown_count() < settings.samples && !machine.gave_up() {
         machine.add_samples(count);
     }
     assert_eq!(machine.attempts(), machine_in_one_call.attempts());
@@ -120,7 +120,7 @@ fn assert_same_in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
 
 /// Asserts that a machine depends on its settings and its map only, and not on earlier calls.
 fn assert_as_new(machine: &MapSqueeze) {
-    let mut new_machine = MapSqueeze::showing(*machine.settings(), 0).expect("allowed");
+    let mut new_machine = MapSqueeze::with_shown_count(*machine.settings(), 0).expect("allowed");
     new_machine.set_plan(machine.plan().clone());
     new_machine.add_samples(machine.attempts().len());
     assert_eq!(new_machine.attempts(), machine.attempts());
@@ -185,7 +185,7 @@ fn assert_finite_plan(plan: &FloorPlan) {
 fn assert_painted(machine: &mut MapSqueeze, input: &mut Input) {
     let grid = banana::read_grid(input);
     let shown_count = machine.attempts().len();
-    let pixels = machine.paint(&grid, &[[[1; 4]; RAMP_STEPS]; OUTCOME_KINDS]);
+    let pixels = machine.paint(&grid, &[[[1; 4]; RAMP_STEPS]; OUTCOME_KIND_COUNT]);
     assert_eq!(pixels.len(), grid.columns * grid.rows);
     assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() <= shown_count);
 }

@@ -5,11 +5,11 @@ use thiserror::Error;
 
 /// Error for a setting whose value is not allowed. The message has the field, the value and the allowed values.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{}", self.message(number_text))]
+#[error("{}", self.message(format_number))]
 pub struct SettingsError {
     /// Name of the setting.
     pub field: String,
-    /// The number that is not allowed; NaN for a word.
+    /// The number that is not allowed; NaN for a keyword.
     pub value: f64,
     /// The values that are allowed.
     pub allowed: AllowedValues,
@@ -20,46 +20,46 @@ pub struct SettingsError {
 pub enum AllowedValues {
     /// Numbers in a range.
     Real(RangeInclusive<f64>),
-    /// Whole numbers in a range.
-    Whole(RangeInclusive<u64>),
+    /// Integers in a range.
+    Integer(RangeInclusive<u64>),
     /// Numbers of samples for which there is enough memory.
-    LessMemory,
-    /// Words that are allowed instead of `given`.
-    Word {
-        /// The word that is not allowed.
+    FitsInMemory,
+    /// Keywords that are allowed instead of `given`.
+    Keyword {
+        /// The keyword that is not allowed.
         given: &'static str,
-        /// Words that are allowed, as text.
+        /// Keywords that are allowed, as text.
         allowed: &'static str,
     },
 }
 
 impl SettingsError {
     /// Returns the error for a number of samples that need more memory than there is.
-    pub(crate) fn no_memory(samples: usize) -> Self {
-        Self { field: "samples".to_owned(), value: samples as f64, allowed: AllowedValues::LessMemory }
+    pub(crate) fn out_of_memory(samples: usize) -> Self {
+        Self { field: "samples".to_owned(), value: samples as f64, allowed: AllowedValues::FitsInMemory }
     }
 
     /// Returns the message, with numbers as `number` prints them. In WebAssembly JavaScript prints them, because Rust's code
     /// for printing floats would take an eighth of the module.
     pub fn message(&self, number: impl Fn(f64) -> String) -> String {
         let allowed = match &self.allowed {
-            AllowedValues::Word { given, allowed } => {
+            AllowedValues::Keyword { given, allowed } => {
                 return format!("{} is {given}; allowed is {allowed}", self.field);
             }
             AllowedValues::Real(range) => {
                 format!("a number from {} to {}", number(*range.start()), number(*range.end()))
             }
-            AllowedValues::Whole(range) => {
+            AllowedValues::Integer(range) => {
                 format!("a whole number from {} to {}", range.start(), range.end())
             }
-            AllowedValues::LessMemory => "a number for which there is memory".to_owned(),
+            AllowedValues::FitsInMemory => "a number for which there is memory".to_owned(),
         };
         format!("{} is {}; allowed is {allowed}", self.field, number(self.value))
     }
 }
 
 /// Returns a number as JavaScript would print it.
-fn number_text(value: f64) -> String {
+fn format_number(value: f64) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "Infinity" } else { "-Infinity" }.to_owned();
     }
@@ -78,27 +78,27 @@ pub(crate) fn check_real(
     Err(SettingsError { field: field.to_owned(), value, allowed: AllowedValues::Real(allowed.clone()) })
 }
 
-/// Returns a double as the whole number in a range. The ends of the range must be exact as doubles.
-pub(crate) fn check_whole(
+/// Returns a double as an integer, if it is an integer in a range. The ends of the range must be exact as doubles.
+pub(crate) fn check_integer(
     field: &str,
     value: f64,
     allowed: &RangeInclusive<u64>,
 ) -> Result<u64, SettingsError> {
-    let whole_number = value as u64;
-    if whole_number as f64 == value && allowed.contains(&whole_number) {
-        return Ok(whole_number);
+    let integer = value as u64;
+    if integer as f64 == value && allowed.contains(&integer) {
+        return Ok(integer);
     }
-    Err(SettingsError { field: field.to_owned(), value, allowed: AllowedValues::Whole(allowed.clone()) })
+    Err(SettingsError { field: field.to_owned(), value, allowed: AllowedValues::Integer(allowed.clone()) })
 }
 
-/// Range of positions (m), angles (rad) and speeds (m/s, rad/s). It is far larger than any robot needs. Products with the
-/// square of the largest value are finite doubles.
+/// Range of positions (m), angles (rad) and speeds (m/s, rad/s). It is far larger than any robot needs, and small enough that
+/// products of its squares are finite.
 pub const QUANTITY_RANGE: RangeInclusive<f64> = -1e6..=1e6;
-/// Range of the noise parameters α, for the same reason.
+/// Range of the noise parameters α, chosen as [`QUANTITY_RANGE`].
 pub const ALPHA_RANGE: RangeInclusive<f64> = 0.0..=1e6;
 /// Range of durations. With shorter ones v̂ = length/Δt would lose the digits that distinguish samples.
 pub const DURATION_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
-/// The largest whole number up to which JavaScript's numbers are exact.
+/// Largest integer up to which JavaScript's numbers are exact.
 pub const MAX_SEED: u64 = (1 << 53) - 1;
 
 /// Description of a setting, without its type and range.
@@ -106,9 +106,9 @@ pub const MAX_SEED: u64 = (1 << 53) - 1;
 pub struct Declaration {
     /// Name of the setting in attributes and states.
     pub key: &'static str,
-    /// Key of the setting of which this setting is another form: `alphas` for a noise level.
+    /// Key of the setting that this setting sets in another form: `alphas` for a noise level.
     pub of: Option<&'static str>,
-    // The module for browsers omits the sentence and the unit of settings: no page shows them, and they would make the module larger.
+    // The module for browsers omits the sentence and the unit, because no page shows them, and they would make the module larger.
     /// Description of the setting.
     #[cfg(not(target_arch = "wasm32"))]
     pub sentence: &'static str,
@@ -121,14 +121,14 @@ pub struct Declaration {
 pub enum Setting<'a> {
     /// Number.
     Number(&'a mut f64, RangeInclusive<f64>),
-    /// Whole number.
-    Whole(&'a mut dyn Whole, RangeInclusive<u64>),
-    /// Whole number that may be missing.
-    WholeOrNone(&'a mut Option<usize>, RangeInclusive<u64>),
-    /// Truth value.
-    Truth(&'a mut bool),
-    /// Value of an enum, by its word.
-    Word(&'a mut dyn Word),
+    /// Integer.
+    Integer(&'a mut dyn Integer, RangeInclusive<u64>),
+    /// Integer that may be missing.
+    OptionalInteger(&'a mut Option<usize>, RangeInclusive<u64>),
+    /// Boolean.
+    Boolean(&'a mut bool),
+    /// Value of an enum, by its keyword.
+    Keyword(&'a mut dyn Keyword),
     /// List of fixed length, whose numbers have one range.
     Numbers(&'a mut [f64], RangeInclusive<f64>),
     /// Number that sets several others in fixed ratios, with its range.
@@ -138,13 +138,17 @@ pub enum Setting<'a> {
 }
 
 impl Setting<'_> {
+    /// Checks that the numbers are in their ranges.
+    ///
     /// # Errors
     /// [`SettingsError`] for the first number out of its range.
     fn check(self, key: &str) -> Result<(), SettingsError> {
         match self {
             Self::Number(number, allowed) => check_real(key, *number, &allowed),
-            Self::Whole(whole, allowed) => check_whole(key, whole.get() as f64, &allowed).map(|_| ()),
-            Self::WholeOrNone(Some(whole), allowed) => check_whole(key, *whole as f64, &allowed).map(|_| ()),
+            Self::Integer(integer, allowed) => check_integer(key, integer.get() as f64, &allowed).map(|_| ()),
+            Self::OptionalInteger(Some(integer), allowed) => {
+                check_integer(key, *integer as f64, &allowed).map(|_| ())
+            }
             Self::Numbers(numbers, allowed) => {
                 match numbers.iter().position(|number| !allowed.contains(number)) {
                     Some(i) => check_real(&format!("{key}[{i}]"), numbers[i], &allowed),
@@ -153,7 +157,7 @@ impl Setting<'_> {
             }
             Self::Group(group) => check_group(key, group),
             // The numbers that a level stands for are checked instead of the level.
-            Self::WholeOrNone(None, _) | Self::Truth(_) | Self::Word(_) | Self::Level(..) => Ok(()),
+            Self::OptionalInteger(None, _) | Self::Boolean(_) | Self::Keyword(_) | Self::Level(..) => Ok(()),
         }
     }
 }
@@ -168,12 +172,12 @@ pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), Settin
     Ok(())
 }
 
-/// Whole number of any type.
-pub trait Whole {
+/// Integer of any type.
+pub trait Integer {
     /// Returns the number.
     fn get(&self) -> u64;
     /// Sets the number, which must be in the range of the type.
-    fn set(&mut self, whole: u64);
+    fn set(&mut self, integer: u64);
 }
 
 /// Number that sets several others in fixed ratios, such as a noise level.
@@ -186,35 +190,38 @@ pub trait Level {
     fn weights(&self) -> Vec<f64>;
 }
 
-/// Enum whose values have words in settings, attributes and states.
-pub trait Words: Copy + 'static {
-    /// Values with their words.
-    const WORDS: &'static [(&'static str, Self)];
+/// Enum whose values have keywords in settings, attributes and states.
+pub trait Keywords: Copy + 'static {
+    /// Keywords with their values.
+    const KEYWORDS: &'static [(&'static str, Self)];
 }
 
-/// Reference to a value of any type with [`Words`].
-pub trait Word {
-    /// Returns the word of the value.
+/// Access to a value of any type with [`Keywords`].
+pub trait Keyword {
+    /// Returns the keyword of the value.
     fn get(&self) -> &'static str;
-    /// Sets the value by its word. Returns false if the word is not in [`Word::all`].
+    /// Sets the value by its keyword. Returns false if the keyword is not in [`Keyword::all`].
     fn set(&mut self, word: &str) -> bool;
-    /// Returns the words of all values.
+    /// Returns the keywords of all values.
     fn all(&self) -> Vec<&'static str>;
 }
 
-impl<T: Words> Word for T {
+impl<T: Keywords> Keyword for T {
     fn get(&self) -> &'static str {
         let kind = std::mem::discriminant(self);
-        T::WORDS.iter().find(|(_, value)| std::mem::discriminant(value) == kind).map_or("", |(word, _)| word)
+        T::KEYWORDS
+            .iter()
+            .find(|(_, value)| std::mem::discriminant(value) == kind)
+            .map_or("", |(keyword, _)| keyword)
     }
 
     fn set(&mut self, word: &str) -> bool {
-        let matching_word = T::WORDS.iter().find(|(candidate, _)| *candidate == word);
-        matching_word.inspect(|(_, value)| *self = *value).is_some()
+        let matching_keyword = T::KEYWORDS.iter().find(|(candidate, _)| *candidate == word);
+        matching_keyword.inspect(|(_, value)| *self = *value).is_some()
     }
 
     fn all(&self) -> Vec<&'static str> {
-        T::WORDS.iter().map(|(word, _)| *word).collect()
+        T::KEYWORDS.iter().map(|(keyword, _)| *keyword).collect()
     }
 }
 
@@ -252,21 +259,21 @@ impl Settable for f64 {
 impl Settable for Option<usize> {
     type Range = RangeInclusive<u64>;
     fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
-        Setting::WholeOrNone(self, allowed)
+        Setting::OptionalInteger(self, allowed)
     }
 }
 
 impl Settable for bool {
     type Range = ();
     fn setting(&mut self, (): ()) -> Setting<'_> {
-        Setting::Truth(self)
+        Setting::Boolean(self)
     }
 }
 
-impl<T: Words> Settable for T {
+impl<T: Keywords> Settable for T {
     type Range = ();
     fn setting(&mut self, (): ()) -> Setting<'_> {
-        Setting::Word(self)
+        Setting::Keyword(self)
     }
 }
 
@@ -282,25 +289,25 @@ macro_rules! numbers {
 }
 numbers!([f64], [f64; 5], [f64; 6]);
 
-macro_rules! whole {
+macro_rules! integer {
     ($($type:ty),+) => {$(
-        impl Whole for $type {
+        impl Integer for $type {
             fn get(&self) -> u64 {
                 *self as u64
             }
-            fn set(&mut self, whole: u64) {
-                *self = whole as $type;
+            fn set(&mut self, integer: u64) {
+                *self = integer as $type;
             }
         }
         impl Settable for $type {
             type Range = RangeInclusive<u64>;
             fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
-                Setting::Whole(self, allowed)
+                Setting::Integer(self, allowed)
             }
         }
     )+};
 }
-whole!(u32, u64, usize);
+integer!(u32, u64, usize);
 
 /// Visitor that is called for each setting, and may stop the loop.
 pub type Visitor<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
@@ -335,23 +342,25 @@ pub trait DeclaredSettings: Copy + Default {
 
 /// Rules that connect several settings of a widget.
 pub trait Rules: DeclaredSettings {
-    /// Adjusts other settings to the `named` ones, which were set one by one.
-    fn adjust(&mut self, _before: &Self, _named: &[&str]) {}
+    /// Adjusts other settings to those with the changed keys.
+    fn adjust(&mut self, _previous: &Self, _changed_keys: &[&str]) {}
 
     /// Checks combinations of settings, each of which is in its range.
     ///
     /// # Errors
     /// [`SettingsError`] for settings that contradict each other.
-    fn check_together(&self) -> Result<(), SettingsError> {
+    fn check_combinations(&self) -> Result<(), SettingsError> {
         Ok(())
     }
 
+    /// Checks each setting, and combinations of settings.
+    ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
     fn check(&self) -> Result<(), SettingsError> {
         let mut settings = *self;
         settings.try_visit_settings(|declaration, setting| setting.check(declaration.key))?;
-        self.check_together()
+        self.check_combinations()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::calibration::{calibration_to_js, columns_to_js};
 use super::face::configured;
-use super::fields::{read_integer, read_opening, read_word};
+use super::fields::{read_integer, read_keyword, read_opening};
 use super::log::read_logs;
 use super::pictures::nearest_index;
 use super::values::{ToJs, js_object, settings_to_js, to_plain_js};
@@ -34,7 +34,7 @@ impl JsAlphaCalibrator {
 
     /// The fit as bytes, from which `restored` makes a machine.
     pub fn save(&self) -> Vec<u8> {
-        self.0.saved()
+        self.0.save()
     }
 
     /// Settings, and the number of the fit. `stats` and `legs` change only if that number changes.
@@ -45,7 +45,7 @@ impl JsAlphaCalibrator {
         js_object(&[
             ("config", self.config()),
             ("fittedConfig", self.fitted_config()),
-            ("fits", self.fits().into()),
+            ("fits", self.fit_revision().into()),
             ("isPending", self.is_pending().into()),
         ])
     }
@@ -74,9 +74,9 @@ impl JsAlphaCalibrator {
     }
 
     /// Number of the fit. It changes with each new fit.
-    #[wasm_bindgen(getter)]
-    pub fn fits(&self) -> u32 {
-        self.0.fits()
+    #[wasm_bindgen(getter, js_name = fits)]
+    pub fn fit_revision(&self) -> u32 {
+        self.0.fit_revision()
     }
 
     /// The true values of the simulated log; null for any other log.
@@ -91,7 +91,7 @@ impl JsAlphaCalibrator {
         &self,
         #[wasm_bindgen(unchecked_param_type = "'distance' | 'turn'")] regressor: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.panels(read_word("regressor", regressor)?))
+        to_plain_js(&self.0.panels(read_keyword("regressor", regressor)?))
     }
 
     /// One leg by its index, counted from 0; null if there are fewer legs.

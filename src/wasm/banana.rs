@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::face::cloud;
-use super::fields::{in_range, not_shown, read_integer, read_word};
+use super::fields::{in_range, not_shown, read_integer, read_keyword};
 use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
 use super::values::{flat_float_array, js_array, js_object, to_plain_js};
 use crate::geom::se2::SE2;
@@ -43,13 +43,13 @@ impl JsBananaMachine {
     pub fn read(&self) -> Result<JsValue, JsValue> {
         Ok(js_object(&[
             ("config", self.config()),
-            ("shown", self.shown().into()),
-            ("block", self.block().into()),
+            ("shown", self.shown_count().into()),
+            ("block", self.block_size().into()),
             ("stats", self.stats()?),
             ("contours", self.contours()?),
             ("gaps", self.gaps().into()),
             ("table", self.table()?),
-            ("chartHolds", self.chart_holds().into()),
+            ("chartHolds", self.is_chart_defined().into()),
             ("alphasOfModels", self.alphas_of_models()),
             ("reading", self.reading()?),
         ]))
@@ -69,8 +69,8 @@ impl JsBananaMachine {
     /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
     /// contours in them are undefined.
     #[wasm_bindgen(getter, js_name = chartHolds)]
-    pub fn chart_holds(&self) -> bool {
-        self.0.chart_holds()
+    pub fn is_chart_defined(&self) -> bool {
+        self.0.is_chart_defined()
     }
 
     /// x, y (m), θ (rad) of each sample shown; a copy.
@@ -99,8 +99,8 @@ impl JsBananaMachine {
 
     /// Motion executed by each of the samples that are shown: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1
     /// (rad), δ̂_trans (m), δ̂_rot2 (rad). A copy.
-    #[wasm_bindgen(getter)]
-    pub fn executed_motion(&self) -> Float64Array {
+    #[wasm_bindgen(getter, js_name = executed)]
+    pub fn executed_motions(&self) -> Float64Array {
         flat_float_array(&self.0.executed_motions().collect::<Vec<_>>())
     }
 
@@ -149,14 +149,14 @@ impl JsBananaMachine {
     #[wasm_bindgen(unchecked_return_type = "Inspection")]
     pub fn inspect(&self, index: f64) -> Result<JsValue, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        let sample = self.0.inspect(index).ok_or_else(|| not_shown(index, self.0.shown()))?;
+        let sample = self.0.inspect(index).ok_or_else(|| not_shown(index, self.0.shown_count()))?;
         to_plain_js(&sample)
     }
 
     /// Heading (rad) of a sample by its index, counted from 0.
     pub fn heading(&self, index: f64) -> Result<f64, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        self.0.pose(index).map(|pose| pose.theta()).ok_or_else(|| not_shown(index, self.0.shown()))
+        self.0.pose(index).map(|pose| pose.theta()).ok_or_else(|| not_shown(index, self.0.shown_count()))
     }
 
     /// Index of the nearest sample inside an ellipse with these radii around a point of the view; −1 for none.
@@ -215,8 +215,8 @@ impl JsBananaMachine {
 /// Reads a view: its name, or a morph.
 fn read_view(view: &JsValue) -> Result<View, JsValue> {
     match view.as_f64() {
-        Some(morph) => Ok(View::at(in_range("view", morph, &MORPH_RANGE)?)),
-        None => read_word("view", view),
+        Some(morph) => Ok(View::from_morph(in_range("view", morph, &MORPH_RANGE)?)),
+        None => read_keyword("view", view),
     }
 }
 

@@ -1,7 +1,7 @@
 //! `motion.calibrate` for JavaScript: logs in, α's out.
 
 use super::calibration::{SYSTEMATIC, calibration_to_js, columns_to_js};
-use super::fields::{Fields, in_range, read_boolean, read_number, read_word, type_error};
+use super::fields::{Fields, in_range, read_boolean, read_keyword, read_number, type_error};
 use super::log::read_logs;
 use crate::calibrate::{Drive, ERROR_COUNT, LegLength, Model, Options, calibrate};
 use crate::models::OdometryRule;
@@ -63,7 +63,7 @@ pub fn calibrated(
     let options = Options {
         model: read_model(&fields)?,
         legs: fields.optional("legs", read_leg_length)?.unwrap_or(LegLength::AMCL),
-        outliers: fields.optional("outliers", read_word)?.unwrap_or_default(),
+        outliers: fields.optional("outliers", read_keyword)?.unwrap_or_default(),
         correct: fields.optional("correct", read_corrections)?.unwrap_or_default(),
         position_std: std_of("positionStd")?,
         yaw_std: std_of("yawStd")?,
@@ -76,8 +76,8 @@ pub fn calibrated(
 }
 
 fn read_model(fields: &Fields) -> Result<Model, JsValue> {
-    let model_name: Option<Asked> = fields.optional("model", read_word)?;
-    let rule: Option<OdometryRule> = fields.optional("rule", read_word)?;
+    let model_name: Option<Asked> = fields.optional("model", read_keyword)?;
+    let rule: Option<OdometryRule> = fields.optional("rule", read_keyword)?;
     let is_omni = rule == Some(OdometryRule::Omni);
     let rule_fits_model = match model_name {
         None => true,

@@ -114,7 +114,7 @@ pub const SYSTEMATIC: [(&str, &[SystematicError]); 5] = [
 pub fn calibration_to_js(calibration: &Calibration, legs: Option<JsValue>) -> Result<JsValue, JsValue> {
     let Calibration { not_identifiable, reference_noise, persistence, diagnostics, recommended, .. } =
         calibration;
-    let reasons: Array = not_identifiable.iter().map(|reason| reason_word(*reason)).collect();
+    let reasons: Array = not_identifiable.iter().map(|reason| reason_keyword(*reason)).collect();
     let [position, yaw] = reference_noise.map(|estimate| estimate_to_js(&estimate));
     let checks: Array = diagnostics.checks.iter().map(check_to_js).collect::<Result<_, _>>()?;
     let entries = [
@@ -135,7 +135,7 @@ pub fn calibration_to_js(calibration: &Calibration, legs: Option<JsValue>) -> Re
         (
             "diagnostics",
             js_object(&[
-                ("verdict", verdict_word(diagnostics.verdict).into()),
+                ("verdict", verdict_keyword(diagnostics.verdict).into()),
                 ("checks", checks.into()),
                 ("windows", to_plain_js(&diagnostics.windows)?),
             ]),
@@ -161,7 +161,7 @@ fn estimate_to_js(Estimate { value, interval }: &Estimate) -> JsValue {
     js_object(&[("value", (*value).into()), ("interval", js_array(interval))])
 }
 
-fn reason_word(reason: Option<NotIdentifiable>) -> JsValue {
+fn reason_keyword(reason: Option<NotIdentifiable>) -> JsValue {
     reason.map_or(JsValue::NULL, |reason| {
         let word = match reason {
             NotIdentifiable::InsufficientRotation => "insufficient-rotation",
@@ -198,7 +198,7 @@ fn systematic_to_js(calibration: &Calibration) -> JsValue {
     js_object(&error_entries.collect::<Vec<_>>())
 }
 
-fn verdict_word(verdict: Verdict) -> &'static str {
+fn verdict_keyword(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Consistent => "consistent",
         Verdict::Questionable => "questionable",

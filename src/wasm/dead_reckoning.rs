@@ -6,7 +6,7 @@ use super::pictures::nearest_index;
 use super::values::{flat_float_array, js_object, number_or_null, to_plain_js};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES, MAX_STEPS, MeasuredMoments, Settings};
-use crate::sim::settings::Words;
+use crate::sim::settings::Keywords;
 use js_sys::{Array, Float64Array};
 use nalgebra::Vector3;
 use wasm_bindgen::prelude::*;
@@ -43,8 +43,8 @@ impl JsDeadReckoning {
         let milestones = quarters_of(steps).filter(|after| *after != step).map(milestone_after);
         Ok(js_object(&[
             ("config", self.config()),
-            ("shown", self.shown().into()),
-            ("block", self.block().into()),
+            ("shown", self.shown_count().into()),
+            ("block", self.block_size().into()),
             ("stats", self.stats()?),
             ("ratios", self.ratios()),
             ("relativeErrors", self.relative_errors().into()),
@@ -81,26 +81,32 @@ impl JsDeadReckoning {
     pub fn predicted(&self) -> JsValue {
         let none = Vector3::repeat(f64::NAN);
         js_by_recursion(|order| {
-            flat_vectors(self.0.predicted(order).iter().map(|cov| cov.map_or(none, |cov| cov.diagonal())))
+            flat_vectors(
+                self.0.predicted_covariances(order).iter().map(|cov| cov.map_or(none, |cov| cov.diagonal())),
+            )
         })
     }
 
     /// Measured variances, in the form of `predicted`.
     #[wasm_bindgen(getter)]
     pub fn measured(&self) -> Float64Array {
-        flat_vectors(self.0.measured().iter().map(|measured: &MeasuredMoments| measured.cov.diagonal()))
+        flat_vectors(
+            self.0.measured_moments().iter().map(|measured: &MeasuredMoments| measured.cov.diagonal()),
+        )
     }
 
     /// Standard errors of the measured variances, relative to them.
     #[wasm_bindgen(getter, js_name = relativeErrors)]
     pub fn relative_errors(&self) -> Float64Array {
-        flat_vectors(self.0.measured().iter().map(|measured: &MeasuredMoments| measured.relative_error))
+        flat_vectors(
+            self.0.measured_moments().iter().map(|measured: &MeasuredMoments| measured.relative_error),
+        )
     }
 
     /// Path driven without noise, as x, y pairs (m) from the start.
     #[wasm_bindgen(getter)]
     pub fn commanded(&self) -> Float64Array {
-        flat_float_array(&self.0.commanded())
+        flat_float_array(&self.0.commanded_path())
     }
 
     /// Variances of a straight drive as functions of its duration, at this speed and noise. Each drive is one command.
@@ -112,7 +118,9 @@ impl JsDeadReckoning {
     /// x, y (m), θ (rad) of the commanded pose after each step.
     #[wasm_bindgen(getter)]
     pub fn nominal(&self) -> Float64Array {
-        flat_float_array(&self.0.nominal().iter().map(|pose| <[f64; 3]>::from(*pose)).collect::<Vec<_>>())
+        flat_float_array(
+            &self.0.nominal_poses().iter().map(|pose| <[f64; 3]>::from(*pose)).collect::<Vec<_>>(),
+        )
     }
 
     /// x, y (m), θ (rad) of the first robots after the selected step, 600 at most; a copy.
@@ -136,7 +144,7 @@ impl JsDeadReckoning {
     /// x, y (m), θ (rad) of one robot after each step, counted from 0.
     pub fn rollout(&self, index: f64) -> Result<Float64Array, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        let poses = self.0.rollout(index).ok_or_else(|| not_shown(index, self.0.shown()))?;
+        let poses = self.0.rollout(index).ok_or_else(|| not_shown(index, self.0.shown_count()))?;
         Ok(flat_float_array(&poses))
     }
 
@@ -165,6 +173,7 @@ fn flat_vectors(vectors: impl Iterator<Item = Vector3<f64>>) -> Float64Array {
 }
 
 fn js_by_recursion(of: impl Fn(Compounding) -> Float64Array) -> JsValue {
-    let entries: Vec<_> = Compounding::WORDS.iter().map(|(word, order)| (*word, of(*order).into())).collect();
+    let entries: Vec<_> =
+        Compounding::KEYWORDS.iter().map(|(word, order)| (*word, of(*order).into())).collect();
     js_object(&entries)
 }

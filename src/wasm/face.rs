@@ -61,13 +61,13 @@ macro_rules! cloud {
             pub fn empty(
                 #[wasm_bindgen(unchecked_optional_param_type = $options)] options: &JsValue,
             ) -> Result<Self, JsValue> {
-                Ok(Self($machine::showing($crate::wasm::fields::read_opening(options)?, 0)?))
+                Ok(Self($machine::with_shown_count($crate::wasm::fields::read_opening(options)?, 0)?))
             }
 
             /// Number of samples shown, 0 to `config.samples`.
-            #[wasm_bindgen(getter)]
-            pub fn shown(&self) -> usize {
-                self.0.shown()
+            #[wasm_bindgen(getter, js_name = shown)]
+            pub fn shown_count(&self) -> usize {
+                self.0.shown_count()
             }
 
             /// Changes the given settings and returns all settings. Shows the first block of `goal` samples (Infinity: all samples)
@@ -92,9 +92,9 @@ macro_rules! cloud {
             }
 
             /// Number of samples that `addSamples` adds within a few milliseconds.
-            #[wasm_bindgen(getter)]
-            pub fn block(&self) -> usize {
-                self.0.block()
+            #[wasm_bindgen(getter, js_name = block)]
+            pub fn block_size(&self) -> usize {
+                self.0.block_size()
             }
         }
     };

@@ -2,7 +2,7 @@
 //! value and what is allowed.
 
 use crate::sim::settings::{
-    Group, Rules, Setting, SettingsError, Word, Words, check_group, check_real, check_whole,
+    Group, Keyword, Keywords, Rules, Setting, SettingsError, check_group, check_integer, check_real,
 };
 use js_sys::{Array, Number, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
@@ -88,7 +88,7 @@ pub fn in_range(field: &str, number: f64, allowed: &RangeInclusive<f64>) -> Resu
 
 /// Checks that a number is an integer in the given range.
 pub fn read_integer(field: &str, number: f64, allowed: RangeInclusive<u64>) -> Result<u64, JsValue> {
-    Ok(check_whole(field, number, &allowed)?)
+    Ok(check_integer(field, number, &allowed)?)
 }
 
 /// Returns the error for the index of a sample that is not shown.
@@ -98,14 +98,14 @@ pub fn not_shown(index: usize, shown: usize) -> JsValue {
 }
 
 /// Reads one of the words of an enum.
-pub fn read_word<T: Words>(field: &str, value: &JsValue) -> Result<T, JsValue> {
-    let mut result = T::WORDS[0].1;
-    set_word(field, value, &mut result)?;
+pub fn read_keyword<T: Keywords>(field: &str, value: &JsValue) -> Result<T, JsValue> {
+    let mut result = T::KEYWORDS[0].1;
+    set_keyword(field, value, &mut result)?;
     Ok(result)
 }
 
-fn set_word(field: &str, value: &JsValue, word: &mut dyn Word) -> Result<(), JsValue> {
-    let allowed = |word: &dyn Word| word.all().into_iter().map(quote).collect::<Vec<_>>().join(" or ");
+fn set_keyword(field: &str, value: &JsValue, word: &mut dyn Keyword) -> Result<(), JsValue> {
+    let allowed = |word: &dyn Keyword| word.all().into_iter().map(quote).collect::<Vec<_>>().join(" or ");
     let text = value.as_string().ok_or_else(|| type_error(field, value, &allowed(word)))?;
     if word.set(&text) {
         return Ok(());
@@ -179,13 +179,15 @@ pub fn read_settings<S: Rules>(current: &S, options: &JsValue) -> Result<S, JsVa
 fn read_setting(field: &str, value: &JsValue, setting: Setting) -> Result<(), JsValue> {
     match setting {
         Setting::Number(slot, _) => *slot = read_number(field, value)?,
-        Setting::Whole(slot, allowed) => slot.set(read_integer(field, read_number(field, value)?, allowed)?),
-        Setting::WholeOrNone(slot, _) if value.is_null() => *slot = None,
-        Setting::WholeOrNone(slot, allowed) => {
+        Setting::Integer(slot, allowed) => {
+            slot.set(read_integer(field, read_number(field, value)?, allowed)?)
+        }
+        Setting::OptionalInteger(slot, _) if value.is_null() => *slot = None,
+        Setting::OptionalInteger(slot, allowed) => {
             *slot = Some(read_integer(field, read_number(field, value)?, allowed)? as usize);
         }
-        Setting::Truth(slot) => *slot = read_boolean(field, value)?,
-        Setting::Word(slot) => set_word(field, value, slot)?,
+        Setting::Boolean(slot) => *slot = read_boolean(field, value)?,
+        Setting::Keyword(slot) => set_keyword(field, value, slot)?,
         Setting::Numbers(slots, _) => fill_array(field, value, slots)?,
         // Checked here: once a level is split into its numbers, an error could not name it.
         Setting::Level(slot, allowed) => slot.set(in_range(field, read_number(field, value)?, &allowed)?),
@@ -205,7 +207,7 @@ pub fn array_length(field: &str, value: &JsValue, expected: &str) -> Result<usiz
     }
     let length = Reflect::get(value, &"length".into())?;
     let length = length.as_f64().ok_or_else(|| type_error(field, value, expected))?;
-    Ok(check_whole(&format!("{field}.length"), length, &(0..=u64::from(u32::MAX)))? as usize)
+    Ok(check_integer(&format!("{field}.length"), length, &(0..=u64::from(u32::MAX)))? as usize)
 }
 
 /// Returns item `index` of an array.

@@ -2,7 +2,7 @@
 
 use super::fields::{
     Fields, array_item, array_length, group_in_range, in_range, read_array, read_boolean, read_integer,
-    read_number, read_word,
+    read_keyword, read_number,
 };
 use super::values::{flat_float_array, group_to_js, js_array, js_object, number_or_null, to_plain_js};
 use crate::geom::arc::invert_arc;
@@ -233,7 +233,7 @@ pub fn propagate(
     let mut sigma = fields.optional("sigma", read_covariance)?.unwrap_or_default();
     let command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
-    let order = fields.optional("compounding", read_word)?.unwrap_or(Compounding::Chapter);
+    let order = fields.optional("compounding", read_keyword)?.unwrap_or(Compounding::Chapter);
     let steps = fields
         .optional("steps", |field, value| read_integer(field, read_number(field, value)?, 1..=MAX_STEPS))?
         .unwrap_or(1);
@@ -342,7 +342,7 @@ fn read_alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {
 }
 
 fn read_noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
-    Ok(fields.optional("noise", read_word)?.unwrap_or(NoiseKind::Normal))
+    Ok(fields.optional("noise", read_keyword)?.unwrap_or(NoiseKind::Normal))
 }
 
 fn read_pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {

@@ -2,7 +2,7 @@
 
 use super::fields::{
     Fields, array_item, array_length, in_range, number_text, read_array, read_boolean, read_integer,
-    read_number, read_word, type_error,
+    read_keyword, read_number, type_error,
 };
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
@@ -10,12 +10,12 @@ use crate::map::{
     FloorPlan, FloorPlanError, Image, ImageError, Interpretation, MAX_BYTES, MAX_PIXELS, Mode, OccupancyGrid,
     RESOLUTION_RANGE, read_grid,
 };
-use crate::sim::settings::{QUANTITY_RANGE, Words};
+use crate::sim::settings::{Keywords, QUANTITY_RANGE};
 use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
-impl Words for Mode {
-    const WORDS: &'static [(&'static str, Self)] =
+impl Keywords for Mode {
+    const KEYWORDS: &'static [(&'static str, Self)] =
         &[("trinary", Self::Trinary), ("scale", Self::Scale), ("raw", Self::Raw)];
 }
 
@@ -82,7 +82,7 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
         let message = format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
         return Err(RangeError::new(&message).into());
     }
-    let mode = fields.optional("mode", read_word)?.unwrap_or(defaults.mode);
+    let mode = fields.optional("mode", read_keyword)?.unwrap_or(defaults.mode);
     let free_thresh = free_thresh.unwrap_or(defaults.free_thresh.min(occupied_thresh));
     let negate = negate.unwrap_or(defaults.negate);
     let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };

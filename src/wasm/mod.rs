@@ -31,7 +31,7 @@ mod squeeze;
 pub(crate) mod values;
 
 use crate::models::VelocityCmd;
-use crate::sim::banana::command_seen_at;
+use crate::sim::banana::command_drawn_at;
 use crate::sim::settings::QUANTITY_RANGE;
 use crate::sim::views::MORPH_RANGE;
 use fields::{group_in_range, in_range};
@@ -58,6 +58,6 @@ pub fn speeds_reaching(
     let mut current_command = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
     group_in_range("command", command, &mut current_command)?;
     let morph = in_range("morph", morph.unwrap_or(0.0), &MORPH_RANGE)?;
-    let VelocityCmd { v, omega, .. } = command_seen_at([x, y], &current_command, morph);
+    let VelocityCmd { v, omega, .. } = command_drawn_at([x, y], &current_command, morph);
     Ok(js_object(&[("v", v.into()), ("omega", omega.into())]))
 }

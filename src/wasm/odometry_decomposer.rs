@@ -35,15 +35,15 @@ impl JsOdometryDecomposer {
     pub fn read(&self) -> Result<JsValue, JsValue> {
         Ok(js_object(&[
             ("config", self.config()),
-            ("shown", self.shown().into()),
-            ("block", self.block().into()),
+            ("shown", self.shown_count().into()),
+            ("block", self.block_size().into()),
             ("stats", self.stats()?),
             ("rules", self.rules()?),
             ("poses", self.poses().into()),
             ("linkage", self.linkage().into()),
             ("robot", self.robot()),
             ("drifted", self.drifted()?),
-            ("ghosts", self.ghosts(MAX_GHOSTS)?.into()),
+            ("ghosts", self.sample_linkages(MAX_SHOWN_LINKAGES)?.into()),
         ]))
     }
 
@@ -61,23 +61,24 @@ impl JsOdometryDecomposer {
     }
 
     /// Linkages of the first `count` outcomes shown, one after the other in the form of `linkage`.
-    pub fn ghosts(&self, count: f64) -> Result<Float64Array, JsValue> {
-        let ghosts = self.0.ghosts(read_integer("count", count, 0..=MAX_SAMPLES)? as usize);
+    #[wasm_bindgen(js_name = ghosts)]
+    pub fn sample_linkages(&self, count: f64) -> Result<Float64Array, JsValue> {
+        let linkages = self.0.sample_linkages(read_integer("count", count, 0..=MAX_SAMPLES)? as usize);
         Ok(flat_float_array(
-            &ghosts.as_flattened().iter().map(|pose| (*pose).into()).collect::<Vec<[f64; 3]>>(),
+            &linkages.as_flattened().iter().map(|pose| (*pose).into()).collect::<Vec<[f64; 3]>>(),
         ))
     }
 
     /// Pose of the robot at the selected phase.
     #[wasm_bindgen(getter, unchecked_return_type = "Start")]
     pub fn robot(&self) -> JsValue {
-        group_to_js(&mut <[f64; 3]>::from(self.0.robot()))
+        group_to_js(&mut <[f64; 3]>::from(self.0.robot_pose()))
     }
 
     /// Legs and noises of the reading by each rule.
     #[wasm_bindgen(getter, unchecked_return_type = "RuleNoise[]")]
     pub fn rules(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.rules())
+        to_plain_js(&self.0.rule_noises())
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "DecomposerStats")]
@@ -92,12 +93,14 @@ impl JsOdometryDecomposer {
         let longest = in_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
         let count = read_integer("count", count, 1..=MAX_CURVE_POINTS)? as usize;
         let numbers = |CurvePoint { trans, cross_track, lever, along }| [trans, cross_track, lever, along];
-        Ok(flat_float_array(&self.0.curve(longest, count).into_iter().map(numbers).collect::<Vec<_>>()))
+        Ok(flat_float_array(
+            &self.0.deviation_curve(longest, count).into_iter().map(numbers).collect::<Vec<_>>(),
+        ))
     }
 
     #[wasm_bindgen(getter, unchecked_return_type = "Drifted")]
     pub fn drifted(&self) -> Result<JsValue, JsValue> {
-        let drifted = self.0.drifted();
+        let drifted = self.0.drifted_odometry();
         let poses = [drifted.frame, drifted.from, drifted.to].map(<[f64; 3]>::from);
         Ok(js_object(&[("poses", flat_float_array(&poses).into()), ("legs", to_plain_js(&drifted.legs)?)]))
     }
@@ -109,4 +112,4 @@ impl JsOdometryDecomposer {
 }
 
 /// Maximum number of outcomes whose rotation, translation and rotation are drawn. More would hide the legs of the reading.
-const MAX_GHOSTS: f64 = 12.0;
+const MAX_SHOWN_LINKAGES: f64 = 12.0;

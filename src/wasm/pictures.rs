@@ -2,7 +2,7 @@
 
 use super::fields::{in_range, read_integer};
 use crate::sim::picture::{RAMP_STEPS, Ramp};
-use crate::sim::views::{EXTENT_RANGE, Grid, MAX_CELLS, MAX_SIDE};
+use crate::sim::views::{EXTENT_RANGE, Grid, MAX_CELLS, MAX_CELLS_PER_SIDE};
 use js_sys::{RangeError, Uint8ClampedArray, WebAssembly};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
@@ -42,8 +42,8 @@ pub fn read_bounds([x_min, y_min, x_max, y_max]: [f64; 4]) -> Result<[[f64; 2]; 
 
 pub fn read_grid(bounds: [f64; 4], columns: f64, rows: f64) -> Result<Grid, JsValue> {
     let [min, max] = read_bounds(bounds)?;
-    let columns = read_integer("columns", columns, 1..=MAX_SIDE)?;
-    let rows = read_integer("rows", rows, 1..=MAX_SIDE.min(MAX_CELLS / columns))?;
+    let columns = read_integer("columns", columns, 1..=MAX_CELLS_PER_SIDE)?;
+    let rows = read_integer("rows", rows, 1..=MAX_CELLS_PER_SIDE.min(MAX_CELLS / columns))?;
     Ok(Grid { min, max, columns: columns as usize, rows: rows as usize })
 }
 

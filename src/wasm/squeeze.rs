@@ -1,13 +1,13 @@
 //! `MapSqueeze` for JavaScript.
 
 use super::face::cloud;
-use super::fields::{quote, read_integer, read_word};
+use super::fields::{quote, read_integer, read_keyword};
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
 use super::values::{flat_float_array, float_array, group_to_js, js_object, number_or_null, to_plain_js};
 use crate::geom::segment::Segment;
 use crate::map::{Cell, FloorPlan, MAX_DRAWS, Sampler};
-use crate::sim::settings::Word;
+use crate::sim::settings::Keyword;
 use crate::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL_PARTS, MapSqueeze, max_draws};
 use js_sys::{Array, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
@@ -54,13 +54,13 @@ impl JsMapSqueeze {
         let paths = through_wall.map(|(index, _)| self.path(index as f64));
         Ok(js_object(&[
             ("config", self.config()),
-            ("shown", self.shown().into()),
-            ("block", self.block().into()),
+            ("shown", self.shown_count().into()),
+            ("block", self.block_size().into()),
             ("stats", self.stats()?),
             ("verdicts", Uint8Array::from(&self.verdicts()[..]).into()),
             ("poses", self.poses().into()),
             ("commanded", self.commanded().into()),
-            ("startFree", self.start_free().into()),
+            ("startFree", self.is_start_free().into()),
             ("paths", paths.collect::<Result<Array, JsValue>>()?.into()),
         ]))
     }
@@ -132,14 +132,14 @@ impl JsMapSqueeze {
 
     /// True if the robot collides with nothing at its start pose.
     #[wasm_bindgen(getter, js_name = startFree)]
-    pub fn start_free(&self) -> bool {
-        self.0.start_free()
+    pub fn is_start_free(&self) -> bool {
+        self.0.is_start_free()
     }
 
     /// Noise-free path of the command, as x, y pairs.
     #[wasm_bindgen(getter)]
     pub fn commanded(&self) -> Float64Array {
-        flat_float_array(&self.0.commanded().points())
+        flat_float_array(&self.0.commanded_arc().points())
     }
 
     /// x, y (m), θ (rad) of each attempt shown; a copy.
@@ -153,7 +153,7 @@ impl JsMapSqueeze {
     /// accepted.
     #[wasm_bindgen(getter)]
     pub fn verdicts(&self) -> Vec<u8> {
-        self.0.attempts().iter().map(Attempt::verdict).collect()
+        self.0.attempts().iter().map(Attempt::verdict_bits).collect()
     }
 
     /// Path driven in an attempt, as x, y pairs; empty if the attempt is not shown.
@@ -176,9 +176,9 @@ impl JsMapSqueeze {
         count: f64,
     ) -> Result<JsValue, JsValue> {
         let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
-        let sampler = read_word::<Sampler>("sampler", sampler)?.with_parts(steps as u32);
+        let sampler = read_keyword::<Sampler>("sampler", sampler)?.with_parts(steps as u32);
         let count = read_integer("count", count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
-        let cost = self.0.trial(sampler, count).map_err(|wedged| {
+        let cost = self.0.sampling_trial(sampler, count).map_err(|wedged| {
             let max_total_draws = max_draws(sampler.parts() as usize * count);
             RangeError::new(&format!(
                 "sampler is {}, by which {wedged}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {max_total_draws} \

@@ -1,6 +1,6 @@
 //! Conversion of Rust values to JavaScript values.
 
-use crate::sim::settings::{DeclaredSettings, Group, Setting, Word, Words};
+use crate::sim::settings::{DeclaredSettings, Group, Keyword, Keywords, Setting};
 use js_sys::{Array, Float64Array, Object, Uint8Array};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Serialize, Serializer};
@@ -46,7 +46,7 @@ to_js! {
     Matrix3<f64>: |matrix| matrix.as_slice().chunks(3).map(js_array).collect::<Array>();
 }
 
-impl<T: Words> ToJs for T {
+impl<T: Keywords> ToJs for T {
     fn to_js(&self) -> JsValue {
         self.get().into()
     }
@@ -67,10 +67,10 @@ pub fn settings_to_js<S: DeclaredSettings>(settings: &S) -> JsValue {
 fn setting_to_js(setting: Setting) -> JsValue {
     match setting {
         Setting::Number(number, _) => (*number).into(),
-        Setting::Whole(whole, _) => (whole.get() as f64).into(),
-        Setting::WholeOrNone(whole, _) => number_or_null(whole.map(|whole| whole as f64)),
-        Setting::Truth(truth) => (*truth).into(),
-        Setting::Word(word) => word.get().into(),
+        Setting::Integer(integer, _) => (integer.get() as f64).into(),
+        Setting::OptionalInteger(integer, _) => number_or_null(integer.map(|integer| integer as f64)),
+        Setting::Boolean(value) => (*value).into(),
+        Setting::Keyword(keyword) => keyword.get().into(),
         Setting::Numbers(numbers, _) => js_array(numbers),
         Setting::Level(level, _) => number_or_null(level.get()),
         Setting::Group(group) => group_to_js(group),

@@ -15,7 +15,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
 
 /// True α's of the simulation, with the rule of Table 5.6.
-pub const ALPHAS: [f64; 4] = [0.05, 0.008, 0.004, 0.003];
+pub const TRUE_ALPHAS: [f64; 4] = [0.05, 0.008, 0.004, 0.003];
 
 /// Length of the legs to which these α's apply, m: the default of `update_min_d` in Nav2's AMCL.
 const LEG_DISTANCE: f64 = 0.25;
@@ -57,14 +57,15 @@ fn target_position(phase: f64) -> [f64; 2] {
 }
 
 /// Controller of the simulated robot.
-struct Robot {
+struct Controller {
+    /// Phase of the target, rad: see [`target_position`].
     phase: f64,
     /// Remaining angle of the turn on the spot, rad.
     remaining_turn: f64,
     next_turn_time: f64,
 }
 
-impl Robot {
+impl Controller {
     /// Returns the speeds (m/s, rad/s) at a time and estimated pose.
     fn next_speeds(&mut self, time: f64, pose: &SE2, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
         if time >= self.next_turn_time {
@@ -89,71 +90,78 @@ impl Robot {
     }
 }
 
-/// Rows of the current leg: times, and the noise-free motion since its start.
+/// Leg that is being simulated.
 struct CurrentLeg {
+    /// Pose by the odometry at the start of the leg.
     odometry: SE2,
+    /// True pose at the start of the leg.
     truth: SE2,
+    /// Times, and noise-free motions since the start of the leg.
     rows: Vec<(f64, SE2)>,
 }
 
 /// Returns the simulated log of a seed.
-pub fn example(seed: u64) -> Log {
+pub fn simulated_log(seed: u64) -> Log {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let [x, y] = target_position(0.0);
     let start = SE2::new(x, y, 1.6);
-    let mut robot = Robot { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
+    let mut controller = Controller { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
     let mut odometry = vec![(0.0, SE2::identity())];
     let mut truth = vec![(0.0, start)];
-    let mut leg = CurrentLeg { odometry: SE2::identity(), truth: start, rows: vec![(0.0, SE2::identity())] };
+    let mut current_leg =
+        CurrentLeg { odometry: SE2::identity(), truth: start, rows: vec![(0.0, SE2::identity())] };
     for row in 1..ROW_COUNT {
         let time = ROW_INTERVAL * row as f64;
-        let (_, motion) = leg.rows[leg.rows.len() - 1];
+        let (_, motion) = current_leg.rows[current_leg.rows.len() - 1];
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
-        let [v, omega] = robot.next_speeds(time, &(start * odometry[row - 1].1), &mut rng);
+        let [v, omega] = controller.next_speeds(time, &(start * odometry[row - 1].1), &mut rng);
         let next_motion = motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
         let step = Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
         let pose = odometry[row - 1].1 * SE2::exp(&step);
         odometry.push((time, pose));
-        leg.rows.push((time, next_motion));
+        current_leg.rows.push((time, next_motion));
         let has_moved = |from: f64, to: f64| (to - from).abs() > LEG_DISTANCE;
-        let has_turned = wrap_angle(pose.theta() - leg.odometry.theta()).abs() > LEG_ANGLE;
-        if has_moved(leg.odometry.x(), pose.x()) || has_moved(leg.odometry.y(), pose.y()) || has_turned {
-            let end = finish_leg(&leg, &mut truth, &mut rng);
-            leg = CurrentLeg { odometry: pose, truth: end, rows: vec![(time, SE2::identity())] };
+        let has_turned = wrap_angle(pose.theta() - current_leg.odometry.theta()).abs() > LEG_ANGLE;
+        if has_moved(current_leg.odometry.x(), pose.x())
+            || has_moved(current_leg.odometry.y(), pose.y())
+            || has_turned
+        {
+            let end = finish_leg(&current_leg, &mut truth, &mut rng);
+            current_leg = CurrentLeg { odometry: pose, truth: end, rows: vec![(time, SE2::identity())] };
         }
     }
-    // The rows after the last complete leg get no noise.
-    truth.extend(leg.rows.iter().skip(1).map(|(time, driven)| (*time, leg.truth * *driven)));
+    // Rows after the last complete leg have no noise.
+    truth.extend(current_leg.rows.iter().skip(1).map(|(time, motion)| (*time, current_leg.truth * *motion)));
     let trajectory = |samples| {
-        // The times increase, so that this is no error.
+        // The times increase, so that the trajectory is valid.
         let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
         trajectory
     };
-    Log { odometry: trajectory(odometry), reference: trajectory(measured_by_reference(&truth, &mut rng)) }
+    Log { odometry: trajectory(odometry), reference: trajectory(reference_samples(&truth, &mut rng)) }
 }
 
 /// Appends the true poses of a finished leg, and returns its true end. Each row adds an independent part of the noise. If the
-/// noise were proportional to time, legs with other boundaries would have less of it.
+/// noise of a leg were spread evenly over its rows, legs with other boundaries would have too little noise.
 fn finish_leg(leg: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
-    let [a1, a2, a3, a4] = ALPHAS;
+    let [a1, a2, a3, a4] = TRUE_ALPHAS;
     let rows = &leg.rows[1..];
-    let (_, driven) = leg.rows[rows.len()];
-    let reading = OdomDelta::from_poses(&SE2::identity(), &driven);
+    let (_, leg_motion) = leg.rows[rows.len()];
+    let reading = OdomDelta::from_poses(&SE2::identity(), &leg_motion);
     let variances = OdometryRule::Table.variances(&reading, &[a1, a2, a3, a4, 0.0]);
-    let variance_share = Variance(1.0 / rows.len() as f64);
+    let variance_per_row = Variance(1.0 / rows.len() as f64);
     let mut unit_noise = [0.0; 3];
-    let mut end = driven;
+    let mut end = leg_motion;
     for (time, pose) in rows {
-        unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_share, rng));
+        unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_per_row, rng));
         [.., end] = variances.executed_motion(&reading, unit_noise).poses(&SE2::identity());
-        truth.push((*time, leg.truth * pose.boxplus(end.boxminus(&driven))));
+        truth.push((*time, leg.truth * pose.boxplus(end.boxminus(&leg_motion))));
     }
     leg.truth * end
 }
 
 /// Returns the true trajectory as the reference measures it.
-fn measured_by_reference(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
-    let mut jump = SE2::identity();
+fn reference_samples(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
+    let mut jump_offset = SE2::identity();
     let mut remaining_rows = 0;
     truth
         .iter()
@@ -162,12 +170,13 @@ fn measured_by_reference(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> 
                 remaining_rows -= 1;
             } else if rng.random_bool(JUMP_PROBABILITY) {
                 let bearing = TAU * rng.random::<f64>();
-                jump = SE2::new(JUMP_SIZE * libm::cos(bearing), JUMP_SIZE * libm::sin(bearing), 0.0);
+                jump_offset = SE2::new(JUMP_SIZE * libm::cos(bearing), JUMP_SIZE * libm::sin(bearing), 0.0);
                 remaining_rows = JUMP_ROWS;
             }
-            let offset = if remaining_rows > 0 { jump } else { SE2::identity() };
-            let sensor = *pose * SE2::new(LEVER_ARM[0], LEVER_ARM[1], MOUNT_YAW);
-            let measured_pose = SE2::new(sensor.x() + offset.x(), sensor.y() + offset.y(), sensor.theta());
+            let offset = if remaining_rows > 0 { jump_offset } else { SE2::identity() };
+            let sensor_pose = *pose * SE2::new(LEVER_ARM[0], LEVER_ARM[1], MOUNT_YAW);
+            let measured_pose =
+                SE2::new(sensor_pose.x() + offset.x(), sensor_pose.y() + offset.y(), sensor_pose.theta());
             (time + CLOCK_OFFSET, measured_pose)
         })
         .collect()

@@ -4,7 +4,7 @@ pub mod example;
 mod panels;
 mod settings;
 
-pub use panels::{BINS, Panel, Regressor};
+pub use panels::{BIN_COUNT, Panel, Regressor};
 pub use settings::*;
 
 use super::cloud::draws::Draws;
@@ -17,8 +17,8 @@ use crate::stats::{CartesianMoments, Ellipse};
 use panels::panels;
 use std::cell::OnceCell;
 
-/// Number of predicted end poses of a leg.
-const OUTCOMES: usize = 400;
+/// Number of end poses that are predicted for a leg.
+const OUTCOME_COUNT: usize = 400;
 
 /// Number of chords of the outline of a leg's cloud.
 const OUTLINE_SEGMENTS: usize = 64;
@@ -32,7 +32,7 @@ pub struct Log {
     pub reference: Trajectory,
 }
 
-/// Reason for which a fit cannot be restored.
+/// Reason why a fit cannot be restored.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RestoreError {
     /// A setting is out of range.
@@ -79,8 +79,8 @@ pub struct AlphaCalibrator {
     settings: Settings,
     source: Source,
     fit: Fit,
-    /// Number of the fit. It increases with each change of the log or the settings that needs a new fit.
-    fits: u32,
+    /// Revision of the fit. It increases with each change of the log or the settings that needs a new fit.
+    fit_revision: u32,
 }
 
 /// Source of a log.
@@ -88,9 +88,10 @@ pub struct AlphaCalibrator {
 enum Source {
     /// Simulated with the seed of the settings.
     Simulated,
-    Own(Vec<Log>),
+    /// Logs that the user has loaded, one for each drive.
+    Loaded(Vec<Log>),
     /// Log of another machine, from which the fit is restored.
-    Elsewhere,
+    Restored,
 }
 
 /// Calibration, and its settings.
@@ -116,7 +117,7 @@ impl AlphaCalibrator {
     /// [`RestoreError`] for settings out of range, or for bytes that are not a fit.
     pub fn restored(settings: Settings, saved: &[u8]) -> Result<Self, RestoreError> {
         let calibration: Calibration = postcard::from_bytes(saved).map_err(|_| RestoreError::Bytes)?;
-        Self::from_source(settings, Source::Elsewhere, OnceCell::from(calibration))
+        Self::from_source(settings, Source::Restored, OnceCell::from(calibration))
             .map_err(RestoreError::Settings)
     }
 
@@ -126,11 +127,11 @@ impl AlphaCalibrator {
         calibration: OnceCell<Calibration>,
     ) -> Result<Self, SettingsError> {
         settings.check()?;
-        Ok(Self { settings, source, fit: Fit { settings, calibration }, fits: 1 })
+        Ok(Self { settings, source, fit: Fit { settings, calibration }, fit_revision: 1 })
     }
 
     /// Returns the fit as bytes for [`AlphaCalibrator::restored`], on the same machine.
-    pub fn saved(&self) -> Vec<u8> {
+    pub fn save(&self) -> Vec<u8> {
         postcard::to_allocvec(self.calibration()).unwrap_or_default()
     }
 
@@ -157,27 +158,27 @@ impl AlphaCalibrator {
         self.settings = settings;
         self.fit.settings.copy_prediction_settings(&settings);
         if !is_same_log || self.is_pending() {
-            self.invalidate();
+            self.invalidate_fit();
         }
         Ok(())
     }
 
     /// Replaces the log, which has an entry for each drive.
     pub fn set_log(&mut self, logs: Vec<Log>) {
-        self.source = Source::Own(logs);
-        self.invalidate();
+        self.source = Source::Loaded(logs);
+        self.invalidate_fit();
     }
 
-    fn invalidate(&mut self) {
-        if !matches!(self.source, Source::Elsewhere) {
+    fn invalidate_fit(&mut self) {
+        if !matches!(self.source, Source::Restored) {
             self.fit = Fit { settings: self.settings, calibration: OnceCell::new() };
-            self.fits += 1;
+            self.fit_revision += 1;
         }
     }
 
-    /// Returns the number of the fit, which changes with each fit.
-    pub fn fits(&self) -> u32 {
-        self.fits
+    /// Returns the revision of the fit, which changes with each new fit.
+    pub fn fit_revision(&self) -> u32 {
+        self.fit_revision
     }
 
     /// Returns the fit. For a log with too few legs it has no legs.
@@ -191,9 +192,9 @@ impl AlphaCalibrator {
                 calibrate(&drives, &options)
             };
             match &self.source {
-                Source::Simulated => fit_logs(&[example::example(seed)]).ok(),
-                Source::Own(logs) => fit_logs(logs).ok(),
-                Source::Elsewhere => None,
+                Source::Simulated => fit_logs(&[example::simulated_log(seed)]).ok(),
+                Source::Loaded(logs) => fit_logs(logs).ok(),
+                Source::Restored => None,
             }
             .unwrap_or_else(|| Calibration::empty(options.model))
         })
@@ -202,7 +203,7 @@ impl AlphaCalibrator {
     /// Returns the true values, if the log is simulated. The α's belong to the leg length and rule of the simulation.
     pub fn truth(&self) -> Option<Truth> {
         matches!(self.source, Source::Simulated).then_some(Truth {
-            alphas: example::ALPHAS,
+            alphas: example::TRUE_ALPHAS,
             clock_offset: example::CLOCK_OFFSET,
             mount_yaw: example::MOUNT_YAW,
             lever_arm: example::LEVER_ARM,
@@ -226,34 +227,36 @@ impl AlphaCalibrator {
         let leg = self.legs().get(index)?;
         let reading = self.calibration().observations[index].reading;
         let mut draws = Draws::new(self.fit.settings.seed, self.fit.settings.noise);
-        draws.extend_to(OUTCOMES);
-        let outcomes: Vec<[f64; 3]> = (0..OUTCOMES)
-            .map(|outcome| self.outcome(&reading, draws.noise_of_sample(outcome)))
+        draws.extend_to(OUTCOME_COUNT);
+        let outcomes: Vec<[f64; 3]> = (0..OUTCOME_COUNT)
+            .map(|index| self.outcome_pose(&reading, draws.noise_of_sample(index)))
             .map(Into::into)
             .collect();
         let poses: Vec<SE2> = outcomes.iter().map(|pose| SE2::from(*pose)).collect();
         let ellipse = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
         let outline = if ellipse.has_area() { ellipse.boundary(OUTLINE_SEGMENTS) } else { vec![] };
-        let read = self.outcome(&reading, [0.0; 3]);
-        let ended = self.calibration().corrected.motion(leg);
-        Some(LegView { outcomes, outline, read: read.into(), ended: ended.into() })
+        let odometry_end = self.outcome_pose(&reading, [0.0; 3]);
+        let reference_end = self.calibration().corrected.motion(leg);
+        Some(LegView { outcomes, outline, read: odometry_end.into(), ended: reference_end.into() })
     }
 
-    /// Returns the end of a leg with this unit noise.
-    fn outcome(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
+    /// Returns the end pose that the model predicts for a reading, with this unit noise.
+    fn outcome_pose(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
         let (settings, calibration) = (&self.fit.settings, self.calibration());
         // An α that the log does not identify adds nothing.
-        let alpha =
+        let inflated_alpha =
             |k: usize| settings.inflation * calibration.alphas.get(k).copied().flatten().unwrap_or(0.0);
         let [first, second, third] = *reading;
         if settings.model == Model::Velocity {
-            let model =
-                VelocityModel { alphas: VelocityAlphas(std::array::from_fn(alpha)), noise: settings.noise };
+            let model = VelocityModel {
+                alphas: VelocityAlphas(std::array::from_fn(inflated_alpha)),
+                noise: settings.noise,
+            };
             let command = VelocityCmd { v: first, omega: second, dt: third };
             return model.apply_noise(&command, &SE2::identity(), unit_noise);
         }
         let legs = OdomDelta { rot1: first, trans: second, rot2: third };
-        let alphas: RuleAlphas = std::array::from_fn(alpha);
+        let alphas: RuleAlphas = std::array::from_fn(inflated_alpha);
         let [.., end] = settings
             .rule
             .variances(&legs, &alphas)
@@ -264,19 +267,23 @@ impl AlphaCalibrator {
 
     /// Returns the leg whose path is nearest to a point (m), within `radius`.
     pub fn nearest(&self, [x, y]: [f64; 2], radius: f64) -> Option<usize> {
-        let corrected = &self.calibration().corrected;
-        let distance = |leg: &Leg| {
-            let [from, to] = leg.reference.map(|pose| pose * corrected.base());
+        let corrected_errors = &self.calibration().corrected;
+        let path_distance = |leg: &Leg| {
+            let [from, to] = leg.reference.map(|pose| pose * corrected_errors.base());
             let [dx, dy] = [to.x() - from.x(), to.y() - from.y()];
             let [px, py] = [x - from.x(), y - from.y()];
-            let squared = dx * dx + dy * dy;
-            let fraction = if squared > 0.0 { ((px * dx + py * dy) / squared).clamp(0.0, 1.0) } else { 0.0 };
+            let squared_length = dx * dx + dy * dy;
+            let fraction = if squared_length > 0.0 {
+                ((px * dx + py * dy) / squared_length).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
             libm::hypot(px - fraction * dx, py - fraction * dy)
         };
-        let distances = self.legs().iter().map(distance).enumerate();
+        let distances = self.legs().iter().map(path_distance).enumerate();
         distances
-            .filter(|(_, distance)| *distance < radius)
-            .min_by(|(_, one), (_, other)| one.total_cmp(other))
+            .filter(|(_, path_distance)| *path_distance < radius)
+            .min_by(|(_, a), (_, b)| a.total_cmp(b))
             .map(|(index, _)| index)
     }
 }

@@ -3,7 +3,7 @@
 use crate::calibrate::{Calibration, Model};
 use crate::js::js_structs;
 use crate::models::OdometryRule;
-use crate::sim::settings::Words;
+use crate::sim::settings::Keywords;
 
 /// Regressor of a variance. Each variance has one α for the rotation and one for the distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,12 +14,12 @@ pub enum Regressor {
     Turn,
 }
 
-impl Words for Regressor {
-    const WORDS: &'static [(&'static str, Self)] = &[("distance", Self::Distance), ("turn", Self::Turn)];
+impl Keywords for Regressor {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("distance", Self::Distance), ("turn", Self::Turn)];
 }
 
 /// Number of bins of a panel, with about equal numbers of legs. Legs with equal motions are in one bin.
-pub const BINS: usize = 8;
+pub const BIN_COUNT: usize = 8;
 
 /// Minimum number of legs in a bin. With fewer legs the standard error of their mean is meaningless.
 const MIN_LEGS_PER_BIN: usize = 5;
@@ -62,16 +62,17 @@ pub fn panels(model: Model, calibration: &Calibration, regressor: Regressor) -> 
 
 fn panel(model: Model, calibration: &Calibration, component: usize, regressor: Regressor) -> Panel {
     let Calibration { alphas, intervals, observations, leg_fits, .. } = calibration;
-    let index = usize::from(is_translation_first(model, component) != (regressor == Regressor::Distance));
+    let position_in_component =
+        usize::from(is_translation_first(model, component) != (regressor == Regressor::Distance));
     let component_alphas = model.component_alphas()[component];
-    let alpha = component_alphas[index];
+    let alpha = component_alphas[position_in_component];
     let slope = alphas[alpha];
-    let points: Vec<[f64; 4]> = observations
+    let leg_points: Vec<[f64; 4]> = observations
         .iter()
         .zip(leg_fits)
         .filter(|(observation, fit)| !observation.residuals[component].is_nan() && !fit.is_outlier)
         .map(|(observation, fit)| {
-            let coefficient = observation.coefficients[component][index];
+            let coefficient = observation.coefficients[component][position_in_component];
             let variance = fit.stds[component] * fit.stds[component];
             let other_variance = variance - slope.unwrap_or(0.0) * coefficient;
             let squared_innovation = fit.standardized[component] * fit.standardized[component] * variance;
@@ -85,25 +86,26 @@ fn panel(model: Model, calibration: &Calibration, component: usize, regressor: R
     if slope.is_none() {
         return panel;
     }
-    let mut regressors: Vec<f64> = points.iter().map(|point| point[0]).collect();
+    let mut regressors: Vec<f64> = leg_points.iter().map(|point| point[0]).collect();
     regressors.sort_unstable_by(f64::total_cmp);
-    let bin_size = points.len().div_ceil(BINS).max(MIN_LEGS_PER_BIN);
+    let bin_size = leg_points.len().div_ceil(BIN_COUNT).max(MIN_LEGS_PER_BIN);
     let mut previous_limit = f64::NEG_INFINITY;
     for bin in regressors.chunks(bin_size) {
         let bin_limit = bin[bin.len() - 1];
         let bin: Vec<&[f64; 4]> =
-            points.iter().filter(|point| point[0] > previous_limit && point[0] <= bin_limit).collect();
+            leg_points.iter().filter(|point| point[0] > previous_limit && point[0] <= bin_limit).collect();
         previous_limit = bin_limit;
         let sum =
             |value: &dyn Fn(&[f64; 4]) -> f64| bin.iter().map(|point| point[2] * value(point)).sum::<f64>();
         let total_weight = sum(&|_| 1.0);
         let [x, y] = [sum(&|point| point[0]) / total_weight, sum(&|point| point[1]) / total_weight];
-        let scatter = sum(&|point| (point[1] - y) * (point[1] - y)) / (total_weight * (total_weight - 1.0));
+        let mean_variance =
+            sum(&|point| (point[1] - y) * (point[1] - y)) / (total_weight * (total_weight - 1.0));
         let model_variance = sum(&|point| point[2] * point[3]) / (total_weight * total_weight);
         if bin.len() >= MIN_LEGS_PER_BIN && total_weight > 1.0 {
             panel.x.push(x);
             panel.y.push(y);
-            panel.error.push(scatter.max(model_variance).sqrt());
+            panel.error.push(mean_variance.max(model_variance).sqrt());
         }
     }
     panel

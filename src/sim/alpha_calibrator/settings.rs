@@ -3,7 +3,7 @@
 use crate::calibrate::{self, ERROR_COUNT, LegLength, Options, Outliers};
 use crate::models::OdometryRule;
 use crate::noise::NoiseKind;
-use crate::sim::settings::{AllowedValues, MAX_SEED, Rules, SettingsError, Word, Words, settings};
+use crate::sim::settings::{AllowedValues, Keyword, Keywords, MAX_SEED, Rules, SettingsError, settings};
 
 /// Motion model whose α's are calibrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,16 +16,16 @@ pub enum Model {
     Velocity,
 }
 
-impl Words for Model {
-    const WORDS: &'static [(&'static str, Self)] = &[
+impl Keywords for Model {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[
         ("odometry", Self::Odometry),
         ("omnidirectional", Self::Omnidirectional),
         ("velocity", Self::Velocity),
     ];
 }
 
-impl Words for Outliers {
-    const WORDS: &'static [(&'static str, Self)] = &[("reject", Self::Reject), ("keep", Self::Keep)];
+impl Keywords for Outliers {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("reject", Self::Reject), ("keep", Self::Keep)];
 }
 
 settings! {
@@ -84,11 +84,11 @@ impl Settings {
 
 impl Rules for Settings {
     /// Changes the rule if the model was changed to one that does not have it, or the model if the rule was changed.
-    fn adjust(&mut self, _: &Self, named: &[&str]) {
-        let model_fits_rule = self.omnidirectional() == (self.rule == OdometryRule::Omni);
-        match [named.contains(&"model"), named.contains(&"rule")] {
+    fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
+        let model_fits_rule = self.is_omnidirectional() == (self.rule == OdometryRule::Omni);
+        match [changed_keys.contains(&"model"), changed_keys.contains(&"rule")] {
             [true, false] if !model_fits_rule => {
-                self.rule = if self.omnidirectional() { OdometryRule::Omni } else { OdometryRule::Table };
+                self.rule = if self.is_omnidirectional() { OdometryRule::Omni } else { OdometryRule::Table };
             }
             [false, true] if !model_fits_rule => {
                 self.model =
@@ -98,12 +98,12 @@ impl Rules for Settings {
         }
     }
 
-    fn check_together(&self) -> Result<(), SettingsError> {
-        if self.omnidirectional() == (self.rule == OdometryRule::Omni) {
+    fn check_combinations(&self) -> Result<(), SettingsError> {
+        if self.is_omnidirectional() == (self.rule == OdometryRule::Omni) {
             return Ok(());
         }
-        let allowed = if self.omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
-        let allowed = AllowedValues::Word { given: self.rule.get(), allowed };
+        let allowed = if self.is_omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
+        let allowed = AllowedValues::Keyword { given: self.rule.get(), allowed };
         Err(SettingsError { field: "rule".to_owned(), value: f64::NAN, allowed })
     }
 }
@@ -120,27 +120,27 @@ impl Settings {
     /// Returns the options of the calibration.
     pub fn options(&self) -> Options {
         let Self { mount_yaw, lever_arm, distance_scale, turn_scale, clock_offset, .. } = *self;
-        let corrected: [bool; ERROR_COUNT] =
+        let is_corrected: [bool; ERROR_COUNT] =
             [clock_offset, mount_yaw, lever_arm, lever_arm, distance_scale, turn_scale];
-        let some_if_positive = |std: f64| (std > 0.0).then_some(std);
+        let positive_or_none = |std: f64| (std > 0.0).then_some(std);
         Options {
             model: self.model(),
-            legs: self.legs(),
+            legs: self.leg_length(),
             outliers: self.outliers,
-            correct: corrected.map(|is| if is { None } else { Some(false) }),
-            position_std: some_if_positive(self.position_std),
-            yaw_std: some_if_positive(self.yaw_std),
+            correct: is_corrected.map(|corrected| if corrected { None } else { Some(false) }),
+            position_std: positive_or_none(self.position_std),
+            yaw_std: positive_or_none(self.yaw_std),
         }
     }
 
-    fn legs(&self) -> LegLength {
+    fn leg_length(&self) -> LegLength {
         if self.duration > 0.0 {
             return LegLength::Duration { duration: self.duration };
         }
         LegLength::Displacement { distance: self.distance, angle: self.angle }
     }
 
-    fn omnidirectional(&self) -> bool {
+    fn is_omnidirectional(&self) -> bool {
         self.model == Model::Omnidirectional
     }
 }

@@ -10,14 +10,14 @@ const SPEED: f64 = 1.0;
 const DURATION: f64 = 0.1;
 
 /// Turn rate |ω̂| (rad/s) below which the chapter's code uses the straight line.
-pub const CHAPTERS_THRESHOLD: f64 = 1e-6;
+pub const STRAIGHT_LINE_THRESHOLD: f64 = 1e-6;
 
 /// Turn rates from 10⁻¹² to 10 rad/s, and their number for each factor of ten.
 const FIRST_AND_LAST_DECADE: [i32; 2] = [-12, 1];
 const POINTS_PER_DECADE: i32 = 8;
 
 /// Number of headings over which the error is averaged (root mean square).
-const HEADINGS: u32 = 24;
+const HEADING_COUNT: u32 = 24;
 
 js_structs! {
     /// Errors (m) of three forms for the end of a motion at 1 m/s for 0.1 s, by turn rate. Each is the root mean square over all
@@ -41,7 +41,7 @@ js_structs! {
 
 /// Returns the errors of the three forms, relative to the same motion in double-double arithmetic.
 pub fn form_errors() -> FormErrors {
-    let [first, last] = FIRST_AND_LAST_DECADE.map(|decade| decade * POINTS_PER_DECADE);
+    let [first, last] = FIRST_AND_LAST_DECADE.map(|exponent| exponent * POINTS_PER_DECADE);
     let omega: Vec<f64> =
         (first..=last).map(|i| libm::exp10(f64::from(i) / f64::from(POINTS_PER_DECADE))).collect();
     let rms_errors: Vec<[f64; 3]> = omega.iter().map(|omega| root_mean_squares(*omega)).collect();
@@ -51,7 +51,7 @@ pub fn form_errors() -> FormErrors {
         straight: errors_of_form(1),
         chord: errors_of_form(2),
         estimated_crossover: (2.0 * f64::EPSILON).sqrt() / DURATION,
-        threshold: CHAPTERS_THRESHOLD,
+        threshold: STRAIGHT_LINE_THRESHOLD,
         omega,
     }
 }
@@ -59,9 +59,9 @@ pub fn form_errors() -> FormErrors {
 /// Returns the root mean square errors of the arc, the straight line and the chord.
 fn root_mean_squares(omega: f64) -> [f64; 3] {
     let mut squared_errors = [0.0; 3];
-    for i in 0..HEADINGS {
+    for i in 0..HEADING_COUNT {
         // The headings avoid the axes, along which one of the coordinates would be exact.
-        let theta = TAU * (f64::from(i) + 0.37) / f64::from(HEADINGS) - 0.5 * TAU;
+        let theta = TAU * (f64::from(i) + 0.37) / f64::from(HEADING_COUNT) - 0.5 * TAU;
         let true_end = exact_end(theta, omega);
         let form_ends = [arc_form(theta, omega), straight_form(theta), chord_form(theta, omega)];
         for (square, end) in squared_errors.iter_mut().zip(form_ends) {
@@ -71,7 +71,7 @@ fn root_mean_squares(omega: f64) -> [f64; 3] {
             }
         }
     }
-    squared_errors.map(|square| (square / f64::from(HEADINGS)).sqrt())
+    squared_errors.map(|square| (square / f64::from(HEADING_COUNT)).sqrt())
 }
 
 fn arc_form(theta: f64, omega: f64) -> [f64; 2] {
@@ -96,8 +96,8 @@ fn chord_form(theta: f64, omega: f64) -> [f64; 2] {
 
 /// Returns the end of the motion in double-double arithmetic.
 pub fn exact_end(theta: f64, omega: f64) -> [DoubleDouble; 2] {
-    let half = DoubleDouble::product(0.5 * omega, DURATION);
-    let distance = DoubleDouble::product(SPEED, DURATION) * half.sinc();
-    let (sin, cos) = (DoubleDouble::from(theta) + half).sin_cos();
+    let half_turn = DoubleDouble::product(0.5 * omega, DURATION);
+    let distance = DoubleDouble::product(SPEED, DURATION) * half_turn.sinc();
+    let (sin, cos) = (DoubleDouble::from(theta) + half_turn).sin_cos();
     [distance * cos, distance * sin]
 }

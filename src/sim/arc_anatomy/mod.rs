@@ -6,7 +6,7 @@ mod stats;
 mod surface;
 mod table;
 
-pub use forms::{CHAPTERS_THRESHOLD, FormErrors, exact_end, form_errors};
+pub use forms::{FormErrors, STRAIGHT_LINE_THRESHOLD, exact_end, form_errors};
 pub use settings::*;
 pub use stats::{ArcWithCircle, Factor, Stats};
 pub use surface::{CONTOUR_LEVELS, Surface};
@@ -18,9 +18,9 @@ use crate::geom::se2::SE2;
 use crate::js::js_structs;
 
 /// Number of chords of the path of the constant twist.
-const LIE_CHORDS: usize = 64;
+const TWIST_PATH_CHORDS: usize = 64;
 /// Number of ticks on the path of the constant twist, at equal intervals of time.
-const LIE_TICKS: usize = 8;
+const TWIST_PATH_TICKS: usize = 8;
 
 js_structs! {
     /// Lines of the picture: x, y pairs of their points, m.
@@ -48,6 +48,8 @@ pub struct ArcAnatomy {
 }
 
 impl ArcAnatomy {
+    /// Creates a machine with these settings.
+    ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
@@ -60,8 +62,8 @@ impl ArcAnatomy {
         &self.settings
     }
 
-    /// # Errors
-    /// As [`ArcAnatomy::new`]; nothing has changed then.
+    /// Changes the settings.
+    /// Errors are those of [`ArcAnatomy::new`], and change nothing.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         *self = Self::new(settings)?;
         Ok(())
@@ -82,29 +84,35 @@ impl ArcAnatomy {
         let (start, next) = (self.settings.start(), self.settings.next());
         let Stats { commanded, inverted, driven, .. } = self.stats();
         let xi = next.boxminus(&start);
-        let pose_on_lie_path = |i: usize, count: usize| start.boxplus(xi * (i as f64 / count as f64));
+        let pose_on_twist_path = |i: usize, count: usize| start.boxplus(xi * (i as f64 / count as f64));
         let position_of = |pose: SE2| [pose.x(), pose.y()];
         let tick_segment = |i: usize| {
-            let pose = pose_on_lie_path(i, LIE_TICKS);
+            let pose = pose_on_twist_path(i, TWIST_PATH_TICKS);
             let [x, y] = PreparedPose::new(pose).transform([0.0, xi.y]);
             [pose.x(), pose.y(), x, y]
         };
         Paths {
-            commanded: commanded.part(start, 1.0).points(),
-            inverted: inverted.part(start, 1.0).points(),
-            driven: driven.part(start, 1.0).points(),
-            lie: (0..=LIE_CHORDS).map(|i| position_of(pose_on_lie_path(i, LIE_CHORDS))).collect(),
-            ticks: (0..=LIE_TICKS).map(tick_segment).collect(),
+            commanded: commanded.leading_part(start, 1.0).points(),
+            inverted: inverted.leading_part(start, 1.0).points(),
+            driven: driven.leading_part(start, 1.0).points(),
+            lie: (0..=TWIST_PATH_CHORDS)
+                .map(|i| position_of(pose_on_twist_path(i, TWIST_PATH_CHORDS)))
+                .collect(),
+            ticks: (0..=TWIST_PATH_TICKS).map(tick_segment).collect(),
         }
     }
 
     /// Returns the poses after a fraction of the time, from 0 to 1: on the commanded arc, on the arc that v̂ and ω̂ drive, and on
     /// the path of the constant twist.
-    pub fn poses_at(&self, share: f64) -> [SE2; 3] {
+    pub fn poses_at(&self, fraction: f64) -> [SE2; 3] {
         let start = self.settings.start();
         let Stats { commanded, driven, .. } = self.stats();
         let xi = self.settings.next().boxminus(&start);
-        [commanded.part(start, share).end(), driven.part(start, share).end(), start.boxplus(xi * share)]
+        [
+            commanded.leading_part(start, fraction).end(),
+            driven.leading_part(start, fraction).end(),
+            start.boxplus(xi * fraction),
+        ]
     }
 
     /// Returns the heat map over the rectangle from `min` to `max` (m, `min` below `max` in both coordinates); None if no heat

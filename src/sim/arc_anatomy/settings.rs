@@ -3,7 +3,7 @@
 use crate::geom::se2::SE2;
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
-use crate::sim::settings::{ALPHA_RANGE, QUANTITY_RANGE, Rules, Words, group, settings};
+use crate::sim::settings::{ALPHA_RANGE, Keywords, QUANTITY_RANGE, Rules, group, settings};
 
 /// Pose whose likelihood is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,8 +36,8 @@ pub enum SurfaceKind {
     Density,
 }
 
-impl Words for SurfaceKind {
-    const WORDS: &'static [(&'static str, Self)] =
+impl Keywords for SurfaceKind {
+    const KEYWORDS: &'static [(&'static str, Self)] =
         &[("none", Self::Nothing), ("prob", Self::Prob), ("density", Self::Density)];
 }
 

@@ -27,8 +27,8 @@ js_structs! {
 
 impl ArcWithCircle {
     /// Returns the first part of the arc, up to this fraction of its length.
-    pub(super) fn part(&self, start: SE2, share: f64) -> Arc {
-        Arc { start, length: self.arc_length * share, turn: self.turn * share }
+    pub(super) fn leading_part(&self, start: SE2, fraction: f64) -> Arc {
+        Arc { start, length: self.arc_length * fraction, turn: self.turn * fraction }
     }
 
     fn of(arc: &Arc) -> Self {
@@ -104,21 +104,21 @@ js_structs! {
 }
 
 /// Returns the arc to the final position, with a signed radius.
-pub(super) fn inverted(settings: &Settings) -> ArcInversion {
-    let executed = invert_arc(&settings.start(), &settings.next(), settings.command.dt);
+pub(super) fn signed_inversion(settings: &Settings) -> ArcInversion {
+    let inversion = invert_arc(&settings.start(), &settings.next(), settings.command.dt);
     // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0, so that no minus is shown.
-    ArcInversion { omega_hat: executed.omega_hat + 0.0, ..executed }
+    ArcInversion { omega_hat: inversion.omega_hat + 0.0, ..inversion }
 }
 
 /// Returns the inverted arc with the radius that the settings select. With the unsigned radius r* of Table 5.1,
 /// v̂ = Δθ/Δt · r* has the sign of Δθ. That sign is wrong if the centre is to the right of the heading.
-pub(super) fn estimated(settings: &Settings) -> ArcInversion {
-    let executed = inverted(settings);
-    let ArcInversion { v_hat, omega_hat, .. } = executed;
+pub(super) fn selected_inversion(settings: &Settings) -> ArcInversion {
+    let inversion = signed_inversion(settings);
+    let ArcInversion { v_hat, omega_hat, .. } = inversion;
     if !settings.printed || omega_hat == 0.0 {
-        return executed;
+        return inversion;
     }
-    ArcInversion { v_hat: v_hat.abs().copysign(omega_hat), ..executed }
+    ArcInversion { v_hat: v_hat.abs().copysign(omega_hat), ..inversion }
 }
 
 /// Residual that one of the three noises has to explain.
@@ -142,7 +142,7 @@ fn residuals(settings: &Settings, estimates: &ArcInversion) -> [Residual; 3] {
 /// Returns p of the final pose.
 pub(super) fn prob(settings: &Settings) -> f64 {
     product_or_zero(
-        residuals(settings, &estimated(settings))
+        residuals(settings, &selected_inversion(settings))
             .map(|Residual { residual, variance, .. }| settings.noise.prob(residual, variance)),
     )
 }
@@ -151,8 +151,8 @@ impl Stats {
     pub(super) fn of(settings: &Settings) -> Self {
         let Settings { command, noise, .. } = settings;
         let (start, next, model) = (settings.start(), settings.next(), settings.model());
-        let estimates = estimated(settings);
-        let inverted_arc = inverted(settings);
+        let estimates = selected_inversion(settings);
+        let inverted_arc = signed_inversion(settings);
         let factors = residuals(settings, &estimates).map(|residual| Factor::of(*noise, residual));
         let sigmas_off = |i: &usize| factors[*i].deviations.abs();
         let weakest = (0..3).rev().max_by(|a, b| sigmas_off(a).total_cmp(&sigmas_off(b))).unwrap_or(0);

@@ -48,36 +48,43 @@ impl Surface {
         let rows = (max_cells / columns).max(1.0).floor();
         let size = [width / columns, height / rows];
         let (columns, rows) = (columns as usize, rows as usize);
-        // Returns the centre of a cell.
         let cell_centre =
             |[column, row]: [f64; 2]| [min[0] + (column + 0.5) * size[0], max[1] - (row + 0.5) * size[1]];
         let values_of = |value: &dyn Fn(&Settings) -> f64| -> Vec<f64> {
-            let at = |i: usize| {
+            let value_at = |i: usize| {
                 let [x, y] = cell_centre([(i % columns) as f64, (i / columns) as f64]);
                 let next = FinalPose { x, y, theta: settings.next.theta };
                 // The density is infinite at the start pose.
                 value(&Settings { next, ..*settings }).min(f64::MAX)
             };
-            (0..columns * rows).map(at).collect()
+            (0..columns * rows).map(value_at).collect()
         };
         let prob = values_of(&prob);
-        let density = values_of(&|at| model.pose_density(&at.next(), &at.command, &start).unwrap_or(0.0));
+        let density = values_of(&|value_at| {
+            model.pose_density(&value_at.next(), &value_at.command, &start).unwrap_or(0.0)
+        });
         let shown_values = if settings.map == SurfaceKind::Prob { &prob } else { &density };
         let maximum_of = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-        let maximum = maximum_of(shown_values);
-        let shade = |value: &f64| if maximum > 0.0 { (255.0 * (value / maximum)).round() as u8 } else { 0 };
+        let shown_maximum = maximum_of(shown_values);
+        let shade_of = |value: &f64| {
+            if shown_maximum > 0.0 { (255.0 * (value / shown_maximum)).round() as u8 } else { 0 }
+        };
         let contours_of = |values: &[f64]| {
-            let top = maximum_of(values);
+            let max_value = maximum_of(values);
             // Contours are interpolated between logarithms, which are closer to linear between cells.
-            let logs: Vec<f64> = values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
-            let levels = CONTOUR_LEVELS.iter().filter(|_| top > 0.0).map(|share| libm::log(share * top));
-            let lines = levels.flat_map(|level| level_set(&logs, columns, level));
-            lines.map(|line| line.into_iter().map(cell_centre).collect()).collect()
+            let log_values: Vec<f64> =
+                values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
+            let log_levels = CONTOUR_LEVELS
+                .iter()
+                .filter(|_| max_value > 0.0)
+                .map(|fraction| libm::log(fraction * max_value));
+            let contour_lines = log_levels.flat_map(|level| level_set(&log_values, columns, level));
+            contour_lines.map(|line| line.into_iter().map(cell_centre).collect()).collect()
         };
         Some(Self {
             columns,
             rows,
-            shades: shown_values.iter().map(shade).collect(),
+            shades: shown_values.iter().map(shade_of).collect(),
             prob: contours_of(&prob),
             density: contours_of(&density),
         })

@@ -1,7 +1,7 @@
 //! Values of each line of Table 5.1.
 
 use super::Settings;
-use super::stats::{Stats, estimated, inverted};
+use super::stats::{Stats, selected_inversion, signed_inversion};
 use crate::geom::arc::ArcInversion;
 use crate::js::js_structs;
 
@@ -25,9 +25,9 @@ impl Table {
     pub(super) fn of(settings: &Settings, stats: &Stats) -> Self {
         let (start, next) = (settings.start(), settings.next());
         let displacement = start.between(&next);
-        let executed @ ArcInversion { v_hat, omega_hat, gamma_hat } = estimated(settings);
+        let inversion @ ArcInversion { v_hat, omega_hat, gamma_hat } = selected_inversion(settings);
         // The centre does not depend on the sign of the radius.
-        let [x, y] = inverted(settings).centre(&start).unwrap_or([f64::INFINITY; 2]);
+        let [x, y] = signed_inversion(settings).centre(&start).unwrap_or([f64::INFINITY; 2]);
         let turn = omega_hat * settings.command.dt;
         Self {
             lines: [
@@ -35,7 +35,7 @@ impl Table {
                 0.5 * (displacement.x() / displacement.y()),
                 x,
                 y,
-                executed.radius(),
+                inversion.radius(),
                 turn,
                 v_hat,
                 omega_hat,

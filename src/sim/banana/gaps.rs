@@ -10,7 +10,7 @@ use crate::stats::{Ellipse, ExponentialContour};
 const MIN_AREA_RATIO: f64 = 1.15;
 
 /// Minimum Mahalanobis distance of a gap from the mean in exponential coordinates. One robot in 900 stops beyond it.
-const MIN_DISTANCE: f64 = 3.7;
+const MIN_GAP_DISTANCE: f64 = 3.7;
 
 /// Fraction of the way from the centre of the ellipse to its boundary: a point there is clearly inside.
 const GAP_FRACTION: f64 = 0.95;
@@ -34,14 +34,14 @@ impl BananaMachine {
                 let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), mean.z);
                 ([x, y], contour.ellipse().distance([length, turn]), length < mean.x)
             })
-            .filter(|(_, distance, _)| *distance > MIN_DISTANCE)
+            .filter(|(_, distance, _)| *distance > MIN_GAP_DISTANCE)
             .collect();
-        let furthest_candidate = |before: bool| {
-            let side_candidates = candidates.iter().filter(|(_, _, is_before)| *is_before == before);
-            side_candidates.max_by(|(_, one, _), (_, other, _)| one.total_cmp(other))
+        let furthest_candidate = |is_near_side: bool| {
+            let side_candidates = candidates.iter().filter(|(_, _, is_before)| *is_before == is_near_side);
+            side_candidates.max_by(|(_, a, _), (_, b, _)| a.total_cmp(b))
         };
         let mut gaps: Vec<_> = [true, false].into_iter().filter_map(furthest_candidate).collect();
-        gaps.sort_by(|(_, one, _), (_, other, _)| other.total_cmp(one));
+        gaps.sort_by(|(_, a, _), (_, b, _)| b.total_cmp(a));
         gaps.into_iter().map(|(point, _, _)| *point).collect()
     }
 }

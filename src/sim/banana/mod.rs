@@ -10,7 +10,7 @@ use stats::{DefinedCharts, ExecutedMotion};
 
 use super::cloud::drive::Drive;
 use super::cloud::picture::{self, Ramp};
-use super::cloud::views::{Grid, Nearest, View};
+use super::cloud::views::{Grid, NearestSearch, View};
 use super::cloud::{Cloud, START_POSE};
 use super::settings::{Rules, SettingsError};
 use crate::geom::arc::{Arc, ArcInversion, arc_with_turn_near};
@@ -30,14 +30,14 @@ use std::f64::consts::TAU;
 
 impl Settings {
     /// Returns the current model with its input for a command: the command itself, or the noise-free odometry reading of it.
-    fn motion(&self, command: VelocityCmd) -> ModelWithInput {
+    fn model_with_input(&self, command: VelocityCmd) -> ModelWithInput {
         match self.model {
             ModelKind::Velocity => {
-                let alphas = VelocityAlphas(self.effective(self.velocity_alphas));
+                let alphas = VelocityAlphas(self.effective_alphas(self.velocity_alphas));
                 ModelWithInput::Velocity(VelocityModel { alphas, noise: self.noise }, command)
             }
             ModelKind::Odometry => {
-                let alphas = OdomAlphas(self.effective(self.odometry_alphas));
+                let alphas = OdomAlphas(self.effective_alphas(self.odometry_alphas));
                 let reading = OdomDelta::from_poses(&START_POSE, &command_end(&command));
                 let model = OdometryModel { alphas, noise: self.noise };
                 ModelWithInput::Odometry(
@@ -56,7 +56,7 @@ enum ModelWithInput {
 }
 
 impl ModelWithInput {
-    fn exact(&self) -> ExactMoments {
+    fn exact_moments(&self) -> ExactMoments {
         match self {
             Self::Velocity(model, command) => ExactMoments::of_velocity(model, command),
             Self::Odometry(model, reading) => ExactMoments::of_odometry(model, reading),
@@ -108,7 +108,7 @@ pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
 
 /// Returns the command whose end is drawn at (x, y) at a morph, with the duration of `near`. The search starts at
 /// `near`, and returns it if there is no solution. At morph 0, the floor, the result is [`command_reaching`].
-pub fn command_seen_at([x, y]: [f64; 2], near: &VelocityCmd, morph: f64) -> VelocityCmd {
+pub fn command_drawn_at([x, y]: [f64; 2], near: &VelocityCmd, morph: f64) -> VelocityCmd {
     let VelocityCmd { v, omega, dt } = *near;
     if morph == 0.0 {
         return command_reaching(x, y, near);
@@ -128,12 +128,12 @@ const MIN_CIRCLE_SIGMAS: f64 = 4.0;
 /// Maximum number of points of a skew curve. Each takes about ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
-/// Standard deviation (m) of the noise that [`BananaMachine::additive`] adds to x and y. It is √(½ tr Σ) on the arc of the
+/// Standard deviation (m) of the noise that [`BananaMachine::additive_moments`] adds to x and y. It is √(½ tr Σ) on the arc of the
 /// preset "gentle", rounded. It is not correct for other distances.
 pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
 /// Number of samples of the first block, which takes a few milliseconds.
-const FIRST_BLOCK: usize = 25_000;
+const FIRST_BLOCK_SAMPLES: usize = 25_000;
 
 /// Number of chords of an outline. The sagitta of 128 chords is 0.03 % of the radius, a fifth of a pixel on the largest screen.
 pub const OUTLINE_SEGMENTS: usize = 128;
@@ -154,16 +154,16 @@ impl BananaMachine {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Self::showing(settings, settings.samples)
+        Self::with_shown_count(settings, settings.samples)
     }
 
     /// Creates a machine that shows the first `count` samples.
     /// Errors are those of [`BananaMachine::new`].
-    pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
+    pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
-        let drive = settings.motion(settings.command).drive(&settings.command);
+        let drive = settings.model_with_input(settings.command).drive(&settings.command);
         let cloud = Cloud::new(settings.seed, settings.noise, drive);
-        let mut machine = Self { settings, cloud, stats: Stats::NONE, picture: Vec::new() };
+        let mut machine = Self { settings, cloud, stats: Stats::UNDEFINED, picture: Vec::new() };
         machine.reserve_memory(&settings)?;
         machine.show_samples(count.min(settings.samples));
         Ok(machine)
@@ -182,55 +182,55 @@ impl BananaMachine {
         Ok(())
     }
 
-    /// Changes the settings and shows the first block of `goal` samples. [`BananaMachine::add_samples`] shows the others.
+    /// Changes the settings and shows the first block of `target_count` samples. [`BananaMachine::add_samples`] shows the others.
     /// Errors are those of [`BananaMachine::configure`].
-    pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
+    pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         self.reserve_memory(&settings)?;
         self.settings = settings;
-        self.show_samples(goal.min(settings.samples).min(FIRST_BLOCK));
+        self.show_samples(target_count.min(settings.samples).min(FIRST_BLOCK_SAMPLES));
         Ok(())
     }
 
     fn reserve_memory(&mut self, settings: &Settings) -> Result<(), SettingsError> {
-        self.cloud.reserve(settings.samples).map_err(|_| SettingsError::no_memory(settings.samples))
+        self.cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))
     }
 
     fn show_samples(&mut self, count: usize) {
         let Settings { seed, noise, command, .. } = self.settings;
-        let drive = self.settings.motion(command).drive(&command);
-        let cloud_stats = self.cloud.refresh(seed, noise, drive, count);
+        let drive = self.settings.model_with_input(command).drive(&command);
+        let cloud_stats = self.cloud.drive_and_summarize(seed, noise, drive, count);
         self.stats = Stats::of(count, &cloud_stats, self.defined_charts());
     }
 
     /// Shows up to `count` samples more; returns how many are shown.
     pub fn add_samples(&mut self, count: usize) -> usize {
-        let goal = self.shown().saturating_add(count).min(self.settings.samples);
-        if goal > self.shown() {
-            self.show_samples(goal);
+        let target_count = self.shown_count().saturating_add(count).min(self.settings.samples);
+        if target_count > self.shown_count() {
+            self.show_samples(target_count);
         }
-        self.shown()
+        self.shown_count()
     }
 
     /// Returns the number of samples that can be added within a few milliseconds. All samples are summed again with
     /// each block, so that a block is as large as the cloud.
-    pub fn block(&self) -> usize {
-        self.shown().max(FIRST_BLOCK)
+    pub fn block_size(&self) -> usize {
+        self.shown_count().max(FIRST_BLOCK_SAMPLES)
     }
 
     /// Returns the number of samples shown.
-    pub fn shown(&self) -> usize {
-        self.cloud.shown()
+    pub fn shown_count(&self) -> usize {
+        self.cloud.shown_count()
     }
 
     /// Returns the samples shown, in sample order.
     pub fn poses(&self) -> impl ExactSizeIterator<Item = SE2> {
-        (0..self.shown()).map(|index| self.cloud.pose(index))
+        (0..self.shown_count()).map(|index| self.cloud.pose(index))
     }
 
     /// Returns the pose of a shown sample.
     pub fn pose(&self, index: usize) -> Option<SE2> {
-        (index < self.shown()).then(|| self.cloud.pose(index))
+        (index < self.shown_count()).then(|| self.cloud.pose(index))
     }
 
     /// Returns the exponential coordinates of the samples shown (along, lateral, heading), on the branch of the
@@ -251,7 +251,7 @@ impl BananaMachine {
 
     /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise
     /// statistics and contours in them are undefined.
-    pub fn chart_holds(&self) -> bool {
+    pub fn is_chart_defined(&self) -> bool {
         self.defined_charts().pose
     }
 
@@ -266,8 +266,8 @@ impl BananaMachine {
 
     /// Returns the model's mean τ and covariance R_u in exponential coordinates. The variance of the final turn is added
     /// to that of the heading. None for the odometry model, whose noise is not additive there.
-    pub fn tangent(&self) -> Option<ExponentialMoments> {
-        match self.settings.motion(self.settings.command) {
+    pub fn tangent_moments(&self) -> Option<ExponentialMoments> {
+        match self.settings.model_with_input(self.settings.command) {
             ModelWithInput::Velocity(model, command) => {
                 let [.., last] = model.variances(&command);
                 let mut cov = model.tangent_cov(&command)?;
@@ -279,36 +279,36 @@ impl BananaMachine {
     }
 
     /// Returns the mean and covariance that an EKF predicts by linearization: the noise-free end, and J·Σ·Jᵀ.
-    pub fn linearized(&self) -> CartesianMoments {
+    pub fn linearized_moments(&self) -> CartesianMoments {
         let end = command_end(&self.settings.command);
         CartesianMoments {
             mean: Vector3::new(end.x(), end.y(), end.theta()),
-            cov: self.settings.motion(self.settings.command).linearized_cov(),
+            cov: self.settings.model_with_input(self.settings.command).linearized_cov(),
         }
     }
 
     /// Returns the moments of additive noise, the model that the chapter argues against: x_t = x̄ + ε with the noise-free end
     /// x̄ and ε ~ N(0, [`ADDITIVE_DEVIATION`]²·I) in x and y. It does not depend on the command and the α's.
-    pub fn additive(&self) -> CartesianMoments {
+    pub fn additive_moments(&self) -> CartesianMoments {
         let variance = ADDITIVE_DEVIATION * ADDITIVE_DEVIATION;
         let cov = Matrix3::from_diagonal(&Vector3::new(variance, variance, 0.0));
-        CartesianMoments { cov, ..self.linearized() }
+        CartesianMoments { cov, ..self.linearized_moments() }
     }
 
     /// Returns the exact moments of the model, by quadrature.
-    pub fn exact(&self) -> ExactMoments {
-        self.settings.motion(self.settings.command).exact()
+    pub fn exact_moments(&self) -> ExactMoments {
+        self.settings.model_with_input(self.settings.command).exact_moments()
     }
 
     /// Returns the exact moments of the exponential coordinates, by quadrature.
     pub fn exact_gain(&self) -> ExactGain {
         let Settings { command, .. } = self.settings;
-        self.settings.motion(command).exact_gain(&command)
+        self.settings.model_with_input(command).exact_gain(&command)
     }
 
     /// Returns the moments of the pose by three methods, and the model's moments of its exponential coordinates.
     pub fn table(&self) -> Table {
-        let linearized = self.linearized();
+        let linearized = self.linearized_moments();
         let Stats { cartesian, cross_track_skew, likelihood_gain, area_ratio, .. } = self.stats;
         Table {
             // A Gaussian in (x, y) has no skew. To first order in the noise, Gaussians in all coordinates are equal.
@@ -327,13 +327,13 @@ impl BananaMachine {
                 likelihood_gain,
                 area_ratio,
             },
-            tangent: self.tangent(),
+            tangent: self.tangent_moments(),
         }
     }
 
     #[inline(never)]
     fn exact_column(&self) -> TableColumn {
-        let (ExactMoments { mean, cov, cross_track_skew }, gain) = (self.exact(), self.exact_gain());
+        let (ExactMoments { mean, cov, cross_track_skew }, gain) = (self.exact_moments(), self.exact_gain());
         let ellipse = Ellipse::from_moments(&CartesianMoments { mean, cov });
         let contour = ExponentialContour::new(&gain.exponential, &START_POSE);
         let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
@@ -343,11 +343,14 @@ impl BananaMachine {
     /// Returns the exact cross-track skew at `points` evenly spaced turn rates from `first` to `last` (rad/s), with all other
     /// settings unchanged.
     pub fn skew_curve(&self, first: f64, last: f64, points: usize) -> Vec<f64> {
-        let step = (last - first) / (points.max(2) - 1) as f64;
+        let omega_step = (last - first) / (points.max(2) - 1) as f64;
         (0..points)
             .map(|i| {
-                let omega = first + step * i as f64;
-                self.settings.motion(VelocityCmd { omega, ..self.settings.command }).exact().cross_track_skew
+                let omega = first + omega_step * i as f64;
+                self.settings
+                    .model_with_input(VelocityCmd { omega, ..self.settings.command })
+                    .exact_moments()
+                    .cross_track_skew
             })
             .collect()
     }
@@ -355,18 +358,19 @@ impl BananaMachine {
     /// Returns the curves that are drawn over the cloud.
     pub fn contours(&self) -> Contours {
         let Stats { cartesian, exponential, .. } = &self.stats;
-        let outline_if = |holds: bool, outline: Vec<[f64; 2]>| if holds { outline } else { Vec::new() };
-        let has_outlines = self.shown() > 1;
-        let has_exponential = has_outlines && self.chart_holds();
+        let outline_if =
+            |is_defined: bool, outline: Vec<[f64; 2]>| if is_defined { outline } else { Vec::new() };
+        let has_outlines = self.shown_count() > 1;
+        let has_exponential = has_outlines && self.is_chart_defined();
         let VelocityCmd { v, omega, dt } = self.settings.command;
         let contour = ExponentialContour::new(exponential, &START_POSE);
         Contours {
             command: arc_points(v * dt, omega * dt),
             ellipse: outline_if(has_outlines, Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS)),
-            linearized: Ellipse::from_moments(&self.linearized()).boundary(OUTLINE_SEGMENTS),
+            linearized: Ellipse::from_moments(&self.linearized_moments()).boundary(OUTLINE_SEGMENTS),
             exponential: outline_if(has_exponential, contour.boundary(OUTLINE_SEGMENTS)),
             twist_ellipse: outline_if(has_exponential, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
-            additive: Ellipse::from_moments(&self.additive()).boundary(OUTLINE_SEGMENTS),
+            additive: Ellipse::from_moments(&self.additive_moments()).boundary(OUTLINE_SEGMENTS),
         }
     }
 
@@ -374,8 +378,10 @@ impl BananaMachine {
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
         let no_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
-        let executed =
-            self.settings.motion(self.settings.command).executed_motion(self.cloud.unit_noise(index));
+        let executed = self
+            .settings
+            .model_with_input(self.settings.command)
+            .executed_motion(self.cloud.unit_noise(index));
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs, path) = match executed {
             ExecutedMotion::Arc { arc, dt } => (arc, None, arc_points(arc.v_hat * dt, arc.omega_hat * dt)),
             ExecutedMotion::Legs(legs) => {
@@ -389,10 +395,12 @@ impl BananaMachine {
     /// Returns the executed motions of the samples shown: v̂ (m/s), ω̂ and γ̂ (rad/s). Under the odometry model they are
     /// δ̂_rot1 (rad), δ̂_trans (m) and δ̂_rot2 (rad).
     pub fn executed_motions(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
-        let motion = self.settings.motion(self.settings.command);
-        (0..self.shown()).map(move |index| match motion.executed_motion(self.cloud.unit_noise(index)) {
-            ExecutedMotion::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
-            ExecutedMotion::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],
+        let model_with_input = self.settings.model_with_input(self.settings.command);
+        (0..self.shown_count()).map(move |index| {
+            match model_with_input.executed_motion(self.cloud.unit_noise(index)) {
+                ExecutedMotion::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
+                ExecutedMotion::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],
+            }
         })
     }
 
@@ -414,10 +422,10 @@ impl BananaMachine {
 
     /// Returns the shown sample nearest to a point of a view, inside the ellipse of the given radii around it.
     pub fn nearest(&self, view: View, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
-        let mut nearest = Nearest::new(target, radii);
-        self.cloud.each_four(view, |[x, y]| {
+        let mut nearest = NearestSearch::new(target, radii);
+        self.cloud.for_each_group(view, |[x, y]| {
             let (x, y) = (x.to_array(), y.to_array());
-            (0..LANES).for_each(|lane| nearest.visit([x[lane], y[lane]]));
+            (0..LANES).for_each(|lane| nearest.visit_point([x[lane], y[lane]]));
         });
         nearest.index()
     }

@@ -2,7 +2,7 @@
 
 use crate::models::VelocityCmd;
 use crate::noise::NoiseKind;
-use crate::sim::settings::{ALPHA_RANGE, MAX_SEED, Rules, Words, settings};
+use crate::sim::settings::{ALPHA_RANGE, Keywords, MAX_SEED, Rules, settings};
 
 /// Motion model of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,13 +13,13 @@ pub enum ModelKind {
     Odometry,
 }
 
-impl Words for ModelKind {
-    const WORDS: &'static [(&'static str, Self)] =
+impl Keywords for ModelKind {
+    const KEYWORDS: &'static [(&'static str, Self)] =
         &[("velocity", Self::Velocity), ("odometry", Self::Odometry)];
 }
 
-impl Words for NoiseKind {
-    const WORDS: &'static [(&'static str, Self)] =
+impl Keywords for NoiseKind {
+    const KEYWORDS: &'static [(&'static str, Self)] =
         &[("normal", Self::Normal), ("triangular", Self::Triangular)];
 }
 
@@ -28,11 +28,11 @@ pub const MAX_SAMPLES: usize = 10_000_000;
 
 /// Initial number of samples. A device four times slower than a laptop computes and draws them within a frame. The standard
 /// error of the initial skew is 0.007.
-const OPENING_SAMPLES: usize = 50_000;
+const INITIAL_SAMPLES: usize = 50_000;
 
 /// Seed from 0 to 99 whose initial cloud has the area ratio and gain nearest to the exact values, so that the first
 /// picture is typical.
-const OPENING_SEED: u64 = 87;
+const INITIAL_SEED: u64 = 87;
 
 settings! {
     /// Settings of the user.
@@ -42,7 +42,7 @@ settings! {
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
         /// Command of all robots.
-        command: VelocityCmd = BANANA.command;
+        command: VelocityCmd = BANANA_PRESET.command;
         /// Noise parameters of the present model: six of the velocity model, four of the odometry model.
         alphas, by alphas_mut, in ALPHA_RANGE;
         /// True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns.
@@ -50,12 +50,12 @@ settings! {
         /// Number of the only noise parameter in effect; null for all of them.
         isolate: Option<usize> = None, in 1..=6, up to alpha_count;
         /// Number of robots in the whole cloud.
-        samples: usize = OPENING_SAMPLES, in 1..=MAX_SAMPLES as u64;
+        samples: usize = INITIAL_SAMPLES, in 1..=MAX_SAMPLES as u64;
         /// Seed of the random numbers. Equal seeds draw equal robots.
-        seed: u64 = OPENING_SEED, in 0..=MAX_SEED;
+        seed: u64 = INITIAL_SEED, in 0..=MAX_SEED;
         kept {
             /// Each model keeps its own α's, so that switching between models loses nothing.
-            velocity_alphas: [f64; 6] = BANANA.alphas;
+            velocity_alphas: [f64; 6] = BANANA_PRESET.alphas;
             /// Noise parameters of the odometry model.
             odometry_alphas: [f64; 4] = [0.05, 0.05, 0.05, 0.05];
         }
@@ -91,7 +91,7 @@ impl Settings {
     }
 
     /// Returns the α's in effect: all of them, or 0 for all but the isolated one.
-    pub(super) fn effective<const N: usize>(&self, alphas: [f64; N]) -> [f64; N] {
+    pub(super) fn effective_alphas<const N: usize>(&self, alphas: [f64; N]) -> [f64; N] {
         std::array::from_fn(
             |i| if self.isolate.is_none_or(|number| number == i + 1) { alphas[i] } else { 0.0 },
         )
@@ -99,9 +99,9 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    fn adjust(&mut self, before: &Self, named: &[&str]) {
+    fn adjust(&mut self, previous: &Self, changed_keys: &[&str]) {
         // An α of the same number has another meaning in the other model.
-        if self.model != before.model && !named.contains(&"isolate") {
+        if self.model != previous.model && !changed_keys.contains(&"isolate") {
             self.isolate = None;
         }
     }
@@ -127,7 +127,7 @@ const USUAL_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 /// Straight drive with much noise in the turn and little in the length: the clearest banana shape. By symmetry its cloud has
 /// no skew, although no ellipse fits it.
-const BANANA: Preset = preset("banana", [1.0, 0.0, 2.0], [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
+const BANANA_PRESET: Preset = preset("banana", [1.0, 0.0, 2.0], [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
 
 /// Presets: the four commands of the chapter, the clearest banana shape, and the chapter's example to check by hand.
 pub const PRESETS: [Preset; 6] = [
@@ -135,6 +135,6 @@ pub const PRESETS: [Preset; 6] = [
     preset("gentle", [1.0, 0.5, 1.0], USUAL_ALPHAS),
     preset("hard", [1.0, 1.2, 1.4], USUAL_ALPHAS),
     preset("pivot", [0.06, 1.5, 1.0], USUAL_ALPHAS),
-    BANANA,
+    BANANA_PRESET,
     preset("worked", [1.0, 0.5, 1.0], [0.02, 0.02, 0.02, 0.02, 0.0, 0.0]),
 ];

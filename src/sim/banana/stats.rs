@@ -52,7 +52,7 @@ js_structs! {
     }
 }
 
-/// Coordinates that are defined for all turns of a cloud.
+/// Coordinate systems that are defined for all turns of a cloud.
 #[derive(Clone, Copy, Debug)]
 pub struct DefinedCharts {
     /// True for exponential coordinates.
@@ -63,7 +63,7 @@ pub struct DefinedCharts {
 
 impl Stats {
     /// Statistics of a cloud without samples.
-    pub const NONE: Self = {
+    pub const UNDEFINED: Self = {
         let (mean, cov) = (
             Vector3::new(f64::NAN, f64::NAN, f64::NAN),
             Matrix3::from_array_storage(ArrayStorage([[f64::NAN; 3]; 3])),
@@ -97,7 +97,7 @@ impl Stats {
             coverage: Coverage { ellipse: cloud.inside_ellipse, exponential: f64::NAN },
             likelihood_gain: gain.value,
             likelihood_gain_error: gain.error,
-            ..Self::NONE
+            ..Self::UNDEFINED
         };
         if defined.pose {
             stats.exponential = exponential;
@@ -169,15 +169,15 @@ js_structs! {
     /// One sample, and the motion that it executed.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Sample as "Inspection" {
-        /// x, y in m, θ in rad, in (−π, π].
+        /// End pose: x, y in m, θ in rad, in (−π, π].
         pub pose: [f64; 3] as "Float64Array",
-        /// ξ along and lateral in m, heading in rad.
+        /// Exponential coordinates ξ: along and lateral in m, heading in rad.
         pub twist: [f64; 3] as "Float64Array",
-        /// Speed of its arc, m/s; like the next two NaN under the odometry model, which has no arc.
+        /// Speed along the arc, m/s; NaN under the odometry model, which has no arc.
         pub v_hat: f64,
-        /// Turn rate of the arc, rad/s.
+        /// Turn rate along the arc, rad/s; NaN under the odometry model.
         pub omega_hat: f64,
-        /// Turn rate after the arc, rad/s over the same duration.
+        /// Rate of the final turn, rad/s over the same duration; NaN under the odometry model.
         pub gamma_hat: f64,
         /// Legs executed under the odometry model; null (None) under the velocity model.
         pub legs: Option<OdomDelta>,

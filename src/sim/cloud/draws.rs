@@ -15,8 +15,8 @@ use wide::f64x4;
 /// Standard errors are expensive, and computed from a weighted subsample of the groups. A few distant robots may contribute
 /// most of a variance, so that distant groups are sampled more densely. With Gaussian noise 1.8 % of the groups are far and
 /// 0.07 % farthest. With triangular noise none is farthest.
-const FAR_SQUARE: f64 = 13.0;
-const FARTHEST_SQUARE: f64 = 20.0;
+const FAR_SQUARED_DISTANCE: f64 = 13.0;
+const FARTHEST_SQUARED_DISTANCE: f64 = 20.0;
 
 /// Number of leading groups of the cloud in the subsample. Near groups are in it among the first 2048 robots, far groups among the
 /// first 65 536, and farthest groups always. Fewer would make the first digit of standard errors wrong; more would take time.
@@ -26,7 +26,7 @@ const SUBSAMPLE_GROUPS: [usize; 3] = [512, 16_384, usize::MAX];
 #[inline(never)]
 fn subsample_groups([a, b, c]: &[f64x4; 3]) -> usize {
     let squared_distances = *a * *a + *b * *b + *c * *c;
-    let distance_class = [FAR_SQUARE, FARTHEST_SQUARE]
+    let distance_class = [FAR_SQUARED_DISTANCE, FARTHEST_SQUARED_DISTANCE]
         .iter()
         .filter(|threshold| any_lane_set(squared_distances.simd_gt(f64x4::splat(**threshold))))
         .count();
@@ -44,11 +44,11 @@ pub struct Draws {
     rng: Xoshiro256PlusPlus,
     /// Draws in groups of four samples.
     unit_noise: Vec<[f64x4; 3]>,
-    /// Sums over the first `summed` groups, in complete blocks. They stay valid while a slider moves the robots.
+    /// Sums over the first `summed_groups` groups, in complete blocks. They stay valid while a slider moves the robots.
     sums: PairSums,
-    summed: usize,
-    /// Indices of farthest groups among the first `summed`, in ascending order. Those below `SUBSAMPLE_GROUPS[1]` are not listed.
-    farthest: Vec<usize>,
+    summed_groups: usize,
+    /// Indices of farthest groups among the first `summed_groups`, in ascending order. Those below `SUBSAMPLE_GROUPS[1]` are not listed.
+    farthest_groups: Vec<usize>,
 }
 
 impl Draws {
@@ -60,8 +60,8 @@ impl Draws {
             rng,
             unit_noise: Vec::new(),
             sums: PairSums::new(),
-            summed: 0,
-            farthest: Vec::new(),
+            summed_groups: 0,
+            farthest_groups: Vec::new(),
         }
     }
 
@@ -70,8 +70,8 @@ impl Draws {
         self.unit_noise.try_reserve_exact(count.div_ceil(LANES).saturating_sub(self.unit_noise.len()))
     }
 
-    /// Discards the draws if seed or kind differ from these.
-    pub fn restart(&mut self, seed: u64, noise: NoiseKind) {
+    /// Discards the draws if the seed or the kind of noise has changed.
+    pub fn reset_if_changed(&mut self, seed: u64, noise: NoiseKind) {
         if self.seed != seed || self.noise != noise {
             let unit_noise = std::mem::take(&mut self.unit_noise);
             *self = Self { unit_noise, ..Self::new(seed, noise) };
@@ -79,7 +79,7 @@ impl Draws {
         }
     }
 
-    /// Draws until there are `count` samples, for which memory must be reserved.
+    /// Draws further samples until there are `count`, for which memory must be reserved.
     pub fn extend_to(&mut self, count: usize) {
         let Self { noise, rng, unit_noise, .. } = self;
         let (first, end) = (unit_noise.len(), count.div_ceil(LANES));
@@ -96,15 +96,15 @@ impl Draws {
     /// Adds the complete blocks among the first `groups` groups to the sums, and lists their farthest groups.
     #[inline(never)]
     pub fn sum_blocks_to(&mut self, groups: usize) {
-        while groups >= self.summed + BLOCK_GROUPS {
-            let block = self.unit_noise[self.summed..][..BLOCK_GROUPS].iter();
-            block.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL_BITS_SET)));
+        while groups >= self.summed_groups + BLOCK_GROUPS {
+            let block_noise = self.unit_noise[self.summed_groups..][..BLOCK_GROUPS].iter();
+            block_noise.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL_BITS_SET)));
             self.sums.close_block();
-            let range = self.summed.max(SUBSAMPLE_GROUPS[1])..self.summed + BLOCK_GROUPS;
-            self.farthest.extend(
-                range.filter(|group| subsample_groups(&self.unit_noise[*group]) > SUBSAMPLE_GROUPS[1]),
+            let block_range = self.summed_groups.max(SUBSAMPLE_GROUPS[1])..self.summed_groups + BLOCK_GROUPS;
+            self.farthest_groups.extend(
+                block_range.filter(|group| subsample_groups(&self.unit_noise[*group]) > SUBSAMPLE_GROUPS[1]),
             );
-            self.summed += BLOCK_GROUPS;
+            self.summed_groups += BLOCK_GROUPS;
         }
     }
 
@@ -112,13 +112,15 @@ impl Draws {
     #[inline(never)]
     pub fn pair_sums(&mut self, count: usize) -> [f64; 5] {
         let groups = count / LANES;
-        if self.summed > groups {
-            (self.sums, self.summed) = (PairSums::new(), 0);
-            self.farthest.clear();
+        if self.summed_groups > groups {
+            (self.sums, self.summed_groups) = (PairSums::new(), 0);
+            self.farthest_groups.clear();
         }
         self.sum_blocks_to(groups);
         let mut all_sums = self.sums.clone();
-        for (group, noise) in self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed) {
+        for (group, noise) in
+            self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed_groups)
+        {
             let mask = from_lanes(|lane| if LANES * group + lane < count { ALL_BITS_SET } else { 0.0 });
             all_sums.add([noise[0], noise[1]], mask);
         }
@@ -133,14 +135,15 @@ impl Draws {
 
     /// Returns the weighted subsample of the first `count` robots, in groups of four: unit noise, and the number of robots
     /// that each robot represents. Lanes beyond `count` have the weight 0. A cloud of up to 2048 robots is sampled completely.
-    pub fn sample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
+    pub fn weighted_subsample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let groups = count.div_ceil(LANES);
-        let later = self.farthest.iter().copied().chain(self.summed.max(SUBSAMPLE_GROUPS[1])..groups);
-        (0..groups.min(SUBSAMPLE_GROUPS[1])).chain(later).filter_map(move |group| {
+        let later_groups =
+            self.farthest_groups.iter().copied().chain(self.summed_groups.max(SUBSAMPLE_GROUPS[1])..groups);
+        (0..groups.min(SUBSAMPLE_GROUPS[1])).chain(later_groups).filter_map(move |group| {
             let noise = &self.unit_noise[group];
-            let limit = subsample_groups(noise);
-            let weight = (groups as f64 / limit as f64).max(1.0);
-            (group < limit)
+            let group_limit = subsample_groups(noise);
+            let weight = (groups as f64 / group_limit as f64).max(1.0);
+            (group < group_limit)
                 .then(|| (noise, from_lanes(|lane| if LANES * group + lane < count { weight } else { 0.0 })))
         })
     }

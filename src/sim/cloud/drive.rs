@@ -18,15 +18,15 @@ type AffineInNoise = [f64; 2];
 pub struct Drive {
     /// True if the length is that of an arc, whose chord is shorter.
     is_arc: bool,
-    /// Length, m.
+    /// Length of the motion, m.
     length: AffineInNoise,
     /// Bearing of the end, rad.
     bearing: AffineInNoise,
-    /// Coefficients of half the heading, which is `share` · bearing + `half_rest` (rad).
-    share: f64,
-    half_rest: AffineInNoise,
+    /// Coefficients of half the heading, which is `bearing_weight` · bearing + `half_heading_offset` (rad).
+    bearing_weight: f64,
+    half_heading_offset: AffineInNoise,
     /// Half of the commanded turn (rad), which selects the branches of logarithm and arc.
-    near: f64,
+    half_commanded_turn: f64,
     /// Middle and half the width (rad) of the interval of half turns in which the short formulas hold.
     short_formula_interval: [f64; 2],
     trigonometry: Trigonometry,
@@ -44,15 +44,15 @@ pub struct Motions {
 impl Drive {
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v, omega, gamma] = model.variances(u).map(|variance| variance.0.sqrt() * u.dt);
-        let near = 0.5 * (u.omega * u.dt);
+        let half_commanded_turn = 0.5 * (u.omega * u.dt);
         Self {
             is_arc: true,
             length: [u.v * u.dt, v],
-            bearing: [near, 0.5 * omega],
-            share: 1.0,
-            half_rest: [0.0, 0.5 * gamma],
-            near,
-            short_formula_interval: short_formula_interval(near),
+            bearing: [half_commanded_turn, 0.5 * omega],
+            bearing_weight: 1.0,
+            half_heading_offset: [0.0, 0.5 * gamma],
+            half_commanded_turn,
+            short_formula_interval: short_formula_interval(half_commanded_turn),
             trigonometry: Trigonometry::default(),
         }
     }
@@ -64,9 +64,9 @@ impl Drive {
             is_arc: false,
             length: [u.trans, -trans],
             bearing: [u.rot1, -rot1],
-            share: 0.5,
-            half_rest: [0.5 * u.rot2, -0.5 * rot2],
-            near: 0.5 * turn,
+            bearing_weight: 0.5,
+            half_heading_offset: [0.5 * u.rot2, -0.5 * rot2],
+            half_commanded_turn: 0.5 * turn,
             short_formula_interval: short_formula_interval(0.5 * turn),
             trigonometry: Trigonometry::default(),
         }
@@ -74,7 +74,7 @@ impl Drive {
 
     /// Returns the standard deviation of the turn, rad.
     pub fn turn_deviation(&self) -> f64 {
-        2.0 * libm::hypot(self.share * self.bearing[1], self.half_rest[1])
+        2.0 * libm::hypot(self.bearing_weight * self.bearing[1], self.half_heading_offset[1])
     }
 
     #[inline(always)]
@@ -85,7 +85,8 @@ impl Drive {
         Motions {
             length: length * self.length[1] + self.length[0],
             bearing,
-            half: bearing * self.share + (third * self.half_rest[1] + self.half_rest[0]),
+            half: bearing * self.bearing_weight
+                + (third * self.half_heading_offset[1] + self.half_heading_offset[0]),
         }
     }
 
@@ -94,21 +95,21 @@ impl Drive {
     #[inline(always)]
     pub fn end_points(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;
-        let is_far = self.is_far(motions);
-        let circle = if is_far {
+        let is_outside_short_formulas = self.is_outside_short_formulas(motions);
+        let circle = if is_outside_short_formulas {
             self.trigonometry.sin_cos_any_angle(bearing)
         } else {
             self.trigonometry.sin_cos_small_angle(bearing)
         };
-        let ends = self.ends_on(motions, &circle);
-        if is_far || !self.is_arc {
-            return (ends, self.other_arcs(bearing, ends), false);
+        let ends = self.end_points_on_bearing(motions, &circle);
+        if is_outside_short_formulas || !self.is_arc {
+            return (ends, self.arcs_to_points(bearing, ends), false);
         }
         (ends, FourArcs { length, half: bearing, sinc: circle.sinc }, true)
     }
 
     #[inline(always)]
-    fn ends_on(&self, motions: &Motions, circle: &SinCos) -> [f64x4; 2] {
+    fn end_points_on_bearing(&self, motions: &Motions, circle: &SinCos) -> [f64x4; 2] {
         let distance = if self.is_arc { motions.length * circle.sinc } else { motions.length };
         [distance * circle.cos, distance * circle.sin]
     }
@@ -116,12 +117,12 @@ impl Drive {
     /// Returns the deviations that noise adds to the length and half turn of regular arcs (see [`Drive::end_points`]).
     #[inline(always)]
     pub fn regular_deviations(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
-        let scale = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
-        [unit_noise[0] * scale[0], unit_noise[1] * scale[1]]
+        let noise_scale = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
+        [unit_noise[0] * noise_scale[0], unit_noise[1] * noise_scale[1]]
     }
 
     /// Returns the sums of [`Drive::regular_deviations`] from those of the unit noise.
-    pub fn sums_of_regular(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
+    pub fn sums_of_regular_deviations(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
         if !self.is_arc {
             return [0.0; 5];
         }
@@ -131,8 +132,9 @@ impl Drive {
 
     /// Returns the arcs that lead to the points (x, y), which lie in the directions of these bearings.
     #[inline(never)]
-    fn other_arcs(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
-        let LogTerms { half, sinc, sin, cos, .. } = self.trigonometry.log_terms_any_angle(bearing, self.near);
+    fn arcs_to_points(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
+        let LogTerms { half, sinc, sin, cos, .. } =
+            self.trigonometry.log_terms_any_angle(bearing, self.half_commanded_turn);
         FourArcs { length: (x * cos + y * sin) / sinc, half, sinc }
     }
 
@@ -140,8 +142,8 @@ impl Drive {
     /// turn.
     #[inline(always)]
     pub fn poses(&self, motions: &Motions, ends: &[f64x4; 2]) -> FourPoses {
-        let turn = if self.is_far(motions) {
-            self.trigonometry.log_terms_any_angle(motions.half, self.near)
+        let turn = if self.is_outside_short_formulas(motions) {
+            self.trigonometry.log_terms_any_angle(motions.half, self.half_commanded_turn)
         } else {
             self.trigonometry.log_terms_small_angle(motions.half)
         };
@@ -150,7 +152,7 @@ impl Drive {
 
     /// Returns the points to which a morph takes the ends of four motions: see [`crate::geom::unbend`].
     #[inline(always)]
-    pub fn unbent(&self, motions: &Motions, ends: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
+    pub fn morphed_points(&self, motions: &Motions, ends: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
         let FourPoses { along, lateral, half, .. } = self.poses(motions, ends);
         let remaining_bend = 1.0 - morph;
         let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(half * remaining_bend);
@@ -160,26 +162,27 @@ impl Drive {
 
     /// Tests whether an angle is outside the range of the short formulas.
     #[inline(always)]
-    fn is_far(&self, motions: &Motions) -> bool {
-        let [interval_middle, interval_reach] = self.short_formula_interval;
-        let is_beyond = |angle: f64x4| (angle - interval_middle).abs().simd_gt(f64x4::splat(interval_reach));
+    fn is_outside_short_formulas(&self, motions: &Motions) -> bool {
+        let [interval_middle, interval_half_width] = self.short_formula_interval;
+        let is_beyond =
+            |angle: f64x4| (angle - interval_middle).abs().simd_gt(f64x4::splat(interval_half_width));
         any_lane_set(is_beyond(motions.bearing) | is_beyond(motions.half))
     }
 
     /// Returns four robots in all coordinates. It uses the formulas for any angle. The two passes over a cloud inline the short
     /// formulas for angles up to a quarter turn instead.
     #[inline(never)]
-    pub fn four_robots(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
+    pub fn coordinates_of_four(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);
         let circle = self.trigonometry.sin_cos_any_angle(motions.bearing);
-        let ends = self.ends_on(&motions, &circle);
-        let turn = self.trigonometry.log_terms_any_angle(motions.half, self.near);
-        (with_logarithms(&ends, turn), self.other_arcs(motions.bearing, ends))
+        let ends = self.end_points_on_bearing(&motions, &circle);
+        let turn = self.trigonometry.log_terms_any_angle(motions.half, self.half_commanded_turn);
+        (with_logarithms(&ends, turn), self.arcs_to_points(motions.bearing, ends))
     }
 
     /// Returns the coordinates of the noise-free end, which are subtracted in all sums, and the scales of the Jacobians.
-    pub fn nominal(&self) -> (ReferenceCoordinates, JacobianScale) {
-        let (poses, arcs) = self.four_robots(&[f64x4::splat(0.0); 3]);
+    pub fn nominal_coordinates(&self) -> (ReferenceCoordinates, JacobianScale) {
+        let (poses, arcs) = self.coordinates_of_four(&[f64x4::splat(0.0); 3]);
         let mut reference_coordinates =
             [poses.x, poses.y, poses.along, poses.lateral, poses.half, arcs.length, arcs.half]
                 .map(|lanes| lanes.to_array()[0]);
@@ -210,11 +213,11 @@ fn with_logarithms(ends: &[f64x4; 2], turn: LogTerms) -> FourPoses {
 /// Quarter turn minus a margin for rounding.
 const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
-/// Returns the middle and half the width of the interval of half turns that are within a quarter turn of 0 and of `near`.
-fn short_formula_interval(near: f64) -> [f64; 2] {
+/// Returns the middle and half the width of the interval of half turns that are within a quarter turn of 0 and of `half_commanded_turn`.
+fn short_formula_interval(half_commanded_turn: f64) -> [f64; 2] {
     let (low, high) = (
-        (near - MAX_SHORT_FORMULA_ANGLE).max(-MAX_SHORT_FORMULA_ANGLE),
-        (near + MAX_SHORT_FORMULA_ANGLE).min(MAX_SHORT_FORMULA_ANGLE),
+        (half_commanded_turn - MAX_SHORT_FORMULA_ANGLE).max(-MAX_SHORT_FORMULA_ANGLE),
+        (half_commanded_turn + MAX_SHORT_FORMULA_ANGLE).min(MAX_SHORT_FORMULA_ANGLE),
     );
     [0.5 * (low + high), 0.5 * (high - low)]
 }

@@ -31,12 +31,12 @@ pub struct Cloud {
     draws: Draws,
     drive: Drive,
     positions: Vec<[f64x4; 2]>,
-    shown: usize,
+    shown_count: usize,
 }
 
 impl Cloud {
     pub fn new(seed: u64, noise: NoiseKind, drive: Drive) -> Self {
-        Self { draws: Draws::new(seed, noise), drive, positions: Vec::new(), shown: 0 }
+        Self { draws: Draws::new(seed, noise), drive, positions: Vec::new(), shown_count: 0 }
     }
 
     /// Reserves memory for `count` samples.
@@ -46,39 +46,45 @@ impl Cloud {
         self.positions.try_reserve_exact(groups.saturating_sub(self.positions.len()))
     }
 
-    /// Drives the first `shown` samples, and returns their statistics. Their memory must be reserved.
-    pub fn refresh(&mut self, seed: u64, noise: NoiseKind, drive: Drive, shown: usize) -> CloudStats {
-        self.draws.restart(seed, noise);
-        (self.drive, self.shown) = (drive, shown);
-        // Sums contain differences from the expected mean of the cloud. They are computed again if the mean is far from it.
-        let (reference, scale) = drive.nominal();
+    /// Drives the first `shown_count` samples, and returns their statistics. Their memory must be reserved.
+    pub fn drive_and_summarize(
+        &mut self,
+        seed: u64,
+        noise: NoiseKind,
+        drive: Drive,
+        shown_count: usize,
+    ) -> CloudStats {
+        self.draws.reset_if_changed(seed, noise);
+        (self.drive, self.shown_count) = (drive, shown_count);
+        // The sums are of differences from the expected mean. They are computed again if the mean of the cloud is far from that.
+        let (reference, scale) = drive.nominal_coordinates();
         let mut first_pass = self.run_first_pass(FirstPass::new(reference, scale));
-        if let Some(better) = first_pass.better_reference(shown) {
+        if let Some(better) = first_pass.better_reference(shown_count) {
             first_pass = self.run_first_pass(FirstPass::new(better, first_pass.scale()));
         }
-        let regular_sums = drive.sums_of_regular(self.draws.pair_sums(shown));
-        let mut second_pass = SecondPass::new(first_pass.finish(shown, regular_sums), &START_POSE);
-        for parts in blocks(shown) {
+        let regular_sums = drive.sums_of_regular_deviations(self.draws.pair_sums(shown_count));
+        let mut second_pass = SecondPass::new(first_pass.finish(shown_count, regular_sums), &START_POSE);
+        for parts in sample_blocks(shown_count) {
             for (groups, mask) in parts {
                 let noise = &self.draws.groups()[groups.clone()];
                 add_to_second_pass(&drive, noise, &self.positions[groups], mask, &mut second_pass);
             }
             second_pass.close_block();
         }
-        let weighted_robots = self.draws.sample(shown).map(|(noise, weights)| {
-            let (poses, arcs) = drive.four_robots(noise);
+        let weighted_robots = self.draws.weighted_subsample(shown_count).map(|(noise, weights)| {
+            let (poses, arcs) = drive.coordinates_of_four(noise);
             (poses, arcs, weights)
         });
-        second_pass.finish(shown, weighted_robots)
+        second_pass.finish(shown_count, weighted_robots)
     }
 
     /// Draws and drives all samples, and adds them to the sums of the first pass.
     fn run_first_pass(&mut self, mut sums: FirstPass) -> FirstPass {
-        let Self { draws, drive, positions, shown } = self;
-        for parts in blocks(*shown) {
+        let Self { draws, drive, positions, shown_count } = self;
+        for parts in sample_blocks(*shown_count) {
             let end = parts[1].0.end;
             draws.extend_to(end * LANES);
-            draws.sum_blocks_to((*shown / LANES).min(end));
+            draws.sum_blocks_to((*shown_count / LANES).min(end));
             if positions.len() < end {
                 positions.resize(end, [f64x4::splat(0.0); 2]);
             }
@@ -102,8 +108,8 @@ impl Cloud {
     }
 
     /// Returns the number of samples shown.
-    pub fn shown(&self) -> usize {
-        self.shown
+    pub fn shown_count(&self) -> usize {
+        self.shown_count
     }
 
     /// Returns the unit noise of a sample.
@@ -123,8 +129,8 @@ impl Cloud {
     /// Calls `visit` with the points of each group of four samples in a view. In the last group, lanes without a sample are
     /// infinitely far away.
     #[inline(always)]
-    pub fn each_four(&self, view: View, mut visit: impl FnMut([f64x4; 2])) {
-        let shown = self.shown();
+    pub fn for_each_group(&self, view: View, mut visit: impl FnMut([f64x4; 2])) {
+        let shown_count = self.shown_count();
         let points_of_group = |group: usize| match view {
             View::Plane => self.positions[group],
             View::Twist => {
@@ -134,10 +140,10 @@ impl Cloud {
             }
             View::Morph(morph) => {
                 let motions = self.drive.motions(&self.draws.groups()[group]);
-                self.drive.unbent(&motions, &self.positions[group], morph)
+                self.drive.morphed_points(&motions, &self.positions[group], morph)
             }
         };
-        let (full_groups, remaining) = (shown / LANES, shown % LANES);
+        let (full_groups, remaining) = (shown_count / LANES, shown_count % LANES);
         (0..full_groups).for_each(|group| visit(points_of_group(group)));
         if remaining > 0 {
             let lane_mask = from_lanes(|lane| if lane < remaining { ALL_BITS_SET } else { 0.0 });
@@ -151,7 +157,7 @@ impl Cloud {
 
 /// Returns blocks of the groups of four of `count` samples, at least one block. A block has a range of complete groups, and a
 /// range of incomplete ones. Each range has the mask of its samples.
-fn blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
+fn sample_blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     let groups = count.div_ceil(LANES);
     let lane_mask = from_lanes(|lane| if lane < count % LANES { ALL_BITS_SET } else { 0.0 });
     (0..groups.div_ceil(BLOCK_GROUPS).max(1)).map(move |i| {

@@ -15,7 +15,7 @@ pub const RAMP_STEPS: usize = 256;
 pub fn density(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32> {
     let (Grid { min, max, .. }, per_unit) = (*grid, grid.cells_per_unit());
     let mut counts = vec![0; grid.columns * grid.rows];
-    cloud.each_four(view, |[x, y]| {
+    cloud.for_each_group(view, |[x, y]| {
         let column = ((x - min[0]) * per_unit[0]).floor().to_array();
         let row = ((max[1] - y) * per_unit[1]).floor().to_array();
         for cell in (0..LANES).filter_map(|lane| grid.index_of(column[lane], row[lane])) {
@@ -35,6 +35,6 @@ pub fn paint(counts: &[u32], ramp: &Ramp) -> Vec<[u8; 4]> {
 /// Returns the step of a ramp for a count: 255·√(count/max_count).
 #[inline(always)]
 pub fn ramp_step(count: u32, max_count: u32) -> usize {
-    let relative_root = (f64::from(count) / f64::from(max_count)).sqrt();
-    ((RAMP_STEPS - 1) as f64 * relative_root + 0.5) as usize % RAMP_STEPS
+    let root_of_fraction = (f64::from(count) / f64::from(max_count)).sqrt();
+    ((RAMP_STEPS - 1) as f64 * root_of_fraction + 0.5) as usize % RAMP_STEPS
 }

@@ -1,6 +1,6 @@
 //! Views of a cloud, with density and nearest sample.
 
-use crate::sim::settings::Words;
+use crate::sim::settings::Keywords;
 use std::ops::RangeInclusive;
 
 /// Coordinates in which the cloud is drawn.
@@ -15,8 +15,8 @@ pub enum View {
 }
 
 impl View {
-    /// Returns the view at a position of the morph's slider. At 0 and 1 it is exactly the plane and the twists.
-    pub fn at(morph: f64) -> Self {
+    /// Returns the view at a morph. At 0 and 1 it is exactly the plane and the twists.
+    pub fn from_morph(morph: f64) -> Self {
         match morph {
             0.0 => Self::Plane,
             1.0 => Self::Twist,
@@ -25,8 +25,8 @@ impl View {
     }
 }
 
-impl Words for View {
-    const WORDS: &'static [(&'static str, Self)] = &[("plane", Self::Plane), ("twist", Self::Twist)];
+impl Keywords for View {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("plane", Self::Plane), ("twist", Self::Twist)];
 }
 
 /// Range of the morph, from the plane to the twists.
@@ -40,7 +40,7 @@ pub const MAX_CELLS: u64 = 1 << 24;
 
 /// Maximum number of rows or columns of a [`Grid`], more than a browser's canvas may have on some devices. Margins of
 /// one cell around a longer grid would take more memory than the grid.
-pub const MAX_SIDE: u64 = 1 << 14;
+pub const MAX_CELLS_PER_SIDE: u64 = 1 << 14;
 
 /// Rectangle of a view, divided into cells of equal size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,31 +70,31 @@ impl Grid {
     }
 }
 
-/// Search for the point nearest to a target among points that are given one by one.
+/// Search for the point nearest to a target. Points are given one by one.
 #[derive(Clone, Copy, Debug)]
-pub struct Nearest {
+pub struct NearestSearch {
     target: [f64; 2],
     radii: [f64; 2],
-    least_squared_distance: f64,
+    min_squared_distance: f64,
     visited_count: usize,
     index: Option<usize>,
 }
 
-impl Nearest {
+impl NearestSearch {
     /// Starts a search inside an ellipse with the given radii around the target. Distances are in units of those radii.
     pub fn new(target: [f64; 2], radii: [f64; 2]) -> Self {
-        Self { target, radii, least_squared_distance: 1.0, visited_count: 0, index: None }
+        Self { target, radii, min_squared_distance: 1.0, visited_count: 0, index: None }
     }
 
     /// Compares the next sample with the nearest one so far.
     #[inline(always)]
-    pub fn visit(&mut self, [x, y]: [f64; 2]) {
+    pub fn visit_point(&mut self, [x, y]: [f64; 2]) {
         let (dx, dy) = ((x - self.target[0]) / self.radii[0], (y - self.target[1]) / self.radii[1]);
-        let distance = dx * dx + dy * dy;
-        if distance < self.least_squared_distance
-            || (distance == self.least_squared_distance && self.index.is_none())
+        let squared_distance = dx * dx + dy * dy;
+        if squared_distance < self.min_squared_distance
+            || (squared_distance == self.min_squared_distance && self.index.is_none())
         {
-            self.least_squared_distance = distance;
+            self.min_squared_distance = squared_distance;
             self.index = Some(self.visited_count);
         }
         self.visited_count += 1;

@@ -7,10 +7,10 @@ mod straight;
 
 pub use rollouts::{MAX_SHOWN_ROBOTS, MeasuredMoments};
 pub use settings::*;
-pub use stats::{Comparison, Misses, RECURSIONS, TOLERANCE};
+pub use stats::{Comparison, MISS_TOLERANCE, Misses, RECURSIONS};
 pub use straight::StraightGrowth;
 
-use super::cloud::views::Nearest;
+use super::cloud::views::NearestSearch;
 use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
@@ -18,7 +18,7 @@ use crate::models::{Compounding, TangentNoiseModel};
 use crate::stats::{Ellipse, ExponentialContour, ExponentialMoments};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use rollouts::{BLOCK_ROLLOUTS, Rollouts};
-use stats::covariances;
+use stats::propagate_covariances;
 
 /// Number of chords of an outline. With fewer, corners would be visible; more would be shorter than a pixel.
 const OUTLINE_SEGMENTS: usize = 96;
@@ -37,7 +37,7 @@ pub struct DeadReckoning {
     settings: Settings,
     rollouts: Rollouts,
     /// Number of robots driven.
-    shown: usize,
+    shown_count: usize,
     /// Predictions by recursion.
     predicted: [Vec<Option<Matrix3<f64>>>; 3],
     measured: Vec<MeasuredMoments>,
@@ -96,22 +96,22 @@ impl DeadReckoning {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Self::showing(settings, settings.samples)
+        Self::with_shown_count(settings, settings.samples)
     }
 
     /// Creates a machine that has driven the first `count` robots.
     /// Errors are those of [`DeadReckoning::new`].
-    pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
+    pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
         let mut rollouts = Rollouts::new(&settings).map_err(|_| SettingsError {
             field: "steps".to_owned(),
             value: f64::from(settings.steps),
-            allowed: AllowedValues::LessMemory,
+            allowed: AllowedValues::FitsInMemory,
         })?;
-        let predicted = RECURSIONS.map(|order| covariances(&settings, order));
-        let measured = rollouts.measured(0);
+        let predicted = RECURSIONS.map(|order| propagate_covariances(&settings, order));
+        let measured = rollouts.measured_moments(0);
         let comparisons = compare_all(&settings, &predicted, &measured);
-        let mut machine = Self { settings, rollouts, shown: 0, predicted, measured, comparisons };
+        let mut machine = Self { settings, rollouts, shown_count: 0, predicted, measured, comparisons };
         machine.drive_robots(count.min(settings.samples));
         Ok(machine)
     }
@@ -130,40 +130,42 @@ impl DeadReckoning {
         Ok(())
     }
 
-    /// Changes the settings and drives the first block of `goal` robots. [`DeadReckoning::add_samples`] drives the others.
+    /// Changes the settings and drives the first block of `target_count` robots. [`DeadReckoning::add_samples`] drives the others.
     /// Robots stay if the change does not affect them.
     /// Errors are those of [`DeadReckoning::configure`].
-    pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
+    pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         if self.settings.has_same_rollouts(&settings) {
             self.settings = settings;
         } else {
-            *self = Self::showing(settings, 0)?;
+            *self = Self::with_shown_count(settings, 0)?;
         }
         self.drive_robots(
-            goal.min(settings.samples).min(self.block_for_steps(FIRST_BLOCK_STEPS).max(self.shown)),
+            target_count
+                .min(settings.samples)
+                .min(self.block_for_steps(FIRST_BLOCK_STEPS).max(self.shown_count)),
         );
         Ok(())
     }
 
     /// Drives up to `count` more robots; returns the total number of robots driven.
     pub fn add_samples(&mut self, count: usize) -> usize {
-        self.drive_robots(self.shown.saturating_add(count).min(self.settings.samples));
-        self.shown
+        self.drive_robots(self.shown_count.saturating_add(count).min(self.settings.samples));
+        self.shown_count
     }
 
     fn drive_robots(&mut self, count: usize) {
-        if count == self.shown {
+        if count == self.shown_count {
             return;
         }
-        self.rollouts.drive_to(count);
-        self.shown = count;
-        self.measured = self.rollouts.measured(count);
+        self.rollouts.drive_blocks_to(count);
+        self.shown_count = count;
+        self.measured = self.rollouts.measured_moments(count);
         self.comparisons = compare_all(&self.settings, &self.predicted, &self.measured);
     }
 
     /// Returns the number of robots that are driven within a few milliseconds.
-    pub fn block(&self) -> usize {
+    pub fn block_size(&self) -> usize {
         self.block_for_steps(BLOCK_STEPS)
     }
 
@@ -172,17 +174,17 @@ impl DeadReckoning {
     }
 
     /// Returns the number of robots driven.
-    pub fn shown(&self) -> usize {
-        self.shown
+    pub fn shown_count(&self) -> usize {
+        self.shown_count
     }
 
     /// Returns the moments of the robots after each step; the first is of step 1.
-    pub fn measured(&self) -> &[MeasuredMoments] {
+    pub fn measured_moments(&self) -> &[MeasuredMoments] {
         &self.measured
     }
 
     /// Returns the covariance that a recursion predicts after each step; None from the step on at which it is undefined.
-    pub fn predicted(&self, order: Compounding) -> &[Option<Matrix3<f64>>] {
+    pub fn predicted_covariances(&self, order: Compounding) -> &[Option<Matrix3<f64>>] {
         &self.predicted[index_of_recursion(order)]
     }
 
@@ -192,45 +194,45 @@ impl DeadReckoning {
     }
 
     /// Returns the commanded pose after each step.
-    pub fn nominal(&self) -> &[SE2] {
-        self.rollouts.nominal()
+    pub fn nominal_poses(&self) -> &[SE2] {
+        self.rollouts.nominal_poses()
     }
 
     /// Returns x, y (m) and θ (rad) of the robots in the picture, [`MAX_SHOWN_ROBOTS`] at most, after a step; empty where there is
     /// no such step.
     pub fn poses(&self, step: u32) -> &[[f64; 3]] {
-        let Self { settings, rollouts, shown, .. } = self;
-        let is_driven = (1..=settings.steps).contains(&step);
-        if is_driven { rollouts.poses(step as usize, *shown) } else { &[] }
+        let Self { settings, rollouts, shown_count, .. } = self;
+        let step_exists = (1..=settings.steps).contains(&step);
+        if step_exists { rollouts.poses(step as usize, *shown_count) } else { &[] }
     }
 
     /// Returns ξ = x_k ⊟ x̄_k of the robots in the picture after the selected step: along, lateral (m), heading (rad).
     pub fn twists(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let step = self.settings.step;
-        let nominal = self.nominal()[step as usize - 1];
+        let nominal = self.nominal_poses()[step as usize - 1];
         self.poses(step).iter().map(move |pose| SE2::from(*pose).boxminus(&nominal).into())
     }
 
     /// Returns x, y (m) and θ (rad) of one robot after each step; None if the index is too large.
     pub fn rollout(&self, index: usize) -> Option<Vec<[f64; 3]>> {
-        (index < self.shown).then(|| self.rollouts.rollout(index))
+        (index < self.shown_count).then(|| self.rollouts.rollout(index))
     }
 
     /// Returns the robot in the picture that is nearest to a point (m) after the selected step, within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let mut nearest = Nearest::new(target, [radius, radius]);
-        self.poses(self.settings.step).iter().for_each(|[x, y, _]| nearest.visit([*x, *y]));
+        let mut nearest = NearestSearch::new(target, [radius, radius]);
+        self.poses(self.settings.step).iter().for_each(|[x, y, _]| nearest.visit_point([*x, *y]));
         nearest.index()
     }
 
     /// Returns the moments and predicted covariances after the selected step, and the misses of all steps.
     pub fn stats(&self) -> Stats {
         let step = self.settings.step as usize - 1;
-        let MeasuredMoments { mean, cov, .. } = self.measured()[step];
+        let MeasuredMoments { mean, cov, .. } = self.measured_moments()[step];
         Stats {
-            n: self.shown(),
+            n: self.shown_count(),
             measured: ExponentialMoments { mean, cov },
-            predicted: by_recursion(|order| self.predicted(order)[step].map(Into::into)),
+            predicted: by_recursion(|order| self.predicted_covariances(order)[step].map(Into::into)),
             misses: by_recursion(|order| self.comparison(order).misses),
         }
     }
@@ -241,7 +243,7 @@ impl DeadReckoning {
     }
 
     /// Returns the noise-free path of the command, as x, y pairs from the start.
-    pub fn commanded(&self) -> Vec<[f64; 2]> {
+    pub fn commanded_path(&self) -> Vec<[f64; 2]> {
         let Settings { command, steps, .. } = self.settings;
         let twist = TangentNoiseModel::twist(&command);
         // A chord of 0.1 rad deviates from its arc by 1/800 of its length.
@@ -261,10 +263,10 @@ impl DeadReckoning {
     }
 
     fn outlines_at(&self, index: usize, compounding: Compounding) -> Outlines {
-        let pose = self.nominal()[index];
-        let MeasuredMoments { mean, cov, .. } = &self.measured()[index];
-        let measured = if self.shown() < 2 { vec![] } else { ellipse_of_xi(mean, cov) };
-        let Some(cov) = self.predicted(compounding)[index] else {
+        let pose = self.nominal_poses()[index];
+        let MeasuredMoments { mean, cov, .. } = &self.measured_moments()[index];
+        let measured = if self.shown_count() < 2 { vec![] } else { ellipse_of_xi(mean, cov) };
+        let Some(cov) = self.predicted_covariances(compounding)[index] else {
             return Outlines { ellipse: vec![], exponential: vec![], predicted: vec![], measured };
         };
         let xi_moments = ExponentialMoments { mean: Vector3::zeros(), cov };

@@ -28,15 +28,15 @@ const ALL_BITS_SET: f64 = f64::from_bits(u64::MAX);
 /// Quarter turn minus a margin for rounding.
 const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
-/// One step of a robot, in exponential coordinates about the commanded pose. With the error pose e = x̄⁻¹·x, e_k =
+/// Step of a robot, as a change of its error pose. With the error pose e = x̄⁻¹·x, e_k =
 /// exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt). No number grows with the length of the path.
 #[derive(Clone, Copy, Debug)]
 struct StepInErrorFrame {
-    /// Mean and deviation of the length of the arc (m) and of half its turn (rad).
+    /// Mean and standard deviation of the length of the arc (m) and of half its turn (rad).
     length: [f64; 2],
     half_turn: [f64; 2],
-    /// Deviation of half the turn after the arc, rad.
-    half_last: f64,
+    /// Standard deviation of half the turn after the arc, rad.
+    half_last_turn_std: f64,
     /// End of the noise-free step, m.
     end: [f64x4; 2],
     /// Sine and cosine of the noise-free turn.
@@ -74,16 +74,16 @@ pub const MAX_SHOWN_ROBOTS: usize = 600;
 pub struct Rollouts {
     step: StepInErrorFrame,
     seed: u64,
-    /// Random stream of the next block. Each block has its own stream. A longer path takes more numbers of it, so that the
-    /// first steps of a robot depend on the seed alone.
-    stream: Xoshiro256PlusPlus,
+    /// Random generator of the next block. Each block has its own stream of numbers, from which a longer path takes more. The first
+    /// steps of a robot therefore depend on the seed alone.
+    block_rng: Xoshiro256PlusPlus,
     /// Number of robots driven in complete blocks.
-    driven: usize,
-    /// Sums over these robots after each step.
+    driven_count: usize,
+    /// Sums over the robots of complete blocks, after each step.
     sums: Vec<Sums<SUMMED_TERMS>>,
-    /// The commanded pose after each step.
+    /// Commanded pose after each step.
     nominal: Vec<SE2>,
-    /// x, y (m) and θ (rad) of the first robots, step after step.
+    /// Poses x, y (m) and θ (rad) of the first robots, step after step.
     poses: Vec<[f64; 3]>,
 }
 
@@ -99,7 +99,7 @@ impl StepInErrorFrame {
         Self {
             length: [mean_length, length],
             half_turn: [mean_half, 0.5 * turn],
-            half_last: 0.5 * last,
+            half_last_turn_std: 0.5 * last,
             end: [chord * circle.cos, chord * circle.sin],
             sin,
             cos,
@@ -109,25 +109,26 @@ impl StepInErrorFrame {
 
     /// Drives four robots by one step, and returns their ξ.
     #[inline(always)]
-    fn drive(&self, four: &mut ErrorPoses, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
+    fn drive(&self, robots: &mut ErrorPoses, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
         let length = *first * self.length[1] + self.length[0];
         let turn_noise = *second * self.half_turn[1];
         let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(turn_noise + self.half_turn[0]);
         let chord = length * sinc;
         // The bearing of the chord is the heading of the robot plus half the turn of its arc.
-        let heading_sin = 2.0 * four.sin * four.cos;
-        let heading_cos = 1.0 - 2.0 * four.sin * four.sin;
-        let x = four.x + chord * (heading_cos * cos - heading_sin * sin) - self.end[0];
-        let y = four.y + chord * (heading_sin * cos + heading_cos * sin) - self.end[1];
-        let half_turn = four.half + (turn_noise + *third * self.half_last);
+        let heading_sin = 2.0 * robots.sin * robots.cos;
+        let heading_cos = 1.0 - 2.0 * robots.sin * robots.sin;
+        let x = robots.x + chord * (heading_cos * cos - heading_sin * sin) - self.end[0];
+        let y = robots.y + chord * (heading_sin * cos + heading_cos * sin) - self.end[1];
+        let half_turn = robots.half + (turn_noise + *third * self.half_last_turn_std);
         let is_far = any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
         let LogTerms { half, cotangent, sin, cos, .. } = if is_far {
             self.trigonometry.log_terms_any_angle(half_turn, 0.0)
         } else {
             self.trigonometry.log_terms_small_angle(half_turn)
         };
-        *four = ErrorPoses { x: x * self.cos + y * self.sin, y: y * self.cos - x * self.sin, half, sin, cos };
-        [cotangent * four.x + half * four.y, cotangent * four.y - half * four.x, half * 2.0]
+        *robots =
+            ErrorPoses { x: x * self.cos + y * self.sin, y: y * self.cos - x * self.sin, half, sin, cos };
+        [cotangent * robots.x + half * robots.y, cotangent * robots.y - half * robots.x, half * 2.0]
     }
 }
 
@@ -145,53 +146,53 @@ impl Rollouts {
         Ok(Self {
             step: StepInErrorFrame::new(settings),
             seed: settings.seed,
-            stream: Xoshiro256PlusPlus::seed_from_u64(settings.seed),
-            driven: 0,
+            block_rng: Xoshiro256PlusPlus::seed_from_u64(settings.seed),
+            driven_count: 0,
             sums: vec![Sums::new(); steps],
             nominal: (1..=steps).map(|k| SE2::exp(&(twist * k as f64))).collect(),
             poses,
         })
     }
 
-    /// Drives complete blocks up to `goal` robots, from the first one if more have been driven. [`Rollouts::measured`] drives
+    /// Drives complete blocks up to `target_count` robots, from the first one if more have been driven. [`Rollouts::measured_moments`] drives
     /// the remaining robots.
-    pub fn drive_to(&mut self, goal: usize) {
-        if goal < self.driven {
-            self.restart();
+    pub fn drive_blocks_to(&mut self, target_count: usize) {
+        if target_count < self.driven_count {
+            self.reset();
         }
-        while self.driven + BLOCK_ROLLOUTS <= goal {
+        while self.driven_count + BLOCK_ROLLOUTS <= target_count {
             let mut sums = std::mem::take(&mut self.sums);
-            self.drive_next(BLOCK_ROLLOUTS, &mut sums);
+            self.drive_next_block(BLOCK_ROLLOUTS, &mut sums);
             self.sums = sums;
-            self.stream.jump();
-            self.driven += BLOCK_ROLLOUTS;
+            self.block_rng.jump();
+            self.driven_count += BLOCK_ROLLOUTS;
         }
     }
 
-    fn restart(&mut self) {
-        self.stream = Xoshiro256PlusPlus::seed_from_u64(self.seed);
-        self.driven = 0;
+    fn reset(&mut self) {
+        self.block_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
+        self.driven_count = 0;
         self.sums.fill(Sums::new());
     }
 
-    /// Returns the moments of `goal` robots after each step. It drives those of the last, incomplete block.
-    pub fn measured(&mut self, goal: usize) -> Vec<MeasuredMoments> {
+    /// Returns the moments of `target_count` robots after each step. It drives those of the last, incomplete block.
+    pub fn measured_moments(&mut self, target_count: usize) -> Vec<MeasuredMoments> {
         let moments_of = |sums: &[Sums<SUMMED_TERMS>]| {
-            sums.iter().map(|sums| moments_from_sums(&sums.finish(), goal as f64)).collect()
+            sums.iter().map(|sums| moments_from_sums(&sums.finish(), target_count as f64)).collect()
         };
-        if goal == self.driven {
+        if target_count == self.driven_count {
             return moments_of(&self.sums);
         }
         let mut sums = self.sums.clone();
-        self.drive_next(goal - self.driven, &mut sums);
+        self.drive_next_block(target_count - self.driven_count, &mut sums);
         moments_of(&sums)
     }
 
     /// Drives the next block and adds the first `count` of its robots.
     #[inline(never)]
-    fn drive_next(&mut self, count: usize, sums: &mut [Sums<SUMMED_TERMS>]) {
-        let Self { step, stream, driven, nominal, poses, .. } = self;
-        let mut block = Block::new(stream.clone());
+    fn drive_next_block(&mut self, count: usize, sums: &mut [Sums<SUMMED_TERMS>]) {
+        let Self { step, block_rng, driven_count, nominal, poses, .. } = self;
+        let mut block = RobotBlock::new(block_rng.clone());
         for (k, (sums, nominal)) in sums.iter_mut().zip(nominal).enumerate() {
             block.drive(step);
             for (i, xi) in block.draws.iter().enumerate() {
@@ -200,11 +201,12 @@ impl Rollouts {
                     add_to_sums(sums, *xi);
                 } else {
                     let mask = from_lanes(|lane| if lane < remaining_lanes { ALL_BITS_SET } else { 0.0 });
-                    add_to_sums(sums, xi.map(|lanes| lanes & mask));
+                    add_to_sums(sums, xi.map(|lane_values| lane_values & mask));
                 }
             }
             sums.close_block();
-            let robot_poses = poses[k * MAX_SHOWN_ROBOTS..][..MAX_SHOWN_ROBOTS].iter_mut().skip(*driven);
+            let robot_poses =
+                poses[k * MAX_SHOWN_ROBOTS..][..MAX_SHOWN_ROBOTS].iter_mut().skip(*driven_count);
             for (i, pose) in robot_poses.take(BLOCK_ROLLOUTS).enumerate() {
                 *pose = block.groups[i / LANES].pose(i % LANES, nominal);
             }
@@ -212,7 +214,7 @@ impl Rollouts {
     }
 
     /// Returns the commanded pose after each step.
-    pub fn nominal(&self) -> &[SE2] {
+    pub fn nominal_poses(&self) -> &[SE2] {
         &self.nominal
     }
 
@@ -223,10 +225,10 @@ impl Rollouts {
 
     /// Returns x, y (m) and θ (rad) of one robot after each step.
     pub fn rollout(&self, index: usize) -> Vec<[f64; 3]> {
-        let mut next_stream = Xoshiro256PlusPlus::seed_from_u64(self.seed);
-        (0..index / BLOCK_ROLLOUTS).for_each(|_| next_stream.jump());
+        let mut skipped_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
+        (0..index / BLOCK_ROLLOUTS).for_each(|_| skipped_rng.jump());
         let (group, lane) = (index % BLOCK_ROLLOUTS / LANES, index % LANES);
-        let mut block = Block::new(next_stream);
+        let mut block = RobotBlock::new(skipped_rng);
         let pose_after = |nominal| {
             block.drive(&self.step);
             block.groups[group].pose(lane, nominal)
@@ -238,13 +240,14 @@ impl Rollouts {
 impl ErrorPoses {
     /// Returns x, y (m) and θ (rad) of the robot in a lane.
     fn pose(&self, lane: usize, nominal: &SE2) -> [f64; 3] {
-        let [x, y, half_heading] = [self.x, self.y, self.half].map(|lanes| lanes.to_array()[lane]);
+        let [x, y, half_heading] =
+            [self.x, self.y, self.half].map(|lane_values| lane_values.to_array()[lane]);
         (*nominal * SE2::new(x, y, 2.0 * half_heading)).into()
     }
 }
 
 /// Robots that are driven through all steps together.
-struct Block {
+struct RobotBlock {
     rng: Xoshiro256PlusPlus,
     /// Error poses of the robots.
     groups: [ErrorPoses; BLOCK_GROUPS],
@@ -252,7 +255,7 @@ struct Block {
     draws: [[f64x4; 3]; BLOCK_GROUPS],
 }
 
-impl Block {
+impl RobotBlock {
     fn new(rng: Xoshiro256PlusPlus) -> Self {
         let [zero, one] = [0.0, 1.0].map(f64x4::splat);
         let start = ErrorPoses { x: zero, y: zero, half: zero, sin: zero, cos: one };
@@ -270,8 +273,8 @@ impl Block {
             *draw = uniforms.map(f64x4::from);
         }
         NoiseKind::Normal.quantiles(draws.as_flattened_mut());
-        for (four, draw) in groups.iter_mut().zip(draws) {
-            *draw = step.drive(four, draw);
+        for (robots, draw) in groups.iter_mut().zip(draws) {
+            *draw = step.drive(robots, draw);
         }
     }
 }
@@ -299,7 +302,7 @@ fn moments_from_sums(sums: &[f64; SUMMED_TERMS], n: f64) -> MeasuredMoments {
         let m4 = fourth - 4.0 * m * cube + 6.0 * m * m * square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
         let kurtosis_error = non_negative(kurtosis - 1.0) / n;
-        // The kurtosis of a few robots is unreliable; of two it is always 1. The standard error is then at least that of a
+        // The kurtosis of a few robots is unreliable; for two robots it is always 1. The standard error is then at least that of a
         // normal distribution. `f64::max` would ignore NaN.
         let gaussian_error = if n < MIN_RELIABLE_COUNT { 2.0 / (n - 1.0) } else { 0.0 };
         if kurtosis_error < gaussian_error { gaussian_error.sqrt() } else { kurtosis_error.sqrt() }

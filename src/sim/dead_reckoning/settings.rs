@@ -4,11 +4,11 @@ use crate::models::{Compounding, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use crate::sim::noise_level::NoiseLevel;
 use crate::sim::settings::{
-    ALPHA_RANGE, Level, MAX_SEED, Rules, SettingsError, Words, check_whole, settings,
+    ALPHA_RANGE, Keywords, Level, MAX_SEED, Rules, SettingsError, check_integer, settings,
 };
 
-impl Words for Compounding {
-    const WORDS: &'static [(&'static str, Self)] =
+impl Keywords for Compounding {
+    const KEYWORDS: &'static [(&'static str, Self)] =
         &[("chapter", Self::Chapter), ("first-order", Self::FirstOrder), ("fourth-order", Self::FourthOrder)];
 }
 
@@ -21,8 +21,8 @@ pub enum NoisePer {
     Path,
 }
 
-impl Words for NoisePer {
-    const WORDS: &'static [(&'static str, Self)] = &[("step", Self::Step), ("path", Self::Path)];
+impl Keywords for NoisePer {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("step", Self::Step), ("path", Self::Path)];
 }
 
 /// Maximum number of rollouts. With two hundred steps they take about ten seconds. They take no memory.
@@ -32,7 +32,7 @@ pub const MAX_STEPS: u64 = 200;
 
 /// Seed with typical rollouts. Among the seeds 0 to 99 with the first miss at the exact step, it has the ratios nearest to the
 /// exact ones.
-const OPENING_SEED: u64 = 29;
+const INITIAL_SEED: u64 = 29;
 
 settings! {
     /// Settings of the user.
@@ -46,7 +46,7 @@ settings! {
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA_RANGE;
         /// Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4. Null if they have other ratios.
-        heading_noise as "headingNoise", by heading_noise_level of alphas, in ALPHA_RANGE;
+        heading_noise as "headingNoise", by heading_noise_level_mut of alphas, in ALPHA_RANGE;
         /// Motion to which the noise parameters apply: each step, or the whole path. Each of n steps then has 1/n of its variance.
         per: NoisePer = NoisePer::Step;
         /// Recursion of the covariance that is shown.
@@ -54,7 +54,7 @@ settings! {
         /// Number of rollouts of the whole path.
         samples: usize = 50_000, in 1..=MAX_SAMPLES as u64;
         /// Seed of the random numbers. Equal seeds draw equal noise for each step.
-        seed: u64 = OPENING_SEED, in 0..=MAX_SEED;
+        seed: u64 = INITIAL_SEED, in 0..=MAX_SEED;
     }
 }
 
@@ -63,14 +63,14 @@ settings! {
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 
 impl Settings {
-    fn heading_noise_level(&mut self) -> NoiseLevel<'_, 4> {
+    fn heading_noise_level_mut(&mut self) -> NoiseLevel<'_, 4> {
         let [_, _, heading_alphas @ ..] = &mut self.alphas;
         NoiseLevel(heading_alphas)
     }
 
     /// Returns the level of the heading noise; None if α₃ to α₆ are not in the ratios of a level.
     pub fn heading_noise(mut self) -> Option<f64> {
-        self.heading_noise_level().get()
+        self.heading_noise_level_mut().get()
     }
 
     /// Returns the noise of one step.
@@ -101,14 +101,14 @@ impl Settings {
 
 impl Rules for Settings {
     /// Selects the last step if the path has become shorter than the selected one.
-    fn adjust(&mut self, _: &Self, named: &[&str]) {
-        if !named.contains(&"step") {
+    fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
+        if !changed_keys.contains(&"step") {
             self.step = self.step.min(self.steps);
         }
     }
 
-    fn check_together(&self) -> Result<(), SettingsError> {
-        check_whole("step", f64::from(self.step), &(1..=u64::from(self.steps))).map(|_| ())
+    fn check_combinations(&self) -> Result<(), SettingsError> {
+        check_integer("step", f64::from(self.step), &(1..=u64::from(self.steps))).map(|_| ())
     }
 }
 

@@ -11,14 +11,14 @@ pub const RECURSIONS: [Compounding; 3] =
     [Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder];
 
 /// Relative error of a variance above which a step counts as a miss.
-pub const TOLERANCE: f64 = 0.05;
+pub const MISS_TOLERANCE: f64 = 0.05;
 
 /// Maximum relative standard error at which rollouts can establish a miss, a quarter of the tolerance. Of dozens of ratios
 /// some are off by three standard errors by chance, but hardly any by four.
-const MAX_STANDARD_ERROR: f64 = TOLERANCE / 4.0;
+const MAX_STANDARD_ERROR: f64 = MISS_TOLERANCE / 4.0;
 
 /// Standard deviation below which a spread is only rounding. It is relative to the path, or in radians.
-const NO_SPREAD: f64 = 1e-12;
+const NEGLIGIBLE_STD: f64 = 1e-12;
 
 /// Comparison of a recursion with the robots.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +30,7 @@ pub struct Comparison {
 }
 
 js_structs! {
-    /// Misses: steps at which the ratio of one component is off by more than 5 % ([`TOLERANCE`]).
+    /// Misses: steps at which the ratio of one component is off by more than 5 % ([`MISS_TOLERANCE`]).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Misses {
         /// True if there is a spread, and enough robots to decide whether a step is a miss.
@@ -50,12 +50,12 @@ impl Comparison {
     /// Compares predicted covariances after each step with those measured. `None` stands for a step at which
     /// the recursion has no covariance, because its matrix is indefinite.
     pub fn new(settings: &Settings, covs: &[Option<Matrix3<f64>>], measured: &[MeasuredMoments]) -> Self {
-        let smallest_spreads = smallest_spread(settings);
+        let negligible_stds = negligible_stds(settings);
         let ratios: Vec<Vector3<f64>> = covs
             .iter()
             .zip(measured)
             .map(|(cov, measured)| match cov {
-                Some(cov) => variance_ratio(cov, measured, &smallest_spreads),
+                Some(cov) => variance_ratio(cov, measured, &negligible_stds),
                 None => Vector3::repeat(f64::NAN),
             })
             .collect();
@@ -66,7 +66,7 @@ impl Comparison {
 
 /// Returns the covariance of ξ after each step from a known start, by a recursion; the first is that of step 1. It is None
 /// from the step on at which the fourth-order terms make the matrix indefinite.
-pub fn covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix3<f64>>> {
+pub fn propagate_covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
     // All allowed settings have finite variances of 0 or more.
     let tangent_noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
@@ -83,36 +83,36 @@ pub fn covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix
 }
 
 /// Returns the largest standard deviations of ξ (m, m, rad) that count as 0.
-fn smallest_spread(settings: &Settings) -> Vector3<f64> {
+fn negligible_stds(settings: &Settings) -> Vector3<f64> {
     let u = &settings.command;
-    let length = NO_SPREAD * (u.v * u.dt).abs() * f64::from(settings.steps);
-    Vector3::new(length, length, NO_SPREAD)
+    let length = NEGLIGIBLE_STD * (u.v * u.dt).abs() * f64::from(settings.steps);
+    Vector3::new(length, length, NEGLIGIBLE_STD)
 }
 
 fn variance_ratio(
     cov: &Matrix3<f64>,
     measured: &MeasuredMoments,
-    smallest_spread: &Vector3<f64>,
+    negligible_stds: &Vector3<f64>,
 ) -> Vector3<f64> {
     Vector3::from_fn(|i, _| {
         let variance = measured.cov[(i, i)];
-        if variance > smallest_spread[i] * smallest_spread[i] { cov[(i, i)] / variance } else { f64::NAN }
+        if variance > negligible_stds[i] * negligible_stds[i] { cov[(i, i)] / variance } else { f64::NAN }
     })
 }
 
 fn misses_of(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], axis: usize) -> Misses {
     let defined_ratios =
         || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
-    let decidable = defined_ratios().next().is_some()
+    let is_decidable = defined_ratios().next().is_some()
         && defined_ratios().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
-    let is_miss = |ratio: &Vector3<f64>| decidable && (ratio[axis] - 1.0).abs() > TOLERANCE;
+    let is_miss = |ratio: &Vector3<f64>| is_decidable && (ratio[axis] - 1.0).abs() > MISS_TOLERANCE;
     let step_number = |index: usize| index as u32 + 1;
     let [end, error] = match (ratios.last(), measured.last()) {
         (Some(ratio), Some(measured)) => [ratio[axis] - 1.0, ratio[axis] * measured.relative_error[axis]],
         _ => [f64::NAN; 2],
     };
     Misses {
-        decidable,
+        decidable: is_decidable,
         first: ratios.iter().position(is_miss).map(step_number),
         last: ratios.iter().rposition(is_miss).map(step_number),
         end,

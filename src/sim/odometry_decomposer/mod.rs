@@ -5,7 +5,7 @@ mod settings;
 pub use settings::*;
 
 use super::cloud::draws::Draws;
-use super::cloud::views::Nearest;
+use super::cloud::views::NearestSearch;
 use super::settings::{Rules, SettingsError};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
@@ -89,7 +89,7 @@ pub struct CurvePoint {
 pub struct OdometryDecomposer {
     settings: Settings,
     draws: Draws,
-    shown: usize,
+    shown_count: usize,
     poses: Vec<SE2>,
 }
 
@@ -99,15 +99,16 @@ impl OdometryDecomposer {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Self::showing(settings, settings.samples)
+        Self::with_shown_count(settings, settings.samples)
     }
 
     /// Creates a machine that shows the first `count` outcomes.
     /// Errors are those of [`OdometryDecomposer::new`].
-    pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
+    pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
         let draws = Draws::new(settings.seed, settings.noise);
-        let mut machine = Self { settings, draws, shown: count.min(settings.samples), poses: Vec::new() };
+        let mut machine =
+            Self { settings, draws, shown_count: count.min(settings.samples), poses: Vec::new() };
         machine.update_poses();
         Ok(machine)
     }
@@ -123,11 +124,11 @@ impl OdometryDecomposer {
         self.configure_first(settings, settings.samples)
     }
 
-    /// Changes the settings and shows the first `goal` outcomes.
+    /// Changes the settings and shows the first `target_count` outcomes.
     /// Errors are those of [`OdometryDecomposer::configure`].
-    pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
+    pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        self.shown = goal.min(settings.samples);
+        self.shown_count = target_count.min(settings.samples);
         self.settings = settings;
         self.update_poses();
         Ok(())
@@ -135,31 +136,32 @@ impl OdometryDecomposer {
 
     /// Shows up to `count` outcomes more; returns how many are shown.
     pub fn add_samples(&mut self, count: usize) -> usize {
-        self.shown = self.shown.saturating_add(count).min(self.settings.samples);
+        self.shown_count = self.shown_count.saturating_add(count).min(self.settings.samples);
         self.update_poses();
-        self.shown
+        self.shown_count
     }
 
     /// Returns the number of outcomes that can be added within a few milliseconds: all of them.
-    pub fn block(&self) -> usize {
+    pub fn block_size(&self) -> usize {
         self.settings.samples
     }
 
     /// Returns the number of outcomes shown.
-    pub fn shown(&self) -> usize {
-        self.shown
+    pub fn shown_count(&self) -> usize {
+        self.shown_count
     }
 
     fn update_poses(&mut self) {
-        self.draws.restart(self.settings.seed, self.settings.noise);
-        self.draws.extend_to(self.shown);
-        let start = self.start();
-        self.poses = self.executed_motions(self.shown).map(|executed| executed.poses(&start)[3]).collect();
+        self.draws.reset_if_changed(self.settings.seed, self.settings.noise);
+        self.draws.extend_to(self.shown_count);
+        let start = self.start_pose();
+        self.poses =
+            self.executed_motions(self.shown_count).map(|executed| executed.poses(&start)[3]).collect();
     }
 
     /// Returns the odometry reading: the motion from the first odometry pose to the second.
     pub fn reading(&self) -> OdomDelta {
-        OdomDelta::from_poses(&self.start(), &self.settings.to.into())
+        OdomDelta::from_poses(&self.start_pose(), &self.settings.to.into())
     }
 
     /// Returns the legs of the reading under the current rule.
@@ -167,7 +169,7 @@ impl OdometryDecomposer {
         self.settings.rule.legs(&self.reading())
     }
 
-    fn start(&self) -> SE2 {
+    fn start_pose(&self) -> SE2 {
         self.settings.from.into()
     }
 
@@ -194,29 +196,29 @@ impl OdometryDecomposer {
     /// Returns the poses of the noise-free legs: at the start, after the first rotation, after the drive, after the
     /// second rotation.
     pub fn linkage(&self) -> [SE2; 4] {
-        ExecutedLegs { legs: self.legs(), strafe: 0.0 }.poses(&self.start())
+        ExecutedLegs { legs: self.legs(), strafe: 0.0 }.poses(&self.start_pose())
     }
 
     /// Returns the linkages of the first outcomes shown, as [`OdometryDecomposer::linkage`].
-    pub fn ghosts(&self, count: usize) -> Vec<[SE2; 4]> {
-        let start = self.start();
-        self.executed_motions(count.min(self.shown)).map(|executed| executed.poses(&start)).collect()
+    pub fn sample_linkages(&self, count: usize) -> Vec<[SE2; 4]> {
+        let start = self.start_pose();
+        self.executed_motions(count.min(self.shown_count)).map(|executed| executed.poses(&start)).collect()
     }
 
     /// Returns the pose of the robot at the selected phase of the motion.
-    pub fn robot(&self) -> SE2 {
-        let share_done = |before: f64| (self.settings.phase - before).clamp(0.0, 1.0);
+    pub fn robot_pose(&self) -> SE2 {
+        let done_fraction = |phase_before: f64| (self.settings.phase - phase_before).clamp(0.0, 1.0);
         let OdomDelta { rot1, trans, rot2 } = self.legs();
         let legs = OdomDelta {
-            rot1: share_done(0.0) * rot1,
-            trans: share_done(1.0) * trans,
-            rot2: share_done(2.0) * rot2,
+            rot1: done_fraction(0.0) * rot1,
+            trans: done_fraction(1.0) * trans,
+            rot2: done_fraction(2.0) * rot2,
         };
-        legs.apply(&self.start())
+        legs.apply(&self.start_pose())
     }
 
     /// Returns the legs and noises of the reading under each rule, with the current α's.
-    pub fn rules(&self) -> [RuleNoise; 4] {
+    pub fn rule_noises(&self) -> [RuleNoise; 4] {
         let Settings { alphas, noise, correlation, .. } = self.settings;
         let reading = self.reading();
         OdometryRule::ALL.map(|rule| {
@@ -237,17 +239,17 @@ impl OdometryDecomposer {
     pub fn stats(&self) -> Stats {
         let Settings { noise, correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());
-        let outcomes = self.executed_motions(self.shown);
+        let outcomes = self.executed_motions(self.shown_count);
         let cross_track_offsets = outcomes.clone().map(|ExecutedLegs { legs: executed, strafe }| {
             let (sin, cos) = libm::sincos(executed.rot1 - legs.rot1);
             executed.trans * sin + strafe * cos
         });
         let turn_offsets = outcomes
             .map(|ExecutedLegs { legs: executed, .. }| executed.rot1 - legs.rot1 + executed.rot2 - legs.rot2);
-        let [cross_track, cross_track_error] = rms_with_error(cross_track_offsets, self.shown);
-        let [heading, heading_error] = rms_with_error(turn_offsets, self.shown);
+        let [cross_track, cross_track_error] = rms_with_error(cross_track_offsets, self.shown_count);
+        let [heading, heading_error] = rms_with_error(turn_offsets, self.shown_count);
         Stats {
-            n: self.shown,
+            n: self.shown_count,
             cross_track,
             cross_track_error,
             exact_cross_track: variances.cross_track_variance(legs.trans, noise).sqrt(),
@@ -259,15 +261,15 @@ impl OdometryDecomposer {
         }
     }
 
-    /// Returns the standard deviations for lengths of the drive from 0 to `longest` (m), with both rotations as
+    /// Returns the standard deviations for lengths of the drive from 0 to `max_length` (m), with both rotations as
     /// measured.
-    pub fn curve(&self, longest: f64, count: usize) -> Vec<CurvePoint> {
+    pub fn deviation_curve(&self, max_length: f64, count: usize) -> Vec<CurvePoint> {
         let Settings { rule, alphas, noise, .. } = self.settings;
         let reading = self.reading();
-        let step = longest / count.saturating_sub(1).max(1) as f64;
+        let trans_step = max_length / count.saturating_sub(1).max(1) as f64;
         (0..count)
             .map(|i| {
-                let trans = step * i as f64;
+                let trans = trans_step * i as f64;
                 let variances = rule.variances(&OdomDelta { trans, ..reading }, &alphas);
                 CurvePoint {
                     trans,
@@ -280,16 +282,16 @@ impl OdometryDecomposer {
     }
 
     /// Returns the odometry poses in the world. Their frame has moved by exp(t·d) in the drift time t.
-    pub fn drifted(&self) -> Drifted {
+    pub fn drifted_odometry(&self) -> Drifted {
         let frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
-        let (from, to) = (frame * self.start(), frame * SE2::from(self.settings.to));
+        let (from, to) = (frame * self.start_pose(), frame * SE2::from(self.settings.to));
         Drifted { frame, from, to, legs: self.settings.rule.legs(&OdomDelta::from_poses(&from, &to)) }
     }
 
     /// Returns the outcome shown that ends nearest to a point (m), within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let mut nearest = Nearest::new(target, [radius, radius]);
-        self.poses.iter().for_each(|pose| nearest.visit([pose.x(), pose.y()]));
+        let mut nearest = NearestSearch::new(target, [radius, radius]);
+        self.poses.iter().for_each(|pose| nearest.visit_point([pose.x(), pose.y()]));
         nearest.index()
     }
 }

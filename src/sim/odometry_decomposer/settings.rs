@@ -3,11 +3,11 @@
 use crate::geom::se2::SE2;
 use crate::models::{OdometryRule, RuleAlphas};
 use crate::noise::NoiseKind;
-use crate::sim::settings::{ALPHA_RANGE, MAX_SEED, QUANTITY_RANGE, Rules, Words, group, settings};
+use crate::sim::settings::{ALPHA_RANGE, Keywords, MAX_SEED, QUANTITY_RANGE, Rules, group, settings};
 use std::ops::RangeInclusive;
 
-impl Words for OdometryRule {
-    const WORDS: &'static [(&'static str, Self)] =
+impl Keywords for OdometryRule {
+    const KEYWORDS: &'static [(&'static str, Self)] =
         &[("thrun", Self::Table), ("nav2", Self::Nav2), ("beluga", Self::Beluga), ("omni", Self::Omni)];
 }
 
@@ -46,9 +46,9 @@ settings! {
     /// Settings of the user.
     pub struct Settings {
         /// Odometry pose before the motion.
-        from: OdometryPose = REVERSE.from;
+        from: OdometryPose = REVERSE_PRESET.from;
         /// Odometry pose after the motion.
-        to: OdometryPose = REVERSE.to;
+        to: OdometryPose = REVERSE_PRESET.to;
         /// Rule that relates the α’s to the noise.
         rule: OdometryRule = OdometryRule::Table;
         /// Noise parameters of the rule; only the rule omni has the fifth.
@@ -92,7 +92,7 @@ const fn preset(name: &'static str, to: [f64; 3]) -> Preset {
 }
 
 /// Initial reading: a drive in reverse, on which the rules disagree.
-pub const REVERSE: Preset = preset("reverse", [-1.2, -0.3, 0.1]);
+pub const REVERSE_PRESET: Preset = preset("reverse", [-1.2, -0.3, 0.1]);
 
 /// Presets: readings with one, two or all three legs, and readings on which the rules disagree (a drive in reverse, and jitter of
 /// half a centimetre).
@@ -101,7 +101,7 @@ pub const PRESETS: [Preset; 6] = [
     // 0.6435 rad is the direction of (4, 3).
     preset("turn-drive", [1.2, 0.9, 0.6435]),
     preset("drive-turn", [1.5, 0.0, 1.0]),
-    REVERSE,
+    REVERSE_PRESET,
     preset("spin", [0.0, 0.0, 2.2]),
     preset("rest", [-0.004, 0.003, 0.001]),
 ];

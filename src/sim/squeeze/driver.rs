@@ -23,19 +23,19 @@ pub struct Attempt {
     pub path_free: bool,
 }
 
-/// Bit of [`Attempt::verdict`] for a free end pose.
-pub const END_FREE: u8 = 1;
-/// Bit for a free path.
-pub const PATH_FREE: u8 = 2;
-/// Bit for an accepted attempt.
-pub const ACCEPTED: u8 = 4;
+/// Bit of [`Attempt::verdict_bits`] for a free end pose.
+pub const END_FREE_BIT: u8 = 1;
+/// Bit of [`Attempt::verdict_bits`] for a free path.
+pub const PATH_FREE_BIT: u8 = 2;
+/// Bit of [`Attempt::verdict_bits`] for an accepted attempt.
+pub const ACCEPTED_BIT: u8 = 4;
 
 impl Attempt {
-    /// Returns the outcome as the bits [`END_FREE`], [`PATH_FREE`] and [`ACCEPTED`].
-    pub fn verdict(&self) -> u8 {
-        END_FREE * u8::from(self.end_free)
-            + PATH_FREE * u8::from(self.path_free)
-            + ACCEPTED * u8::from(self.accepted)
+    /// Returns the outcome as the bits [`END_FREE_BIT`], [`PATH_FREE_BIT`] and [`ACCEPTED_BIT`].
+    pub fn verdict_bits(&self) -> u8 {
+        END_FREE_BIT * u8::from(self.end_free)
+            + PATH_FREE_BIT * u8::from(self.path_free)
+            + ACCEPTED_BIT * u8::from(self.accepted)
     }
 
     /// Returns true if the attempt is accepted although its path is not free.
@@ -44,7 +44,7 @@ impl Attempt {
     }
 }
 
-/// Makes attempts, each from its own noise.
+/// Driver that makes attempts, each from its own noise.
 pub struct Driver<'a> {
     model: &'a MapConditioned<'a>,
     draw_tester: DrawTester<'a>,

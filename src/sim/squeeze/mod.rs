@@ -5,15 +5,15 @@ mod picture;
 mod settings;
 mod tally;
 
-pub use super::noise_level::alphas_of_noise;
-pub use driver::{ACCEPTED, Attempt, END_FREE, PATH_FREE};
-pub use picture::{OUTCOME_KINDS, OutcomeKind};
+pub use super::noise_level::alphas_of_noise_level;
+pub use driver::{ACCEPTED_BIT, Attempt, END_FREE_BIT, PATH_FREE_BIT};
+pub use picture::{OUTCOME_KIND_COUNT, OutcomeKind};
 pub use settings::*;
 pub use tally::{Stats, Tally};
 
 use super::cloud::draws::Draws;
 use super::cloud::picture::Ramp;
-use super::cloud::views::{Grid, Nearest};
+use super::cloud::views::{Grid, NearestSearch};
 use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::arc::Arc;
 use crate::geom::se2::SE2;
@@ -63,12 +63,12 @@ impl MapSqueeze {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Self::showing(settings, settings.samples)
+        Self::with_shown_count(settings, settings.samples)
     }
 
     /// Creates a machine in the apartment that shows the first `count` attempts.
     /// Errors are those of [`MapSqueeze::new`].
-    pub fn showing(settings: Settings, count: usize) -> Result<Self, SettingsError> {
+    pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         let mut machine = Self {
             plan: FloorPlan::apartment(),
             settings,
@@ -95,7 +95,7 @@ impl MapSqueeze {
     /// number if the machine had given up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
-        let attempt_count = if self.gave_up() { self.settings.samples } else { self.shown() };
+        let attempt_count = if self.gave_up() { self.settings.samples } else { self.shown_count() };
         self.clear_attempts();
         self.add_samples(attempt_count);
     }
@@ -110,39 +110,40 @@ impl MapSqueeze {
     /// Changes the settings and makes all attempts; the draws stay the same.
     ///
     /// # Errors
-    /// As [`MapSqueeze::new`], and if the map cannot be built with unknown cells as `settings.unknown` says. Nothing has
-    /// changed then.
+    /// [`SettingsError`] as in [`MapSqueeze::new`], or if the map has too many walls when unknown cells count as `settings.unknown`
+    /// says. Errors change nothing.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         self.configure_first(settings, 0)?;
         self.add_samples(settings.samples);
         Ok(())
     }
 
-    /// Changes the settings and makes the first block of attempts. [`MapSqueeze::add_samples`] makes the others, up to `goal` in all.
+    /// Changes the settings and makes the first block of attempts. [`MapSqueeze::add_samples`] makes the others, up to `target_count` in all.
     /// Errors are those of [`MapSqueeze::configure`].
-    pub fn configure_first(&mut self, settings: Settings, goal: usize) -> Result<(), SettingsError> {
+    pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        let stale = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
-        let plan = stale.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
+        let outdated_grid = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
+        let plan =
+            outdated_grid.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
         // A grid that was accepted before can only be refused because of its unknown cells.
         let plan = plan.transpose().map_err(|_| SettingsError {
             field: "unknown".to_owned(),
             value: f64::NAN,
-            allowed: AllowedValues::Word {
+            allowed: AllowedValues::Keyword {
                 given: "blocked",
                 allowed: "free, as the cells of this map would have more than 20000 sides",
             },
         })?;
-        let no_memory = |_| SettingsError::no_memory(settings.samples);
+        let memory_error = |_| SettingsError::out_of_memory(settings.samples);
         let missing_draws = settings.samples.saturating_sub(self.shown.attempts.len());
-        self.shown.attempts.try_reserve_exact(missing_draws).map_err(no_memory)?;
-        self.draws.reserve(settings.samples).map_err(no_memory)?;
+        self.shown.attempts.try_reserve_exact(missing_draws).map_err(memory_error)?;
+        self.draws.reserve(settings.samples).map_err(memory_error)?;
         if let Some(plan) = plan {
             self.plan = plan;
         }
         self.settings = settings;
         self.clear_attempts();
-        self.add_samples(goal.min(self.block()));
+        self.add_samples(target_count.min(self.block_size()));
         Ok(())
     }
 
@@ -154,29 +155,29 @@ impl MapSqueeze {
     /// Draws up to `count` more samples, and returns the total. If nearly every draw collides, the machine gives up,
     /// and further calls draw none.
     pub fn add_samples(&mut self, count: usize) -> usize {
-        let goal = self.shown().saturating_add(count).min(self.settings.samples);
-        self.draws.restart(self.settings.seed, NoiseKind::Normal);
-        self.draws.extend_to(goal);
-        let steps = self.settings.parts() as usize;
+        let target_count = self.shown_count().saturating_add(count).min(self.settings.samples);
+        self.draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
+        self.draws.extend_to(target_count);
+        let part_count = self.settings.parts() as usize;
         let Self { plan, settings, draws, shown, .. } = self;
         let ShownAttempts { attempts, tally, gave_up } = shown;
         let model = conditioned_model(settings, plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
-        while attempts.len() < goal && !*gave_up {
-            driver.make_next_attempts(attempts.len()..goal, |attempt, cost| {
+        while attempts.len() < target_count && !*gave_up {
+            driver.make_next_attempts(attempts.len()..target_count, |attempt, cost| {
                 tally.draws += cost.draws;
                 tally.wall_tests += cost.wall_tests;
                 tally.accepted += usize::from(attempt.accepted);
                 tally.through_wall += usize::from(attempt.is_through_wall());
                 attempts.push(attempt);
             });
-            *gave_up = tally.draws > max_draws(steps * attempts.len());
+            *gave_up = tally.draws > max_draws(part_count * attempts.len());
         }
         attempts.len()
     }
 
     /// Returns the number of attempts that are made within a few milliseconds.
-    pub fn block(&self) -> usize {
+    pub fn block_size(&self) -> usize {
         (BLOCK_PARTS / self.settings.parts() as usize).max(1)
     }
 
@@ -186,11 +187,11 @@ impl MapSqueeze {
     }
 
     /// Returns the number of attempts shown.
-    pub fn shown(&self) -> usize {
+    pub fn shown_count(&self) -> usize {
         self.shown.attempts.len()
     }
 
-    /// Returns the counts over the attempts shown.
+    /// Returns the counts over the attempts that are shown.
     pub fn tally(&self) -> &Tally {
         &self.shown.tally
     }
@@ -220,15 +221,18 @@ impl MapSqueeze {
     /// Paints a density map of the ends of the attempts shown, one pixel for each cell of the grid. The most frequent kind of
     /// attempt in a cell selects the ramp. The colour is ramp[255·√(count/max_count)], where `count` is the number of attempts in
     /// the cell and `max_count` the largest count of all cells. Empty cells are transparent.
-    pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; OUTCOME_KINDS]) -> &[[u8; 4]] {
+    pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
         self.picture = picture::paint_attempts(&self.shown.attempts, grid, ramps);
         &self.picture
     }
 
     /// Returns the attempt that ends nearest to a point (m) and within `radius` of it.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let mut nearest = Nearest::new(target, [radius, radius]);
-        self.shown.attempts.iter().for_each(|attempt| nearest.visit([attempt.pose.x(), attempt.pose.y()]));
+        let mut nearest = NearestSearch::new(target, [radius, radius]);
+        self.shown
+            .attempts
+            .iter()
+            .for_each(|attempt| nearest.visit_point([attempt.pose.x(), attempt.pose.y()]));
         nearest.index()
     }
 
@@ -245,7 +249,7 @@ impl MapSqueeze {
     ///
     /// # Errors
     /// [`NoAcceptedSample`] if one of the samples is not accepted, or if all together take so many draws that the machine would give up.
-    pub fn trial(&self, sampler: Sampler, count: usize) -> Result<Cost, NoAcceptedSample> {
+    pub fn sampling_trial(&self, sampler: Sampler, count: usize) -> Result<Cost, NoAcceptedSample> {
         let model = conditioned_model(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
         let mut total_cost = Cost::default();
@@ -267,13 +271,13 @@ impl MapSqueeze {
     }
 
     /// Returns true if the robot collides with nothing at its start pose.
-    pub fn start_free(&self) -> bool {
+    pub fn is_start_free(&self) -> bool {
         let [x, y, _] = self.settings.start;
         self.plan.test_point([x, y], self.settings.clearance).free
     }
 
     /// Returns the noise-free arc of the command.
-    pub fn commanded(&self) -> Arc {
+    pub fn commanded_arc(&self) -> Arc {
         let VelocityCmd { v, omega, dt } = self.settings.command;
         Arc { start: self.settings.start(), length: v * dt, turn: omega * dt }
     }

@@ -15,12 +15,12 @@ pub enum OutcomeKind {
     ThroughWall,
 }
 
-/// Number of kinds.
-pub const OUTCOME_KINDS: usize = 3;
+/// Number of outcome kinds.
+pub const OUTCOME_KIND_COUNT: usize = 3;
 
 impl Attempt {
-    /// Returns the kind of the outcome.
-    pub fn kind(&self) -> OutcomeKind {
+    /// Returns the kind of the attempt's outcome.
+    pub fn outcome_kind(&self) -> OutcomeKind {
         match (self.accepted, self.path_free) {
             (false, _) => OutcomeKind::Rejected,
             (true, true) => OutcomeKind::Free,
@@ -30,21 +30,21 @@ impl Attempt {
 }
 
 /// Paints the ends of attempts, row by row from the top.
-pub fn paint_attempts(attempts: &[Attempt], grid: &Grid, ramps: &[Ramp; OUTCOME_KINDS]) -> Vec<[u8; 4]> {
+pub fn paint_attempts(attempts: &[Attempt], grid: &Grid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> Vec<[u8; 4]> {
     let (Grid { min, max, .. }, per_metre) = (*grid, grid.cells_per_unit());
-    let mut cell_counts = vec![[0u32; OUTCOME_KINDS]; grid.columns * grid.rows];
+    let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
     for attempt in attempts {
         let column = ((attempt.pose.x() - min[0]) * per_metre[0]).floor();
         let row = ((max[1] - attempt.pose.y()) * per_metre[1]).floor();
         if let Some(cell) = grid.index_of(column, row) {
-            cell_counts[cell][attempt.kind() as usize] += 1;
+            cell_counts[cell][attempt.outcome_kind() as usize] += 1;
         }
     }
-    let total_count = |counts: &[u32; OUTCOME_KINDS]| counts.iter().sum::<u32>();
+    let total_count = |counts: &[u32; OUTCOME_KIND_COUNT]| counts.iter().sum::<u32>();
     let highest_count = cell_counts.iter().map(total_count).max().unwrap_or(0);
-    let cell_colour = |counts: &[u32; OUTCOME_KINDS]| {
+    let cell_colour = |counts: &[u32; OUTCOME_KIND_COUNT]| {
         let count = total_count(counts);
-        let kind = (0..OUTCOME_KINDS).max_by_key(|kind| counts[*kind]).unwrap_or(0);
+        let kind = (0..OUTCOME_KIND_COUNT).max_by_key(|kind| counts[*kind]).unwrap_or(0);
         if count == 0 { [0; 4] } else { ramps[kind][ramp_step(count, highest_count)] }
     };
     cell_counts.iter().map(cell_colour).collect()

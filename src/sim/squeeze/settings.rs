@@ -3,14 +3,15 @@
 use crate::geom::se2::SE2;
 use crate::map::{Sampler, UnknownCells};
 use crate::models::VelocityCmd;
-use crate::sim::noise_level::{NoiseLevel, alphas_of_noise};
+use crate::sim::noise_level::{NoiseLevel, alphas_of_noise_level};
 use crate::sim::settings::{
-    ALPHA_RANGE, Level, MAX_SEED, QUANTITY_RANGE, Rules, SettingsError, Words, check_whole, group, settings,
+    ALPHA_RANGE, Keywords, Level, MAX_SEED, QUANTITY_RANGE, Rules, SettingsError, check_integer, group,
+    settings,
 };
 use std::f64::consts::FRAC_PI_2;
 
-impl Words for Sampler {
-    const WORDS: &'static [(&'static str, Self)] = &[
+impl Keywords for Sampler {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[
         ("endpoint", Self::Endpoint),
         ("whole-arc", Self::WholeArc),
         // Sub-stepped sampler. The setting `steps` is its number of parts.
@@ -18,8 +19,8 @@ impl Words for Sampler {
     ];
 }
 
-impl Words for UnknownCells {
-    const WORDS: &'static [(&'static str, Self)] = &[("free", Self::Free), ("blocked", Self::Blocked)];
+impl Keywords for UnknownCells {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("free", Self::Free), ("blocked", Self::Blocked)];
 }
 
 group!([f64; 3] as [x, y, theta] => {
@@ -49,7 +50,7 @@ settings! {
         /// Command of all attempts.
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
         /// Noise parameters, the six of the velocity model.
-        alphas: [f64; 6] = alphas_of_noise(0.12), in ALPHA_RANGE;
+        alphas: [f64; 6] = alphas_of_noise_level(0.12), in ALPHA_RANGE;
         /// Noise level n: the first four noise parameters are n, the others n/4. Null if they have other ratios.
         noise, by noise_level of alphas, in ALPHA_RANGE;
         /// Radius of the robot.
@@ -96,8 +97,8 @@ impl Rules for Settings {
         self.sampler = self.sampler.with_parts(self.steps);
     }
 
-    fn check_together(&self) -> Result<(), SettingsError> {
-        let part_count = check_whole("steps", f64::from(self.parts()), &(1..=MAX_STEPS))?;
-        check_whole("samples", self.samples as f64, &(1..=MAX_SAMPLES as u64 / part_count)).map(|_| ())
+    fn check_combinations(&self) -> Result<(), SettingsError> {
+        let part_count = check_integer("steps", f64::from(self.parts()), &(1..=MAX_STEPS))?;
+        check_integer("samples", self.samples as f64, &(1..=MAX_SAMPLES as u64 / part_count)).map(|_| ())
     }
 }

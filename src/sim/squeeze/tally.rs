@@ -42,8 +42,8 @@ impl Tally {
 }
 
 /// Returns a quotient: NaN for 0/0, and infinity for another number over 0.
-pub(super) fn ratio(part: usize, all: usize) -> f64 {
-    part as f64 / all as f64
+pub(super) fn ratio(count: usize, total: usize) -> f64 {
+    count as f64 / total as f64
 }
 
 js_structs! {

@@ -63,10 +63,10 @@ impl Configuration<'_> {
 fn set_from_json(setting: Setting, value: &Value) {
     match setting {
         Setting::Number(slot, _) => *slot = number_of(value),
-        Setting::Whole(slot, _) => slot.set(value.as_u64().expect("a whole number")),
-        Setting::WholeOrNone(slot, _) => *slot = value.as_u64().map(|whole| whole as usize),
-        Setting::Truth(slot) => *slot = value.as_bool().expect("true or false"),
-        Setting::Word(slot) => assert!(slot.set(value.as_str().expect("a word")), "{value}"),
+        Setting::Integer(slot, _) => slot.set(value.as_u64().expect("a whole number")),
+        Setting::OptionalInteger(slot, _) => *slot = value.as_u64().map(|whole| whole as usize),
+        Setting::Boolean(slot) => *slot = value.as_bool().expect("true or false"),
+        Setting::Keyword(slot) => assert!(slot.set(value.as_str().expect("a word")), "{value}"),
         Setting::Numbers(slots, _) => {
             let given_numbers = value.as_array().expect("a list");
             assert_eq!(given_numbers.len(), slots.len(), "{value}");

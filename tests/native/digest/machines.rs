@@ -53,7 +53,12 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
         Part::new("executed", machine.executed_motions().flatten().collect::<Vec<_>>()),
         Part::new(
             "statistics",
-            (machine.shown(), machine.chart_holds(), (reading.rot1, reading.trans, reading.rot2), stats),
+            (
+                machine.shown_count(),
+                machine.is_chart_defined(),
+                (reading.rot1, reading.trans, reading.rot2),
+                stats,
+            ),
         ),
         Part::new("table", (columns, table.tangent.map(|moments| (moments.mean, moments.cov)))),
         Part::new("contours", outlines),
@@ -94,10 +99,10 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
     vec![
         Part::new("map", (plan.bounds(), flattened(walls.as_flattened()), grid)),
         Part::new("poses", attempts.iter().flat_map(|attempt| coordinates(attempt.pose)).collect::<Vec<_>>()),
-        Part::new("verdicts", attempts.iter().map(Attempt::verdict).collect::<Vec<_>>()),
+        Part::new("verdicts", attempts.iter().map(Attempt::verdict_bits).collect::<Vec<_>>()),
         Part::new(
             "statistics",
-            (attempts.len(), machine.start_free(), machine.find_free_pose(), noise, statistics),
+            (attempts.len(), machine.is_start_free(), machine.find_free_pose(), noise, statistics),
         ),
         Part::new("picture", flattened(machine.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
     ]
@@ -111,17 +116,18 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
     let machine = DeadReckoning::new(configuration.settings(defaults)).expect("a valid setting");
     let (settings, stats) = (machine.settings(), machine.stats());
     let values_by_step = |value: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
-        (0..machine.measured().len()).flat_map(|k| <[f64; 3]>::from(value(k))).collect()
+        (0..machine.measured_moments().len()).flat_map(|k| <[f64; 3]>::from(value(k))).collect()
     };
     let none = Vector3::repeat(f64::NAN);
     let [ratios, predicted] = [
         RECURSIONS.map(|order| values_by_step(&|k| machine.comparison(order).ratios[k])),
-        RECURSIONS
-            .map(|order| values_by_step(&|k| machine.predicted(order)[k].map_or(none, |cov| cov.diagonal()))),
+        RECURSIONS.map(|order| {
+            values_by_step(&|k| machine.predicted_covariances(order)[k].map_or(none, |cov| cov.diagonal()))
+        }),
     ]
     .map(<(_, _, _)>::from);
-    let measured = values_by_step(&|k| machine.measured()[k].cov.diagonal());
-    let relative_errors = values_by_step(&|k| machine.measured()[k].relative_error);
+    let measured = values_by_step(&|k| machine.measured_moments()[k].cov.diagonal());
+    let relative_errors = values_by_step(&|k| machine.measured_moments()[k].relative_error);
     let misses = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order].map(|axes| {
         axes.map(|Misses { decidable, first, last, end, error }| (decidable, first, last, end, error))
     });
@@ -130,7 +136,7 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
         (stats.n, (stats.measured.mean, stats.measured.cov), predictions, <(_, _, _)>::from(misses));
     let outlines = machine.outlines(settings.step).expect("a step");
     vec![
-        Part::new("statistics", (machine.shown(), settings.heading_noise(), statistics)),
+        Part::new("statistics", (machine.shown_count(), settings.heading_noise(), statistics)),
         Part::new("steps", (ratios, predicted, measured, relative_errors)),
         Part::new(
             "poses",

@@ -82,7 +82,7 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_machine() {
     document().assert(
         "α₁₋₄ = 0.02, α₅,₆ = 0: skew #; the Gentle arc's α = (0.05, 0.05, 0.05, 0.09, 0.01, 0.01): #.",
         [machine(preset("worked")), machine(preset("gentle"))]
-            .map(|machine| machine.exact().cross_track_skew),
+            .map(|machine| machine.exact_moments().cross_track_skew),
     );
     document().assert(
         "The widget opens with # robots. They give the skew of the Banana to ±#.",

@@ -7,7 +7,7 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::Sampler;
 use motion::sim::banana::{BananaMachine, Settings};
-use motion::sim::squeeze::{self, MapSqueeze, alphas_of_noise};
+use motion::sim::squeeze::{self, MapSqueeze, alphas_of_noise_level};
 use motion::{
     MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, RotTransRot, TangentNoiseModel, Variance,
     VelocityAlphas, VelocityCmd, VelocityModel,
@@ -119,7 +119,7 @@ fn exercise_4_each_alpha() {
 fn exercise_5_poses_through_walls() {
     let settings = |n: f64, omega: f64, sampler: Sampler| {
         let command = VelocityCmd { omega, ..squeeze::Settings::default().command };
-        let alphas = alphas_of_noise(n);
+        let alphas = alphas_of_noise_level(n);
         squeeze::Settings {
             command,
             alphas,

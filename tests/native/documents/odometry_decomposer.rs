@@ -6,7 +6,7 @@ use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
 use motion::sim::odometry_decomposer::{OdometryPose, RuleNoise, Settings};
 
 fn noise_of(settings: Settings, rule: OdometryRule) -> RuleNoise {
-    machine(settings).rules().into_iter().find(|noise| noise.rule == rule).expect("all rules")
+    machine(settings).rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules")
 }
 
 #[test]

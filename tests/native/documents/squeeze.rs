@@ -7,7 +7,7 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
 use motion::noise::centred_uniform;
-use motion::sim::squeeze::{MapSqueeze, PRESETS, Settings, alphas_of_noise};
+use motion::sim::squeeze::{MapSqueeze, PRESETS, Settings, alphas_of_noise_level};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
 /// Indices in `PRESETS` of the presets that start at the doorway, the wall and in the corridor.
@@ -75,7 +75,7 @@ fn most_accepted_samples_lie_behind_the_wall() {
 fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
     let [noise, share] =
         page().numbers("straight ahead at noise level #, # % of the accepted motions went through a wall.");
-    assert_eq!(Settings::default().alphas, alphas_of_noise(noise.value));
+    assert_eq!(Settings::default().alphas, alphas_of_noise_level(noise.value));
     assert_printed(share_through_wall(settings(DOORWAY, Sampler::Endpoint, 0.0)), share);
 }
 
@@ -152,7 +152,7 @@ fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
         let start = SE2::new(x, y, theta);
         for (n, omega) in [(0.12, 0.0), (0.12, 0.5), (0.12, 1.0), (0.2, 0.0), (0.2, 0.5), (0.2, 1.0)] {
             let model =
-                VelocityModel { alphas: VelocityAlphas(alphas_of_noise(n)), noise: NoiseKind::Normal };
+                VelocityModel { alphas: VelocityAlphas(alphas_of_noise_level(n)), noise: NoiseKind::Normal };
             let conditioned =
                 MapConditioned { model, plan: &plan, clearance: 0.13, sampler: Sampler::Endpoint };
             let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };

@@ -2,7 +2,7 @@
 
 use crate::common::{seeded, uniform};
 use motion::geom::double_double::DoubleDouble;
-use motion::sim::arc_anatomy::{CHAPTERS_THRESHOLD, FormErrors, form_errors};
+use motion::sim::arc_anatomy::{FormErrors, STRAIGHT_LINE_THRESHOLD, form_errors};
 
 /// Returns the rows of the reference: an angle, and the high and low parts of its sine, cosine and sinc.
 fn reference_rows() -> impl Iterator<Item = [f64; 7]> {
@@ -70,5 +70,5 @@ fn errors_of_the_three_arc_forms_grow_as_their_formulas_say() {
     }
     // The errors of the straight line and of the arc are equal at the turn rate with ½ωΔt² = ε/ω, for Δt = 0.01 s.
     assert!((estimated_crossover / ((2.0 * f64::EPSILON).sqrt() / 0.1) - 1.0).abs() < 1e-9);
-    assert_eq!(CHAPTERS_THRESHOLD, 1e-6);
+    assert_eq!(STRAIGHT_LINE_THRESHOLD, 1e-6);
 }

@@ -6,7 +6,7 @@ use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
 use motion::noise::centred_uniform;
-use motion::sim::squeeze::{PRESETS, alphas_of_noise};
+use motion::sim::squeeze::{PRESETS, alphas_of_noise_level};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -14,7 +14,7 @@ pub const SAMPLERS: [Sampler; 3] = [Sampler::Endpoint, Sampler::WholeArc, Sample
 pub const AHEAD: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
 
 fn model() -> VelocityModel {
-    VelocityModel { alphas: VelocityAlphas(alphas_of_noise(0.12)), noise: NoiseKind::Normal }
+    VelocityModel { alphas: VelocityAlphas(alphas_of_noise_level(0.12)), noise: NoiseKind::Normal }
 }
 
 fn conditioned_model(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {

@@ -4,7 +4,7 @@
 use motion::map::{MAX_BYTES, MAX_PIXELS};
 use motion::sim::picture::RAMP_STEPS;
 use motion::sim::settings::{Declaration, DeclaredSettings, Field, Group, Setting};
-use motion::sim::squeeze::{ACCEPTED, END_FREE, MAX_TRIAL_PARTS, PATH_FREE};
+use motion::sim::squeeze::{ACCEPTED_BIT, END_FREE_BIT, MAX_TRIAL_PARTS, PATH_FREE_BIT};
 use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use std::fmt::Write;
 use std::ops::{ControlFlow, RangeInclusive};
@@ -95,7 +95,7 @@ export const openingAlphas = {{ velocity: {velocity_alphas:?}, odometry: {odomet
 export const limits = {{ cells: {MAX_PIXELS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL_PARTS}, ramp: {RAMP_STEPS} }};
 
 /** Bits of a verdict of Map Squeeze. */
-export const verdict = {{ endFree: {END_FREE}, pathFree: {PATH_FREE}, accepted: {ACCEPTED} }};
+export const verdict = {{ endFree: {END_FREE_BIT}, pathFree: {PATH_FREE_BIT}, accepted: {ACCEPTED_BIT} }};
 ",
         declaration_lines(banana::Settings::default(), &banana::ALPHA_SENTENCES),
         declaration_lines(squeeze::Settings::default(), &[]),
@@ -197,15 +197,15 @@ fn describe(
         Setting::Number(value, allowed) => {
             add(format!("type: 'number', {unit}{}, default: {value}", range(&allowed)));
         }
-        Setting::Whole(value, allowed) => {
+        Setting::Integer(value, allowed) => {
             add(format!("type: 'whole', {unit}{}, default: {}", range(&allowed), value.get()));
         }
-        Setting::WholeOrNone(value, allowed) => {
+        Setting::OptionalInteger(value, allowed) => {
             let value = value.map_or("null".to_owned(), |value| value.to_string());
             add(format!("type: 'whole', nullable: true, {unit}{}, default: {value}", range(&allowed)));
         }
-        Setting::Truth(value) => add(format!("type: 'boolean', default: {value}")),
-        Setting::Word(word) => {
+        Setting::Boolean(value) => add(format!("type: 'boolean', default: {value}")),
+        Setting::Keyword(word) => {
             add(format!("type: 'word', words: {}, default: '{}'", word_list(word.all()), word.get()));
         }
         Setting::Level(level, allowed) => {

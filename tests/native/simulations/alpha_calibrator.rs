@@ -203,7 +203,7 @@ fn the_model_and_the_rule_go_together() {
 fn a_restored_fit_is_the_fitted_one_to_the_last_bit() {
     let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
     let machine = machine(settings);
-    let mut restored = AlphaCalibrator::restored(settings, &machine.saved()).expect("a fit");
+    let mut restored = AlphaCalibrator::restored(settings, &machine.save()).expect("a fit");
     // Residuals that a leg does not show are NaN, which equals nothing.
     let results = |fit: &AlphaCalibrator| {
         let panels = [Regressor::Turn, Regressor::Distance].map(|regressor| fit.panels(regressor));

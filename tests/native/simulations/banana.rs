@@ -107,11 +107,11 @@ fn changed_settings_move_the_same_robots() {
 fn a_large_cloud_grows_in_blocks() {
     for settings in settings_of_models() {
         let larger_settings = Settings { samples: 60_000, ..settings };
-        let mut growing = BananaMachine::showing(settings, 0).unwrap();
+        let mut growing = BananaMachine::with_shown_count(settings, 0).unwrap();
         growing.configure_first(larger_settings, usize::MAX).unwrap();
-        assert_eq!(growing.shown(), 25_000);
-        while growing.shown() < larger_settings.samples {
-            growing.add_samples(growing.block());
+        assert_eq!(growing.shown_count(), 25_000);
+        while growing.shown_count() < larger_settings.samples {
+            growing.add_samples(growing.block_size());
         }
         assert_eq!(results(&growing), results(&machine(larger_settings)));
     }
@@ -169,7 +169,7 @@ fn a_dragged_end_is_reached() {
         for (omega, dt) in [(0.3, 0.5), (-0.2, 2.0), (2.0, 3.0), (-1.5, 2.5)] {
             let command = command_reaching(x, y, &VelocityCmd { v: 1.0, omega, dt });
             let settings = Settings { command, ..preset("gentle") };
-            let end = machine(settings).linearized().mean;
+            let end = machine(settings).linearized_moments().mean;
             let end_position = SE2::new(end.x, end.y, 0.0);
             // A chord d on an arc of length s = |v|Δt carries the rounding of s.
             let rounding = 1e-14 * (1.0 + (command.v * dt).abs());
@@ -192,7 +192,7 @@ fn without_a_chart_exponential_values_are_undefined() {
     // sd of the turn: 3·√(0.02·(1 + ω²)), 0.7 and 0.9 rad.
     for (omega, is_defined) in [(0.9, true), (2.0, false), (-2.0, false)] {
         let machine = machine_with_turn(omega);
-        assert_eq!(machine.chart_holds(), is_defined, "ω = {omega}");
+        assert_eq!(machine.is_chart_defined(), is_defined, "ω = {omega}");
         let (stats, contours) = (machine.stats(), machine.contours());
         let exponential = [stats.gaussian_skew, stats.coverage.exponential, stats.exponential.mean.x];
         assert!(exponential.iter().all(|value| value.is_nan() != is_defined), "ω = {omega}: {stats:?}");
@@ -264,8 +264,8 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
     let rotations = [reading.rot1.abs(), PI - reading.rot1.abs()];
     for (machine, rotation) in machines.iter().zip(rotations) {
         let variance = 2.0 * (alpha1 * rotation * rotation + alpha2 * reading.trans * reading.trans);
-        assert!((machine.exact().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
-        assert!((machine.linearized().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
+        assert!((machine.exact_moments().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
+        assert!((machine.linearized_moments().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
     }
 }
 
@@ -276,13 +276,13 @@ fn additive_noise_does_not_depend_on_the_motion() {
     for [v, omega, dt] in [[0.05, 0.0, 1.0], [1.0, 0.5, 1.0], [1.0, 0.5, 10.0]] {
         let command = VelocityCmd { v, omega, dt };
         let machine = machine(Settings { command, samples: 10, ..preset("gentle") });
-        let end = machine.linearized().mean;
+        let end = machine.linearized_moments().mean;
         for [x, y] in machine.contours().additive {
             let radius = libm::hypot(x - end.x, y - end.y);
             assert!((radius - 2.0 * ADDITIVE_DEVIATION).abs() < 1e-12);
         }
     }
-    let cov = machine(Settings { samples: 10, ..preset("gentle") }).exact().cov;
+    let cov = machine(Settings { samples: 10, ..preset("gentle") }).exact_moments().cov;
     let rounded_deviation = (10.0 * (0.5 * (cov[(0, 0)] + cov[(1, 1)])).sqrt()).round() / 10.0;
     assert_eq!(rounded_deviation, ADDITIVE_DEVIATION);
 }

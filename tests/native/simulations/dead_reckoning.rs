@@ -82,7 +82,7 @@ fn moments_are_those_of_the_cloud() {
         let paths: Vec<_> =
             (0..settings.samples).map(|index| machine.rollout(index).expect("a robot")).collect();
         for k in [0, settings.steps as usize / 2, settings.steps as usize - 1] {
-            let nominal = machine.nominal()[k];
+            let nominal = machine.nominal_poses()[k];
             let xi: Vec<Vector3<f64>> = paths
                 .iter()
                 .map(|path| SE2::new(path[k][0], path[k][1], path[k][2]).boxminus(&nominal))
@@ -90,7 +90,7 @@ fn moments_are_those_of_the_cloud() {
             let mean = xi.iter().sum::<Vector3<f64>>() / n;
             let cov =
                 xi.iter().map(|xi| (xi - mean) * (xi - mean).transpose()).sum::<Matrix3<f64>>() / (n - 1.0);
-            let measured = machine.measured()[k];
+            let measured = machine.measured_moments()[k];
             let scale = 1e-11 * (1.0 + cov.amax());
             assert!((measured.mean - mean).amax() < scale, "{i}, {k}: {} {mean}", measured.mean);
             assert!((measured.cov - cov).amax() < scale, "{i}, {k}: {} {cov}", measured.cov);
@@ -118,8 +118,8 @@ fn ratios_and_misses_are_counted() {
         for (axis, misses) in comparison.misses.iter().enumerate() {
             let ratios: Vec<f64> = (0..20)
                 .map(|k| {
-                    let predicted = machine.predicted(order)[k].expect("a covariance");
-                    predicted[(axis, axis)] / machine.measured()[k].cov[(axis, axis)]
+                    let predicted = machine.predicted_covariances(order)[k].expect("a covariance");
+                    predicted[(axis, axis)] / machine.measured_moments()[k].cov[(axis, axis)]
                 })
                 .collect();
             assert!(comparison.ratios.iter().zip(&ratios).all(|(row, ratio)| row[axis] == *ratio));
@@ -142,7 +142,7 @@ fn misses_are_reported_with_enough_robots_only() {
     assert_eq!(decidable(Settings::default()), [true; 3]);
     assert_eq!(decidable(few(5000)), [false; 3]);
     assert_eq!(decidable(Settings { alphas: [0.0; 6], ..few(20_000) }), [false; 3]);
-    let empty = DeadReckoning::showing(Settings::default(), 0).expect("valid settings");
+    let empty = DeadReckoning::with_shown_count(Settings::default(), 0).expect("valid settings");
     assert!(
         empty
             .comparison(Compounding::Chapter)
@@ -156,7 +156,7 @@ fn misses_are_reported_with_enough_robots_only() {
 /// A component without variance has no relative error, however small the numbers are.
 #[test]
 fn a_zero_variance_has_no_relative_error() {
-    let errors = |settings| machine(settings).measured()[1].relative_error;
+    let errors = |settings| machine(settings).measured_moments()[1].relative_error;
     for samples in [1, 2] {
         assert!(errors(Settings { alphas: [0.0; 6], ..few(samples) }).iter().all(|error| error.is_nan()));
     }
@@ -178,11 +178,11 @@ fn a_zero_variance_has_no_relative_error() {
 fn a_fourth_order_without_a_covariance_has_no_ratio() {
     let settings = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..few(1000) };
     let machine = machine(settings);
-    let covs = machine.predicted(Compounding::FourthOrder);
+    let covs = machine.predicted_covariances(Compounding::FourthOrder);
     let end = covs.iter().position(Option::is_none).expect("some step without");
     assert!(covs[end..].iter().all(Option::is_none));
     assert!(machine.comparison(Compounding::FourthOrder).ratios[end..].iter().all(|ratio| ratio.x.is_nan()));
-    assert!(machine.predicted(Compounding::FirstOrder).iter().all(Option::is_some));
+    assert!(machine.predicted_covariances(Compounding::FirstOrder).iter().all(Option::is_some));
     let settings = Settings { step: end as u32 + 1, compounding: Compounding::FourthOrder, ..settings };
     let outlines =
         DeadReckoning::new(settings).expect("valid settings").outlines(settings.step).expect("a step");
@@ -232,8 +232,8 @@ fn noise_of_the_whole_path_is_shared_by_its_steps() {
             assert!((noise[i] * f64::from(steps) / expected[i] - 1.0).abs() < 1e-12, "{steps}, {i}");
         }
         // The heading's variance adds up.
-        let covariance =
-            machine(settings).predicted(Compounding::FirstOrder)[steps as usize - 1].expect("a covariance");
+        let covariance = machine(settings).predicted_covariances(Compounding::FirstOrder)[steps as usize - 1]
+            .expect("a covariance");
         assert!((covariance[(2, 2)] / (expected[1] + expected[2]) - 1.0).abs() < 1e-12);
     }
 }
@@ -250,8 +250,8 @@ fn the_level_of_heading_noise_is_that_of_four_alphas() {
 fn outlines_are_those_of_the_covariance() {
     let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..few(300) };
     let machine = machine(settings);
-    let covariance = machine.predicted(Compounding::FirstOrder)[19].expect("a covariance");
-    let nominal = machine.nominal()[19];
+    let covariance = machine.predicted_covariances(Compounding::FirstOrder)[19].expect("a covariance");
+    let nominal = machine.nominal_poses()[19];
     let outlines = machine.outlines(20).expect("a step");
     assert_eq!([machine.outlines(0), machine.outlines(21)], [None, None]);
     let information = covariance.fixed_view::<2, 2>(0, 0).into_owned().try_inverse().expect("full rank");
@@ -273,14 +273,14 @@ fn outlines_are_those_of_the_covariance() {
 fn the_commanded_path_leads_through_its_poses() {
     for settings in hard_settings() {
         let machine = machine(settings);
-        let path = machine.commanded();
+        let path = machine.commanded_path();
         let chords_per_step = (path.len() - 1) / settings.steps as usize;
         assert_eq!((path.len() - 1) % settings.steps as usize, 0);
         let twist = TangentNoiseModel::twist(&settings.command);
         let mut pose = SE2::identity();
         for k in 1..=settings.steps as usize {
             pose = pose.boxplus(twist);
-            let nominal = machine.nominal()[k - 1];
+            let nominal = machine.nominal_poses()[k - 1];
             assert!(nominal.boxminus(&pose).amax() < 1e-11, "{nominal:?}, not {pose:?}");
             assert_eq!(path[k * chords_per_step], [nominal.x(), nominal.y()]);
         }

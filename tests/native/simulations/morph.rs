@@ -39,7 +39,11 @@ fn robots_are_where_the_map_has_them() {
         for (index, (pose, twist)) in machine.poses().zip(machine.twists()).enumerate() {
             for morph in MORPHS {
                 let position = unbend(&twist, morph);
-                assert_eq!(machine.nearest(View::at(morph), position, [1e-10; 2]), Some(index), "{morph}");
+                assert_eq!(
+                    machine.nearest(View::from_morph(morph), position, [1e-10; 2]),
+                    Some(index),
+                    "{morph}"
+                );
                 let remaining = 1.0 - morph;
                 let [x, y] = integrated_twist([twist.x, remaining * twist.y, remaining * twist.z]);
                 assert!(distance(position, [x, y + morph * twist.z]) < 1e-5, "{morph}: {twist}");

@@ -67,7 +67,7 @@ fn the_linkage_is_the_reading() {
             assert!(pose_distance(&end, &preset.to.into()) < 0.01, "{} by {rule:?}", preset.name);
             let robot = |phase| {
                 let settings = Settings { phase, ..*machine.settings() };
-                OdometryDecomposer::new(settings).expect("a valid setting").robot()
+                OdometryDecomposer::new(settings).expect("a valid setting").robot_pose()
             };
             for (phase, pose) in [(0.0, start), (1.0, rotated), (2.0, driven), (3.0, end)] {
                 assert!(pose_distance(&robot(phase), &pose) < 1e-15, "{phase}");
@@ -77,10 +77,10 @@ fn the_linkage_is_the_reading() {
     }
     // Without noise every ghost is the linkage itself.
     let noise_free_machine = machine(Settings { alphas: [0.0; 5], ..Settings::default() });
-    assert_eq!(noise_free_machine.ghosts(7), [noise_free_machine.linkage(); 7]);
-    assert_eq!(noise_free_machine.ghosts(usize::MAX).len(), 500);
+    assert_eq!(noise_free_machine.sample_linkages(7), [noise_free_machine.linkage(); 7]);
+    assert_eq!(noise_free_machine.sample_linkages(usize::MAX).len(), 500);
     let opening = machine(Settings::default());
-    for (ghost, pose) in opening.ghosts(20).iter().zip(opening.poses()) {
+    for (ghost, pose) in opening.sample_linkages(20).iter().zip(opening.poses()) {
         assert_eq!(ghost[3], *pose);
     }
 }
@@ -91,8 +91,8 @@ fn the_prediction_does_not_see_the_drift() {
     let with_drift = |drift| machine(Settings { drift, ..Settings::default() });
     let (without_drift, with_long_drift) = (with_drift(0.0), with_drift(300.0));
     assert_eq!(without_drift.poses(), with_long_drift.poses());
-    assert_eq!(without_drift.rules(), with_long_drift.rules());
-    let [fixed, drifted] = [&without_drift, &with_long_drift].map(OdometryDecomposer::drifted);
+    assert_eq!(without_drift.rule_noises(), with_long_drift.rule_noises());
+    let [fixed, drifted] = [&without_drift, &with_long_drift].map(OdometryDecomposer::drifted_odometry);
     assert_eq!(fixed.frame, SE2::identity());
     // The poses in the frame of the odometry are metres away, and the legs are the same.
     assert!((drifted.to.x() - fixed.to.x()).hypot(drifted.to.y() - fixed.to.y()) > 2.0);
@@ -112,15 +112,15 @@ fn the_curve_goes_through_the_reading() {
         let machine = machine(Settings { rule, ..Settings::default() });
         let stats = machine.stats();
         let trans = machine.legs().trans;
-        let points = machine.curve(2.0 * trans, 3);
+        let points = machine.deviation_curve(2.0 * trans, 3);
         assert_eq!(points.iter().map(|point| point.trans).collect::<Vec<_>>(), [0.0, trans, 2.0 * trans]);
         let CurvePoint { cross_track, lever, along, .. } = points[1];
         assert_eq!((cross_track, lever), (stats.exact_cross_track, stats.lever));
-        let of_rule = machine.rules().into_iter().find(|noise| noise.rule == rule).expect("all rules");
+        let of_rule = machine.rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules");
         assert_eq!((of_rule.deviations[1], of_rule.cross_track), (along, cross_track));
-        assert_eq!(machine.curve(1.0, 1).len(), 1);
+        assert_eq!(machine.deviation_curve(1.0, 1).len(), 1);
     }
     let large_noise = machine(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
-    let long_drive = large_noise.curve(10.0, 2)[1];
+    let long_drive = large_noise.deviation_curve(10.0, 2)[1];
     assert!(long_drive.cross_track < long_drive.trans && long_drive.lever > 10.0 * long_drive.trans);
 }

@@ -4,7 +4,7 @@ use crate::common::preset;
 use motion::sim::View;
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::sim::picture::{RAMP_STEPS, Ramp};
-use motion::sim::squeeze::{self, MapSqueeze, OUTCOME_KINDS, PRESETS};
+use motion::sim::squeeze::{self, MapSqueeze, OUTCOME_KIND_COUNT, PRESETS};
 use motion::sim::views::Grid;
 
 /// Returns grids over the middle of a cloud, so that samples are outside on every side. Painting skips sixteen empty cells at once, so that
@@ -65,12 +65,12 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
     let (_, start) = PRESETS[1];
     let settings = squeeze::Settings { start, samples: 3000, ..squeeze::Settings::default() };
     let mut machine = MapSqueeze::new(settings).expect("a valid setting");
-    let mut painted_cells = [0; OUTCOME_KINDS];
+    let mut painted_cells = [0; OUTCOME_KIND_COUNT];
     for grid in grids([2.9, 3.4], [3.7, 4.9]) {
-        let mut counts = vec![[0u32; OUTCOME_KINDS]; grid.columns * grid.rows];
+        let mut counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
         for attempt in machine.attempts() {
             if let Some(cell) = cell(&grid, [attempt.pose.x(), attempt.pose.y()]) {
-                counts[cell][attempt.kind() as usize] += 1;
+                counts[cell][attempt.outcome_kind() as usize] += 1;
             }
         }
         let totals: Vec<u32> = counts.iter().map(|kinds| kinds.iter().sum()).collect();

@@ -110,17 +110,17 @@ fn attempts_have_the_arcs_that_they_drove() {
 fn the_commanded_path_and_the_room_at_its_start() {
     let command = VelocityCmd { v: -0.5, omega: 0.8, dt: 1.5 };
     let mut machine = machine(Settings { command, ..Settings::default() });
-    let arc = machine.commanded();
+    let arc = machine.commanded_arc();
     assert_eq!((arc.start.x(), arc.start.y(), arc.length), (2.05, 2.6, -0.75));
     assert!((arc.turn - 1.2).abs() < 1e-15);
     // The doorposts are 1.2 m ahead and 0.45 m to either side: √(1.2² + 0.45²) = 1.2816 m away.
-    assert!(machine.start_free());
+    assert!(machine.is_start_free());
     for (clearance, free) in [(1.282, false), (1.281, true)] {
         machine.configure(Settings { clearance, ..Settings::default() }).expect("valid");
-        assert_eq!(machine.start_free(), free, "{clearance}");
+        assert_eq!(machine.is_start_free(), free, "{clearance}");
     }
     machine.set_plan(too_small_room());
-    assert!(!machine.start_free());
+    assert!(!machine.is_start_free());
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn the_machine_stops_after_a_bounded_number_of_draws() {
     assert!(machine.tally().through_wall_rate().is_nan());
     assert_eq!(machine.tally().through_wall_interval(), [0.0, 1.0], "nothing is known");
     for sampler in SAMPLERS {
-        assert_eq!(machine.trial(sampler, 10).expect_err("no room").0.draws, MAX_DRAWS);
+        assert_eq!(machine.sampling_trial(sampler, 10).expect_err("no room").0.draws, MAX_DRAWS);
     }
     machine.configure(settings).expect("valid");
     assert!(machine.gave_up());
@@ -175,7 +175,7 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
     let start = SE2::new(x, y, theta);
     let before = results(&machine);
     for sampler in SAMPLERS {
-        let cost = machine.trial(sampler, 500).expect("it fits");
+        let cost = machine.sampling_trial(sampler, 500).expect("it fits");
         let plan = FloorPlan::apartment();
         let conditioned = MapConditioned { model, plan: &plan, clearance: 0.13, sampler };
         let mut rng = seeded(7);

@@ -175,7 +175,7 @@ fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
     }
     // That holds also if headings spread over a full turn, where exponential coordinates are undefined.
     let wide_cloud = machine(GENTLE, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
-    assert!(!wide_cloud.chart_holds());
+    assert!(!wide_cloud.is_chart_defined());
     let Stats { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } = wide_cloud.stats();
     assert!(gain.pose.is_nan() && error.pose.is_nan() && area_ratio.is_nan());
     assert_close(

@@ -1,16 +1,16 @@
 //! `AlphaCalibrator` for JavaScript.
 
 use super::calibration::{calibration_to_js, columns_to_js};
-use super::face::configured;
-use super::fields::{read_integer, read_keyword, read_opening};
+use super::fields::{read_initial_settings, read_integer, read_keyword};
 use super::log::read_logs;
+use super::machine_class::machine_class;
 use super::pictures::nearest_index;
 use super::values::{ToJs, js_object, settings_to_js, to_plain_js};
 use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, RestoreError};
 use js_sys::TypeError;
 use wasm_bindgen::prelude::*;
 
-configured! {
+machine_class! {
     /// Calibration of α's from a log, with confidence intervals and goodness of fit. It opens with a simulated log.
     JsAlphaCalibrator(AlphaCalibrator), "AlphaCalibrator", "AlphaCalibratorSettings", "Partial<AlphaCalibratorSettings>"
 }
@@ -19,11 +19,12 @@ configured! {
 impl JsAlphaCalibrator {
     /// Creates a machine with these settings and a fit that another machine has saved. It has no log, so that settings that need
     /// another fit stay pending.
-    pub fn restored(
+    #[wasm_bindgen(js_name = restored)]
+    pub fn restore(
         #[wasm_bindgen(unchecked_param_type = "Partial<AlphaCalibratorSettings>")] settings: &JsValue,
         saved: &[u8],
     ) -> Result<Self, JsValue> {
-        match AlphaCalibrator::restored(read_opening(settings)?, saved) {
+        match AlphaCalibrator::restore(read_initial_settings(settings)?, saved) {
             Ok(machine) => Ok(Self(machine)),
             Err(RestoreError::Settings(error)) => Err(error.into()),
             Err(RestoreError::Bytes) => {
@@ -37,7 +38,7 @@ impl JsAlphaCalibrator {
         self.0.save()
     }
 
-    /// Settings, and the number of the fit. `stats` and `legs` change only if that number changes.
+    /// Settings, and the revision of the fit. `stats` and `legs` change only if that revision changes.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<AlphaCalibrator, 'config' | 'fittedConfig' | 'fits' | 'isPending'>"
     )]
@@ -73,7 +74,7 @@ impl JsAlphaCalibrator {
         Ok(())
     }
 
-    /// Number of the fit. It changes with each new fit.
+    /// Revision of the fit. It changes with each new fit.
     #[wasm_bindgen(getter, js_name = fits)]
     pub fn fit_revision(&self) -> u32 {
         self.0.fit_revision()
@@ -98,7 +99,7 @@ impl JsAlphaCalibrator {
     #[wasm_bindgen(unchecked_return_type = "LegView | null")]
     pub fn leg(&self, index: f64) -> Result<JsValue, JsValue> {
         let leg = self.0.leg(read_integer("index", index, 0..=u64::from(u32::MAX))? as usize);
-        // Without serde's conversion of typed arrays the module of this figure, which is the largest, is smaller.
+        // Converted without serde, whose conversion of typed arrays would enlarge the module of this figure, the largest one.
         Ok(leg.map_or(JsValue::NULL, |LegView { outcomes, outline, read, ended }| {
             js_object(&[
                 ("outcomes", outcomes.to_js()),

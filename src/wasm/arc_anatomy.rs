@@ -1,14 +1,14 @@
 //! `ArcAnatomy` for JavaScript.
 
-use super::face::configured;
-use super::fields::in_range;
+use super::fields::check_range;
+use super::machine_class::machine_class;
 use super::pictures::read_bounds;
 use super::values::{flat_float_array, js_object, to_plain_js};
 use crate::sim::arc_anatomy::{ArcAnatomy, form_errors};
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
-configured! {
+machine_class! {
     /// The arc between two poses, and how likely it is after a command.
     JsArcAnatomy(ArcAnatomy), "ArcAnatomy", "ArcAnatomySettings", "Partial<ArcAnatomySettings>"
 }
@@ -62,8 +62,9 @@ impl JsArcAnatomy {
 
     /// Poses after a fraction of the time, 0 to 1: x, y (m) and θ (rad) on the commanded arc, on the arc that v̂ and ω̂
     /// drive, and on the path of constant twist.
-    pub fn underway(&self, share: f64) -> Result<Float64Array, JsValue> {
-        let poses = self.0.poses_at(in_range("share", share, &(0.0..=1.0))?);
+    #[wasm_bindgen(js_name = underway)]
+    pub fn poses_at(&self, share: f64) -> Result<Float64Array, JsValue> {
+        let poses = self.0.poses_at(check_range("share", share, &(0.0..=1.0))?);
         Ok(flat_float_array(&poses.map(<[f64; 3]>::from)))
     }
 }

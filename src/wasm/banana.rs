@@ -2,8 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use super::face::cloud;
-use super::fields::{in_range, not_shown, read_integer, read_keyword};
+use super::fields::{check_range, not_shown_error, read_integer, read_keyword};
+use super::machine_class::cloud_machine_class;
 use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
 use super::values::{flat_float_array, js_array, js_object, to_plain_js};
 use crate::geom::se2::SE2;
@@ -18,7 +18,7 @@ use nalgebra::{Matrix3, Vector3};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
+const TYPESCRIPT_TYPES: &str = r#"
 /** "plane" is (x, y); "twist" is (ξ along, ξ heading). */
 export type ViewName = 'plane' | 'twist';
 
@@ -29,7 +29,7 @@ export type MorphedView = ViewName | number;
 export type Moments = CartesianMoments | ExponentialMoments;
 "#;
 
-cloud! {
+cloud_machine_class! {
     /// One command from the origin, many robots that execute it with noise, and Gaussians fitted to their end poses.
     JsBananaMachine(BananaMachine), "BananaMachine", "BananaMachineSettings", "Partial<BananaMachineSettings>", MAX_SAMPLES
 }
@@ -139,8 +139,8 @@ impl JsBananaMachine {
         #[wasm_bindgen(js_name = omegaMax)] omega_max: f64,
         points: f64,
     ) -> Result<Vec<f64>, JsValue> {
-        let first_omega = in_range("omegaMin", omega_min, &QUANTITY_RANGE)?;
-        let last_omega = in_range("omegaMax", omega_max, &QUANTITY_RANGE)?;
+        let first_omega = check_range("omegaMin", omega_min, &QUANTITY_RANGE)?;
+        let last_omega = check_range("omegaMax", omega_max, &QUANTITY_RANGE)?;
         let points = read_integer("points", points, 2..=MAX_CURVE_POINTS)?;
         Ok(self.0.skew_curve(first_omega, last_omega, points as usize))
     }
@@ -149,14 +149,17 @@ impl JsBananaMachine {
     #[wasm_bindgen(unchecked_return_type = "Inspection")]
     pub fn inspect(&self, index: f64) -> Result<JsValue, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        let sample = self.0.inspect(index).ok_or_else(|| not_shown(index, self.0.shown_count()))?;
+        let sample = self.0.inspect(index).ok_or_else(|| not_shown_error(index, self.0.shown_count()))?;
         to_plain_js(&sample)
     }
 
     /// Heading (rad) of a sample by its index, counted from 0.
     pub fn heading(&self, index: f64) -> Result<f64, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        self.0.pose(index).map(|pose| pose.theta()).ok_or_else(|| not_shown(index, self.0.shown_count()))
+        self.0
+            .pose(index)
+            .map(|pose| pose.theta())
+            .ok_or_else(|| not_shown_error(index, self.0.shown_count()))
     }
 
     /// Index of the nearest sample inside an ellipse with these radii around a point of the view; −1 for none.
@@ -168,8 +171,10 @@ impl JsBananaMachine {
         #[wasm_bindgen(js_name = radiusX)] radius_x: f64,
         #[wasm_bindgen(js_name = radiusY)] radius_y: f64,
     ) -> Result<i32, JsValue> {
-        let radii =
-            [in_range("radiusX", radius_x, &RADIUS_RANGE)?, in_range("radiusY", radius_y, &RADIUS_RANGE)?];
+        let radii = [
+            check_range("radiusX", radius_x, &RADIUS_RANGE)?,
+            check_range("radiusY", radius_y, &RADIUS_RANGE)?,
+        ];
         let nearest = self.0.nearest(read_view(view)?, [x, y], radii);
         Ok(nearest.map_or(-1, |index| index as i32))
     }
@@ -215,7 +220,7 @@ impl JsBananaMachine {
 /// Reads a view: its name, or a morph.
 fn read_view(view: &JsValue) -> Result<View, JsValue> {
     match view.as_f64() {
-        Some(morph) => Ok(View::from_morph(in_range("view", morph, &MORPH_RANGE)?)),
+        Some(morph) => Ok(View::from_morph(check_range("view", morph, &MORPH_RANGE)?)),
         None => read_keyword("view", view),
     }
 }
@@ -226,16 +231,16 @@ const TURN_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 /// Points to which a morph takes a line of points of the floor, x, y pairs in m. Each point counts as the end of the arc whose turn
 /// is nearest to `turn` (rad). Empty for a line around the start.
 #[wasm_bindgen(js_name = unbendLine)]
-pub fn line_unbent(points: &[f64], turn: f64, morph: f64) -> Result<Float64Array, JsValue> {
-    let (turn, morph) = (in_range("turn", turn, &TURN_RANGE)?, in_range("morph", morph, &MORPH_RANGE)?);
+pub fn js_unbend_line(points: &[f64], turn: f64, morph: f64) -> Result<Float64Array, JsValue> {
+    let (turn, morph) = (check_range("turn", turn, &TURN_RANGE)?, check_range("morph", morph, &MORPH_RANGE)?);
     Ok(flat_float_array(&unbend_line(points.as_chunks().0, turn, morph)))
 }
 
 /// The 2σ outline at a morph of a Gaussian in exponential coordinates, as x, y pairs; `moments` are its mean (three numbers) and its
 /// covariance (nine).
 #[wasm_bindgen(js_name = unbendGaussian)]
-pub fn gaussian_unbent(moments: &[f64], morph: f64) -> Result<Float64Array, JsValue> {
-    let morph = in_range("morph", morph, &MORPH_RANGE)?;
+pub fn js_unbend_gaussian(moments: &[f64], morph: f64) -> Result<Float64Array, JsValue> {
+    let morph = check_range("morph", morph, &MORPH_RANGE)?;
     let (mean, cov) = moments
         .split_at_checked(3)
         .filter(|(_, cov)| cov.len() == 9)

@@ -1,17 +1,17 @@
 //! `motion.calibrate` for JavaScript: logs in, α's out.
 
-use super::calibration::{SYSTEMATIC, calibration_to_js, columns_to_js};
-use super::fields::{Fields, in_range, read_boolean, read_keyword, read_number, type_error};
+use super::calibration::{SYSTEMATIC_ERROR_KEYS, calibration_to_js, columns_to_js};
+use super::fields::{Fields, check_range, read_boolean, read_keyword, read_number, type_error};
 use super::log::read_logs;
 use crate::calibrate::{Drive, ERROR_COUNT, LegLength, Model, Options, calibrate};
 use crate::models::OdometryRule;
-use crate::sim::alpha_calibrator::{Log, Model as Asked};
+use crate::sim::alpha_calibrator::{Log, Model as ModelChoice};
 use js_sys::RangeError;
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
+const TYPESCRIPT_TYPES: &str = r#"
 /** Names of the systematic errors. */
 export type SystematicErrorName = 'clockOffset' | 'mountYaw' | 'leverArm' | 'distanceScale' | 'turnScale';
 
@@ -52,14 +52,15 @@ const STD_RANGE: RangeInclusive<f64> = 0.0..=1e3;
 
 /// Fits the α's of a robot to logs of its odometry (or its commands) and of a reference. `doc/calibration-method.md` has the method.
 #[wasm_bindgen(js_name = calibrate, unchecked_return_type = "Calibration")]
-pub fn calibrated(
+pub fn js_calibrate(
     #[wasm_bindgen(unchecked_param_type = "CalibrationOptions")] options: &JsValue,
 ) -> Result<JsValue, JsValue> {
     const KEYS: [&str; 9] =
         ["odometry", "reference", "model", "rule", "legs", "outliers", "correct", "positionStd", "yawStd"];
     let fields = Fields::new("options", "", options, &KEYS)?;
-    let std_of =
-        |key: &str| fields.optional(key, |path, value| in_range(path, read_number(path, value)?, &STD_RANGE));
+    let std_of = |key: &str| {
+        fields.optional(key, |path, value| check_range(path, read_number(path, value)?, &STD_RANGE))
+    };
     let options = Options {
         model: read_model(&fields)?,
         legs: fields.optional("legs", read_leg_length)?.unwrap_or(LegLength::AMCL),
@@ -76,30 +77,30 @@ pub fn calibrated(
 }
 
 fn read_model(fields: &Fields) -> Result<Model, JsValue> {
-    let model_name: Option<Asked> = fields.optional("model", read_keyword)?;
+    let model_name: Option<ModelChoice> = fields.optional("model", read_keyword)?;
     let rule: Option<OdometryRule> = fields.optional("rule", read_keyword)?;
     let is_omni = rule == Some(OdometryRule::Omni);
     let rule_fits_model = match model_name {
         None => true,
-        Some(Asked::Odometry) => !is_omni,
-        Some(Asked::Omnidirectional) => is_omni || rule.is_none(),
-        Some(Asked::Velocity) => rule.is_none(),
+        Some(ModelChoice::Odometry) => !is_omni,
+        Some(ModelChoice::Omnidirectional) => is_omni || rule.is_none(),
+        Some(ModelChoice::Velocity) => rule.is_none(),
     };
     if !rule_fits_model {
         let message = "rule does not go with the model; allowed is thrun, nav2 or beluga with odometry, omni with omnidirectional, and none with velocity";
         return Err(RangeError::new(message).into());
     }
     Ok(match model_name {
-        Some(Asked::Velocity) => Model::Velocity,
-        Some(Asked::Omnidirectional) => Model::Odometry(OdometryRule::Omni),
-        Some(Asked::Odometry) | None => Model::Odometry(rule.unwrap_or(OdometryRule::Table)),
+        Some(ModelChoice::Velocity) => Model::Velocity,
+        Some(ModelChoice::Omnidirectional) => Model::Odometry(OdometryRule::Omni),
+        Some(ModelChoice::Odometry) | None => Model::Odometry(rule.unwrap_or(OdometryRule::Table)),
     })
 }
 
 fn read_leg_length(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     let fields = Fields::new(field, "legs.", value, &["distance", "angle", "duration"])?;
     let [distance, angle, duration] = ["distance", "angle", "duration"].map(|key| {
-        fields.optional(key, |path, value| in_range(path, read_number(path, value)?, &LEG_LENGTH_RANGE))
+        fields.optional(key, |path, value| check_range(path, read_number(path, value)?, &LEG_LENGTH_RANGE))
     });
     let (distance, angle) = (distance?, angle?);
     match duration? {
@@ -119,14 +120,14 @@ fn read_corrections(field: &str, value: &JsValue) -> Result<[Option<bool>; ERROR
     if let Some(all_errors) = value.as_bool() {
         return Ok([Some(all_errors); ERROR_COUNT]);
     }
-    let keys = SYSTEMATIC.map(|(key, _)| key);
+    let keys = SYSTEMATIC_ERROR_KEYS.map(|(key, _)| key);
     if !value.is_object() {
         let allowed = format!("true, false or an object with keys from {}", keys.join(", "));
         return Err(type_error(field, value, &allowed));
     }
     let fields = Fields::new(field, "correct.", value, &keys)?;
     let mut correct = [None; ERROR_COUNT];
-    for (key, errors) in SYSTEMATIC {
+    for (key, errors) in SYSTEMATIC_ERROR_KEYS {
         let is_corrected = fields.optional(key, read_boolean)?;
         errors.iter().for_each(|error| correct[*error as usize] = is_corrected);
     }

@@ -8,7 +8,7 @@ use js_sys::Array;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
+const TYPESCRIPT_TYPES: &str = r#"
 /** A 95 % confidence interval: it contains the true value in 95 of 100 logs. */
 export type Interval = [number, number];
 
@@ -102,7 +102,7 @@ export interface CalibrationLegs {
 "#;
 
 /// Name of each systematic error, and its members of [`SystematicError::ALL`].
-pub const SYSTEMATIC: [(&str, &[SystematicError]); 5] = [
+pub const SYSTEMATIC_ERROR_KEYS: [(&str, &[SystematicError]); 5] = [
     ("clockOffset", &[SystematicError::ClockOffset]),
     ("mountYaw", &[SystematicError::MountYaw]),
     ("leverArm", &[SystematicError::LeverArmAhead, SystematicError::LeverArmLeft]),
@@ -181,7 +181,7 @@ fn systematic_to_js(calibration: &Calibration) -> JsValue {
     let interval_of_error = |error: SystematicError| interval_to_js(calibration.interval_of(error));
     let has_any =
         |mask: &ErrorMask, errors: &[SystematicError]| errors.iter().any(|error| mask[*error as usize]);
-    let error_entries = SYSTEMATIC.iter().map(|(key, errors)| {
+    let error_entries = SYSTEMATIC_ERROR_KEYS.iter().map(|(key, errors)| {
         let [value, interval] = match errors {
             [error] => [value_of(*error), interval_of_error(*error)],
             errors => [
@@ -229,10 +229,10 @@ fn recommended_to_js(
 /// Makes arrays of the legs of a calibration, one leg after the other in each.
 pub fn columns_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
-    let room = |width: usize| Vec::with_capacity(width * legs.len());
-    let [mut times, mut odometry, mut reference] = [2, 6, 6].map(room);
-    let [mut readings, mut residuals, mut standardized, mut stds] = [3; 4].map(room);
-    let [mut squared_distances, mut outliers] = [1; 2].map(room);
+    let empty_column = |width: usize| Vec::with_capacity(width * legs.len());
+    let [mut times, mut odometry, mut reference] = [2, 6, 6].map(empty_column);
+    let [mut readings, mut residuals, mut standardized, mut stds] = [3; 4].map(empty_column);
+    let [mut squared_distances, mut outliers] = [1; 2].map(empty_column);
     let base = corrected.base();
     for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
         times.extend_from_slice(&leg.times);

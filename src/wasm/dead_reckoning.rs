@@ -1,7 +1,7 @@
 //! `DeadReckoning` for JavaScript.
 
-use super::face::cloud;
-use super::fields::{not_shown, read_integer};
+use super::fields::{not_shown_error, read_integer};
+use super::machine_class::cloud_machine_class;
 use super::pictures::nearest_index;
 use super::values::{flat_float_array, js_object, number_or_null, to_plain_js};
 use crate::models::Compounding;
@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
+const TYPESCRIPT_TYPES: &str = r#"
 /** Robots and outlines after a quarter of the path. */
 export interface Milestone {
   /** Poses as in `posesAfter`. */
@@ -21,7 +21,7 @@ export interface Milestone {
 }
 "#;
 
-cloud! {
+cloud_machine_class! {
     /// One command driven step after step by many identical robots from (0, 0), heading along x, and the covariance that
     /// recursions predict of it. `headingNoise` sets α₃ to α₆.
     JsDeadReckoning(DeadReckoning), "DeadReckoning", "DeadReckoningSettings",
@@ -79,10 +79,13 @@ impl JsDeadReckoning {
     /// undefined.
     #[wasm_bindgen(getter, unchecked_return_type = "ByRecursion<Float64Array>")]
     pub fn predicted(&self) -> JsValue {
-        let none = Vector3::repeat(f64::NAN);
+        let undefined_variances = Vector3::repeat(f64::NAN);
         js_by_recursion(|order| {
             flat_vectors(
-                self.0.predicted_covariances(order).iter().map(|cov| cov.map_or(none, |cov| cov.diagonal())),
+                self.0
+                    .predicted_covariances(order)
+                    .iter()
+                    .map(|cov| cov.map_or(undefined_variances, |cov| cov.diagonal())),
             )
         })
     }
@@ -144,7 +147,7 @@ impl JsDeadReckoning {
     /// x, y (m), θ (rad) of one robot after each step, counted from 0.
     pub fn rollout(&self, index: f64) -> Result<Float64Array, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
-        let poses = self.0.rollout(index).ok_or_else(|| not_shown(index, self.0.shown_count()))?;
+        let poses = self.0.rollout(index).ok_or_else(|| not_shown_error(index, self.0.shown_count()))?;
         Ok(flat_float_array(&poses))
     }
 

@@ -1,5 +1,5 @@
-//! Reading JavaScript values, each checked once. Every refusal is a TypeError or RangeError that names the field, the
-//! value and what is allowed.
+//! Reading JavaScript values, each checked once. Every error is a TypeError or RangeError that names the field, the
+//! value and the allowed values.
 
 use crate::sim::settings::{
     Group, Keyword, Keywords, Rules, Setting, SettingsError, check_group, check_integer, check_real,
@@ -81,7 +81,7 @@ pub fn read_number(field: &str, value: &JsValue) -> Result<f64, JsValue> {
 }
 
 /// Checks that a number is in the given range.
-pub fn in_range(field: &str, number: f64, allowed: &RangeInclusive<f64>) -> Result<f64, JsValue> {
+pub fn check_range(field: &str, number: f64, allowed: &RangeInclusive<f64>) -> Result<f64, JsValue> {
     check_real(field, number, allowed)?;
     Ok(number)
 }
@@ -92,12 +92,12 @@ pub fn read_integer(field: &str, number: f64, allowed: RangeInclusive<u64>) -> R
 }
 
 /// Returns the error for the index of a sample that is not shown.
-pub fn not_shown(index: usize, shown: usize) -> JsValue {
+pub fn not_shown_error(index: usize, shown: usize) -> JsValue {
     let allowed = format!("one of the {shown} samples shown, counted from 0");
     RangeError::new(&format!("index is {index}; allowed is {allowed}")).into()
 }
 
-/// Reads one of the words of an enum.
+/// Reads one of the keywords of an enum.
 pub fn read_keyword<T: Keywords>(field: &str, value: &JsValue) -> Result<T, JsValue> {
     let mut result = T::KEYWORDS[0].1;
     set_keyword(field, value, &mut result)?;
@@ -110,7 +110,8 @@ fn set_keyword(field: &str, value: &JsValue, word: &mut dyn Keyword) -> Result<(
     if word.set(&text) {
         return Ok(());
     }
-    Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe(value), allowed(word))).into())
+    Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe_value(value), allowed(word)))
+        .into())
 }
 
 /// Reads an array (or typed array) of exactly N numbers without checking ranges.
@@ -145,13 +146,13 @@ fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(),
 }
 
 /// Reads all numbers of a group, each in its range.
-pub fn group_in_range(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
+pub fn read_group_in_range(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
     read_group(field, value, group)?;
     Ok(check_group(field, group)?)
 }
 
 /// Returns the initial settings of a machine: the defaults, with the values in `options`.
-pub fn read_opening<S: Rules>(options: &JsValue) -> Result<S, JsValue> {
+pub fn read_initial_settings<S: Rules>(options: &JsValue) -> Result<S, JsValue> {
     if options.is_undefined() { Ok(S::default()) } else { read_settings(&S::default(), options) }
 }
 
@@ -189,8 +190,8 @@ fn read_setting(field: &str, value: &JsValue, setting: Setting) -> Result<(), Js
         Setting::Boolean(slot) => *slot = read_boolean(field, value)?,
         Setting::Keyword(slot) => set_keyword(field, value, slot)?,
         Setting::Numbers(slots, _) => fill_array(field, value, slots)?,
-        // Checked here: once a level is split into its numbers, an error could not name it.
-        Setting::Level(slot, allowed) => slot.set(in_range(field, read_number(field, value)?, &allowed)?),
+        // Checked before the level is converted to its numbers, because a later error would name one of these.
+        Setting::Level(slot, allowed) => slot.set(check_range(field, read_number(field, value)?, &allowed)?),
         Setting::Group(group) => read_group(field, value, group)?,
     }
     Ok(())
@@ -216,7 +217,7 @@ pub fn array_item(value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
 }
 
 pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
-    TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe(value))).into()
+    TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe_value(value))).into()
 }
 
 /// Returns a number as JavaScript prints it.
@@ -226,14 +227,14 @@ pub fn number_text(number: f64) -> String {
 }
 
 /// Maximum number of quoted characters: enough to recognize a text, and longer than any key or word.
-const MAX_CHARACTERS: usize = 40;
+const MAX_QUOTED_CHARACTERS: usize = 40;
 
-/// Shortens a text for quotation in a sentence.
+/// Shortens a text that is quoted in an error message.
 fn shorten(text: &str) -> String {
     let mut characters = text
         .chars()
         .map(|character| if character.is_control() { char::REPLACEMENT_CHARACTER } else { character });
-    let mut shortened_text: String = characters.by_ref().take(MAX_CHARACTERS).collect();
+    let mut shortened_text: String = characters.by_ref().take(MAX_QUOTED_CHARACTERS).collect();
     if characters.next().is_some() {
         shortened_text.push('…');
     }
@@ -253,8 +254,8 @@ pub fn quote(text: &str) -> String {
     result
 }
 
-/// Describes a value for a sentence.
-fn describe(value: &JsValue) -> String {
+/// Describes a value in an error message.
+fn describe_value(value: &JsValue) -> String {
     if let Some(text) = value.as_string() {
         return quote(&shorten(&text));
     }

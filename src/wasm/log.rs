@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
+const TYPESCRIPT_TYPES: &str = r#"
 /** Poses, in arrays of the same length: rising times in s, x and y in m, headings in rad. */
 export interface LoggedPoses {
   t: ArrayLike<number>;

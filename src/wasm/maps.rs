@@ -1,7 +1,7 @@
 //! Plans and grids from JavaScript.
 
 use super::fields::{
-    Fields, array_item, array_length, in_range, number_text, read_array, read_boolean, read_integer,
+    Fields, array_item, array_length, check_range, number_text, read_array, read_boolean, read_integer,
     read_keyword, read_number, type_error,
 };
 use crate::geom::se2::SE2;
@@ -60,10 +60,10 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
 /// with their defaults.
 pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
     let fields = Fields::with_any_keys("description", "", description)?;
-    let resolution = in_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
+    let resolution = check_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
     let origin: [f64; 3] = read_array("origin", &fields.value("origin")?)?;
     for (i, coordinate) in origin.iter().enumerate() {
-        in_range(&format!("origin[{i}]"), *coordinate, &QUANTITY_RANGE)?;
+        check_range(&format!("origin[{i}]"), *coordinate, &QUANTITY_RANGE)?;
     }
     let negate = fields.optional("negate", |field, value| {
         if value.as_bool().is_some() {
@@ -71,12 +71,12 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
         }
         Ok(read_integer(field, read_number(field, value)?, 0..=1)? == 1)
     })?;
-    let threshold = |key: &str| {
-        fields.optional(key, |field, value| in_range(field, read_number(field, value)?, &(0.0..=1.0)))
+    let read_threshold = |key: &str| {
+        fields.optional(key, |field, value| check_range(field, read_number(field, value)?, &(0.0..=1.0)))
     };
     let defaults = Interpretation::default();
-    let occupied_thresh = threshold("occupied_thresh")?.unwrap_or(defaults.occupied_thresh);
-    let free_thresh = threshold("free_thresh")?;
+    let occupied_thresh = read_threshold("occupied_thresh")?.unwrap_or(defaults.occupied_thresh);
+    let free_thresh = read_threshold("free_thresh")?;
     if let Some(free) = free_thresh.filter(|free| *free > occupied_thresh) {
         let [free_text, limit_text] = [free, occupied_thresh].map(number_text);
         let message = format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");

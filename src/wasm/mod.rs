@@ -1,6 +1,6 @@
 //! JavaScript interface of the crate: reads arguments, calls the simulation and returns copies.
 
-// A page with one widget loads a module without the others, which is compiled with the widget's tag as its cfg
+// A page with one widget loads a module that has only that widget. The module is compiled with the widget's tag as the cfg
 // `widget`.
 #![cfg_attr(widget, allow(dead_code, reason = "used by the other widgets"))]
 
@@ -16,13 +16,13 @@ mod calibrate;
 mod calibration;
 #[cfg(any(not(widget), widget = "dead-reckoning"))]
 mod dead_reckoning;
-mod face;
 mod fields;
-#[cfg(not(widget))]
-mod homework;
 #[cfg(any(not(widget), widget = "alpha-calibrator"))]
 mod log;
+mod machine_class;
 mod maps;
+#[cfg(not(widget))]
+mod models;
 #[cfg(any(not(widget), widget = "odometry-decomposer"))]
 mod odometry_decomposer;
 mod pictures;
@@ -34,7 +34,7 @@ use crate::models::VelocityCmd;
 use crate::sim::banana::command_drawn_at;
 use crate::sim::settings::QUANTITY_RANGE;
 use crate::sim::views::MORPH_RANGE;
-use fields::{group_in_range, in_range};
+use fields::{check_range, read_group_in_range};
 use values::js_object;
 use wasm_bindgen::prelude::*;
 
@@ -48,16 +48,16 @@ pub fn random_seed() -> Result<f64, JsError> {
 /// command. x and y are from −1e6 to 1e6 m. Of the many arcs that lead there, the one with the turn nearest to that of the command
 /// is used. `morph` is the stage of the picture, from 0 (the default, the floor) to 1 (exponential coordinates).
 #[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
-pub fn speeds_reaching(
+pub fn js_command_reaching(
     x: f64,
     y: f64,
     #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
     morph: Option<f64>,
 ) -> Result<JsValue, JsValue> {
-    let (x, y) = (in_range("x", x, &QUANTITY_RANGE)?, in_range("y", y, &QUANTITY_RANGE)?);
+    let (x, y) = (check_range("x", x, &QUANTITY_RANGE)?, check_range("y", y, &QUANTITY_RANGE)?);
     let mut current_command = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
-    group_in_range("command", command, &mut current_command)?;
-    let morph = in_range("morph", morph.unwrap_or(0.0), &MORPH_RANGE)?;
+    read_group_in_range("command", command, &mut current_command)?;
+    let morph = check_range("morph", morph.unwrap_or(0.0), &MORPH_RANGE)?;
     let VelocityCmd { v, omega, .. } = command_drawn_at([x, y], &current_command, morph);
     Ok(js_object(&[("v", v.into()), ("omega", omega.into())]))
 }

@@ -1,7 +1,7 @@
 //! `OdometryDecomposer` for JavaScript.
 
-use super::face::cloud;
-use super::fields::{in_range, read_integer};
+use super::fields::{check_range, read_integer};
+use super::machine_class::cloud_machine_class;
 use super::pictures::nearest_index;
 use super::values::{flat_float_array, group_to_js, js_object, to_plain_js};
 use crate::sim::odometry_decomposer::{CurvePoint, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
@@ -10,7 +10,7 @@ use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
+const TYPESCRIPT_TYPES: &str = r#"
 /** The odometry in the world, where its frame has drifted. */
 export interface Drifted {
   /** Poses x, y (m), θ (rad) of the frame, and of the two odometry poses in the world, one after the other. */
@@ -20,7 +20,7 @@ export interface Drifted {
 }
 "#;
 
-cloud! {
+cloud_machine_class! {
     /// An odometry reading as rotate, drive, rotate, and its noise under the rules of several localizers.
     JsOdometryDecomposer(OdometryDecomposer), "OdometryDecomposer", "OdometryDecomposerSettings",
     "Partial<OdometryDecomposerSettings>", MAX_SAMPLES
@@ -90,11 +90,12 @@ impl JsOdometryDecomposer {
     /// standard deviation across the bearing, the contribution of the first rotation, and the standard deviation of the
     /// length, all in m.
     pub fn curve(&self, longest: f64, count: f64) -> Result<Float64Array, JsValue> {
-        let longest = in_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
+        let longest = check_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
         let count = read_integer("count", count, 1..=MAX_CURVE_POINTS)? as usize;
-        let numbers = |CurvePoint { trans, cross_track, lever, along }| [trans, cross_track, lever, along];
+        let point_to_array =
+            |CurvePoint { trans, cross_track, lever, along }| [trans, cross_track, lever, along];
         Ok(flat_float_array(
-            &self.0.deviation_curve(longest, count).into_iter().map(numbers).collect::<Vec<_>>(),
+            &self.0.deviation_curve(longest, count).into_iter().map(point_to_array).collect::<Vec<_>>(),
         ))
     }
 

@@ -1,6 +1,6 @@
 //! Densities for JavaScript: arguments of pictures, and pixels as a view of the core's memory.
 
-use super::fields::{in_range, read_integer};
+use super::fields::{check_range, read_integer};
 use crate::sim::picture::{RAMP_STEPS, Ramp};
 use crate::sim::views::{EXTENT_RANGE, Grid, MAX_CELLS, MAX_CELLS_PER_SIDE};
 use js_sys::{RangeError, Uint8ClampedArray, WebAssembly};
@@ -29,14 +29,14 @@ pub fn nearest_index(
     radius: f64,
     find: impl FnOnce([f64; 2], f64) -> Option<usize>,
 ) -> Result<i32, JsValue> {
-    Ok(find([x, y], in_range("radius", radius, &RADIUS_RANGE)?).map_or(-1, |index| index as i32))
+    Ok(find([x, y], check_range("radius", radius, &RADIUS_RANGE)?).map_or(-1, |index| index as i32))
 }
 
 /// Reads minimum x, minimum y, maximum x, maximum y as two corners.
 pub fn read_bounds([x_min, y_min, x_max, y_max]: [f64; 4]) -> Result<[[f64; 2]; 2], JsValue> {
-    let min = [in_range("xMin", x_min, &EXTENT_RANGE)?, in_range("yMin", y_min, &EXTENT_RANGE)?];
+    let min = [check_range("xMin", x_min, &EXTENT_RANGE)?, check_range("yMin", y_min, &EXTENT_RANGE)?];
     let end = *EXTENT_RANGE.end();
-    let max = [in_range("xMax", x_max, &(min[0]..=end))?, in_range("yMax", y_max, &(min[1]..=end))?];
+    let max = [check_range("xMax", x_max, &(min[0]..=end))?, check_range("yMax", y_max, &(min[1]..=end))?];
     Ok([min, max])
 }
 

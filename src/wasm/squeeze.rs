@@ -1,7 +1,7 @@
 //! `MapSqueeze` for JavaScript.
 
-use super::face::cloud;
 use super::fields::{quote, read_integer, read_keyword};
+use super::machine_class::cloud_machine_class;
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
 use super::values::{flat_float_array, float_array, group_to_js, js_object, number_or_null, to_plain_js};
@@ -13,7 +13,7 @@ use js_sys::{Array, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
+const TYPESCRIPT_TYPES: &str = r#"
 /** Map as it was read, in m: bounds as smallest x and y and largest x and y; walls as x0, y0, x1, y1 of each. */
 export interface Plan {
   bounds: Float64Array;
@@ -35,7 +35,7 @@ export interface Grid {
 }
 "#;
 
-cloud! {
+cloud_machine_class! {
     /// One command in a map, tried many times by a round robot. It opens facing a doorway in the apartment. `noise` sets all
     /// of `alphas`.
     JsMapSqueeze(MapSqueeze), "MapSqueeze", "MapSqueezeSettings",
@@ -86,17 +86,17 @@ impl JsMapSqueeze {
     pub fn grid(&self) -> JsValue {
         let Some(grid) = self.0.plan().grid() else { return JsValue::NULL };
         let ([columns, rows], origin) = (grid.size(), grid.origin());
-        let marks_of = |kind| {
-            let cell_marks: Vec<u8> = grid.cells().map(|cell| u8::from(cell == kind)).collect();
-            Uint8Array::from(&cell_marks[..]).into()
+        let cell_flags_of = |kind| {
+            let cell_flags: Vec<u8> = grid.cells().map(|cell| u8::from(cell == kind)).collect();
+            Uint8Array::from(&cell_flags[..]).into()
         };
         js_object(&[
             ("columns", (columns as f64).into()),
             ("rows", (rows as f64).into()),
             ("resolution", grid.resolution().into()),
             ("origin", float_array(&<[f64; 3]>::from(origin))),
-            ("occupied", marks_of(Cell::Occupied)),
-            ("unknown", marks_of(Cell::Unknown)),
+            ("occupied", cell_flags_of(Cell::Occupied)),
+            ("unknown", cell_flags_of(Cell::Unknown)),
         ])
     }
 
@@ -178,10 +178,10 @@ impl JsMapSqueeze {
         let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
         let sampler = read_keyword::<Sampler>("sampler", sampler)?.with_parts(steps as u32);
         let count = read_integer("count", count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
-        let cost = self.0.sampling_trial(sampler, count).map_err(|wedged| {
+        let cost = self.0.sampling_trial(sampler, count).map_err(|no_sample| {
             let max_total_draws = max_draws(sampler.parts() as usize * count);
             RangeError::new(&format!(
-                "sampler is {}, by which {wedged}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {max_total_draws} \
+                "sampler is {}, by which {no_sample}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {max_total_draws} \
                  for {count} of them",
                 quote(sampler.get()),
             ))

@@ -115,7 +115,7 @@ impl AlphaCalibrator {
     ///
     /// # Errors
     /// [`RestoreError`] for settings out of range, or for bytes that are not a fit.
-    pub fn restored(settings: Settings, saved: &[u8]) -> Result<Self, RestoreError> {
+    pub fn restore(settings: Settings, saved: &[u8]) -> Result<Self, RestoreError> {
         let calibration: Calibration = postcard::from_bytes(saved).map_err(|_| RestoreError::Bytes)?;
         Self::from_source(settings, Source::Restored, OnceCell::from(calibration))
             .map_err(RestoreError::Settings)
@@ -130,7 +130,7 @@ impl AlphaCalibrator {
         Ok(Self { settings, source, fit: Fit { settings, calibration }, fit_revision: 1 })
     }
 
-    /// Returns the fit as bytes for [`AlphaCalibrator::restored`], on the same machine.
+    /// Returns the fit as bytes for [`AlphaCalibrator::restore`], on the same machine.
     pub fn save(&self) -> Vec<u8> {
         postcard::to_allocvec(self.calibration()).unwrap_or_default()
     }

@@ -9,17 +9,17 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Thresholds for the squared distance of a group of four robots: near, far or farthest. The squared distance of a robot is
+/// Thresholds of the squared distance above which a group of four robots is far or farthest; other groups are near. The squared distance of a robot is
 /// the sum of its squared unit noises, and that of a group the largest of its robots.
 ///
-/// Standard errors are expensive, and computed from a weighted subsample of the groups. A few distant robots may contribute
+/// Standard errors are expensive, and therefore computed from a weighted subsample of the groups. A few distant robots may contribute
 /// most of a variance, so that distant groups are sampled more densely. With Gaussian noise 1.8 % of the groups are far and
 /// 0.07 % farthest. With triangular noise none is farthest.
 const FAR_SQUARED_DISTANCE: f64 = 13.0;
 const FARTHEST_SQUARED_DISTANCE: f64 = 20.0;
 
-/// Number of leading groups of the cloud in the subsample. Near groups are in it among the first 2048 robots, far groups among the
-/// first 65 536, and farthest groups always. Fewer would make the first digit of standard errors wrong; more would take time.
+/// Number of leading groups of the cloud from which near, far and farthest groups enter the subsample: the first 2048 robots, the first
+/// 65 536, and all. With fewer the first digit of standard errors would be wrong; more would take time.
 const SUBSAMPLE_GROUPS: [usize; 3] = [512, 16_384, usize::MAX];
 
 /// Returns the entry of [`SUBSAMPLE_GROUPS`] for a group of four draws.

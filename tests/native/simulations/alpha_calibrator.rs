@@ -203,7 +203,7 @@ fn the_model_and_the_rule_go_together() {
 fn a_restored_fit_is_the_fitted_one_to_the_last_bit() {
     let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
     let machine = machine(settings);
-    let mut restored = AlphaCalibrator::restored(settings, &machine.save()).expect("a fit");
+    let mut restored = AlphaCalibrator::restore(settings, &machine.save()).expect("a fit");
     // Residuals that a leg does not show are NaN, which equals nothing.
     let results = |fit: &AlphaCalibrator| {
         let panels = [Regressor::Turn, Regressor::Distance].map(|regressor| fit.panels(regressor));
@@ -216,7 +216,7 @@ fn a_restored_fit_is_the_fitted_one_to_the_last_bit() {
     assert!(!restored.is_pending() && results(&restored) != before);
     restored.configure(Settings::default()).expect("allowed");
     assert!(restored.is_pending() && results(&restored) == before && *restored.fitted_settings() == settings);
-    assert_eq!(AlphaCalibrator::restored(settings, &[1, 2]).unwrap_err(), RestoreError::Bytes);
+    assert_eq!(AlphaCalibrator::restore(settings, &[1, 2]).unwrap_err(), RestoreError::Bytes);
 }
 
 #[test]

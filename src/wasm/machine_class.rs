@@ -1,12 +1,12 @@
-//! Methods that several machines have in JavaScript.
+//! JavaScript classes of machines, with the methods that several machines have.
 
 // The module of a single figure uses only some of these macros.
 #![allow(unused_macros, unused_imports)]
 
-/// Constructor, `configure` and `config` of a class.
+/// Declares the JavaScript class of a machine, with its constructor, `configure` and `config`.
 ///
 /// `$options` is the TypeScript type of the settings argument, whose keys are optional.
-macro_rules! configured {
+macro_rules! machine_class {
     ($(#[$doc:meta])+ $class:ident($machine:ident), $name:literal, $settings:literal, $options:literal) => {
         $(#[$doc])+
         /// All units are metres, radians and seconds. An argument out of range throws a TypeError or RangeError that names the field,
@@ -21,7 +21,7 @@ macro_rules! configured {
             pub fn new(
                 #[wasm_bindgen(unchecked_optional_param_type = $options)] options: &JsValue,
             ) -> Result<Self, JsValue> {
-                Ok(Self($machine::new($crate::wasm::fields::read_opening(options)?)?))
+                Ok(Self($machine::new($crate::wasm::fields::read_initial_settings(options)?)?))
             }
 
             /// Changes the given settings; the others stay. All samples are drawn again before it returns. Returns all settings.
@@ -44,13 +44,14 @@ macro_rules! configured {
     };
 }
 
-/// Declares a class as [`configured`] does, for a machine with a cloud of at most `$max_samples` samples, and adds the methods of the cloud.
-macro_rules! cloud {
+/// Declares the JavaScript class of a machine with a cloud of at most `$max_samples` samples. It has the methods of
+/// [`machine_class`] and those of the cloud.
+macro_rules! cloud_machine_class {
     (
         $(#[$doc:meta])+
         $class:ident($machine:ident), $name:literal, $settings:literal, $options:literal, $max_samples:expr
     ) => {
-        $crate::wasm::face::configured! {
+        $crate::wasm::machine_class::machine_class! {
             $(#[$doc])+
             $class($machine), $name, $settings, $options
         }
@@ -61,7 +62,7 @@ macro_rules! cloud {
             pub fn empty(
                 #[wasm_bindgen(unchecked_optional_param_type = $options)] options: &JsValue,
             ) -> Result<Self, JsValue> {
-                Ok(Self($machine::with_shown_count($crate::wasm::fields::read_opening(options)?, 0)?))
+                Ok(Self($machine::with_shown_count($crate::wasm::fields::read_initial_settings(options)?, 0)?))
             }
 
             /// Number of samples shown, 0 to `config.samples`.
@@ -100,4 +101,4 @@ macro_rules! cloud {
     };
 }
 
-pub(super) use {cloud, configured};
+pub(super) use {cloud_machine_class, machine_class};

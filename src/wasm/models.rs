@@ -1,8 +1,8 @@
-//! The chapter's models, its inversion and SE(2) for JavaScript, for exercises.
+//! Motion models, arc inversion and SE(2) of the chapter for JavaScript, for exercises.
 
 use super::fields::{
-    Fields, array_item, array_length, group_in_range, in_range, read_array, read_boolean, read_integer,
-    read_keyword, read_number,
+    Fields, array_item, array_length, check_range, read_array, read_boolean, read_group_in_range,
+    read_integer, read_keyword, read_number,
 };
 use super::values::{flat_float_array, group_to_js, js_array, js_object, number_or_null, to_plain_js};
 use crate::geom::arc::invert_arc;
@@ -21,7 +21,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
+const TYPESCRIPT_TYPES: &str = r#"
 /**
  * Three numbers: a twist, with the speeds along the body's x and y (m/s) and the turn rate (rad/s), or the exponential coordinates of a
  * motion, along (m), lateral (m) and heading (rad).
@@ -189,13 +189,13 @@ impl JsOdometryModel {
 /// Arc that leaves `start` along its heading and reaches the position of `next` in `dt` seconds (Table 5.1, with a
 /// signed radius). Of the arcs on that circle, the one that turns by at most half a circle is returned.
 #[wasm_bindgen(js_name = invertArc, unchecked_return_type = "ArcInversion")]
-pub fn invert_arc_of_poses(
+pub fn js_invert_arc(
     #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
     dt: f64,
 ) -> Result<JsValue, JsValue> {
     let (start, next, dt) =
-        (read_pose("start", start)?, read_pose("next", next)?, in_range("dt", dt, &DURATION_RANGE)?);
+        (read_pose("start", start)?, read_pose("next", next)?, check_range("dt", dt, &DURATION_RANGE)?);
     let inversion = invert_arc(&start, &next, dt);
     // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0.
     let omega_hat = inversion.omega_hat + 0.0;
@@ -243,7 +243,7 @@ pub fn propagate(
     let twist = TangentNoiseModel::twist(&command);
     for step in 0..steps {
         sigma = noise_model.propagate(&sigma, &twist, order);
-        // The other two methods give sums of covariances, up to rounding.
+        // The other two recursions add covariances, so that only this one can leave the range.
         if order == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
             let message = format!(
                 "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
@@ -347,19 +347,19 @@ fn read_noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
 
 fn read_pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {
     let mut pose = [0.0; 3];
-    group_in_range(field, value, &mut pose)?;
+    read_group_in_range(field, value, &mut pose)?;
     Ok(pose.into())
 }
 
 fn read_command(value: &JsValue) -> Result<VelocityCmd, JsValue> {
     let mut command = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
-    group_in_range("command", value, &mut command)?;
+    read_group_in_range("command", value, &mut command)?;
     Ok(command)
 }
 
 fn read_legs(value: &JsValue) -> Result<OdomDelta, JsValue> {
     let mut legs = OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 };
-    group_in_range("control", value, &mut legs)?;
+    read_group_in_range("control", value, &mut legs)?;
     Ok(legs)
 }
 

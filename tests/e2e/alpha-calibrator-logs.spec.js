@@ -204,6 +204,12 @@ test('a log without enough legs is refused, and the present log keeps its place 
   expect(await caption(widget).innerText()).toBe(captionBefore);
   expect((await stats(widget)).alphas).toEqual(alphas);
   await expect(widget.locator('.drop-zone .present')).toContainText('odometry.csv, reference.csv');
+  // The results are marked as old ones, until the figure shows what it opened with.
+  await expect(widget.locator('.views')).toHaveCSS('filter', 'grayscale(1)');
+  await widget.getByRole('button', { name: 'Start over' }).click();
+  await expect(caption(widget)).toHaveText(/of the simulated log/);
+  await expect(widget.getByRole('alert')).toHaveCount(0);
+  await expect(widget.locator('.views')).toHaveCSS('filter', 'none');
 });
 
 /** Gives the figure two tables of a quarter of an hour, as if they were chosen. @param {Locator} widget */
@@ -321,6 +327,10 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
   expect(await stateOf(widget)).toEqual(stateBefore);
   // The picture is fitted anew, although the extent before had room for the path.
   await expect.poll(leftEdge).not.toBe(leftEdgeBefore);
+  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
+  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  await widget.getByRole('button', { name: 'Start over' }).click();
+  await expect(caption(widget)).toHaveText(/of of the page[.,]/);
   await widget.evaluate((element) => void Object.assign(element, { log: null }));
   await expect(caption(widget)).toHaveText(captionBefore);
 });

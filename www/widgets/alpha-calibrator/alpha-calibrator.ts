@@ -61,6 +61,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   #panels: Memo<CalibrationPanel[]> = new Memo();
   /** Log of the user or of the page; null for the simulated log. */
   #givenLog: OpenedLog | null = null;
+  /** Log of the page; null for the simulated log. */
+  #pageLog: CalibrationLog | null = null;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) =>
     state ? this.#machineOf(motion, this.settings.pick(state), this.#givenLog) : new motion.AlphaCalibrator();
@@ -132,9 +134,19 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     this.reflection.setProperty('log', log, (newLog) => {
       if (newLog !== null) asObject('log', newLog, ['name', 'odometry', 'reference']);
       this.service.stop();
-      this.open(newLog, []).then(() => this.reflection.updateAttributes(), this.#report);
+      const accept = () => {
+        this.#pageLog = newLog;
+        this.reflection.updateAttributes();
+      };
+      this.open(newLog, []).then(accept, this.#report);
     });
   }
+
+  /** Restores the settings and the log that the figure opened with. */
+  #startOver = () => {
+    this.state.goBack();
+    this.#opener.close(this.#pageLog).catch(this.#report);
+  };
 
   #report = (error: unknown) => {
     if (!isStopped(error)) this.runtime.report(error);
@@ -232,7 +244,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         <div class="fitted" part="readouts">
           <div class="buttons told">
             <p class="panel-title">${say.alphas.title(say.kinds[modelRuleOf(reading.fitted)])}</p>
-            ${copyButton(this, this.#opener.otherResults)} ${startOverButton(this)}
+            ${copyButton(this, this.#opener.otherResults)} ${startOverButton(this, this.#startOver)}
           </div>
           <p class="to-do">${this.#opener.otherResults || judgementOf(reading, this.warnings).toDo}</p>
           ${alphaTable(reading)}
@@ -248,7 +260,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
           ${group(say.systematic.title, systematicTable(this))}
           ${group(say.own.title, logSection(this))}
           ${predictionControls(this)}`,
-        numbers: () => html`${group(say.oneLeg(integer(chosen + 1)), legReadouts(this))}
+        numbers: () => html`${this.#opener.otherResults && html`<p class="note">${this.#opener.otherResults}</p>`}
+          ${group(say.oneLeg(integer(chosen + 1)), legReadouts(this))}
           ${diagnostics(this)}
           ${group(say.panels.title, regressionPanels(this))}
           ${group(say.nav2.title, nav2Exports(this))}`,

@@ -79,10 +79,12 @@ export class LogOpener extends FileOpener<Figure> {
     });
   }
 
-  close() {
+  /** Drops the chosen files, and shows a log of the page or, by default, the simulated one. */
+  async close(log: CalibrationLog | null = null) {
     this.#end();
     this.forget();
-    this.host.open(null, []).then(() => this.host.gesture.complete());
+    await this.host.open(log, []);
+    this.host.gesture.complete();
   }
 
   /** Drops the chosen files, as the user asked. */
@@ -261,7 +263,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
       ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.close())}</p>` : nothing}
     ${opener.note}
-    ${opener.otherResults ? html`<p class="muted">${opener.otherResults} ${button(say.keep, () => opener.forget())}</p>` : nothing}
+    ${opener.otherResults ? html`<p class="muted other-results">${opener.otherResults} ${button(say.keep, () => opener.forget())}</p>` : nothing}
   </div>`;
 }
 

@@ -150,6 +150,12 @@ export const styles = css`
     opacity: 0.4;
   }
 
+  /* Results of the previous log, after other files were refused. */
+  .spoken:has(.other-results) :is(.views, #numbers) {
+    color: var(--muted);
+    filter: grayscale(1);
+  }
+
   /* The message of the copy button is in sight beside it, however long the table is. */
   .fitted .copied:not(:empty) {
     display: block;

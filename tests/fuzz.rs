@@ -1,6 +1,6 @@
 //! Targets of cargo-fuzz, run natively on a corpus (inputs that together reach all code) and on seeded mutations of it.
 //!
-//! `fuzz/src` holds the properties. A failure prints the bytes of its input. They become a test in `found!`.
+//! `fuzz/src` holds the properties. A failure prints the bytes of its input. They become a test in `regressions!`.
 
 #[path = "../fuzz/src/lib.rs"]
 mod targets;
@@ -39,7 +39,7 @@ tests! {
 
 #[test]
 #[ignore = "nightly: 200 calibrations"]
-fn calibrate_on_its_whole_corpus() {
+fn calibrate_runs_on_its_whole_corpus() {
     run_on_corpus_and_mutations("calibrate", targets::calibrate::run, 1, 100);
 }
 
@@ -50,15 +50,15 @@ fn every_target_of_cargo_fuzz_has_a_test() {
 }
 
 /// Tests of inputs that once failed, each with its target.
-macro_rules! found {
+macro_rules! regressions {
     ($($name:ident: $target:ident $hex:literal,)+) => {
         $(#[test]
         fn $name() {
-            run(targets::$target::run, &bytes_of($hex));
+            run_target(targets::$target::run, &bytes_of($hex));
         })+
     };
 }
-found! {
+regressions! {
     exact_covariances_are_symmetric: banana "5dd51609e9ffb2b2b20e093f0a31b25db2b2b2b22ce6",
     variances_of_the_cloud_are_not_negative: banana "26c02ffbc02ffbfb5d262100474747fb5d21e91c1c1c1c1c211c1c4d1c1c1cdbe9\
         26663f420100000001006000f526",
@@ -70,17 +70,18 @@ found! {
 }
 
 fn run_on_corpus_and_mutations(name: &str, target: Target, every: usize, mutations: u32) {
-    let packed = read_to_string(root().join("fuzz/corpus").join(name).with_extension("txt")).expect("a file");
-    let corpus: Vec<_> = packed.lines().map(bytes_of).collect();
+    let corpus_text =
+        read_to_string(root().join("fuzz/corpus").join(name).with_extension("txt")).expect("a file");
+    let corpus: Vec<_> = corpus_text.lines().map(bytes_of).collect();
     assert!(corpus.len() > 20, "{} inputs of {name}", corpus.len());
-    corpus.iter().step_by(every).for_each(|bytes| run(target, bytes));
+    corpus.iter().step_by(every).for_each(|bytes| run_target(target, bytes));
     let mut rng = seeded(2911);
     for _ in 0..mutations {
         let mut bytes = random_item(&corpus, &mut rng).clone();
         for _ in 0..=random_below(4, &mut rng) {
             mutate(&mut bytes, &corpus, &mut rng);
         }
-        run(target, &bytes);
+        run_target(target, &bytes);
     }
 }
 
@@ -93,7 +94,7 @@ fn bytes_of(hex: &str) -> Vec<u8> {
     (0..hex.len()).step_by(2).map(byte_at).collect()
 }
 
-fn run(target: Target, bytes: &[u8]) {
+fn run_target(target: Target, bytes: &[u8]) {
     catch_unwind(AssertUnwindSafe(|| target(bytes))).unwrap_or_else(|panic| {
         eprintln!("on the bytes {bytes:02x?}");
         resume_unwind(panic);

@@ -1,6 +1,6 @@
 //! Arc Anatomy under any settings and calls.
 
-use super::input::{Input, is_one_in};
+use super::input::{Input, is_selected};
 use super::settings::{are_allowed, with_changes};
 use super::{banana, laws};
 use motion::geom::se2::SE2;
@@ -12,7 +12,7 @@ const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let with_paths = input.next_choice(8) == 1;
+    let checks_paths = input.next_choice(8) == 1;
     let first_settings = with_changes(&Settings::default(), &mut input);
     if !are_allowed(&first_settings) {
         assert!(ArcAnatomy::new(first_settings).is_err());
@@ -31,11 +31,11 @@ pub fn run(bytes: &[u8]) {
     }
     assert_results(&machine);
     // Paths are checked rarely: they have a thousand points, each with a sine and a cosine.
-    if with_paths && is_one_in(4, bytes) {
+    if checks_paths && is_selected(4, bytes) {
         assert_paths(&machine);
     }
     // Maps are checked rarely: one takes as long as hundreds of other calls.
-    if is_one_in(256, bytes) {
+    if is_selected(256, bytes) {
         assert_surface(&machine, &mut input);
     }
 }
@@ -56,8 +56,8 @@ fn assert_results(machine: &ArcAnatomy) {
     let settings = machine.settings();
     let Stats { commanded, inverted, driven, last_turn, factors, weakest, prob, share, density, xi } =
         machine.stats();
-    for (what, bend) in [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven)] {
-        assert_bend(what, bend);
+    for (label, arc) in [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven)] {
+        assert_arc(label, arc);
     }
     laws::assert_finite("last turn", &[last_turn]);
     laws::assert_finite("xi", &xi);
@@ -95,9 +95,9 @@ fn assert_table(machine: &ArcAnatomy, prob: f64) {
     let (start, next) = poses(machine.settings());
     let Table { lines: [mu, x, y, radius, controls @ ..], middle, normal } = machine.table();
     let step = start.inverse() * next;
-    let stays_in_place = [step.x(), step.y()] == [0.0; 2];
+    let has_no_displacement = [step.x(), step.y()] == [0.0; 2];
     assert!([x, y, radius].iter().all(|line| !line.is_nan()), "{x} {y} {radius}");
-    assert!(!mu.is_nan() || stays_in_place, "{mu} for {step:?}");
+    assert!(!mu.is_nan() || has_no_displacement, "{mu} for {step:?}");
     assert!(!machine.settings().printed || radius >= 0.0, "{radius}");
     laws::assert_finite("controls", &controls[..4]);
     laws::assert_same_numbers("p", &controls[4..], &[prob]);
@@ -106,22 +106,22 @@ fn assert_table(machine: &ArcAnatomy, prob: f64) {
 
 fn assert_paths(machine: &ArcAnatomy) {
     let Paths { commanded, inverted, driven, lie, ticks } = machine.paths();
-    for (what, path) in
+    for (label, path) in
         [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven), ("lie", &lie)]
     {
-        laws::assert_finite(what, path.as_flattened());
+        laws::assert_finite(label, path.as_flattened());
     }
     laws::assert_finite("ticks", ticks.as_flattened());
     let Stats { inverted: ArcWithCircle { end: [x, y, _], .. }, .. } = machine.stats();
     assert_eq!(inverted.last(), Some(&[x, y]));
 }
 
-fn assert_bend(what: &str, bend: &ArcWithCircle) {
-    laws::assert_finite(what, &[bend.arc_length, bend.turn]);
-    laws::assert_finite(what, &bend.end);
-    assert!(!bend.radius.is_nan(), "{what}: {bend:?}");
-    assert_eq!(bend.centre.is_some(), bend.radius.is_finite(), "{what}: {bend:?}");
-    laws::assert_finite(what, &bend.centre.unwrap_or_default());
+fn assert_arc(label: &str, arc: &ArcWithCircle) {
+    laws::assert_finite(label, &[arc.arc_length, arc.turn]);
+    laws::assert_finite(label, &arc.end);
+    assert!(!arc.radius.is_nan(), "{label}: {arc:?}");
+    assert_eq!(arc.centre.is_some(), arc.radius.is_finite(), "{label}: {arc:?}");
+    laws::assert_finite(label, &arc.centre.unwrap_or_default());
 }
 
 /// Returns the position on the path of constant twist after a fraction of the time.

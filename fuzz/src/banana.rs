@@ -19,12 +19,12 @@ const MAX_CALLS: usize = 4;
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let [checks_curves, checks_second_machine] = [0; 2].map(|_| input.next_choice(4) == 1);
-    let first_settings = with_changes(&with_few_samples(Settings::default()), &mut input);
+    let first_settings = with_changes(&limit_samples(Settings::default()), &mut input);
     if !are_allowed(&first_settings) {
         assert!(BananaMachine::with_shown_count(first_settings, 0).is_err());
         return;
     }
-    let mut machine = BananaMachine::with_shown_count(with_few_samples(first_settings), 0).expect("allowed");
+    let mut machine = BananaMachine::with_shown_count(limit_samples(first_settings), 0).expect("allowed");
     if input.next_bool() {
         machine.add_samples(MAX_SAMPLES);
     }
@@ -32,7 +32,7 @@ pub fn run(bytes: &[u8]) {
         if input.is_empty() {
             break;
         }
-        call(&mut machine, &mut input);
+        call_method(&mut machine, &mut input);
     }
     assert_results(&machine);
     // Slow checks run for some inputs only.
@@ -40,16 +40,16 @@ pub fn run(bytes: &[u8]) {
         assert_contours(&machine);
     }
     if checks_second_machine {
-        assert_as_new(&machine);
+        assert_equals_new_machine(&machine);
     }
 }
 
 /// Returns the settings with at most `MAX_SAMPLES` samples.
-fn with_few_samples(settings: Settings) -> Settings {
+fn limit_samples(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
-fn call(machine: &mut BananaMachine, input: &mut Input) {
+fn call_method(machine: &mut BananaMachine, input: &mut Input) {
     match input.next_choice(9) {
         0 => configure(machine, input),
         1 => assert_same_in_blocks(machine, input),
@@ -63,14 +63,14 @@ fn call(machine: &mut BananaMachine, input: &mut Input) {
             machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert_eq!(machine.shown_count(), 0);
         }
-        4 => assert_painted(machine, input),
+        4 => assert_picture(machine, input),
         5 => assert_nearest(machine, input),
         6 => assert_executed(machine, usize::from(input.next_byte())),
         7 => assert_table(machine),
         _ => {
             let [x, y] = [0; 2].map(|_| input.number_within(QUANTITY_RANGE));
-            let present_command = machine.settings().command;
-            let reaching_command = command_reaching(x, y, &present_command);
+            let current_command = machine.settings().command;
+            let reaching_command = command_reaching(x, y, &current_command);
             // Its v may be infinite, because the circle of a nearly straight arc may be too long for a double.
             assert!(!reaching_command.v.is_nan() && reaching_command.omega.is_finite(), "{reaching_command:?} to {x}, {y}");
         }
@@ -80,7 +80,7 @@ fn call(machine: &mut BananaMachine, input: &mut Input) {
 fn configure(machine: &mut BananaMachine, input: &mut Input) {
     let settings = with_changes(machine.settings(), input);
     if are_allowed(&settings) {
-        machine.configure(with_few_samples(settings)).expect("allowed");
+        machine.configure(limit_samples(settings)).expect("allowed");
         return;
     }
     let (settings_before, results_before) = (*machine.settings(), all_results(machine));
@@ -96,9 +96,9 @@ fn assert_same_in_blocks(machine: &mut BananaMachine, input: &mut Input) {
         return;
     }
     let mut machine_in_one_call = machine.clone();
-    machine_in_one_call.configure(with_few_samples(settings)).expect("allowed");
+    machine_in_one_call.configure(limit_samples(settings)).expect("allowed");
     let count = 1 + usize::from(input.next_byte());
-    machine.configure_first(with_few_samples(settings), count).expect("allowed");
+    machine.configure_first(limit_samples(settings), count).expect("allowed");
     while machine.shown_count() < machine.settings().samples {
         machine.add_samples(count);
     }
@@ -106,7 +106,7 @@ fn assert_same_in_blocks(machine: &mut BananaMachine, input: &mut Input) {
 }
 
 /// Asserts that a machine depends on its settings only, and not on earlier calls.
-fn assert_as_new(machine: &BananaMachine) {
+fn assert_equals_new_machine(machine: &BananaMachine) {
     let mut new_machine = BananaMachine::with_shown_count(*machine.settings(), 0).expect("allowed");
     if machine.shown_count() > 0 {
         new_machine.add_samples(machine.shown_count());
@@ -170,7 +170,7 @@ fn assert_results(machine: &BananaMachine) {
 
 fn assert_contours(machine: &BananaMachine) {
     let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } = machine.contours();
-    for (what, outline) in [
+    for (label, outline) in [
         ("command", &command),
         ("ellipse", &ellipse),
         ("linearized", &linearized),
@@ -178,7 +178,7 @@ fn assert_contours(machine: &BananaMachine) {
         ("twist ellipse", &twist_ellipse),
         ("additive", &additive),
     ] {
-        laws::assert_finite(what, outline.as_flattened());
+        laws::assert_finite(label, outline.as_flattened());
     }
     for outline in [&ellipse, &linearized, &exponential, &twist_ellipse, &additive] {
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
@@ -190,15 +190,15 @@ fn assert_contours(machine: &BananaMachine) {
 /// Checks every column of the table. Quadrature makes this slow.
 fn assert_table(machine: &BananaMachine) {
     let table = machine.table();
-    for (what, column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
+    for (label, column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
         let TableColumn { mean, cov, cross_track_skew, likelihood_gain, area_ratio } = column;
-        laws::assert_moments(what, mean, cov);
-        laws::assert_finite_or_none(what, &[*cross_track_skew]);
+        laws::assert_moments(label, mean, cov);
+        laws::assert_finite_or_none(label, &[*cross_track_skew]);
         assert!(
             !likelihood_gain.pose.is_infinite() || likelihood_gain.pose > 0.0,
-            "{what}: {likelihood_gain:?}"
+            "{label}: {likelihood_gain:?}"
         );
-        assert!(area_ratio.is_nan() || *area_ratio >= 0.0, "{what}: {area_ratio}");
+        assert!(area_ratio.is_nan() || *area_ratio >= 0.0, "{label}: {area_ratio}");
     }
     if let Some(tangent) = table.tangent {
         laws::assert_moments("tangent", &tangent.mean, &tangent.cov);
@@ -246,7 +246,7 @@ pub fn read_grid(input: &mut Input) -> Grid {
     Grid { min, max, columns, rows }
 }
 
-fn assert_painted(machine: &mut BananaMachine, input: &mut Input) {
+fn assert_picture(machine: &mut BananaMachine, input: &mut Input) {
     let (view, grid) = (input.one_of(&[View::Plane, View::Twist]), read_grid(input));
     let counts = machine.density(view, &grid);
     assert_eq!(counts.len(), grid.columns * grid.rows);

@@ -1,6 +1,6 @@
 //! Calibration of random logs with random options.
 
-use super::input::{Input, is_one_in};
+use super::input::{Input, is_selected};
 use super::laws;
 use motion::calibrate::{
     CalibrateError, Calibration, Check, Drive, LegLength, MIN_LEGS, Model, Options, Outliers,
@@ -30,7 +30,7 @@ const MODELS: [Model; 5] = [
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let options = read_options(&mut input);
-    let mut odometry_log = odometry_rows(&mut input, if is_one_in(128, bytes) { MAX_ROWS } else { MAX_ROWS_OF_MOST_RUNS });
+    let mut odometry_log = odometry_rows(&mut input, if is_selected(128, bytes) { MAX_ROWS } else { MAX_ROWS_OF_MOST_RUNS });
     let mut reference_log = reference_rows(&odometry_log, &mut input);
     edit_rows(&mut odometry_log, &mut input);
     edit_rows(&mut reference_log, &mut input);
@@ -76,17 +76,17 @@ fn leg_length(input: &mut Input) -> f64 {
 type Row = (f64, SE2);
 
 /// Returns one of the given values, or sometimes any number.
-fn usual_or_any(choices: &[f64], input: &mut Input) -> f64 {
+fn choice_or_any(choices: &[f64], input: &mut Input) -> f64 {
     let choice = input.next_choice(choices.len() + 1);
     choices.get(choice).copied().unwrap_or_else(|| input.number_within(-1e9..=1e9))
 }
 
 fn odometry_rows(input: &mut Input, max_rows_of_part: usize) -> Vec<Row> {
-    let step = usual_or_any(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
-    let mut rows = vec![(usual_or_any(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
+    let step = choice_or_any(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
+    let mut rows = vec![(choice_or_any(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
     for _ in 0..=input.next_choice(MAX_PARTS) {
-        let v = usual_or_any(&[0.0, 0.2, 0.5, 0.8, -0.3], input);
-        let omega = usual_or_any(&[0.0, 0.2, -0.4, 0.9, -0.9], input);
+        let v = choice_or_any(&[0.0, 0.2, 0.5, 0.8, -0.3], input);
+        let omega = choice_or_any(&[0.0, 0.2, -0.4, 0.9, -0.9], input);
         for _ in 0..1 + usize::from(input.next_byte()) % max_rows_of_part {
             let (time, pose) = rows[rows.len() - 1];
             rows.push((time + step, pose.boxplus(Vector3::new(v, 0.0, omega) * step)));
@@ -97,9 +97,9 @@ fn odometry_rows(input: &mut Input, max_rows_of_part: usize) -> Vec<Row> {
 
 /// Returns the reference: the odometry with an error in each step, and with occasional jumps.
 fn reference_rows(odometry: &[Row], input: &mut Input) -> Vec<Row> {
-    let offset = usual_or_any(&[0.0, 0.12, -3.0, 50.0], input);
-    let mount_pose = SE2::new(0.1 * f64::from(input.next_choice(3) as u8), 0.0, usual_or_any(&[0.0, 0.07, 3.0], input));
-    let relative_noise = usual_or_any(&[0.0, 0.01, 0.1, 0.5], input);
+    let offset = choice_or_any(&[0.0, 0.12, -3.0, 50.0], input);
+    let mount_pose = SE2::new(0.1 * f64::from(input.next_choice(3) as u8), 0.0, choice_or_any(&[0.0, 0.07, 3.0], input));
+    let relative_noise = choice_or_any(&[0.0, 0.01, 0.1, 0.5], input);
     let jump_interval = usize::from(input.next_byte());
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(u64::from(input.next_byte()));
     let mut pose = SE2::new(1.0, 2.0, 3.0);

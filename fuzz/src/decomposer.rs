@@ -15,27 +15,27 @@ const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let first_settings = with_changes(&with_few_samples(Settings::default()), &mut input);
+    let first_settings = with_changes(&limit_samples(Settings::default()), &mut input);
     if !are_allowed(&first_settings) {
         assert!(OdometryDecomposer::new(first_settings).is_err());
         return;
     }
-    let mut machine = OdometryDecomposer::new(with_few_samples(first_settings)).expect("allowed");
+    let mut machine = OdometryDecomposer::new(limit_samples(first_settings)).expect("allowed");
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
-        call(&mut machine, &mut input);
+        call_method(&mut machine, &mut input);
     }
     assert_results(&machine);
 }
 
 /// Returns the settings with at most `MAX_SAMPLES` outcomes.
-fn with_few_samples(settings: Settings) -> Settings {
+fn limit_samples(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
-fn call(machine: &mut OdometryDecomposer, input: &mut Input) {
+fn call_method(machine: &mut OdometryDecomposer, input: &mut Input) {
     let shown_count = machine.poses().len();
     match input.next_choice(7) {
         0 | 1 => configure(machine, input),
@@ -48,10 +48,10 @@ fn call(machine: &mut OdometryDecomposer, input: &mut Input) {
             assert!(machine.poses().is_empty());
         }
         4 => {
-            let ghosts = machine.sample_linkages(usize::from(input.next_byte()));
-            assert!(ghosts.len() <= shown_count);
-            ghosts.as_flattened().iter().for_each(|pose| laws::assert_pose("a ghost", pose));
-            assert!(ghosts.iter().zip(machine.poses()).all(|(ghost, pose)| ghost[3] == *pose));
+            let linkages = machine.sample_linkages(usize::from(input.next_byte()));
+            assert!(linkages.len() <= shown_count);
+            linkages.as_flattened().iter().for_each(|pose| laws::assert_pose("a linkage", pose));
+            assert!(linkages.iter().zip(machine.poses()).all(|(linkage, pose)| linkage[3] == *pose));
         }
         5 => assert_curve(machine, input.number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_choice(MAX_POINTS)),
         _ => assert_nearest(machine, input),
@@ -67,7 +67,7 @@ fn configure(machine: &mut OdometryDecomposer, input: &mut Input) {
         assert_eq!(machine.poses(), poses);
         return;
     }
-    let settings = with_few_samples(settings);
+    let settings = limit_samples(settings);
     machine.configure(settings).expect("allowed");
     assert_eq!(machine.poses().len(), settings.samples);
 }
@@ -152,7 +152,7 @@ fn assert_results(machine: &OdometryDecomposer) {
     assert_eq!(new_machine.poses(), machine.poses());
 }
 
-fn assert_legs(what: &str, legs: &OdomDelta) {
-    laws::assert_finite(what, &[legs.rot1, legs.trans, legs.rot2]);
-    assert!(legs.trans >= 0.0, "{what}: {legs:?}");
+fn assert_legs(label: &str, legs: &OdomDelta) {
+    laws::assert_finite(label, &[legs.rot1, legs.trans, legs.rot2]);
+    assert!(legs.trans >= 0.0, "{label}: {legs:?}");
 }

@@ -16,12 +16,12 @@ const MAX_SIDE: usize = 3;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let Some((grid, unknown)) = read(&mut input) else { return };
+    let Some((grid, unknown)) = read_random_grid(&mut input) else { return };
     let [columns, rows] = grid.size();
     assert_eq!(grid.cells().len(), columns * rows);
     // Most runs stop here, because the distance field of a plan takes a hundred times as long as everything else.
     if input.next_choice(16) != 1 {
-        assert_outlined(&grid.with_unknown(unknown), unknown);
+        assert_outlines(&grid.with_unknown(unknown), unknown);
         return;
     }
     let plan = match FloorPlan::from_grid(grid.with_unknown(unknown)) {
@@ -30,9 +30,9 @@ pub fn run(bytes: &[u8]) {
         Err(error) => panic!("{error}"),
     };
     let grid = plan.grid().expect("made of a grid");
-    assert_outlined(grid, unknown);
-    for (middle, blocks) in cell_middles(grid, unknown) {
-        assert_eq!(plan.test_point(middle, 0.0).free, !blocks, "{middle:?} in {grid:?}");
+    assert_outlines(grid, unknown);
+    for (middle, is_obstacle) in cell_middles(grid, unknown) {
+        assert_eq!(plan.test_point(middle, 0.0).free, !is_obstacle, "{middle:?} in {grid:?}");
     }
     for _ in 0..MAX_ARCS {
         plan::assert_verdict(&plan, &mut input);
@@ -63,10 +63,10 @@ fn cell_middles(grid: &OccupancyGrid, unknown: UnknownCells) -> Vec<([f64; 2], b
 
 /// Asserts that each cell contains its middle, and that outlines separate obstacle cells from other cells: their total
 /// length equals that of the sides between obstacle cells and others.
-fn assert_outlined(grid: &OccupancyGrid, unknown: UnknownCells) {
+fn assert_outlines(grid: &OccupancyGrid, unknown: UnknownCells) {
     let middles = cell_middles(grid, unknown);
-    for (middle, blocks) in &middles {
-        assert_eq!(grid.is_blocked_at(*middle), *blocks, "{middle:?} in {grid:?}");
+    for (middle, is_obstacle) in &middles {
+        assert_eq!(grid.is_blocked_at(*middle), *is_obstacle, "{middle:?} in {grid:?}");
     }
     let [columns, rows] = grid.size();
     let is_obstacle_at = |column: usize, row: usize| {
@@ -95,7 +95,7 @@ fn length_of(wall: &Segment) -> f64 {
 }
 
 /// Reads a grid of a few cells, and the treatment of its unknown cells.
-pub fn read(input: &mut Input) -> Option<(OccupancyGrid, UnknownCells)> {
+pub fn read_random_grid(input: &mut Input) -> Option<(OccupancyGrid, UnknownCells)> {
     let resolution = input.number_near(&RESOLUTION_RANGE);
     let [x, y, yaw] = [0; 3].map(|_| input.number_near(&QUANTITY_RANGE));
     if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|number| QUANTITY_RANGE.contains(number)) {

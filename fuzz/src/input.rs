@@ -2,17 +2,17 @@
 
 use std::ops::RangeInclusive;
 
-/// Remaining bytes of the input. After its end all bytes are 0.
+/// Remaining bytes of the input. All bytes after its end are 0.
 pub struct Input<'a>(pub &'a [u8]);
 
-/// Returns true for one in `one_in` inputs, chosen by a hash of all their bytes. Slow checks run for those only.
+/// Returns true for one in `interval` inputs, chosen by a hash of all their bytes. Slow checks run for those only.
 ///
 /// A single byte of the input cannot choose them, because most mutations of the input keep that byte.
-pub fn is_one_in(one_in: u64, bytes: &[u8]) -> bool {
+pub fn is_selected(interval: u64, bytes: &[u8]) -> bool {
     // FNV-1a.
     let mix_byte = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
     let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix_byte);
-    (hash >> 32) % one_in == 0
+    (hash >> 32) % interval == 0
 }
 
 /// Numbers at limits: of the ranges of settings, and of doubles.
@@ -62,7 +62,7 @@ impl Input<'_> {
         self.next_byte() & 1 == 1
     }
 
-    /// Returns a whole number from 0 that is less than `count`.
+    /// Returns an integer from 0 to `count` − 1.
     pub fn next_choice(&mut self, count: usize) -> usize {
         usize::from(self.next_byte()) % count
     }
@@ -99,7 +99,7 @@ impl Input<'_> {
     }
 
     /// Returns a whole number, mostly in this range.
-    pub fn whole_near(&mut self, range: &RangeInclusive<u64>) -> u64 {
+    pub fn integer_near(&mut self, range: &RangeInclusive<u64>) -> u64 {
         let integer = match self.next_choice(4) {
             0 => u64::from_le_bytes(self.next_bytes()),
             1 => u64::from(u16::from_le_bytes(self.next_bytes())),

@@ -4,42 +4,42 @@ use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
-pub fn assert_finite(what: &str, numbers: &[f64]) {
-    assert!(numbers.iter().all(|number| number.is_finite()), "{what}: {numbers:?}");
+pub fn assert_finite(label: &str, numbers: &[f64]) {
+    assert!(numbers.iter().all(|number| number.is_finite()), "{label}: {numbers:?}");
 }
 
 /// Asserts that all numbers are finite, or that all are NaN.
-pub fn assert_finite_or_none(what: &str, numbers: &[f64]) {
+pub fn assert_finite_or_none(label: &str, numbers: &[f64]) {
     if !numbers.iter().all(|number| number.is_nan()) {
-        assert_finite(what, numbers);
+        assert_finite(label, numbers);
     }
 }
 
-pub fn assert_fraction(what: &str, fraction: f64) {
-    assert!(fraction.is_nan() || (0.0..=1.0).contains(&fraction), "{what}: {fraction}");
+pub fn assert_fraction(label: &str, fraction: f64) {
+    assert!(fraction.is_nan() || (0.0..=1.0).contains(&fraction), "{label}: {fraction}");
 }
 
-pub fn assert_pose(what: &str, pose: &SE2) {
-    assert_finite(what, &[pose.x(), pose.y(), pose.theta()]);
-    assert!(-PI < pose.theta() && pose.theta() <= PI, "{what}: {pose:?}");
+pub fn assert_pose(label: &str, pose: &SE2) {
+    assert_finite(label, &[pose.x(), pose.y(), pose.theta()]);
+    assert!(-PI < pose.theta() && pose.theta() <= PI, "{label}: {pose:?}");
 }
 
 /// Asserts that moments are finite, and that the covariance is symmetric without a correlation above 1. The tolerance for rounding is
 /// in proportion to the size of the values.
-pub fn assert_moments(what: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
-    assert_finite(what, mean.as_slice());
-    assert_finite(what, cov.as_slice());
+pub fn assert_moments(label: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
+    assert_finite(label, mean.as_slice());
+    assert_finite(label, cov.as_slice());
     let value_sizes = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
     let extent = value_sizes.x + value_sizes.y;
     let value_sizes = [extent, extent, value_sizes.z];
     for i in 0..3 {
-        assert!(cov[(i, i)] >= 0.0, "{what}: {mean:?} {cov:?}");
+        assert!(cov[(i, i)] >= 0.0, "{label}: {mean:?} {cov:?}");
         for j in 0..i {
             let max_cov = cov[(i, i)].sqrt() * cov[(j, j)].sqrt();
             let tolerance = ROUNDING * value_sizes[i] * value_sizes[j]
                 + MAX_UNDERFLOWING_DEVIATION * (value_sizes[i] + value_sizes[j]);
-            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{what}: {mean:?} {cov:?}");
-            assert!(cov[(i, j)].abs() <= max_cov + tolerance, "{what}: {mean:?} {cov:?}");
+            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{label}: {mean:?} {cov:?}");
+            assert!(cov[(i, j)].abs() <= max_cov + tolerance, "{label}: {mean:?} {cov:?}");
         }
     }
 }
@@ -51,7 +51,7 @@ pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
 pub const MAX_UNDERFLOWING_DEVIATION: f64 = 1e-161;
 
 /// Asserts that lists have the same numbers, where NaN equals NaN.
-pub fn assert_same_numbers(what: &str, a: &[f64], b: &[f64]) {
+pub fn assert_same_numbers(label: &str, a: &[f64], b: &[f64]) {
     let are_equal = |(a, b): (&f64, &f64)| a == b || (a.is_nan() && b.is_nan());
-    assert!(a.len() == b.len() && a.iter().zip(b).all(are_equal), "{what}: {a:?} and {b:?}");
+    assert!(a.len() == b.len() && a.iter().zip(b).all(are_equal), "{label}: {a:?} and {b:?}");
 }

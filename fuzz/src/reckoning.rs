@@ -1,6 +1,6 @@
 //! Dead Reckoning under any settings and calls.
 
-use super::input::{Input, is_one_in};
+use super::input::{Input, is_selected};
 use super::laws;
 use super::settings::{are_allowed, with_changes};
 use motion::sim::dead_reckoning::{
@@ -23,9 +23,9 @@ pub fn run(bytes: &[u8]) {
         assert!(DeadReckoning::with_shown_count(first_settings, 0).is_err());
         return;
     }
-    let max_samples = if is_one_in(16, bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
-    let with_few_robots = |settings| with_few_robots(settings, max_samples);
-    let mut machine = DeadReckoning::with_shown_count(with_few_robots(first_settings), 0).expect("allowed");
+    let max_samples = if is_selected(16, bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
+    let limit_size = |settings| limit_size(settings, max_samples);
+    let mut machine = DeadReckoning::with_shown_count(limit_size(first_settings), 0).expect("allowed");
     if input.next_bool() {
         machine.add_samples(MAX_SAMPLES);
     }
@@ -33,20 +33,20 @@ pub fn run(bytes: &[u8]) {
         if input.is_empty() {
             break;
         }
-        call(&mut machine, &with_few_robots, &mut input);
+        call_method(&mut machine, &limit_size, &mut input);
     }
     assert_results(&machine);
     // Slow checks run for some inputs only.
-    if checks_straight_growth && is_one_in(8, bytes) {
+    if checks_straight_growth && is_selected(8, bytes) {
         assert_straight_growth(&machine);
     }
-    if checks_second_machine && is_one_in(8, bytes) {
-        assert_as_new(&machine);
+    if checks_second_machine && is_selected(8, bytes) {
+        assert_equals_new_machine(&machine);
     }
 }
 
 /// Returns the settings with few robots and steps.
-fn with_few_robots(settings: Settings, max_samples: usize) -> Settings {
+fn limit_size(settings: Settings, max_samples: usize) -> Settings {
     Settings {
         samples: settings.samples.min(max_samples),
         steps: settings.steps.min(MAX_STEPS),
@@ -55,11 +55,11 @@ fn with_few_robots(settings: Settings, max_samples: usize) -> Settings {
     }
 }
 
-fn call(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+fn call_method(machine: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let shown_count = machine.shown_count();
     match input.next_choice(9) {
-        0 | 1 => configure(machine, with_few_robots, input),
-        2 | 3 => assert_same_in_blocks(machine, with_few_robots, input),
+        0 | 1 => configure(machine, limit_size, input),
+        2 | 3 => assert_same_in_blocks(machine, limit_size, input),
         4 => {
             let count = usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
             assert_eq!(machine.add_samples(count), (shown_count + count).min(machine.settings().samples));
@@ -74,10 +74,10 @@ fn call(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(Settings) -> Setti
     }
 }
 
-fn configure(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+fn configure(machine: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let settings = with_changes(machine.settings(), input);
     if are_allowed(&settings) {
-        machine.configure(with_few_robots(settings)).expect("allowed");
+        machine.configure(limit_size(settings)).expect("allowed");
         return;
     }
     let results_before = all_results(machine);
@@ -86,12 +86,12 @@ fn configure(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(Settings) -> 
 }
 
 /// Asserts that robots added in blocks equal the robots of one call.
-fn assert_same_in_blocks(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+fn assert_same_in_blocks(machine: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let settings = with_changes(machine.settings(), input);
     if !are_allowed(&settings) {
         return;
     }
-    let settings = with_few_robots(settings);
+    let settings = limit_size(settings);
     let mut machine_in_one_call = machine.clone();
     machine_in_one_call.configure(settings).expect("allowed");
     let count = 1 + usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
@@ -104,7 +104,7 @@ fn assert_same_in_blocks(machine: &mut DeadReckoning, with_few_robots: &dyn Fn(S
 }
 
 /// Asserts that a machine depends on its settings only, and not on earlier calls.
-fn assert_as_new(machine: &DeadReckoning) {
+fn assert_equals_new_machine(machine: &DeadReckoning) {
     let mut new_machine = DeadReckoning::with_shown_count(*machine.settings(), 0).expect("allowed");
     new_machine.add_samples(machine.shown_count());
     assert_eq!(all_results(&new_machine), all_results(machine));
@@ -169,15 +169,15 @@ fn assert_results(machine: &DeadReckoning) {
 }
 
 /// Asserts that a matrix is finite and symmetric, and has no correlation above 1, to within `rounding`.
-fn assert_covariance(what: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, usize) -> f64) {
-    laws::assert_finite(what, cov.as_slice());
+fn assert_covariance(label: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, usize) -> f64) {
+    laws::assert_finite(label, cov.as_slice());
     for i in 0..3 {
-        assert!(cov[(i, i)] >= 0.0, "{what}: {cov:?}");
+        assert!(cov[(i, i)] >= 0.0, "{label}: {cov:?}");
         for j in 0..i {
             let tolerance = rounding(i, j) + f64::MIN_POSITIVE;
-            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{what}: {cov:?}");
+            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{label}: {cov:?}");
             let [first, second] = [i, j].map(|k| (cov[(k, k)] + rounding(k, k)).sqrt());
-            assert!(cov[(i, j)].abs() <= first * second + tolerance, "{what}: {cov:?}");
+            assert!(cov[(i, j)].abs() <= first * second + tolerance, "{label}: {cov:?}");
         }
     }
 }

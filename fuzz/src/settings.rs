@@ -23,14 +23,14 @@ pub fn with_changes<S: Rules>(current: &S, input: &mut Input) -> S {
 fn set_any_value(setting: Setting, input: &mut Input) {
     match setting {
         Setting::Number(slot, allowed) => *slot = input.number_near(&allowed),
-        Setting::Integer(slot, allowed) => slot.set(input.whole_near(&allowed)),
+        Setting::Integer(slot, allowed) => slot.set(input.integer_near(&allowed)),
         Setting::OptionalInteger(slot, allowed) => {
-            *slot = input.next_bool().then(|| input.whole_near(&allowed) as usize);
+            *slot = input.next_bool().then(|| input.integer_near(&allowed) as usize);
         }
         Setting::Boolean(slot) => *slot = input.next_bool(),
         Setting::Keyword(slot) => {
-            let words = slot.all();
-            assert!(slot.set(input.one_of(&words)) && !slot.set("") && !slot.set("__proto__"));
+            let keywords = slot.all();
+            assert!(slot.set(input.one_of(&keywords)) && !slot.set("") && !slot.set("__proto__"));
         }
         Setting::Numbers(slots, allowed) => {
             slots.iter_mut().for_each(|slot| *slot = input.number_near(&allowed))

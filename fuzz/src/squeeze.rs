@@ -19,7 +19,7 @@ thread_local! {
     static FIRST_MACHINE: LazyCell<MapSqueeze> = LazyCell::new(|| {
         let wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
         let plan = FloorPlan::new(vec![wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
-        let mut machine = MapSqueeze::new(with_few_samples(Settings::default(), false)).expect("the opening state");
+        let mut machine = MapSqueeze::new(limit_samples(Settings::default(), false)).expect("the opening state");
         machine.set_plan(plan);
         assert!(machine.is_start_free());
         machine
@@ -33,14 +33,14 @@ pub fn run(bytes: &[u8]) {
         if input.is_empty() {
             break;
         }
-        call(&mut machine, &mut input);
+        call_method(&mut machine, &mut input);
     }
     assert_results(&machine);
 }
 
 /// Returns the settings with few samples, and with a sampler that divides the command only if `with_parts`. Callers rarely ask for that: a
 /// robot that cannot move in one part of the command takes 10 000 draws.
-fn with_few_samples(settings: Settings, with_parts: bool) -> Settings {
+fn limit_samples(settings: Settings, with_parts: bool) -> Settings {
     let steps = settings.steps.min(MAX_PARTS);
     let sampler = if with_parts { settings.sampler.with_parts(steps) } else { without_parts(settings.sampler) };
     Settings { samples: settings.samples.min(MAX_SAMPLES), steps, sampler, ..settings }
@@ -50,7 +50,7 @@ fn without_parts(sampler: Sampler) -> Sampler {
     if let Sampler::SubStepped(_) = sampler { Sampler::WholeArc } else { sampler }
 }
 
-fn call(machine: &mut MapSqueeze, input: &mut Input) {
+fn call_method(machine: &mut MapSqueeze, input: &mut Input) {
     match input.next_choice(10) {
         0 => configure(machine, input),
         1 => assert_same_in_blocks(machine, input),
@@ -60,7 +60,7 @@ fn call(machine: &mut MapSqueeze, input: &mut Input) {
             }
         }
         3 => {
-            if let Some((grid, _)) = grid::read(input) {
+            if let Some((grid, _)) = grid::read_random_grid(input) {
                 let (wall_count, was_refused) = (machine.plan().walls().len(), machine.set_grid(grid).is_err());
                 assert!(!was_refused || machine.plan().walls().len() == wall_count);
             }
@@ -74,7 +74,7 @@ fn call(machine: &mut MapSqueeze, input: &mut Input) {
             machine.configure_first(*machine.settings(), 0).expect("allowed");
             assert!(machine.attempts().is_empty());
         }
-        6 => assert_painted(machine, input),
+        6 => assert_picture(machine, input),
         7 => {
             let target = [0; 2].map(|_| input.next_number());
             let radius = input.number_within(0.0..=f64::INFINITY);
@@ -82,7 +82,7 @@ fn call(machine: &mut MapSqueeze, input: &mut Input) {
             assert!(found_index.is_none_or(|index| index < machine.attempts().len()));
         }
         // A free pose is rarely checked: the search along 72 headings takes as long as ten other calls.
-        8 => assert_as_new(machine),
+        8 => assert_equals_new_machine(machine),
         _ if input.next_choice(64) == 1 => assert_free_pose(machine),
         _ => {}
     }
@@ -93,7 +93,7 @@ fn configure(machine: &mut MapSqueeze, input: &mut Input) {
     let settings_before = *machine.settings();
     if are_allowed(&settings) {
         let checks_parts = input.next_choice(16) == 1;
-        machine.configure(with_few_samples(settings, checks_parts)).expect("allowed");
+        machine.configure(limit_samples(settings, checks_parts)).expect("allowed");
         return;
     }
     let attempts = machine.attempts().to_vec();
@@ -104,7 +104,7 @@ fn configure(machine: &mut MapSqueeze, input: &mut Input) {
 
 /// Asserts that attempts made in several blocks equal the attempts of one call.
 fn assert_same_in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
-    let settings = with_few_samples(with_changes(machine.settings(), input), false);
+    let settings = limit_samples(with_changes(machine.settings(), input), false);
     if !are_allowed(&settings) {
         return;
     }
@@ -119,7 +119,7 @@ fn assert_same_in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
 }
 
 /// Asserts that a machine depends on its settings and its map only, and not on earlier calls.
-fn assert_as_new(machine: &MapSqueeze) {
+fn assert_equals_new_machine(machine: &MapSqueeze) {
     let mut new_machine = MapSqueeze::with_shown_count(*machine.settings(), 0).expect("allowed");
     new_machine.set_plan(machine.plan().clone());
     new_machine.add_samples(machine.attempts().len());
@@ -182,7 +182,7 @@ fn assert_finite_plan(plan: &FloorPlan) {
     }
 }
 
-fn assert_painted(machine: &mut MapSqueeze, input: &mut Input) {
+fn assert_picture(machine: &mut MapSqueeze, input: &mut Input) {
     let grid = banana::read_grid(input);
     let shown_count = machine.attempts().len();
     let pixels = machine.paint(&grid, &[[[1; 4]; RAMP_STEPS]; OUTCOME_KIND_COUNT]);

@@ -26,11 +26,11 @@ mod geometry {
 /// doubles, its test says why, and which doubles it holds for.
 mod laws {
     pub mod doubles;
-    mod found;
     mod geometry;
     mod maps;
     mod models;
     mod motions;
+    mod regressions;
     mod statistics;
 }
 /// Floor plans, occupancy grids and motion that a map restricts.

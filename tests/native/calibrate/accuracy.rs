@@ -5,7 +5,7 @@ use super::simulated::{ALPHAS, MODELS, Simulation, Violation};
 use motion::calibrate::{ERROR_COUNT, Model, Systematic, SystematicError};
 
 /// Number of legs of a log.
-const LEGS: usize = 600;
+const LEG_COUNT: usize = 600;
 
 /// Kind of log.
 struct Scenario {
@@ -21,12 +21,12 @@ const FINE_REFERENCE: Scenario =
 const COARSE_REFERENCE: Scenario =
     Scenario { name: "20 mm, 20 mrad", change: |sim| sim.reference_stds = [0.02, 0.02], bias: 0.05 };
 const SYSTEMATIC_ERRORS: Scenario =
-    Scenario { name: "systematic errors", change: |sim| sim.errors = ERRORS, bias: 0.05 };
+    Scenario { name: "systematic errors", change: |sim| sim.errors = TRUE_ERRORS, bias: 0.05 };
 const JUMPING_REFERENCE: Scenario = Scenario { name: "jumps", change: |sim| sim.jumps = 0.01, bias: 0.05 };
 const PERSISTENT_ERRORS: Scenario =
     Scenario { name: "persistent", change: |sim| sim.violation = Violation::Autoregressive(0.7), bias: 0.1 };
 
-const ERRORS: Systematic = Systematic {
+const TRUE_ERRORS: Systematic = Systematic {
     clock_offset: 0.12,
     mount_yaw: 0.05,
     lever_arm: [0.1, -0.05],
@@ -67,7 +67,7 @@ fn study(model: Model, scenario: &Scenario, logs: usize) -> Study {
         logs,
     };
     for seed in 0..logs as u64 {
-        let mut sim = Simulation::of(model, LEGS, 5000 + seed);
+        let mut sim = Simulation::of(model, LEG_COUNT, 5000 + seed);
         (scenario.change)(&mut sim);
         let calibration = calibrated(&sim);
         for (alpha, truth) in ALPHAS.into_iter().enumerate().take(count) {
@@ -76,8 +76,9 @@ fn study(model: Model, scenario: &Scenario, logs: usize) -> Study {
         }
         for (error, covered) in SystematicError::ALL.into_iter().zip(&mut study.errors_covered) {
             let interval = calibration.interval_of(error);
-            let extended = interval.map(|[low, high]| [low - NEGLECTED_TERMS, high + NEGLECTED_TERMS]);
-            *covered += count_covered(extended, sim.errors.get(error));
+            let extended_interval =
+                interval.map(|[low, high]| [low - NEGLECTED_TERMS, high + NEGLECTED_TERMS]);
+            *covered += count_covered(extended_interval, sim.errors.get(error));
         }
         for (index, noise) in calibration.reference_noise.iter().enumerate() {
             study.stds[index].push(noise.value);
@@ -102,55 +103,56 @@ fn median(sorted: &[f64]) -> f64 {
 /// Returns the standard error of a median of normal numbers, from the range that holds their middle 68 %.
 fn median_std(sorted: &[f64]) -> f64 {
     let count = sorted.len();
-    let [low, high] = [0.16, 0.84].map(|part| sorted[(part * count as f64) as usize]);
+    let [low, high] = [0.16, 0.84].map(|quantile| sorted[(quantile * count as f64) as usize]);
     1.25 * 0.5 * (high - low) / (count as f64).sqrt()
 }
 
 /// Returns three standard errors of a fraction of `logs`.
-fn three_standard_errors(share: f64, logs: usize) -> f64 {
-    3.0 * (share * (1.0 - share) / logs as f64).sqrt()
+fn three_standard_errors(fraction: f64, logs: usize) -> f64 {
+    3.0 * (fraction * (1.0 - fraction) / logs as f64).sqrt()
 }
 
 /// Reports a fraction of intervals that hold the truth, if it is outside of 92 to 98 % by more than three standard errors.
-fn wrong_coverage(name: &str, covered: usize, logs: usize) -> Option<String> {
-    let share = covered as f64 / logs as f64;
+fn report_wrong_coverage(name: &str, covered: usize, logs: usize) -> Option<String> {
+    let fraction = covered as f64 / logs as f64;
     let allowed = 0.92 - three_standard_errors(0.92, logs)..=0.98 + three_standard_errors(0.98, logs);
-    (!allowed.contains(&share)).then(|| format!("{covered} of {logs} intervals hold {name}"))
+    (!allowed.contains(&fraction)).then(|| format!("{covered} of {logs} intervals hold {name}"))
 }
 
 /// Reports α's whose medians are off by more than the bias and three standard errors, and α's with wrong intervals.
-fn wrong_alphas(model: Model, scenario: &Scenario, study: &Study) -> Vec<String> {
-    let wrong_alpha = |alpha: usize| {
+fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &Study) -> Vec<String> {
+    let reports_of_alpha = |alpha: usize| {
         let (ratios, name) = (&study.ratios[alpha], format!("α{}", alpha + 1));
         let (median_ratio, std) = (median(ratios), median_std(ratios));
         let is_off = ratios.len() < study.logs || (median_ratio - 1.0).abs() > scenario.bias + 3.0 * std;
         let wrong_median = is_off
             .then(|| format!("median of {name} in {} logs: {median_ratio:.3} ± {std:.3}", ratios.len()));
-        [wrong_median, wrong_coverage(&name, study.covered[alpha], study.logs)]
+        [wrong_median, report_wrong_coverage(&name, study.covered[alpha], study.logs)]
     };
-    let reports = (0..study.covered.len()).flat_map(wrong_alpha).flatten();
+    let reports = (0..study.covered.len()).flat_map(reports_of_alpha).flatten();
     reports.map(|report| format!("{}, {model:?}: {report}", scenario.name)).collect()
 }
 
-/// Asserts that the α's of every model are right in a hundred logs, and that `others` reports nothing.
-fn assert_right_in_every_model(scenario: &Scenario, others: impl Fn(&Study) -> Vec<String>) {
+/// Asserts that the α's of every model are right in a hundred logs, and that `further_reports` reports nothing.
+fn assert_right_in_every_model(scenario: &Scenario, further_reports: impl Fn(&Study) -> Vec<String>) {
     let reports: Vec<String> = MODELS
         .into_iter()
         .flat_map(|model| {
             let study = study(model, scenario, 100);
-            let other_reports = others(&study).into_iter().map(move |report| format!("{model:?}: {report}"));
-            wrong_alphas(model, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
+            let other_reports =
+                further_reports(&study).into_iter().map(move |report| format!("{model:?}: {report}"));
+            report_wrong_alphas(model, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
         })
         .collect();
     assert!(reports.is_empty(), "{}", reports.join("\n"));
 }
 
 /// Reports a standard deviation of the reference that is off by more than 10 % and three standard errors.
-fn wrong_std(study: &Study, component: usize, true_std: f64) -> Vec<String> {
-    let middle = median(&study.stds[component]);
+fn report_wrong_std(study: &Study, component: usize, true_std: f64) -> Vec<String> {
+    let median_of_std = median(&study.stds[component]);
     let allowed = 0.1 * true_std + 3.0 * median_std(&study.stds[component]);
-    let is_off = (middle - true_std).abs() > allowed;
-    is_off.then(|| format!("median of std {component}: {middle}")).into_iter().collect()
+    let is_off = (median_of_std - true_std).abs() > allowed;
+    is_off.then(|| format!("median of std {component}: {median_of_std}")).into_iter().collect()
 }
 
 #[test]
@@ -165,7 +167,7 @@ fn alphas_of_one_rule_are_right_in_every_kind_of_log() {
         PERSISTENT_ERRORS,
     ];
     for scenario in &scenarios {
-        assert_eq!(wrong_alphas(model, scenario, &study(model, scenario, 10)), Vec::<String>::new());
+        assert_eq!(report_wrong_alphas(model, scenario, &study(model, scenario, 10)), Vec::<String>::new());
     }
 }
 
@@ -179,14 +181,14 @@ fn alphas_are_right_with_an_exact_reference() {
 #[test]
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_are_right_with_an_unstated_noise_of_5_mm_and_2_mrad() {
-    assert_right_in_every_model(&FINE_REFERENCE, |study| wrong_std(study, 0, 0.005));
+    assert_right_in_every_model(&FINE_REFERENCE, |study| report_wrong_std(study, 0, 0.005));
 }
 
 #[test]
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_are_right_with_an_unstated_noise_of_20_mm_and_20_mrad() {
     assert_right_in_every_model(&COARSE_REFERENCE, |study| {
-        [0, 1].map(|component| wrong_std(study, component, 0.02)).concat()
+        [0, 1].map(|component| report_wrong_std(study, component, 0.02)).concat()
     });
 }
 
@@ -194,10 +196,10 @@ fn alphas_are_right_with_an_unstated_noise_of_20_mm_and_20_mrad() {
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_and_errors_are_right_with_five_systematic_errors() {
     assert_right_in_every_model(&SYSTEMATIC_ERRORS, |study| {
-        let wrong_error = |error: SystematicError| {
-            wrong_coverage(&format!("{error:?}"), study.errors_covered[error as usize], study.logs)
+        let report_of_error = |error: SystematicError| {
+            report_wrong_coverage(&format!("{error:?}"), study.errors_covered[error as usize], study.logs)
         };
-        SystematicError::ALL.into_iter().filter_map(wrong_error).collect()
+        SystematicError::ALL.into_iter().filter_map(report_of_error).collect()
     });
 }
 

@@ -17,15 +17,15 @@ fn good_log(count: usize, seed: u64) -> Simulation {
     Simulation::of(NAV2, count, seed)
 }
 
-fn failed_checks(calibration: &Calibration) -> Vec<CheckName> {
-    let failed = calibration.diagnostics.checks.iter().filter(|check| !check.passed);
-    failed.map(|check| check.name).collect()
+fn names_of_failed_checks(calibration: &Calibration) -> Vec<CheckName> {
+    let failing_checks = calibration.diagnostics.checks.iter().filter(|check| !check.passed);
+    failing_checks.map(|check| check.name).collect()
 }
 
 /// Asserts that a check fails, with a message, and that the log is therefore questionable.
 fn assert_fails(name: CheckName, calibration: &Calibration) {
-    let failed = failed_checks(calibration);
-    assert!(failed.contains(&name), "{name:?} is not among {failed:?}");
+    let failing_checks = names_of_failed_checks(calibration);
+    assert!(failing_checks.contains(&name), "{name:?} is not among {failing_checks:?}");
     assert!(calibration.diagnostics.checks.iter().all(|check| check.passed == check.message().is_empty()));
     assert_eq!(calibration.diagnostics.verdict, Verdict::Questionable, "{name:?}");
     let recommended = calibration.recommended.as_ref().expect("it is usable");
@@ -59,10 +59,10 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
         ("columns swapped", |pose| SE2::new(pose.y(), pose.x(), pose.theta())),
         ("millimetres", |pose| SE2::new(1e3 * pose.x(), 1e3 * pose.y(), pose.theta())),
     ];
-    let changed = changes.map(|(name, change)| (name, with_poses(&reference, change)));
-    for (name, reference) in changed.into_iter().chain([("another drive", other_reference)]) {
+    let changed_references = changes.map(|(name, change)| (name, with_poses(&reference, change)));
+    for (name, reference) in changed_references.into_iter().chain([("another drive", other_reference)]) {
         let calibration = calibrated_log(&[odometry.clone(), reference], &sim.options());
-        assert!(failed_checks(&calibration).contains(&ReferenceMatches), "{name}");
+        assert!(names_of_failed_checks(&calibration).contains(&ReferenceMatches), "{name}");
         assert_unusable(&calibration, name);
     }
 }
@@ -74,11 +74,11 @@ fn a_copy_of_the_odometry_is_no_reference() {
     // Copies in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and numbers rounded to six digits, to three and to two.
     for digits in [6, 3, 2] {
         let round = |value: f64| (value * 10_f64.powi(digits)).round() / 10_f64.powi(digits);
-        let copy = odometry.samples().map(|(time, pose)| {
+        let copied_samples = odometry.samples().map(|(time, pose)| {
             let shifted = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
             (time + 0.1, SE2::new(round(shifted.x()), round(shifted.y()), round(shifted.theta())))
         });
-        let calibration = calibrated_log(&[odometry.clone(), trajectory(copy)], &sim.options());
+        let calibration = calibrated_log(&[odometry.clone(), trajectory(copied_samples)], &sim.options());
         let message = calibration.diagnostics.checks[0].message();
         assert!(
             message.starts_with("The reference has the errors of the odometry: "),
@@ -91,7 +91,7 @@ fn a_copy_of_the_odometry_is_no_reference() {
         let reference_stds = [0.01 * (seed % 2) as f64; 2];
         let precise_robot =
             Simulation { violation: Violation::Times(0.01), reference_stds, ..good_log(600, seed) };
-        assert!(!failed_checks(&calibrated(&precise_robot)).contains(&ReferenceMatches), "{seed}");
+        assert!(!names_of_failed_checks(&calibrated(&precise_robot)).contains(&ReferenceMatches), "{seed}");
     }
 }
 
@@ -109,7 +109,7 @@ fn legs_that_hardly_move_are_not_compared() {
 fn few_legs_are_questionable_and_fewer_unusable() {
     assert_fails(EnoughLegs, &calibrated(&good_log(80, 3)));
     let few_legs_fit = calibrated(&good_log(25, 3));
-    assert!(failed_checks(&few_legs_fit).contains(&EnoughLegs));
+    assert!(names_of_failed_checks(&few_legs_fit).contains(&EnoughLegs));
     assert_unusable(&few_legs_fit, "25 legs");
 }
 
@@ -127,8 +127,8 @@ fn lost_legs_are_reported() {
 fn legs_that_are_longer_than_asked_for_are_reported() {
     let sim = good_log(600, 5);
     let [odometry, reference] = sim.log();
-    let sparse = trajectory(reference.samples().step_by(40));
-    assert_fails(SamplingDense, &calibrated_log(&[odometry, sparse], &sim.options()));
+    let sparse_reference = trajectory(reference.samples().step_by(40));
+    assert_fails(SamplingDense, &calibrated_log(&[odometry, sparse_reference], &sim.options()));
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn a_log_that_no_inflation_covers_is_unusable() {
         reference.samples().map(|(time, pose)| (time, if time < jump_time { pose } else { shift * pose }));
     let options = Options { outliers: Outliers::Keep, ..sim.options() };
     let calibration = calibrated_log(&[odometry, trajectory(jumped_samples)], &options);
-    assert_eq!(failed_checks(&calibration)[0], InflationBounded);
+    assert_eq!(names_of_failed_checks(&calibration)[0], InflationBounded);
     assert_unusable(&calibration, "a jump");
 }
 
@@ -174,13 +174,13 @@ fn calibrated_with_scales(sim: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -
 fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     let sim = good_log(600, 12);
     let [odometry, reference] = sim.log();
-    let jittered = |std: f64| {
+    let with_jitter = |std: f64| {
         let mut rng = seeded(12);
         let mut noise = || NoiseKind::Normal.sample(Variance(std * std), &mut rng);
         with_poses(&odometry, |pose| SE2::new(pose.x() + noise(), pose.y() + noise(), pose.theta()))
     };
     let shifted = with_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));
-    let passes = |odometry: &Trajectory, model: Model| {
+    let sideways_check_passes = |odometry: &Trajectory, model: Model| {
         let calibration =
             calibrated_log(&[odometry.clone(), reference.clone()], &Options { model, ..sim.options() });
         let mut checks = calibration.diagnostics.checks.into_iter();
@@ -188,9 +188,18 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         check.inspect(|check| assert_eq!(check.passed, check.message().is_empty())).map(|check| check.passed)
     };
     let [table, omni] = [OdometryRule::Table, OdometryRule::Omni].map(Model::Odometry);
-    assert_eq!([passes(&jittered(0.01), NAV2), passes(&shifted, NAV2)], [Some(false); 2]);
-    assert_eq!([passes(&jittered(1e-3), table), passes(&jittered(1e-3), NAV2)], [Some(false), Some(true)]);
-    assert_eq!([passes(&shifted, omni), passes(&shifted, Model::Velocity)], [None; 2]);
+    assert_eq!(
+        [sideways_check_passes(&with_jitter(0.01), NAV2), sideways_check_passes(&shifted, NAV2)],
+        [Some(false); 2]
+    );
+    assert_eq!(
+        [sideways_check_passes(&with_jitter(1e-3), table), sideways_check_passes(&with_jitter(1e-3), NAV2)],
+        [Some(false), Some(true)]
+    );
+    assert_eq!(
+        [sideways_check_passes(&shifted, omni), sideways_check_passes(&shifted, Model::Velocity)],
+        [None; 2]
+    );
 }
 
 /// Asserts that a check fails because a systematic error is not constant, and that the error is not corrected.
@@ -247,14 +256,14 @@ fn noise_that_changes_is_not_covered_by_the_other_half() {
 
 /// Returns the number of consistent logs among `logs` simulated ones, and prints the checks that failed.
 fn count_consistent(model: Model, logs: u64) -> usize {
-    let mut failed = Vec::new();
+    let mut failing_checks = Vec::new();
     let calibration_of = |seed: u64| calibrated(&Simulation::of(model, 600, 3000 + seed));
     let is_consistent = |calibration: &Calibration| {
-        failed.extend(failed_checks(calibration));
+        failing_checks.extend(names_of_failed_checks(calibration));
         calibration.diagnostics.verdict == Verdict::Consistent
     };
     let count = (0..logs).map(calibration_of).filter(is_consistent).count();
-    println!("{model:?}: {count} of {logs} are consistent; failed: {failed:?}");
+    println!("{model:?}: {count} of {logs} are consistent; failed: {failing_checks:?}");
     count
 }
 

@@ -60,15 +60,18 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let rows = reference.samples().len();
     let mut rng = seeded(2);
     let mut frame_heading = 0.0;
-    let restarting = trajectory(reference.samples().enumerate().map(|(row, (time, pose))| {
+    let restarting_reference = trajectory(reference.samples().enumerate().map(|(row, (time, pose))| {
         if row % 400 == 0 {
             frame_heading = rng.random_range(-3.0..3.0);
         }
         (time, SE2::new(0.0, 0.0, frame_heading) * pose)
     }));
-    let partly_visible = trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(60.0) < 20.0));
+    let partly_visible_reference =
+        trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(60.0) < 20.0));
     let short_log = trajectory(reference.samples().skip(rows / 2).take(rows / 5));
-    for reference in [restarting.with_breaks_before((0..rows).step_by(400)), partly_visible, short_log] {
+    for reference in
+        [restarting_reference.with_breaks_before((0..rows).step_by(400)), partly_visible_reference, short_log]
+    {
         let calibration = calibrated_log(&[odometry.clone(), reference], &simulation.options());
         assert_recovers(&calibration, SystematicError::ClockOffset, 3.2);
     }
@@ -80,10 +83,11 @@ fn trajectories_without_a_common_time_are_refused() {
         calibrate(&[Drive { odometry, reference }], &options_of(NAV2))
             .map(|calibration| calibration.systematic)
     };
-    let delayed = |log: &Trajectory, s: f64| trajectory(log.samples().map(|(time, pose)| (time + s, pose)));
+    let with_delay =
+        |log: &Trajectory, s: f64| trajectory(log.samples().map(|(time, pose)| (time + s, pose)));
     let [odometry, _] = Simulation::of(NAV2, 500, 6).log();
     let [_, other_reference] = Simulation::of(NAV2, 500, 7).log();
-    assert_eq!(result_of(&odometry, &delayed(&other_reference, 1e6)), Err(CalibrateError::NoCommonTime));
+    assert_eq!(result_of(&odometry, &with_delay(&other_reference, 1e6)), Err(CalibrateError::NoCommonTime));
     // Straight drives have no turns to align by. Their clocks are assumed equal, provided that the times overlap.
     let straight_drive = |from: f64| {
         let rows = (0..1000).map(f64::from);
@@ -105,7 +109,7 @@ fn too_few_legs_are_refused() {
 /// and on shorter legs with turns like a larger one. An estimated noise of the reference absorbs the error, because both headings of a leg
 /// have the same error.
 #[test]
-fn an_error_that_is_not_corrected_is_noise_of_the_wheels_or_of_the_reference() {
+fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
     let simulation = simulation_with_errors(NAV2, 600, Systematic { mount_yaw: 0.07, ..Systematic::NONE });
     let log = simulation.log();
     let exact_reference = Options { position_std: Some(0.0), yaw_std: Some(0.0), ..simulation.options() };
@@ -131,9 +135,11 @@ fn an_error_that_is_not_corrected_is_noise_of_the_wheels_or_of_the_reference() {
 fn an_error_that_the_log_does_not_identify_is_not_corrected() {
     let simulation = Simulation { drive: Some(|_| [0.4, 0.0]), ..Simulation::of(NAV2, 600, 4) };
     let calibration = calibrated(&simulation);
-    let is_unknown = |error: SystematicError| calibration.systematic_stds[error as usize].is_none();
-    assert!(is_unknown(SystematicError::TurnScale) && is_unknown(SystematicError::LeverArmAhead));
-    for error in SystematicError::ALL.into_iter().filter(|error| is_unknown(*error)) {
+    let is_not_identified = |error: SystematicError| calibration.systematic_stds[error as usize].is_none();
+    assert!(
+        is_not_identified(SystematicError::TurnScale) && is_not_identified(SystematicError::LeverArmAhead)
+    );
+    for error in SystematicError::ALL.into_iter().filter(|error| is_not_identified(*error)) {
         assert!(!calibration.is_corrected[error as usize], "{error:?}");
         assert_eq!(calibration.corrected.get(error), Systematic::NONE.get(error), "{error:?}");
     }
@@ -154,8 +160,8 @@ fn errors_of_a_robot_without_noise_are_exact() {
     }
     let odometry = trajectory(samples.iter().copied().step_by(2));
     for (first, every) in [(0, 2), (0, 10), (7, 50), (7, 100)] {
-        let delayed = samples.iter().skip(first).step_by(every).map(|(time, pose)| (time + OFFSET, *pose));
-        let log = [odometry.clone(), trajectory(delayed)];
+        let with_delay = samples.iter().skip(first).step_by(every).map(|(time, pose)| (time + OFFSET, *pose));
+        let log = [odometry.clone(), trajectory(with_delay)];
         let calibration =
             calibrated_log(&log, &Options { correct: [Some(true); 6], ..options_of(MODELS[0]) });
         let truth = Systematic { clock_offset: OFFSET, ..Systematic::NONE };
@@ -172,7 +178,7 @@ fn errors_of_a_robot_without_noise_are_exact() {
 
 /// Four drives with a quarter of the legs each, and each with its own clock, give the standard errors of one drive with all legs.
 #[test]
-fn four_drives_tell_as_much_as_one_that_is_as_long() {
+fn four_drives_are_as_informative_as_one_of_the_same_length() {
     let simulation_with_clock = |clock_offset: f64, count: usize, seed: u64| {
         let errors = Systematic { clock_offset, ..Systematic::NONE };
         Simulation { errors, seed, ..simulation_with_errors(NAV2, count, errors) }
@@ -202,7 +208,7 @@ fn four_drives_tell_as_much_as_one_that_is_as_long() {
 /// The encoders jitter by 3 mm and 3 mrad, and the robot stands half of the time. Legs of half a second then do not
 /// show that wheels turn while the robot stands.
 #[test]
-fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
+fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
     let mut rng = seeded(5);
     let mut noise = |limit: f64| rng.random_range(-limit..limit);
     let (mut odometry_pose, mut true_pose, mut rows) = (SE2::identity(), SE2::identity(), Vec::new());
@@ -217,8 +223,9 @@ fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
         let jitter = SE2::new(noise(0.003), noise(0.003), noise(0.003));
         rows.push([(0.05 * row as f64, odometry_pose * jitter), (0.05 * row as f64, true_pose)]);
         odometry_pose = odometry_pose.boxplus(twist);
-        let moves = twist.norm() > 0.0;
-        let noise_step = if moves { Vector3::new(noise(0.004), 0.0, noise(0.008)) } else { Vector3::zeros() };
+        let is_moving = twist.norm() > 0.0;
+        let noise_step =
+            if is_moving { Vector3::new(noise(0.004), 0.0, noise(0.008)) } else { Vector3::zeros() };
         true_pose = true_pose.boxplus(twist + noise_step);
     }
     let log = [0, 1].map(|trajectory_index| trajectory(rows.iter().map(|row| row[trajectory_index])));
@@ -231,17 +238,17 @@ fn standing_robots_whose_encoders_tremble_do_not_change_the_turn_scale() {
 /// With one row of the reference for each leg, legs end at these rows. The α's equal those of all rows up to their
 /// standard errors of 8 %, because the legs are nearly the same.
 #[test]
-fn one_row_a_leg_is_enough_for_the_reference() {
+fn one_reference_row_per_leg_is_enough() {
     // Legs of a second, so that each leg ends at a row.
     let legs = LegLength::Duration { duration: 1.0 };
     let simulation = Simulation { legs, ..Simulation::of(NAV2, 800, 3) };
     let [odometry, reference] = simulation.log();
-    let sparse = trajectory(reference.samples().step_by(20));
+    let sparse_reference = trajectory(reference.samples().step_by(20));
     let with_all_rows = calibrated_log(&[odometry.clone(), reference], &simulation.options());
-    let with_one_row_a_leg = calibrated_log(&[odometry, sparse], &simulation.options());
+    let with_one_row_a_leg = calibrated_log(&[odometry, sparse_reference], &simulation.options());
     assert!(with_one_row_a_leg.legs.len() > 780, "{}", with_one_row_a_leg.legs.len());
-    for (one, other) in with_one_row_a_leg.alphas.iter().zip(&with_all_rows.alphas) {
-        let ratio = one.expect("identifiable") / other.expect("identifiable");
+    for (alpha, expected_alpha) in with_one_row_a_leg.alphas.iter().zip(&with_all_rows.alphas) {
+        let ratio = alpha.expect("identifiable") / expected_alpha.expect("identifiable");
         assert!((ratio - 1.0).abs() < 0.08, "{ratio}");
     }
 }

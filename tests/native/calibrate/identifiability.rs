@@ -16,11 +16,11 @@ fn calibrated_drive(model: Model, drive: Drive) -> Calibration {
 }
 
 /// v and ω of a straight leg.
-const STRAIGHT: [f64; 2] = [0.3, 0.0];
+const STRAIGHT_LEG: [f64; 2] = [0.3, 0.0];
 /// v and ω of a turn on the spot.
-const SPIN: [f64; 2] = [0.0, 0.6];
+const SPIN_LEG: [f64; 2] = [0.0, 0.6];
 /// v and ω of a bend.
-const BEND: [f64; 2] = [0.2, 0.8];
+const BEND_LEG: [f64; 2] = [0.2, 0.8];
 
 const NO_TURNS: Option<NotIdentifiable> = Some(InsufficientRotation);
 const NO_DISTANCE: Option<NotIdentifiable> = Some(InsufficientTranslation);
@@ -38,22 +38,25 @@ struct IncompleteDrive {
 const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
     IncompleteDrive {
         name: "straight",
-        drive: |_| STRAIGHT,
+        drive: |_| STRAIGHT_LEG,
         odometry: [NO_TURNS, None, None, NO_TURNS, None],
         velocity: [None, NO_TURNS, None, NO_TURNS, None, NO_TURNS],
         complete: [
-            |leg| if leg.is_multiple_of(8) { SPIN } else { STRAIGHT },
-            |leg| if leg.is_multiple_of(8) { BEND } else { STRAIGHT },
+            |leg| if leg.is_multiple_of(8) { SPIN_LEG } else { STRAIGHT_LEG },
+            |leg| if leg.is_multiple_of(8) { BEND_LEG } else { STRAIGHT_LEG },
         ],
     },
     IncompleteDrive {
         name: "on the spot",
-        drive: |_| SPIN,
+        drive: |_| SPIN_LEG,
         odometry: [None, NO_DISTANCE, NO_DISTANCE, None, NO_DISTANCE],
         velocity: [NO_DISTANCE, None, NO_DISTANCE, NO_TURNS, NO_DISTANCE, NO_TURNS],
         complete: [
-            |leg| if leg.is_multiple_of(8) { STRAIGHT } else { SPIN },
-            |leg| [SPIN, STRAIGHT, BEND, STRAIGHT, BEND, STRAIGHT, BEND, BEND][leg % 8],
+            |leg| if leg.is_multiple_of(8) { STRAIGHT_LEG } else { SPIN_LEG },
+            |leg| {
+                [SPIN_LEG, STRAIGHT_LEG, BEND_LEG, STRAIGHT_LEG, BEND_LEG, STRAIGHT_LEG, BEND_LEG, BEND_LEG]
+                    [leg % 8]
+            },
         ],
     },
     // The radii of the bends differ by a few percent only.
@@ -63,20 +66,20 @@ const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
         odometry: [Some(Collinear); 5],
         velocity: [Some(Collinear); 6],
         complete: [
-            |leg| [[0.3, 0.3], STRAIGHT, [0.3, 0.3], SPIN][leg % 4],
-            |leg| [[0.3, 0.3], STRAIGHT, [0.3, 0.3], BEND][leg % 4],
+            |leg| [[0.3, 0.3], STRAIGHT_LEG, [0.3, 0.3], SPIN_LEG][leg % 4],
+            |leg| [[0.3, 0.3], STRAIGHT_LEG, [0.3, 0.3], BEND_LEG][leg % 4],
         ],
     },
 ];
 
 #[test]
-fn each_drive_has_its_reason_and_a_complete_one_identifies_all_alphas() {
+fn incomplete_drives_give_the_reason_and_complete_ones_identify_all_alphas() {
     assert_reasons(&[NAV2, Model::Velocity]);
 }
 
 #[test]
 #[ignore = "nightly: 30 calibrations"]
-fn each_drive_has_its_reason_for_every_model() {
+fn incomplete_drives_give_the_reason_for_every_model() {
     assert_reasons(&MODELS);
 }
 
@@ -102,9 +105,9 @@ fn assert_reasons(models: &[Model]) {
         }
     }
     // Three standard errors of a share of 0.95 are allowed.
-    let share = f64::from(covered_count) / f64::from(intervals);
+    let fraction = f64::from(covered_count) / f64::from(intervals);
     let error = (0.95 * 0.05 / f64::from(intervals)).sqrt();
-    assert!(share > 0.95 - 3.0 * error, "{share}");
+    assert!(fraction > 0.95 - 3.0 * error, "{fraction}");
 }
 
 /// The reference noise is set to 100 m and 100 rad. An α of 1 adds only about 0.3 m and 0.3 rad of noise to a leg.

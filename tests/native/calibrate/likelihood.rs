@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::f64::consts::TAU;
 
 /// Returns a log of bends in both directions, where no special case of the model applies.
-fn drive_in_bends(count: usize) -> Simulation {
+fn bending_drive(count: usize) -> Simulation {
     Simulation {
         drive: Some(|leg| [0.3, [0.3, -0.2, 0.1][leg / 3 % 3]]),
         reference_stds: [0.004, 0.01],
@@ -21,9 +21,9 @@ fn derivative(function: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     const H: f64 = 1e-6;
     let column = |axis: usize| {
         let step = Vector3::from_fn(|k, _| if k == axis { H } else { 0.0 });
-        let mut change = function(step) - function(-step);
-        change.iter_mut().for_each(|angle| *angle = wrap_angle(*angle));
-        change / (2.0 * H)
+        let mut difference = function(step) - function(-step);
+        difference.iter_mut().for_each(|angle| *angle = wrap_angle(*angle));
+        difference / (2.0 * H)
     };
     Matrix3::from_columns(&[0, 1, 2].map(column))
 }
@@ -70,13 +70,13 @@ fn error_derivative(leg: &Leg, corrected: &Systematic, error: SystematicError) -
     const H: f64 = 1e-6;
     let odometry_motion = expected_motion(leg, corrected);
     let motion_error = |step: f64| {
-        let mut changed = *corrected;
-        *changed.get_mut(error) += step;
+        let mut changed_errors = *corrected;
+        *changed_errors.get_mut(error) += step;
         // The reference has the corrected errors, and its robot moves as the odometry says.
         let mount = |e: &Systematic| SE2::new(e.lever_arm[0], e.lever_arm[1], e.mount_yaw);
         let reference_motion = mount(corrected).inverse() * odometry_motion * mount(corrected);
-        let motion = changed.base().inverse() * (reference_motion * changed.base());
-        coordinates(&motion) - coordinates(&expected_motion(leg, &changed))
+        let motion = changed_errors.base().inverse() * (reference_motion * changed_errors.base());
+        coordinates(&motion) - coordinates(&expected_motion(leg, &changed_errors))
     };
     reading_jacobian(leg, corrected) * (motion_error(H) - motion_error(-H)) / (2.0 * H)
 }
@@ -117,12 +117,13 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
     let factor = covariance.cholesky().expect("positive definite");
     let log_det =
         |factor: &nalgebra::Cholesky<f64, nalgebra::Dyn>| 2.0 * factor.l().diagonal().map(libm::log).sum();
-    let solved = factor.solve(&residuals);
-    let mut deviance =
-        log_det(&factor) + residuals.dot(&solved) + (count - errors.len()) as f64 * libm::log(TAU);
+    let weighted_residuals = factor.solve(&residuals);
+    let mut deviance = log_det(&factor)
+        + residuals.dot(&weighted_residuals)
+        + (count - errors.len()) as f64 * libm::log(TAU);
     if !errors.is_empty() {
         let information = (design.transpose() * factor.solve(&design)).cholesky().expect("positive definite");
-        let gradient = design.transpose() * solved;
+        let gradient = design.transpose() * weighted_residuals;
         deviance += log_det(&information) - gradient.dot(&information.solve(&gradient));
     }
     -0.5 * deviance
@@ -131,7 +132,7 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
 /// The relative error of Jacobians by central differences is 1e-9, and there are 120 residuals.
 #[test]
 fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
-    let sim = drive_in_bends(40);
+    let sim = bending_drive(40);
     let corrected_errors = [
         SystematicError::MountYaw,
         SystematicError::LeverArmAhead,
@@ -189,15 +190,17 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
             let sim = Simulation { violation: Violation::Times(times), ..Simulation::of(model, 1000, 103) };
             let exact_options = Options { position_std: Some(0.0), yaw_std: Some(0.0), ..sim.options() };
             let Calibration { alphas, intervals, .. } = calibrated_log(&sim.log(), &exact_options);
-            let scaled = |number: f64| number / (times * times);
+            let divided_by_square = |number: f64| number / (times * times);
             let results = alphas.into_iter().zip(intervals).map(|(alpha, interval)| {
                 let [low, high] = interval.expect("identifiable");
-                [low, alpha.expect("identifiable"), high].map(scaled)
+                [low, alpha.expect("identifiable"), high].map(divided_by_square)
             });
             results.collect::<Vec<_>>()
         };
-        let larger = fit_with_noise(0.01);
-        for (k, (smaller, expected)) in fit_with_noise(0.001).into_iter().zip(larger).enumerate() {
+        let results_of_larger_noise = fit_with_noise(0.01);
+        for (k, (smaller, expected)) in
+            fit_with_noise(0.001).into_iter().zip(results_of_larger_noise).enumerate()
+        {
             for (number, expected_number) in smaller.into_iter().zip(expected) {
                 let allowed = 0.025 * (expected[2] - expected[0]);
                 assert!(

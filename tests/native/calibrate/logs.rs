@@ -5,16 +5,18 @@ use motion::calibrate::{Leg, LegLength, LostLegs, Trajectory, split_into_legs};
 use motion::geom::se2::{SE2, wrap_angle};
 use nalgebra::Vector3;
 
-const QUARTER: LegLength = LegLength::Displacement { distance: 0.25, angle: 0.2 };
+const AMCL_LEG: LegLength = LegLength::Displacement { distance: 0.25, angle: 0.2 };
 
 /// Returns the trajectory of a robot that drives straight ahead, with a row every 0.1 s.
-fn straight(rows: usize, step: f64) -> Trajectory {
+fn straight_drive(rows: usize, step: f64) -> Trajectory {
     trajectory((0..rows).map(|row| (0.1 * row as f64, SE2::new(step * row as f64, 0.0, 0.0))))
 }
 
 /// Returns the trajectory without the rows between two of them.
-fn without_rows_between(whole: &Trajectory, from: usize, to: usize) -> Trajectory {
-    trajectory(whole.samples().enumerate().filter(|(row, _)| !(from < *row && *row < to)).map(|(_, row)| row))
+fn without_rows_between(trajectory: &Trajectory, from: usize, to: usize) -> Trajectory {
+    super::trajectory(
+        trajectory.samples().enumerate().filter(|(row, _)| !(from < *row && *row < to)).map(|(_, row)| row),
+    )
 }
 
 fn times(trajectory: &Trajectory) -> Vec<f64> {
@@ -23,8 +25,8 @@ fn times(trajectory: &Trajectory) -> Vec<f64> {
 
 #[test]
 fn legs_end_as_amcl_ends_them() {
-    let odometry = straight(41, 0.0625);
-    let (legs, lost) = split_into_legs(&odometry, &odometry, QUARTER, 0.0);
+    let odometry = straight_drive(41, 0.0625);
+    let (legs, lost) = split_into_legs(&odometry, &odometry, AMCL_LEG, 0.0);
     // A leg ends beyond a quarter of a metre, and not at exactly that distance: after five steps each.
     assert_eq!((legs.len(), lost), (8, LostLegs::default()));
     for (i, leg) in legs.iter().enumerate() {
@@ -33,12 +35,14 @@ fn legs_end_as_amcl_ends_them() {
         assert_eq!(leg.follows, i > 0);
     }
     // The limit is for each axis: 0.24 m along both is not enough, although the distance is 0.34 m.
-    let diagonal = trajectory([(0.0, 0.0), (0.1, 0.24), (0.2, 0.26)].map(|(t, x)| (t, SE2::new(x, x, 0.0))));
-    assert_eq!(split_into_legs(&diagonal, &diagonal, QUARTER, 0.0).0[0].times, [0.0, 0.2]);
+    let diagonal_drive =
+        trajectory([(0.0, 0.0), (0.1, 0.24), (0.2, 0.26)].map(|(t, x)| (t, SE2::new(x, x, 0.0))));
+    assert_eq!(split_into_legs(&diagonal_drive, &diagonal_drive, AMCL_LEG, 0.0).0[0].times, [0.0, 0.2]);
     // Headings on both sides of π differ by a small angle.
-    let turning = [(0.0, 3.1), (0.1, -3.1), (0.2, -2.9)].map(|(t, theta)| (t, SE2::new(0.0, 0.0, theta)));
-    let turning = trajectory(turning);
-    assert_eq!(split_into_legs(&turning, &turning, QUARTER, 0.0).0[0].times, [0.0, 0.2]);
+    let turning_drive =
+        [(0.0, 3.1), (0.1, -3.1), (0.2, -2.9)].map(|(t, theta)| (t, SE2::new(0.0, 0.0, theta)));
+    let turning_drive = trajectory(turning_drive);
+    assert_eq!(split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0).0[0].times, [0.0, 0.2]);
     let timed_legs = split_into_legs(&odometry, &odometry, LegLength::Duration { duration: 0.5 }, 0.0).0;
     assert_eq!(timed_legs.len(), 8);
 }
@@ -48,8 +52,13 @@ fn legs_end_as_amcl_ends_them() {
 fn rounding_does_not_decide_where_a_leg_ends() {
     let leg_times = |rounded: fn(f64) -> f64| {
         let heading = |row: usize| rounded(wrap_angle(0.123_456_7 + 0.02 * row as f64));
-        let turning = trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, heading(row)))));
-        split_into_legs(&turning, &turning, QUARTER, 0.0).0.iter().map(|leg| leg.times).collect::<Vec<_>>()
+        let turning_drive =
+            trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, heading(row)))));
+        split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0)
+            .0
+            .iter()
+            .map(|leg| leg.times)
+            .collect::<Vec<_>>()
     };
     let exact_times = leg_times(|heading| heading);
     // A leg does not end at exactly the limit: each has eleven steps.
@@ -61,75 +70,80 @@ fn rounding_does_not_decide_where_a_leg_ends() {
 /// step it would be 0.63 m long, more than twice the requested length, and is lost.
 #[test]
 fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
-    let drive = straight(101, 0.0625);
+    let drive = straight_drive(101, 0.0625);
     for (after, ends, across_pauses) in [(1, 37, 0), (4, 40, 1)] {
-        let paused = without_rows_between(&drive, 30 + after, 30 + after + 6);
-        assert_eq!(paused.gaps(), 1);
-        let (legs, lost) = split_into_legs(&paused, &drive, QUARTER, 0.0);
+        let with_pause = without_rows_between(&drive, 30 + after, 30 + after + 6);
+        assert_eq!(with_pause.gaps(), 1);
+        let (legs, lost) = split_into_legs(&with_pause, &drive, AMCL_LEG, 0.0);
         assert_eq!(lost, LostLegs { across_pauses, ..LostLegs::default() });
-        let across = legs.iter().find(|leg| leg.times[0] == times(&drive)[30]);
-        assert_eq!(across.map(|leg| leg.times[1]), (across_pauses == 0).then_some(times(&drive)[ends]));
+        let leg_across_pause = legs.iter().find(|leg| leg.times[0] == times(&drive)[30]);
+        assert_eq!(
+            leg_across_pause.map(|leg| leg.times[1]),
+            (across_pauses == 0).then_some(times(&drive)[ends])
+        );
         // The leg after one that was lost does not share an end with the leg before it in the list.
         let next_leg = legs.iter().find(|leg| leg.times[0] == times(&drive)[ends]).expect("it goes on");
         assert_eq!(next_leg.follows, across_pauses == 0);
     }
     // Both ends of the leg have a reference pose, although the reference has none in between.
-    let (legs, lost) = split_into_legs(&drive, &without_rows_between(&drive, 30, 35), QUARTER, 0.0);
-    assert_eq!((legs, lost), split_into_legs(&drive, &drive, QUARTER, 0.0));
+    let (legs, lost) = split_into_legs(&drive, &without_rows_between(&drive, 30, 35), AMCL_LEG, 0.0);
+    assert_eq!((legs, lost), split_into_legs(&drive, &drive, AMCL_LEG, 0.0));
 }
 
 #[test]
 fn lost_legs_are_counted_by_cause() {
-    let drive = straight(101, 0.05);
-    let all_legs = split_into_legs(&drive, &drive, QUARTER, 0.0).0;
+    let drive = straight_drive(101, 0.05);
+    let all_legs = split_into_legs(&drive, &drive, AMCL_LEG, 0.0).0;
     // A reference with the rows from 12 to 66: it begins after two of sixteen legs and ends before the last five.
-    let shorter = trajectory(drive.samples().skip(12).take(55));
-    let (legs, lost) = split_into_legs(&drive, &shorter, QUARTER, 0.0);
+    let shorter_reference = trajectory(drive.samples().skip(12).take(55));
+    let (legs, lost) = split_into_legs(&drive, &shorter_reference, AMCL_LEG, 0.0);
     assert_eq!(
         legs.iter().map(|leg| leg.times).collect::<Vec<_>>(),
         all_legs[2..11].iter().map(|leg| leg.times).collect::<Vec<_>>()
     );
     assert!(lost.without_reference >= 4 && lost.total() == lost.without_reference, "{lost:?}");
     // The robot stands still for 4 s, in four legs of a second.
-    let standing = trajectory(drive.samples().map(|(time, pose)| {
+    let standing_drive = trajectory(drive.samples().map(|(time, pose)| {
         (time, SE2::new(if time < 3.0 { pose.x() } else { 1.5 + (pose.x() - 3.5).max(0.0) }, 0.0, 0.0))
     }));
-    let (legs, lost) = split_into_legs(&standing, &standing, LegLength::Duration { duration: 1.0 }, 0.0);
+    let (legs, lost) =
+        split_into_legs(&standing_drive, &standing_drive, LegLength::Duration { duration: 1.0 }, 0.0);
     assert_eq!((legs.len(), lost), (6, LostLegs { standing: 4, ..LostLegs::default() }));
 }
 
 #[test]
 fn no_leg_leads_across_a_break() {
-    let drive = straight(101, 0.1);
-    let all_legs = split_into_legs(&drive, &drive, QUARTER, 0.0).0;
+    let drive = straight_drive(101, 0.1);
+    let all_legs = split_into_legs(&drive, &drive, AMCL_LEG, 0.0).0;
     let breaks = [17, 33, 34, 70];
-    let broken = drive.clone().with_breaks_before(breaks);
-    assert_eq!([drive.gaps(), broken.gaps()], [0, 4]);
+    let with_breaks = drive.clone().with_breaks_before(breaks);
+    assert_eq!([drive.gaps(), with_breaks.gaps()], [0, 4]);
     let has_break = |leg: &Leg| {
-        let contains = |row: usize| leg.times[0] < times(&drive)[row] && times(&drive)[row] <= leg.times[1];
-        breaks.into_iter().any(contains)
+        let leads_across =
+            |row: usize| leg.times[0] < times(&drive)[row] && times(&drive)[row] <= leg.times[1];
+        breaks.into_iter().any(leads_across)
     };
     let kept_times: Vec<[f64; 2]> =
         all_legs.iter().filter(|leg| !has_break(leg)).map(|leg| leg.times).collect();
     // A break of the reference removes the legs across it, and no others.
-    let (legs, lost) = split_into_legs(&drive, &broken, QUARTER, 0.0);
+    let (legs, lost) = split_into_legs(&drive, &with_breaks, AMCL_LEG, 0.0);
     assert_eq!(legs.iter().map(|leg| leg.times).collect::<Vec<_>>(), kept_times);
     assert_eq!(lost, LostLegs { across_breaks: all_legs.len() - kept_times.len(), ..LostLegs::default() });
     // After a break of the odometry a leg begins at the break.
-    let (legs, lost) = split_into_legs(&broken, &drive, QUARTER, 0.0);
+    let (legs, lost) = split_into_legs(&with_breaks, &drive, AMCL_LEG, 0.0);
     assert!(legs.len() > 25 && !legs.iter().any(has_break));
     assert_eq!(lost, LostLegs { across_breaks: 4, ..LostLegs::default() });
     assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == times(&drive)[*row])));
     // There is no pose between the rows, and no break before the first row or after the last.
-    assert!(broken.pose_at(times(&drive)[16] + 0.01).is_none());
-    assert!([16, 17].iter().all(|row| broken.pose_at(times(&drive)[*row]).is_some()));
+    assert!(with_breaks.pose_at(times(&drive)[16] + 0.01).is_none());
+    assert!([16, 17].iter().all(|row| with_breaks.pose_at(times(&drive)[*row]).is_some()));
     assert_eq!(drive.with_breaks_before([0, 101]).gaps(), 0);
 }
 
 #[test]
-fn a_declared_jump_is_in_no_velocity() {
+fn no_velocity_spans_a_declared_jump() {
     let jump = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
-    let rows = straight(101, 0.1);
+    let rows = straight_drive(101, 0.1);
     let rows =
         rows.samples().enumerate().map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump(row), 0.0)));
     let with_jumps = trajectory(rows).with_breaks_before([40, 43]);
@@ -143,10 +157,10 @@ fn a_declared_jump_is_in_no_velocity() {
 }
 
 #[test]
-fn both_ends_of_a_leg_are_at_one_moment_of_both_clocks() {
-    let odometry = straight(101, 0.1);
-    let delayed = trajectory(odometry.samples().map(|(time, pose)| (time + 3.0, pose)));
-    let legs = split_into_legs(&odometry, &delayed, LegLength::AMCL, 3.0).0;
+fn leg_ends_are_at_the_same_moment_of_both_clocks() {
+    let odometry = straight_drive(101, 0.1);
+    let delayed_reference = trajectory(odometry.samples().map(|(time, pose)| (time + 3.0, pose)));
+    let legs = split_into_legs(&odometry, &delayed_reference, LegLength::AMCL, 3.0).0;
     assert!(legs.len() > 25);
     for leg in legs {
         for (odometry_pose, reference_pose) in leg.odometry.iter().zip(leg.reference) {
@@ -157,24 +171,27 @@ fn both_ends_of_a_leg_are_at_one_moment_of_both_clocks() {
 
 #[test]
 fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
-    let drive = straight(1001, 0.05);
+    let drive = straight_drive(1001, 0.05);
     let every_nth_row = |first: usize, step: usize| trajectory(drive.samples().skip(first).step_by(step));
-    let has = |samples: &Trajectory, time: f64| times(samples).contains(&time);
+    let has_sample_at = |samples: &Trajectory, time: f64| times(samples).contains(&time);
     // With a sample each 0.4 s or each 0.8 s, a leg of half a second ends at the nearest.
     for (step, duration) in [(4, 0.5), (8, 0.8)] {
-        let sparse = every_nth_row(3, step);
+        let sparse_drive = every_nth_row(3, step);
         let length = LegLength::Duration { duration: 0.5 };
-        let legs = split_into_legs(&drive, &sparse, length, 0.0).0;
+        let legs = split_into_legs(&drive, &sparse_drive, length, 0.0).0;
         assert!(legs.len() > 100);
         for leg in &legs {
-            assert!(leg.times.iter().all(|time| has(&sparse, *time)), "{:?}", leg.times);
+            assert!(leg.times.iter().all(|time| has_sample_at(&sparse_drive, *time)), "{:?}", leg.times);
             assert!((leg.duration() - duration).abs() < 0.31, "{}", leg.duration());
             assert_eq!(leg.odometry, leg.reference);
         }
         assert!(legs.windows(2).all(|pair| pair[0].times[1] == pair[1].times[0]));
         // If the odometry is the sparser trajectory, legs end at its samples.
-        let legs = split_into_legs(&sparse, &drive, length, 0.01).0;
-        assert!(legs.len() > 100 && legs.iter().all(|leg| leg.times.iter().all(|time| has(&sparse, *time))));
+        let legs = split_into_legs(&sparse_drive, &drive, length, 0.01).0;
+        assert!(
+            legs.len() > 100
+                && legs.iter().all(|leg| leg.times.iter().all(|time| has_sample_at(&sparse_drive, *time)))
+        );
     }
 }
 
@@ -221,10 +238,10 @@ fn commands_are_integrated_along_arcs() {
 /// A command that is held for 20 s has no rows during 40 legs. The trajectory is cut into steps of a tenth of a second, 5 cm
 /// each, and at most 7.5 cm.
 #[test]
-fn a_held_command_is_cut_between_its_rows() {
+fn a_long_command_is_split_into_legs_between_its_rows() {
     let trajectory =
         Trajectory::from_commands([(0.0, 0.5, 0.0), (20.0, 0.5, 0.0), (40.0, 0.0, 0.0)]).expect("times rise");
-    let (legs, lost) = split_into_legs(&trajectory, &straight(401, 0.05), QUARTER, 0.0);
+    let (legs, lost) = split_into_legs(&trajectory, &straight_drive(401, 0.05), AMCL_LEG, 0.0);
     assert_eq!(lost, LostLegs::default());
     assert!(legs.len() > 60, "{}", legs.len());
     for leg in legs {

@@ -91,7 +91,7 @@ impl Simulation {
         let [distance_scale, turn_scale] =
             [Error::DistanceScale, Error::TurnScale].map(|e| self.errors.get(e));
         let mut odometry = vec![(0.0, SE2::identity())];
-        let mut base = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
+        let mut base_poses = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
         let (mut speeds, mut rows_left, mut start_row) = ([0.3, 0.0], 40, 0);
         // Motion since the start of the leg as the odometry would read it without systematic errors.
         let (mut motion, mut leg_rows) = (SE2::identity(), Vec::new());
@@ -113,17 +113,18 @@ impl Simulation {
             if !leg_ends(self.legs, time - start_time, &start, &reading) {
                 continue;
             }
-            let from = base.last().expect("some").1;
+            let from = base_poses.last().expect("some").1;
             unit_noise = self.unit_noise(legs as f64 / self.count as f64, unit_noise, &mut rng);
             let to = from * executed_motion(self.model, &ALPHAS, &motion, time - start_time, unit_noise);
             // The noise of a leg is distributed evenly over its rows.
             let noise = (motion.inverse() * from.inverse() * to).log();
             let progress = |time: f64| (time - start_time) / (leg_rows.len() as f64 * STEP);
-            base.extend(leg_rows.iter().map(|(t, pose)| (*t, from * pose.boxplus(noise * progress(*t)))));
+            base_poses
+                .extend(leg_rows.iter().map(|(t, pose)| (*t, from * pose.boxplus(noise * progress(*t)))));
             if rng.random_bool(self.jumps) {
                 let direction = rng.random_range(-3.0..3.0);
                 let jump = SE2::new(0.5 * libm::cos(direction), 0.5 * libm::sin(direction), 0.0);
-                let (_, last) = base.last_mut().expect("some");
+                let (_, last) = base_poses.last_mut().expect("some");
                 *last = jump * *last;
             }
             (motion, start_row, legs) = (SE2::identity(), odometry.len() - 1, legs + 1);
@@ -133,7 +134,7 @@ impl Simulation {
         let mount = SE2::new(lever_ahead, lever_left, self.errors.mount_yaw);
         let [position_variance, yaw_variance] = self.reference_stds.map(|std| Variance(std * std));
         let mut error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
-        let reference = base.iter().map(|(t, pose)| {
+        let reference = base_poses.iter().map(|(t, pose)| {
             let sensor = *pose * mount;
             let [x, y, theta] = [error(position_variance), error(position_variance), error(yaw_variance)];
             (t + self.errors.clock_offset, SE2::new(sensor.x() + x, sensor.y() + y, sensor.theta() + theta))
@@ -172,18 +173,24 @@ impl Simulation {
     }
 }
 
-/// Returns the motion that a robot executed if its odometry read the motion `read` within `dt`, from noises with variance 1.
-pub fn executed_motion(model: Model, alphas: &[f64; 6], read: &SE2, dt: f64, unit_noise: [f64; 3]) -> SE2 {
+/// Returns the motion that a robot executed if its odometry read the motion `reading_motion` within `dt`, from noises with variance 1.
+pub fn executed_motion(
+    model: Model,
+    alphas: &[f64; 6],
+    reading_motion: &SE2,
+    dt: f64,
+    unit_noise: [f64; 3],
+) -> SE2 {
     let start = SE2::identity();
     match model {
         Model::Odometry(rule) => {
-            let reading = OdomDelta::from_poses(&start, read);
+            let reading = OdomDelta::from_poses(&start, reading_motion);
             let alphas = std::array::from_fn(|k| alphas[k]);
             rule.variances(&reading, &alphas).executed_motion(&rule.legs(&reading), unit_noise).poses(&start)
                 [3]
         }
         Model::Velocity => {
-            let twist = read.log();
+            let twist = reading_motion.log();
             let command = VelocityCmd { v: twist.x / dt, omega: twist.z / dt, dt };
             let model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
             model.apply_noise(&command, &start, unit_noise)
@@ -200,8 +207,10 @@ fn leg_ends(legs: LegLength, duration_so_far: f64, start: &SE2, reading: &SE2) -
         LegLength::Displacement { distance, angle } => {
             let turn = motion::geom::se2::wrap_angle(reading.theta() - start.theta());
             let displacement = [reading.x() - start.x(), reading.y() - start.y()];
-            let longest = displacement.iter().fold(0.0, |longest, along| f64::max(longest, along.abs()));
-            longest > distance * (1.0 + ROUNDING) || turn.abs() > angle * (1.0 + ROUNDING)
+            let largest_displacement = displacement
+                .iter()
+                .fold(0.0, |largest_displacement, along| f64::max(largest_displacement, along.abs()));
+            largest_displacement > distance * (1.0 + ROUNDING) || turn.abs() > angle * (1.0 + ROUNDING)
         }
         LegLength::Duration { duration } => duration_so_far > duration - 1e-6,
     }

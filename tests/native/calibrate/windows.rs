@@ -23,15 +23,15 @@ fn motion_of(leg: &Leg) -> SE2 {
 
 /// Returns true if the motion over some legs is inside of the 95 % ellipsoid of its samples, in exponential coordinates.
 fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng) -> bool {
-    let composed =
+    let compose =
         |motions: &mut dyn Iterator<Item = SE2>| motions.fold(SE2::identity(), |pose, motion| pose * motion);
-    let odom_motion = composed(&mut legs.iter().map(motion_of));
+    let odom_motion = compose(&mut legs.iter().map(motion_of));
     let mut sample = |leg| {
         let noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
         executed_motion(model, alphas, &motion_of(leg), leg.duration(), noise)
     };
     let samples: Vec<Vector3<f64>> =
-        (0..SAMPLES).map(|_| composed(&mut legs.iter().map(&mut sample)).boxminus(&odom_motion)).collect();
+        (0..SAMPLES).map(|_| compose(&mut legs.iter().map(&mut sample)).boxminus(&odom_motion)).collect();
     let mean = samples.iter().sum::<Vector3<f64>>() / SAMPLES as f64;
     let covariance =
         samples.iter().map(|sample| (sample - mean) * (sample - mean).transpose()).sum::<Matrix3<f64>>();
@@ -68,13 +68,13 @@ fn coverage(model: Model, violation: Violation, logs: u64) -> [usize; 2] {
 }
 
 /// Reports a coverage outside of 93 to 97 % by more than three standard errors.
-fn wrong_coverage(model: Model, violation: Violation, logs: u64) -> Option<String> {
+fn report_wrong_coverage(model: Model, violation: Violation, logs: u64) -> Option<String> {
     let [covered, count] = coverage(model, violation, logs);
-    let share = covered as f64 / count as f64;
+    let fraction = covered as f64 / count as f64;
     // The standard errors of a log's α's and of its inflation are 5 % each, together 7 %. They change the coverage by 0.14
     // times 7 %.
     let std = (0.93 * 0.07 / count as f64 + 0.01_f64.powi(2) / logs as f64).sqrt();
-    let is_right = (0.93 - 3.0 * std..=0.97 + 3.0 * std).contains(&share);
+    let is_right = (0.93 - 3.0 * std..=0.97 + 3.0 * std).contains(&fraction);
     (!is_right).then(|| format!("{model:?}, {violation:?}: {covered} of {count} windows are covered"))
 }
 
@@ -83,14 +83,15 @@ const INDEPENDENT_AND_PERSISTENT: [Violation; 2] = [Violation::None, Violation::
 #[test]
 fn recommended_alphas_cover_a_metre_of_a_new_log() {
     for violation in INDEPENDENT_AND_PERSISTENT {
-        assert_eq!(wrong_coverage(MODELS[1], violation, 4), None);
+        assert_eq!(report_wrong_coverage(MODELS[1], violation, 4), None);
     }
 }
 
 #[test]
 #[ignore = "nightly: 400 calibrations"]
 fn recommended_alphas_of_every_model_cover_a_metre_of_new_logs() {
-    let reports_of = |model| INDEPENDENT_AND_PERSISTENT.map(|violation| wrong_coverage(model, violation, 40));
+    let reports_of =
+        |model| INDEPENDENT_AND_PERSISTENT.map(|violation| report_wrong_coverage(model, violation, 40));
     let reports: Vec<String> = MODELS.into_iter().flat_map(reports_of).flatten().collect();
     assert!(reports.is_empty(), "{}", reports.join("\n"));
 }

@@ -10,19 +10,19 @@ use nalgebra::{Matrix3, Vector3};
 use rand::{Rng, SeedableRng, rngs::SmallRng};
 
 /// Velocity model with centre and radius of the arc, as in a first solution of exercise 1.
-struct ByRadius {
+struct RadiusModel {
     alphas: VelocityAlphas,
     noise: NoiseKind,
 }
 
-impl ByRadius {
+impl RadiusModel {
     fn variances(&self, u: &VelocityCmd) -> [Variance; 3] {
         let a = self.alphas.0;
         [0, 2, 4].map(|i| Variance(a[i] * u.v.powi(2) + a[i + 1] * u.omega.powi(2)))
     }
 }
 
-impl MotionModel for ByRadius {
+impl MotionModel for RadiusModel {
     type Control = VelocityCmd;
 
     fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
@@ -37,8 +37,8 @@ impl MotionModel for ByRadius {
     }
 
     fn prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
-        let inverted = invert_arc(x, x_next, u.dt);
-        let residuals = [u.v - inverted.v_hat, u.omega - inverted.omega_hat, inverted.gamma_hat];
+        let inversion = invert_arc(x, x_next, u.dt);
+        let residuals = [u.v - inversion.v_hat, u.omega - inversion.omega_hat, inversion.gamma_hat];
         self.variances(u)
             .iter()
             .zip(residuals)
@@ -53,11 +53,11 @@ impl MotionModel for ByRadius {
 }
 
 /// Odometry model with only the required items of the trait.
-struct Rotations {
+struct MinimalOdometryModel {
     alphas: OdomAlphas,
 }
 
-impl MotionModel for Rotations {
+impl MotionModel for MinimalOdometryModel {
     type Control = OdomDelta;
 
     fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
@@ -73,31 +73,36 @@ const COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 const ALPHAS: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
 
 #[test]
-fn a_readers_velocity_model_is_the_crates() {
-    let reader = ByRadius { alphas: ALPHAS, noise: NoiseKind::Normal };
-    let ours = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
+fn a_readers_velocity_model_equals_the_crates_model() {
+    let readers_model = RadiusModel { alphas: ALPHAS, noise: NoiseKind::Normal };
+    let crate_model = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
     let x = SE2::new(2.0, -1.0, 0.4);
     let (mut rng1, mut rng2) = (SmallRng::seed_from_u64(7), SmallRng::seed_from_u64(7));
     for _ in 0..1000 {
         let (pose, expected_pose) =
-            (reader.sample(&COMMAND, &x, &mut rng1), ours.sample(&COMMAND, &x, &mut rng2));
+            (readers_model.sample(&COMMAND, &x, &mut rng1), crate_model.sample(&COMMAND, &x, &mut rng2));
         // A small ω̂ loses digits: the radius v̂/ω̂ multiplies the rounding of two sines, 2e-16 each.
         let bound = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &expected_pose, 1.0).omega_hat.abs());
         assert!((pose.x() - expected_pose.x()).abs() < bound && (pose.y() - expected_pose.y()).abs() < bound);
         assert!((pose.theta() - expected_pose.theta()).abs() < 1e-15 * 4.0);
-        let [prob, expected] =
-            [reader.prob(&expected_pose, &COMMAND, &x), ours.prob(&expected_pose, &COMMAND, &x)];
+        let [prob, expected] = [
+            readers_model.prob(&expected_pose, &COMMAND, &x),
+            crate_model.prob(&expected_pose, &COMMAND, &x),
+        ];
         assert!((prob - expected).abs() <= 1e-14 * expected);
     }
-    assert_eq!(reader.tangent_cov(&COMMAND), ours.tangent_cov(&COMMAND));
+    assert_eq!(readers_model.tangent_cov(&COMMAND), crate_model.tangent_cov(&COMMAND));
 }
 
 #[test]
 fn methods_that_a_model_does_not_implement_return_none() {
-    let reader = Rotations { alphas: OdomAlphas([0.1; 4]) };
+    let readers_model = MinimalOdometryModel { alphas: OdomAlphas([0.1; 4]) };
     let x = SE2::identity();
     let u = OdomDelta::from_poses(&x, &SE2::new(1.0, 0.2, 0.3));
-    assert_eq!((reader.pose_density(&u.apply(&x), &u, &x), reader.tangent_cov(&u)), (None, None));
-    assert!(reader.prob(&u.apply(&x), &u, &x) > 0.0);
-    assert!(reader.sample(&u, &x, &mut SmallRng::seed_from_u64(1)).x().is_finite());
+    assert_eq!(
+        (readers_model.pose_density(&u.apply(&x), &u, &x), readers_model.tangent_cov(&u)),
+        (None, None)
+    );
+    assert!(readers_model.prob(&u.apply(&x), &u, &x) > 0.0);
+    assert!(readers_model.sample(&u, &x, &mut SmallRng::seed_from_u64(1)).x().is_finite());
 }

@@ -46,7 +46,7 @@ fn the_arc_and_the_exponential_map_end_at_the_printed_pose() {
 }
 
 #[test]
-fn the_linearized_table() {
+fn linearized_moments_equal_the_printed_table() {
     let cov = MODEL.cartesian_cov(&U, &SE2::identity());
     for (entry, printed, what) in [
         ((0, 0), 0.023645, "Σxx"),
@@ -77,7 +77,7 @@ fn the_linearized_table() {
 }
 
 #[test]
-fn the_exact_table() {
+fn exact_moments_equal_the_printed_table() {
     let exact = ExactMoments::of_velocity(&MODEL, &U);
     assert_printed(exact.mean.x, 0.955006501, 9, "mean x");
     assert_printed(exact.mean.y, 0.243321663, 9, "mean y");
@@ -86,13 +86,13 @@ fn the_exact_table() {
     assert_printed(exact.cov[(1, 1)], 0.007057304, 9, "Σyy");
     assert_printed(exact.cross_track_skew, -0.30056, 5, "skew");
     let gentle_alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
-    let opening = ExactMoments::of_velocity(&VelocityModel { alphas: gentle_alphas, ..MODEL }, &U);
-    assert_printed(opening.cross_track_skew, -0.43093, 5, "skew of the opening command");
+    let opening_moments = ExactMoments::of_velocity(&VelocityModel { alphas: gentle_alphas, ..MODEL }, &U);
+    assert_printed(opening_moments.cross_track_skew, -0.43093, 5, "skew of the opening command");
 }
 
 /// Compares estimates from 200 000 samples with the numbers that the chapter prints for its samples, and with exact values.
 #[test]
-fn the_measured_table() {
+fn measured_moments_agree_with_the_printed_table() {
     let cloud = cloud_of(&MODEL);
     let exact = ExactMoments::of_velocity(&MODEL, &U);
     let exact_rho = exact.cov[(1, 2)] / (exact.cov[(1, 1)] * exact.cov[(2, 2)]).sqrt();
@@ -132,7 +132,7 @@ fn the_measured_table() {
 /// With the last turn γ̂ included in R_u the heading variance is correct, and the lateral coordinate gets a small additional
 /// variance.
 #[test]
-fn a_last_turn_leaks_into_the_lateral_coordinate() {
+fn a_last_turn_adds_variance_to_the_lateral_coordinate() {
     let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]), ..MODEL };
     let cloud = cloud_of(&model);
     let tangent = TangentNoiseModel::from_velocity(&model, &U).unwrap();
@@ -150,7 +150,7 @@ fn a_last_turn_leaks_into_the_lateral_coordinate() {
 
 /// The names and fields that the chapter prints, for both models.
 #[test]
-fn the_odometry_model_is_used_in_the_same_way() {
+fn the_odometry_model_has_the_printed_names() {
     let model = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: NoiseKind::Triangular };
     let (before, after) = (SE2::identity(), SE2::new(0.958_851, 0.244_835, 0.5));
     let reading = OdomDelta::from_poses(&before, &after);

@@ -62,12 +62,12 @@ impl Grid {
     }
 
     /// Returns the probability mass of each cell, by an 8 × 8 × 8 Gauss rule in each.
-    pub fn masses(&self, density: impl Fn(&SE2) -> f64) -> Vec<f64> {
+    pub fn cell_masses(&self, density: impl Fn(&SE2) -> f64) -> Vec<f64> {
         let nodes = |axis: usize, index: usize| {
             let (low, step) = (self.lower_bound(axis, index), self.step[axis]);
             GAUSS.map(|(node, weight)| (low + 0.5 * (1.0 + node) * step, 0.5 * weight * step))
         };
-        let mut masses = Vec::with_capacity(self.cells.iter().product());
+        let mut cell_masses = Vec::with_capacity(self.cells.iter().product());
         for i in 0..self.cells[0] {
             for j in 0..self.cells[1] {
                 for k in 0..self.cells[2] {
@@ -81,16 +81,16 @@ impl Grid {
                             }
                         }
                     }
-                    masses.push(sum);
+                    cell_masses.push(sum);
                 }
             }
         }
-        masses
+        cell_masses
     }
 
     /// Returns the integral over the whole box.
     pub fn integral(&self, density: impl Fn(&SE2) -> f64) -> f64 {
-        self.masses(density).iter().sum()
+        self.cell_masses(density).iter().sum()
     }
 
     /// Returns the number of poses in each cell.
@@ -100,8 +100,8 @@ impl Grid {
             let mut cell = Some(0);
             for (axis, value) in self.coordinates(pose).into_iter().enumerate() {
                 let index = ((value - self.lower_bound(axis, 0)) / self.step[axis]).floor();
-                let inside = index >= 0.0 && index < self.cells[axis] as f64;
-                cell = cell.filter(|_| inside).map(|cell| cell * self.cells[axis] + index as usize);
+                let is_inside = index >= 0.0 && index < self.cells[axis] as f64;
+                cell = cell.filter(|_| is_inside).map(|cell| cell * self.cells[axis] + index as usize);
             }
             if let Some(cell) = cell {
                 counts[cell] += 1.0;
@@ -118,17 +118,21 @@ impl Grid {
     pub fn chi_square(&self, poses: &[SE2], density: impl Fn(&SE2) -> f64) -> (f64, f64) {
         let n = poses.len() as f64;
         let mut observed = self.counts(poses);
-        let mut expected: Vec<f64> = self.masses(density).iter().map(|mass| mass * n).collect();
+        let mut expected: Vec<f64> = self.cell_masses(density).iter().map(|mass| mass * n).collect();
         observed.push(n - observed.iter().sum::<f64>());
         expected.push(n - expected.iter().sum::<f64>());
         let (small, large): (Vec<_>, Vec<_>) =
             observed.into_iter().zip(expected).partition(|(_, expected)| *expected < 20.0);
-        let pooled = small.iter().fold((0.0, 0.0), |(o, e), cell| (o + cell.0, e + cell.1));
+        let pooled_cells = small.iter().fold((0.0, 0.0), |(o, e), cell| (o + cell.0, e + cell.1));
         assert!(large.len() > 40, "{} cells test little", large.len());
-        assert!(pooled.1 > -1e-4 * n, "the density has more mass than 1: {} poses remain", pooled.1);
+        assert!(
+            pooled_cells.1 > -1e-4 * n,
+            "the density has more mass than 1: {} poses remain",
+            pooled_cells.1
+        );
         let term = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
         // If only a few poses remain, the error of the quadrature may exceed their number. They are left out.
-        let remainder = if pooled.1 >= 20.0 { term(&pooled) } else { 0.0 };
+        let remainder = if pooled_cells.1 >= 20.0 { term(&pooled_cells) } else { 0.0 };
         (large.iter().map(term).sum::<f64>() + remainder, chi_square_limit(large.len() + 1))
     }
 }

@@ -59,8 +59,8 @@ pub fn line_to_line(p: [Point; 2], q: [Point; 2]) -> f64 {
 }
 
 /// Returns a lower and an upper bound of the distance. A piece of the arc with length l and turn t deviates from its chord by at most l·t/8.
-/// The distance to the chord is therefore that to the piece ± l·t/8. Pieces without the nearest point are dropped, and the others halved
-/// until only rounding is left. If the wall is at the centre of the circle, all pieces are equally near. Halving ends at 1000 pieces.
+/// The distance to the piece is therefore that to its chord ± l·t/8. Pieces that cannot contain the nearest point are dropped, and the
+/// others are halved until only rounding is left. Halving ends at 1000 pieces, because all may be equally near the centre of the circle.
 pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
     let start = [arc.start.x(), arc.start.y()];
     let ends = [difference(wall.from, start), difference(wall.to, start)];

@@ -118,11 +118,13 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
     let values_by_step = |value: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
         (0..machine.measured_moments().len()).flat_map(|k| <[f64; 3]>::from(value(k))).collect()
     };
-    let none = Vector3::repeat(f64::NAN);
+    let undefined_variances = Vector3::repeat(f64::NAN);
     let [ratios, predicted] = [
         RECURSIONS.map(|order| values_by_step(&|k| machine.comparison(order).ratios[k])),
         RECURSIONS.map(|order| {
-            values_by_step(&|k| machine.predicted_covariances(order)[k].map_or(none, |cov| cov.diagonal()))
+            values_by_step(&|k| {
+                machine.predicted_covariances(order)[k].map_or(undefined_variances, |cov| cov.diagonal())
+            })
         }),
     ]
     .map(<(_, _, _)>::from);

@@ -40,13 +40,17 @@ fn the_printed_table_loses_p_for_centres_to_the_right() {
         speed.assert(-factors[0].estimate.abs(), 0.0);
         assert!(factors[0].estimate * settings.command.v < 0.0);
         // Contours of equal score: with the unsigned radius of the printed table they stay near the start, with the signed one they do not.
-        let reach = |settings: Settings| {
+        let max_distance = |settings: Settings| {
             let surface = ArcAnatomy::new(Settings { map: SurfaceKind::Prob, ..settings })
                 .expect("valid settings")
                 .surface([-2.0, -2.0], [2.0, 2.0])
                 .expect("a map");
             surface.prob.iter().flatten().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
         };
-        assert!(reach(settings) < 0.5 && reach(preset(name)) > 1.0, "{}", reach(settings));
+        assert!(
+            max_distance(settings) < 0.5 && max_distance(preset(name)) > 1.0,
+            "{}",
+            max_distance(settings)
+        );
     }
 }

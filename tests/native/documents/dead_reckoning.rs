@@ -27,7 +27,7 @@ fn steps_off(ratios: &[f64]) -> Vec<usize> {
 }
 
 #[test]
-fn the_six_per_cent_and_the_lateral_miss_are_those_of_the_machine() {
+fn printed_losses_of_variance_equal_those_of_the_machine() {
     let opening = machine(Settings::default());
     let [printed_loss]: [Number; 1] =
         page().numbers("what its own loses by the end: # % of the variance along the track");

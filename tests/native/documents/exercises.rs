@@ -37,7 +37,7 @@ fn error_of_arc_form(omega: f64, dt: f64) -> f64 {
 }
 
 #[test]
-fn exercise_1_the_straight_line_branch() {
+fn exercise_1_prints_the_errors_of_the_straight_line_branch() {
     let dt = 0.1;
     let line_error = |omega: f64| 0.5 * omega * dt * dt;
     // The error varies strongly with ω. Its mean over a tenth of a decade is compared.
@@ -65,7 +65,7 @@ fn exercise_1_the_straight_line_branch() {
 
 /// The determinant is computed by central differences, with an error of the square of the step.
 #[test]
-fn exercise_3_the_unpaid_jacobian() {
+fn exercise_3_prints_the_jacobian_determinant() {
     let model = velocity_model([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
     let x = SE2::identity();
     let end = x.boxplus(TangentNoiseModel::twist(&U));
@@ -87,7 +87,7 @@ fn exercise_3_the_unpaid_jacobian() {
 }
 
 #[test]
-fn exercise_4_each_alpha() {
+fn exercise_4_prints_the_effect_of_each_alpha() {
     let exact_and_is_point = |index: usize, command: VelocityCmd| {
         let mut alphas = [0.0; 6];
         alphas[index] = 0.09;
@@ -116,7 +116,7 @@ fn exercise_4_each_alpha() {
 
 /// Equal seeds give equal motions, so that the fractions equal those of the table to a digit.
 #[test]
-fn exercise_5_poses_through_walls() {
+fn exercise_5_prints_the_fractions_through_walls() {
     let settings = |n: f64, omega: f64, sampler: Sampler| {
         let command = VelocityCmd { omega, ..squeeze::Settings::default().command };
         let alphas = alphas_of_noise_level(n);
@@ -163,7 +163,7 @@ fn exercise_5_poses_through_walls() {
 }
 
 #[test]
-fn exercise_6_the_triangular_sampler() {
+fn exercise_6_prints_the_skew_of_the_triangular_sampler() {
     let b2 = Variance(0.025);
     let [limit, tail_printed]: [Number; 2] =
         exercises_document().numbers("√6·b is # rad for the heading, beyond which # % of normal draws are");

@@ -1,7 +1,7 @@
 //! Numbers of the Odometry Decomposer on the page and of the rules in doc/model.md, compared with computed ones.
 
 use super::{model_document, page};
-use crate::simulations::odometry_decomposer::{machine, of_preset};
+use crate::simulations::odometry_decomposer::{machine, settings_of_preset};
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
 use motion::sim::odometry_decomposer::{OdometryPose, RuleNoise, Settings};
 
@@ -15,7 +15,7 @@ fn the_lever_grows_faster_than_the_drive() {
     let [deviation, lateral, growth] = page().numbers(
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
-    let settings = of_preset("all");
+    let settings = settings_of_preset("all");
     let stats = machine(settings).stats();
     deviation.assert(noise_of(settings, Table).deviations[0], 0.0);
     lateral.assert(stats.exact_cross_track, 0.0);
@@ -28,7 +28,7 @@ fn the_lever_grows_faster_than_the_drive() {
 fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
     let [of_table, of_localizers] =
         page().numbers("adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.");
-    let deviations_of = |rule| noise_of(of_preset("reverse"), rule).deviations;
+    let deviations_of = |rule| noise_of(settings_of_preset("reverse"), rule).deviations;
     let [rot1_deviation, _, rot2_deviation, _] = deviations_of(Table);
     of_table.assert(rot1_deviation, 0.0);
     assert!(rot2_deviation > rot1_deviation);
@@ -43,7 +43,7 @@ fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
 fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
     let [min_deviation, max_deviation] =
         page().numbers("No outcome moves, and the standard deviation of the heading goes from # to # rad.");
-    let machine_with = |correlation| machine(Settings { correlation, ..of_preset("all") });
+    let machine_with = |correlation| machine(Settings { correlation, ..settings_of_preset("all") });
     min_deviation.assert(machine_with(-1.0).stats().exact_heading, 0.0);
     max_deviation.assert(machine_with(1.0).stats().exact_heading, 0.0);
     for (a, b) in machine_with(-1.0).poses().iter().zip(machine_with(1.0).poses()) {
@@ -60,10 +60,10 @@ fn the_variances_of_the_rules_are_those_in_the_document() {
     for ((preset, row_name), (rule, name)) in
         presets.into_iter().flat_map(|preset| rules.map(|rule| (preset, rule)))
     {
-        let deviations = noise_of(of_preset(preset), rule).deviations;
+        let deviations = noise_of(settings_of_preset(preset), rule).deviations;
         model_document().assert(&format!("| {row_name} | {name} | # | # | # | # |"), deviations);
         if rule == Nav2 {
-            assert_eq!(noise_of(of_preset(preset), Beluga).deviations, deviations);
+            assert_eq!(noise_of(settings_of_preset(preset), Beluga).deviations, deviations);
         }
     }
 }
@@ -72,7 +72,7 @@ fn the_variances_of_the_rules_are_those_in_the_document() {
 fn encoders_at_rest_are_noisy_by_the_table_alone() {
     let [heading] = page().numbers("the heading of a robot that has not moved is uncertain by ± # rad,");
     page().assert_says("The encoders have jittered by half a centimetre.");
-    let at_rest = of_preset("rest");
+    let at_rest = settings_of_preset("rest");
     assert_eq!((1000.0 * at_rest.to.0[0].hypot(at_rest.to.0[1])).round(), 5.0);
     let stats = machine(at_rest).stats();
     heading.assert(stats.exact_heading, 0.0);

@@ -28,21 +28,21 @@ fn machine(settings: Settings) -> MapSqueeze {
 }
 
 /// Returns the fraction through a wall, and its standard error.
-fn share_through_wall(settings: Settings) -> (f64, f64) {
+fn fraction_through_wall(settings: Settings) -> (f64, f64) {
     let machine = machine(settings);
     assert!(!machine.gave_up(), "{settings:?}");
-    let (share, count) = (machine.tally().through_wall_rate(), machine.tally().accepted as f64);
+    let (fraction, count) = (machine.tally().through_wall_rate(), machine.tally().accepted as f64);
     // The standard error of a fraction of 0 would be 0. It is taken from one sample through the wall instead.
-    (share, ((share * (1.0 - share)).max(1.0 / count) / count).sqrt())
+    (fraction, ((fraction * (1.0 - fraction)).max(1.0 / count) / count).sqrt())
 }
 
-fn share_in_parts(preset: usize, parts: u32, omega: f64) -> (f64, f64) {
-    share_through_wall(settings(preset, Sampler::SubStepped(parts), omega))
+fn fraction_in_parts(preset: usize, parts: u32, omega: f64) -> (f64, f64) {
+    fraction_through_wall(settings(preset, Sampler::SubStepped(parts), omega))
 }
 
 /// Asserts that a printed percentage equals a computed fraction.
-fn assert_printed((share, error): (f64, f64), printed: Number) {
-    printed.assert_percent(share, MAX_STANDARD_ERRORS * error);
+fn assert_printed((fraction, error): (f64, f64), printed: Number) {
+    printed.assert_percent(fraction, MAX_STANDARD_ERRORS * error);
 }
 
 /// Asserts that one fraction is less than the other, beyond the standard errors of both.
@@ -55,28 +55,28 @@ fn assert_less(smaller: (f64, f64), larger: (f64, f64), what: &str) {
 
 #[test]
 fn most_accepted_samples_lie_behind_the_wall() {
-    let [share] = page().numbers(
+    let [fraction] = page().numbers(
         "Drive at a wall # % of what is accepted went through a wall, where the robot could never have gone. Test the \
          whole arc, and only what stopped short of the wall is left.",
     );
-    assert_printed(share_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), share);
-    let share_behind_wall = |sampler| {
+    assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), fraction);
+    let fraction_behind_wall = |sampler| {
         let machine = machine(settings(WALL, sampler, 0.0));
         let accepted: Vec<f64> =
             machine.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
         // The wall ahead is at y = 3.8; robots that turn aside end before it too.
         accepted.iter().filter(|y| **y > 3.8).count() as f64 / accepted.len() as f64
     };
-    assert!(share_behind_wall(Sampler::Endpoint) > 0.8);
-    assert_eq!(share_behind_wall(Sampler::WholeArc), 0.0);
+    assert!(fraction_behind_wall(Sampler::Endpoint) > 0.8);
+    assert_eq!(fraction_behind_wall(Sampler::WholeArc), 0.0);
 }
 
 #[test]
 fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
-    let [noise, share] =
+    let [noise, fraction] =
         page().numbers("straight ahead at noise level #, # % of the accepted motions went through a wall.");
     assert_eq!(Settings::default().alphas, alphas_of_noise_level(noise.value));
-    assert_printed(share_through_wall(settings(DOORWAY, Sampler::Endpoint, 0.0)), share);
+    assert_printed(fraction_through_wall(settings(DOORWAY, Sampler::Endpoint, 0.0)), fraction);
 }
 
 #[test]
@@ -86,14 +86,17 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
     for (place, printed) in [DOORWAY, CORRIDOR].into_iter().zip::<[Number; 2]>(printed) {
-        assert_printed(share_in_parts(place, 16, 0.0), printed);
-        assert!(share_in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
+        assert_printed(fraction_in_parts(place, 16, 0.0), printed);
+        assert!(fraction_in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
     let [omega, endpoint_printed, parts_printed, worst_parts] = page().numbers(
         "With ω = # more pass at first, from # % by the endpoint test to # % in # parts, and only then fewer.",
     );
-    assert_printed(share_through_wall(settings(DOORWAY, Sampler::Endpoint, omega.value)), endpoint_printed);
-    assert_printed(share_in_parts(DOORWAY, worst_parts.value as u32, omega.value), parts_printed);
+    assert_printed(
+        fraction_through_wall(settings(DOORWAY, Sampler::Endpoint, omega.value)),
+        endpoint_printed,
+    );
+    assert_printed(fraction_in_parts(DOORWAY, worst_parts.value as u32, omega.value), parts_printed);
     let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = model_document().numbers(
         "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
          over # and # % to # % at k = 8, and falls to # % at 12.",
@@ -102,9 +105,9 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
         (DOORWAY, d1, [(4, d4), (6, d6), (8, d8), (16, d16)]),
         (CORRIDOR, c1, [(4, c4), (6, c6), (8, c8), (12, c12)]),
     ] {
-        assert_printed(share_through_wall(settings(place, Sampler::Endpoint, omega.value)), endpoint);
-        for (parts, share) in printed {
-            assert_printed(share_in_parts(place, parts, omega.value), share);
+        assert_printed(fraction_through_wall(settings(place, Sampler::Endpoint, omega.value)), endpoint);
+        for (parts, fraction) in printed {
+            assert_printed(fraction_in_parts(place, parts, omega.value), fraction);
         }
     }
 }
@@ -112,19 +115,22 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn more_substeps_facing_the_wall_send_more_samples_through_it() {
-    let shares = [2, 4, 8].map(|parts| share_in_parts(WALL, parts, 0.0));
-    shares.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
+    let fractions = [2, 4, 8].map(|parts| fraction_in_parts(WALL, parts, 0.0));
+    fractions.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
     let [at_1, at_2, at_4, at_8, wedged_parts] = model_document().numbers(
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
-    assert_printed(share_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), at_1);
-    shares.into_iter().zip([at_2, at_4, at_8]).for_each(|(share, printed)| assert_printed(share, printed));
+    assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), at_1);
+    fractions
+        .into_iter()
+        .zip([at_2, at_4, at_8])
+        .for_each(|(fraction, printed)| assert_printed(fraction, printed));
     let [from_parts, to_parts, at_two, at_eight] =
         page().numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
     assert_eq!((from_parts.value, to_parts.value), (2.0, 8.0));
-    assert_printed(shares[0], at_two);
-    assert_printed(shares[2], at_eight);
+    assert_printed(fractions[0], at_two);
+    assert_printed(fractions[2], at_eight);
     page().assert_says(
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
@@ -142,11 +148,11 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
-    let [low, high, doorway_min, doorway_max] = model_document().numbers(
+    let [min_percent, max_percent, doorway_min, doorway_max] = model_document().numbers(
         "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \
          # to # %)",
     );
-    assert_eq!(high.value, doorway_max.value);
+    assert_eq!(max_percent.value, doorway_max.value);
     let plan = FloorPlan::apartment();
     for (place, [x, y, theta]) in PRESETS {
         let start = SE2::new(x, y, theta);
@@ -172,11 +178,14 @@ fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
                 accepted += 1;
                 differing += u32::from(plan.test_arc(&geodesic, 0.13).free != draw.path.free);
             }
-            let share = f64::from(differing) / f64::from(accepted);
-            let error = MAX_STANDARD_ERRORS * (share * (1.0 - share) / f64::from(accepted)).sqrt();
-            let low = if place == "doorway" { doorway_min } else { low };
-            let (low, high) = (low.value / 100.0, high.value / 100.0);
-            assert!(share + error > low && share - error < high, "{place}, n = {n}, ω = {omega}: {share}");
+            let fraction = f64::from(differing) / f64::from(accepted);
+            let error = MAX_STANDARD_ERRORS * (fraction * (1.0 - fraction) / f64::from(accepted)).sqrt();
+            let min_percent = if place == "doorway" { doorway_min } else { min_percent };
+            let (min_percent, max_percent) = (min_percent.value / 100.0, max_percent.value / 100.0);
+            assert!(
+                fraction + error > min_percent && fraction - error < max_percent,
+                "{place}, n = {n}, ω = {omega}: {fraction}"
+            );
         }
     }
 }

@@ -31,7 +31,7 @@ fn nearly_straight_arc(rng: &mut impl Rng) -> Arc {
 }
 
 /// Returns a turn almost on the spot.
-fn nearly_on_the_spot(rng: &mut impl Rng) -> Arc {
+fn turn_almost_on_the_spot(rng: &mut impl Rng) -> Arc {
     let (length, turn) = (signed_log_uniform(rng, 1e-15, 1e-1), uniform(rng, -2.0 * TAU, 2.0 * TAU));
     random_arc(rng, length, turn)
 }
@@ -41,7 +41,7 @@ fn any_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
 }
 
 /// Returns the position in the world of a point that is relative to the start of the arc.
-fn in_world(arc: &Arc, local: Point) -> Point {
+fn to_world(arc: &Arc, local: Point) -> Point {
     [arc.start.x() + local[0], arc.start.y() + local[1]]
 }
 
@@ -54,7 +54,7 @@ fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let foot = [x - offset * heading.sin(), y + offset * heading.cos()];
     let mut end = || {
         let reach = uniform(rng, -5.0, 5.0);
-        in_world(arc, [foot[0] + reach * heading.cos(), foot[1] + reach * heading.sin()])
+        to_world(arc, [foot[0] + reach * heading.cos(), foot[1] + reach * heading.sin()])
     };
     Segment { from: end(), to: end() }
 }
@@ -63,7 +63,7 @@ fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
 fn wall_by_the_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let [x, y] = position_along(arc, f64::from(rng.next_u32() % 2));
     let mut offset = || signed_log_uniform(rng, 1e-15, 1e-1);
-    let from = in_world(arc, [x + offset(), y + offset()]);
+    let from = to_world(arc, [x + offset(), y + offset()]);
     let to = if rng.next_u32().is_multiple_of(2) {
         random_point(rng, 8.0)
     } else {
@@ -77,7 +77,7 @@ fn wall_by_the_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
 fn wall_from_the_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let (radius, theta) = (arc.length / arc.turn, arc.start.theta());
     let mut offset = || signed_log_uniform(rng, 1e-16, 1e-1);
-    let from = in_world(arc, [offset() - radius * theta.sin(), offset() + radius * theta.cos()]);
+    let from = to_world(arc, [offset() - radius * theta.sin(), offset() + radius * theta.cos()]);
     let reach = uniform(rng, 0.0, 1.2) * radius;
     let heading = uniform(rng, -PI, PI);
     Segment { from, to: [from[0] + reach * heading.cos(), from[1] + reach * heading.sin()] }
@@ -119,8 +119,8 @@ const ARC_AND_WALL_KINDS: [(&str, MakeArc, MakeWall, u32); 14] = [
     ("straight, any wall", STRAIGHT_ARC, any_wall, 1000),
     ("straight, parallel", STRAIGHT_ARC, tangent_wall, 1000),
     ("on the spot", TURN_ON_THE_SPOT, any_wall, 500),
-    ("nearly on the spot, any wall", nearly_on_the_spot, any_wall, 1000),
-    ("nearly on the spot, tangent", nearly_on_the_spot, tangent_wall, 1500),
+    ("nearly on the spot, any wall", turn_almost_on_the_spot, any_wall, 1000),
+    ("nearly on the spot, tangent", turn_almost_on_the_spot, tangent_wall, 1500),
     ("long", LONG_ARC, tangent_wall, 1500),
 ];
 
@@ -130,7 +130,7 @@ const ARC_AND_WALL_KINDS: [(&str, MakeArc, MakeWall, u32); 14] = [
 /// the extent, which are 0.01 pm in the apartment.
 #[test]
 fn the_distance_to_an_arc_matches_bisection() {
-    let (mut pairs, mut touching, mut sharp) = (0, 0, 0);
+    let (mut pairs, mut crossing_pairs, mut narrow_bounds) = (0, 0, 0);
     for (seed, (name, make_arc, make_wall, count)) in (0..).zip(ARC_AND_WALL_KINDS) {
         let mut rng = seeded(9000 + seed);
         for _ in 0..count {
@@ -143,13 +143,16 @@ fn the_distance_to_an_arc_matches_bisection() {
                 (low - tolerance..=high + tolerance).contains(&exact),
                 "{name}: {exact:e} instead of {low:e} to {high:e}: {arc:?} {wall:?}"
             );
-            touching += u32::from(exact == 0.0);
-            sharp += u32::from(high - low <= tolerance);
+            crossing_pairs += u32::from(exact == 0.0);
+            narrow_bounds += u32::from(high - low <= tolerance);
             pairs += 1;
         }
     }
-    assert!(pairs >= 20_000 && touching > pairs / 10 && touching < pairs / 2, "{touching} of {pairs}");
-    assert!(sharp > pairs * 9 / 10, "the reference was sharp for {sharp} of {pairs}");
+    assert!(
+        pairs >= 20_000 && crossing_pairs > pairs / 10 && crossing_pairs < pairs / 2,
+        "{crossing_pairs} of {pairs}"
+    );
+    assert!(narrow_bounds > pairs * 9 / 10, "the reference was sharp for {narrow_bounds} of {pairs}");
 }
 
 #[test]
@@ -161,7 +164,7 @@ fn the_bounding_box_holds_the_arc_and_its_points_lie_on_it() {
             let [left, bottom, right, top] = arc.bounding_box();
             let tolerance = 8.0 * f64::EPSILON * arc.length.abs().max(5.0);
             for i in 0..=100 {
-                let [x, y] = in_world(&arc, position_along(&arc, f64::from(i) / 100.0));
+                let [x, y] = to_world(&arc, position_along(&arc, f64::from(i) / 100.0));
                 let is_inside = (left - tolerance..=right + tolerance).contains(&x)
                     && (bottom - tolerance..=top + tolerance).contains(&y);
                 assert!(is_inside, "{name}: ({x}, {y}) of {arc:?}");
@@ -174,7 +177,7 @@ fn the_bounding_box_holds_the_arc_and_its_points_lie_on_it() {
                 assert!(point_wall.distance_to_arc(&arc) <= 4.0 * tolerance, "{name}: ({x}, {y}) of {arc:?}");
             }
             let points = arc.points();
-            let (last, end) = (points[points.len() - 1], in_world(&arc, position_along(&arc, 1.0)));
+            let (last, end) = (points[points.len() - 1], to_world(&arc, position_along(&arc, 1.0)));
             assert_eq!(points[0], [arc.start.x(), arc.start.y()]);
             assert!(norm(difference(last, end)) <= tolerance, "{name}: {arc:?}");
         }
@@ -191,7 +194,7 @@ fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
         let chords = points.len() - 1;
         for (i, ends) in points.windows(2).enumerate() {
             let chord_middle = [0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]));
-            let arc_middle = in_world(&arc, position_along(&arc, (i as f64 + 0.5) / chords as f64));
+            let arc_middle = to_world(&arc, position_along(&arc, (i as f64 + 0.5) / chords as f64));
             let rise = norm(difference(chord_middle, arc_middle));
             let max_rise = 0.02 * 0.02 / 8.0 * (length / turn.abs().max(0.02)).abs() * 1.001;
             assert!(rise <= max_rise, "{turn}: {rise}");

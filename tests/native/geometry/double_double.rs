@@ -38,7 +38,7 @@ fn sine_cosine_and_sinc_match_fifty_digit_references() {
 
 /// The expected values come from exact arithmetic of 128-bit integers.
 #[test]
-fn sums_and_products_lose_nothing() {
+fn sums_and_products_are_exact() {
     let mut rng = seeded(31);
     for _ in 0..20_000 {
         let random_integer = |rng: &mut _| uniform(rng, -9e15, 9e15).trunc();

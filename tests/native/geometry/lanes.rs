@@ -27,18 +27,18 @@ fn first_lane(lanes: f64x4) -> f64 {
 }
 
 #[test]
-fn circles_agree_with_libm_over_the_whole_range() {
+fn sines_and_cosines_agree_with_libm_over_the_whole_range() {
     let trigonometry = Trigonometry::default();
     for angle in angles() {
-        let circle = trigonometry.sin_cos_any_angle(f64x4::splat(angle));
+        let sin_cos = trigonometry.sin_cos_any_angle(f64x4::splat(angle));
         let sinc = if angle == 0.0 { 1.0 } else { libm::sin(angle) / angle };
-        assert!((first_lane(circle.sin) - libm::sin(angle)).abs() <= ACCURACY, "sin {angle}");
-        assert!((first_lane(circle.cos) - libm::cos(angle)).abs() <= ACCURACY, "cos {angle}");
-        assert!((first_lane(circle.sinc) - sinc).abs() <= ACCURACY, "sinc {angle}");
+        assert!((first_lane(sin_cos.sin) - libm::sin(angle)).abs() <= ACCURACY, "sin {angle}");
+        assert!((first_lane(sin_cos.cos) - libm::cos(angle)).abs() <= ACCURACY, "cos {angle}");
+        assert!((first_lane(sin_cos.sinc) - sinc).abs() <= ACCURACY, "sinc {angle}");
         if angle.abs() <= FRAC_PI_2 {
             // No digits are lost towards 0.
             assert!(
-                (first_lane(circle.sin) - libm::sin(angle)).abs() <= ACCURACY * angle.abs(),
+                (first_lane(sin_cos.sin) - libm::sin(angle)).abs() <= ACCURACY * angle.abs(),
                 "sin {angle}"
             );
         }
@@ -46,7 +46,7 @@ fn circles_agree_with_libm_over_the_whole_range() {
 }
 
 #[test]
-fn half_turns_lie_on_the_requested_branch() {
+fn half_headings_lie_on_the_requested_branch() {
     let trigonometry = Trigonometry::default();
     for near in [0.0, 0.25, -1.5, 1.7, -2.9] {
         for half in angles().into_iter().step_by(7) {
@@ -82,16 +82,19 @@ fn a_lane_does_not_depend_on_its_neighbours() {
     let small_angles: Vec<f64> = angles().into_iter().filter(|angle| angle.abs() < FRAC_PI_2).collect();
     let large_angles = [1e15, -7.0, 4e6, FRAC_PI_2 + 1e-9];
     for (i, angle) in small_angles.iter().enumerate() {
-        let (lane, alone) = (i % 4, f64x4::splat(*angle));
-        let mut mixed = large_angles;
-        mixed[lane] = *angle;
-        let mixed = f64x4::from(mixed);
-        let (short, long) = (trigonometry.sin_cos_small_angle(alone), trigonometry.sin_cos_any_angle(mixed));
+        let (lane, equal_lanes) = (i % 4, f64x4::splat(*angle));
+        let mut mixed_lanes = large_angles;
+        mixed_lanes[lane] = *angle;
+        let mixed_lanes = f64x4::from(mixed_lanes);
+        let (short, long) =
+            (trigonometry.sin_cos_small_angle(equal_lanes), trigonometry.sin_cos_any_angle(mixed_lanes));
         for (short, long) in [(short.sinc, long.sinc), (short.sin, long.sin), (short.cos, long.cos)] {
             assert_eq!(bits(short, lane), bits(long, lane), "{angle}");
         }
-        let (short, long) =
-            (trigonometry.log_terms_small_angle(alone), trigonometry.log_terms_any_angle(mixed, 0.0));
+        let (short, long) = (
+            trigonometry.log_terms_small_angle(equal_lanes),
+            trigonometry.log_terms_any_angle(mixed_lanes, 0.0),
+        );
         for (short, long) in [
             (short.half, long.half),
             (short.cotangent, long.cotangent),

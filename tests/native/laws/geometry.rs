@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-const UNITS: f64 = 32.0;
+const TOLERANCE_UNITS: f64 = 32.0;
 
 proptest! {
     #![proptest_config(cases(400))]
@@ -42,10 +42,10 @@ proptest! {
     #[test]
     fn composition_is_associative_and_has_inverses(a in poses(), b in poses(), c in poses()) {
         let sizes = extent(&a) + extent(&b) + extent(&c);
-        assert_same_pose(&((a * b) * c), &(a * (b * c)), UNITS, sizes)?;
-        assert_same_pose(&(a * a.inverse()), &SE2::identity(), UNITS, extent(&a))?;
-        assert_same_pose(&(a.inverse() * a), &SE2::identity(), UNITS, extent(&a))?;
-        assert_same_pose(&(a * b).inverse(), &(b.inverse() * a.inverse()), UNITS, sizes)?;
+        assert_same_pose(&((a * b) * c), &(a * (b * c)), TOLERANCE_UNITS, sizes)?;
+        assert_same_pose(&(a * a.inverse()), &SE2::identity(), TOLERANCE_UNITS, extent(&a))?;
+        assert_same_pose(&(a.inverse() * a), &SE2::identity(), TOLERANCE_UNITS, extent(&a))?;
+        assert_same_pose(&(a * b).inverse(), &(b.inverse() * a.inverse()), TOLERANCE_UNITS, sizes)?;
         prop_assert_eq!(SE2::identity() * a, a);
         prop_assert_eq!(a * SE2::identity(), a);
     }
@@ -55,21 +55,21 @@ proptest! {
     fn a_twist_and_its_reverse_cancel(twist in twists(f64::MAX)) {
         let pose = SE2::exp(&twist);
         prop_assert!(pose.x().is_finite() && pose.y().is_finite());
-        assert_same_pose(&SE2::exp(&-twist), &pose.inverse(), UNITS, twist.x.abs() + twist.y.abs())?;
+        assert_same_pose(&SE2::exp(&-twist), &pose.inverse(), TOLERANCE_UNITS, twist.x.abs() + twist.y.abs())?;
     }
 
     #[test]
-    fn logarithms_lead_back(pose in poses()) {
+    fn exp_inverts_log(pose in poses()) {
         let twist = pose.log();
         prop_assert!(twist.z.abs() <= PI && twist.x.is_finite() && twist.y.is_finite());
-        assert_same_pose(&SE2::exp(&twist), &pose, UNITS, 2.0 * extent(&pose))?;
+        assert_same_pose(&SE2::exp(&twist), &pose, TOLERANCE_UNITS, 2.0 * extent(&pose))?;
     }
 
     /// Turns are on the principal branch. The last coordinate is returned exactly, whatever the others are.
     #[test]
-    fn exponentials_lead_back(twist in twists(3.1)) {
+    fn log_inverts_exp(twist in twists(3.1)) {
         let logarithm = SE2::exp(&twist).log();
-        let tolerance = UNITS * f64::EPSILON * (twist.x.abs() + twist.y.abs()) + f64::MIN_POSITIVE;
+        let tolerance = TOLERANCE_UNITS * f64::EPSILON * (twist.x.abs() + twist.y.abs()) + f64::MIN_POSITIVE;
         prop_assert_eq!(logarithm.z, twist.z);
         prop_assert!((logarithm.x - twist.x).abs() <= tolerance && (logarithm.y - twist.y).abs() <= tolerance, "{:?}", logarithm);
     }
@@ -77,7 +77,7 @@ proptest! {
     #[test]
     fn boxplus_inverts_boxminus(a in poses(), b in poses()) {
         let sizes = extent(&a) + extent(&b);
-        assert_same_pose(&a.boxplus(b.boxminus(&a)), &b, UNITS, 2.0 * sizes)?;
+        assert_same_pose(&a.boxplus(b.boxminus(&a)), &b, TOLERANCE_UNITS, 2.0 * sizes)?;
         prop_assert_eq!(a.boxplus(Vector3::zeros()), a);
         prop_assert_eq!(a.boxplus(b.log()), a * SE2::exp(&b.log()));
     }
@@ -94,7 +94,7 @@ proptest! {
         prop_assume!(extent(&pose) < 1e290);
         let left_twist = pose.adjoint() * twist;
         let sizes = extent(&pose) + twist.x.abs() + twist.y.abs() + left_twist.x.abs() + left_twist.y.abs();
-        assert_same_pose(&(pose * SE2::exp(&twist)), &(SE2::exp(&left_twist) * pose), UNITS, sizes)?;
+        assert_same_pose(&(pose * SE2::exp(&twist)), &(SE2::exp(&left_twist) * pose), TOLERANCE_UNITS, sizes)?;
     }
 
     /// The inverse Jacobian diverges at a full turn. This law is tested up to half a turn.
@@ -106,13 +106,13 @@ proptest! {
         assert_close(&(inverse * jacobian), &Matrix3::identity(), sizes)?;
         let half_sinc = sinc(0.5 * twist.z);
         let determinant = jacobian[(0, 0)] * jacobian[(1, 1)] - jacobian[(0, 1)] * jacobian[(1, 0)];
-        prop_assert!((determinant - half_sinc * half_sinc).abs() <= UNITS * f64::EPSILON);
+        prop_assert!((determinant - half_sinc * half_sinc).abs() <= TOLERANCE_UNITS * f64::EPSILON);
     }
 
     /// J_l = Ad(exp ξ)·J_r, and J_l(ξ) = J_r(−ξ): Solà et al., eq. 75 and 76. The adjoint has the wrapped heading, which is the turn only
     /// up to half a turn.
     #[test]
-    fn left_jacobians_are_right_ones_of_the_reverse(twist in twists(PI)) {
+    fn the_left_jacobian_is_the_right_jacobian_of_the_reversed_twist(twist in twists(PI)) {
         let left_jacobian = SE2::exp(&twist).adjoint() * SE2::right_jacobian(&twist);
         assert_close(&left_jacobian, &SE2::right_jacobian(&-twist), twist.x.abs() + twist.y.abs())?;
     }
@@ -124,7 +124,13 @@ fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, size: f64) -> Result<(), Tes
         for j in 0..3 {
             let scale = if j == 2 { 1.0 + size } else { 1.0 };
             let difference = (a[(i, j)] - b[(i, j)]).abs();
-            prop_assert!(difference <= UNITS * f64::EPSILON * scale, "{} {}: off by {:e}", a, b, difference);
+            prop_assert!(
+                difference <= TOLERANCE_UNITS * f64::EPSILON * scale,
+                "{} {}: off by {:e}",
+                a,
+                b,
+                difference
+            );
         }
     }
     Ok(())

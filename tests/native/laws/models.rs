@@ -71,7 +71,7 @@ proptest! {
 
     /// Residuals are arbitrary. Variances do not overflow when multiplied by six.
     #[test]
-    fn densities_are_numbers(kind in noise_kinds(), a in finite(), b2 in up_to(1e307)) {
+    fn noise_densities_are_at_most_their_peak(kind in noise_kinds(), a in finite(), b2 in up_to(1e307)) {
         let b2 = b2.abs();
         let (density, peak) = (kind.prob(a, Variance(b2)), kind.prob(0.0, Variance(b2)));
         prop_assert!(density >= 0.0 && density <= peak, "{} {}", density, peak);
@@ -85,29 +85,29 @@ proptest! {
     }
 
     #[test]
-    fn velocity_likelihoods_are_numbers(
+    fn velocity_likelihoods_are_never_negative_or_nan(
         kind in noise_kinds(), alphas in alphas(), u in commands(), x in start_poses(), next in start_poses(),
     ) {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
-        assert_likelihoods_are_numbers(&model, &u, &x, &next)?;
+        assert_likelihoods_not_negative_or_nan(&model, &u, &x, &next)?;
         let has_zero_variance = model.variances(&u).iter().any(|variance| variance.0 == 0.0);
         prop_assert_eq!(model.pose_density(&next, &u, &x).is_none(), has_zero_variance);
     }
 
     #[test]
-    fn odometry_likelihoods_are_numbers(
-        kind in noise_kinds(), alphas in alphas(), u in readings(), x in start_poses(), next in start_poses(), aware in any::<bool>(),
+    fn odometry_likelihoods_are_never_negative_or_nan(
+        kind in noise_kinds(), alphas in alphas(), u in readings(), x in start_poses(), next in start_poses(), is_reverse_aware in any::<bool>(),
     ) {
         let model = OdometryModel { alphas: OdomAlphas(alphas), noise: kind };
-        if aware {
-            assert_likelihoods_are_numbers(&ReverseAware(model), &u, &x, &next)?;
+        if is_reverse_aware {
+            assert_likelihoods_not_negative_or_nan(&ReverseAware(model), &u, &x, &next)?;
         } else {
-            assert_likelihoods_are_numbers(&model, &u, &x, &next)?;
+            assert_likelihoods_not_negative_or_nan(&model, &u, &x, &next)?;
         }
     }
 
     #[test]
-    fn exponential_likelihoods_are_numbers(alphas in alphas(), u in commands(), x in start_poses(), next in start_poses()) {
+    fn exponential_likelihoods_are_never_nan(alphas in alphas(), u in commands(), x in start_poses(), next in start_poses()) {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let tangent = TangentNoiseModel::from_velocity(&model, &u).expect("variances of settings");
         let log_prob = tangent.log_prob(&next, &u, &x);
@@ -115,7 +115,7 @@ proptest! {
     }
 }
 
-fn assert_likelihoods_are_numbers<M: MotionModel>(
+fn assert_likelihoods_not_negative_or_nan<M: MotionModel>(
     model: &M,
     u: &M::Control,
     x: &SE2,

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use std::f64::consts::PI;
 
 /// Tolerance in units in the last place. Each map tested here composes up to eight maps with errors of a few units.
-const UNITS: f64 = 64.0;
+const TOLERANCE_UNITS: f64 = 64.0;
 
 fn durations() -> impl Strategy<Value = f64> {
     prop_oneof![1e-6..1e6, Just(1e-6), Just(1e6), Just(1.0)]
@@ -20,13 +20,13 @@ proptest! {
     /// For any two poses, the inverted controls lead from one to the other.
     #[test]
     fn an_inverted_arc_ends_at_the_given_pose(x in poses(), next in poses(), dt in durations()) {
-        let inverted = invert_arc(&x, &next, dt);
-        let [length, turn, last_turn] = [inverted.v_hat, inverted.omega_hat, inverted.gamma_hat].map(|rate| rate * dt);
+        let inversion = invert_arc(&x, &next, dt);
+        let [length, turn, last_turn] = [inversion.v_hat, inversion.omega_hat, inversion.gamma_hat].map(|rate| rate * dt);
         let half_turn = PI * (1.0 + 2.0 * f64::EPSILON);
-        prop_assert!(turn.abs() <= half_turn && last_turn.abs() <= half_turn, "{:?}", inverted);
+        prop_assert!(turn.abs() <= half_turn && last_turn.abs() <= half_turn, "{:?}", inversion);
         let (forward, left) = chord(length, turn);
         let end = x * SE2::new(forward, left, turn + last_turn);
-        assert_same_pose(&end, &next, UNITS, extent(&x) + extent(&next))?;
+        assert_same_pose(&end, &next, TOLERANCE_UNITS, extent(&x) + extent(&next))?;
     }
 
     /// The start is the origin, whose coordinates add no rounding. Half a turn is driven forward or in reverse,
@@ -36,27 +36,27 @@ proptest! {
         let (forward, left) = chord(length, turn);
         // The bearing of a shorter chord is inaccurate.
         prop_assume!(forward.hypot(left) > 1e-290 && forward.hypot(left) < 1e290);
-        let inverted = invert_arc(&SE2::identity(), &SE2::new(forward, left, turn + last_turn), dt);
-        let rounding = UNITS * f64::EPSILON;
-        prop_assert!((inverted.v_hat * dt - length).abs() <= rounding * length.abs(), "{:?}", inverted);
+        let inversion = invert_arc(&SE2::identity(), &SE2::new(forward, left, turn + last_turn), dt);
+        let rounding = TOLERANCE_UNITS * f64::EPSILON;
+        prop_assert!((inversion.v_hat * dt - length).abs() <= rounding * length.abs(), "{:?}", inversion);
         // Turns below this tolerance are lost in the rounding of the chord.
         let chord_rounding = f64::MIN_POSITIVE * (1.0 + 1.0 / forward.hypot(left));
-        prop_assert!((inverted.omega_hat * dt - turn).abs() <= rounding * turn.abs() + chord_rounding, "{:?}", inverted);
-        prop_assert!((inverted.gamma_hat * dt - last_turn).abs() <= rounding * PI, "{:?}", inverted);
+        prop_assert!((inversion.omega_hat * dt - turn).abs() <= rounding * turn.abs() + chord_rounding, "{:?}", inversion);
+        prop_assert!((inversion.gamma_hat * dt - last_turn).abs() <= rounding * PI, "{:?}", inversion);
     }
 
     /// With any number of additional full turns the arc ends at the same place.
     #[test]
-    fn wound_arcs_end_at_the_same_place(x in -50.0..50.0, y in -50.0..50.0, near in -300.0..300.0) {
+    fn arcs_with_additional_full_turns_end_at_the_same_position(x in -50.0..50.0, y in -50.0..50.0, near_turn in -300.0..300.0) {
         let next = SE2::new(x, y, 0.0);
-        let (length, turn) = arc_with_turn_near(&SE2::identity(), &next, near);
+        let (length, turn) = arc_with_turn_near(&SE2::identity(), &next, near_turn);
         // A straight line has no circle. The circle of a nearly straight one is so long that its end cannot be
         // represented.
         prop_assume!(length.abs() < 1e6);
-        prop_assert!(turn == 0.0 || (turn - near).abs() <= PI * (1.0 + 1e-12), "{}", turn);
+        prop_assert!(turn == 0.0 || (turn - near_turn).abs() <= PI * (1.0 + 1e-12), "{}", turn);
         let end = Arc { start: SE2::identity(), length, turn }.end();
         let distance = (end.x() - x).hypot(end.y() - y);
-        prop_assert!(distance <= UNITS * f64::EPSILON * (length.abs() + extent(&next)), "{:e}", distance);
+        prop_assert!(distance <= TOLERANCE_UNITS * f64::EPSILON * (length.abs() + extent(&next)), "{:e}", distance);
     }
 
     /// A displacement below a nanometre counts as 0 in an odometry reading.
@@ -65,8 +65,8 @@ proptest! {
         let reading = OdomDelta::from_poses(&prev, &curr);
         prop_assert!(reading.trans >= 0.0 && [reading.rot1, reading.rot2].iter().all(|turn| -PI < *turn && *turn <= PI));
         let size = extent(&prev) + extent(&curr);
-        let displacement_tolerance = 1e-9 / (UNITS * f64::EPSILON);
-        assert_same_pose(&reading.apply(&prev), &curr, UNITS, size + if reading.trans == 0.0 { displacement_tolerance } else { 0.0 })?;
+        let displacement_tolerance = 1e-9 / (TOLERANCE_UNITS * f64::EPSILON);
+        assert_same_pose(&reading.apply(&prev), &curr, TOLERANCE_UNITS, size + if reading.trans == 0.0 { displacement_tolerance } else { 0.0 })?;
     }
 
     /// The reading depends on the relative pose only: it is the same if both poses are moved and turned with their
@@ -78,7 +78,7 @@ proptest! {
         let (reading, moved_reading) = (OdomDelta::from_poses(&prev, &curr), OdomDelta::from_poses(&(frame * prev), &(frame * curr)));
         // The bearing of a displacement that is small relative to the coordinates loses digits.
         prop_assume!(reading.trans > 1.0);
-        let rounding = UNITS * f64::EPSILON * 1e4;
+        let rounding = TOLERANCE_UNITS * f64::EPSILON * 1e4;
         prop_assert!((reading.trans - moved_reading.trans).abs() <= rounding);
         for (a, b) in [(reading.rot1, moved_reading.rot1), (reading.rot2, moved_reading.rot2)] {
             prop_assert!(libm::remainder(a - b, 2.0 * PI).abs() <= rounding, "{} {}", a, b);

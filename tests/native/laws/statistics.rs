@@ -65,9 +65,9 @@ proptest! {
     #[test]
     fn cross_track_statistics_do_not_depend_on_the_unit(cloud in clouds(), power in -100..100i32, left in any::<bool>()) {
         let (unit, side) = (2f64.powi(power), if left { 1.0 } else { -1.0 });
-        let scaled: Vec<SE2> =
+        let scaled_cloud: Vec<SE2> =
             cloud.iter().map(|pose| SE2::new(unit * pose.x(), side * unit * pose.y(), side * pose.theta())).collect();
-        let (a, b) = (CrossTrack::from_poses(&cloud), CrossTrack::from_poses(&scaled));
+        let (a, b) = (CrossTrack::from_poses(&cloud), CrossTrack::from_poses(&scaled_cloud));
         for (a, b) in [(a.skew, side * b.skew), (a.skew_error, b.skew_error), (a.rho_heading, b.rho_heading)] {
             prop_assert!(is_close(a, b, 0.0), "{} {}", a, b);
         }
@@ -75,7 +75,7 @@ proptest! {
 
     /// Equal poses are a point: the skew is undefined, and so is its standard error.
     #[test]
-    fn a_point_has_no_shape(pose in frames(), count in 1..20usize) {
+    fn equal_poses_have_no_skew_and_no_covariance(pose in frames(), count in 1..20usize) {
         let cloud = vec![pose; count];
         let track = CrossTrack::from_poses(&cloud);
         prop_assert!([track.skew, track.skew_error, track.rho_heading].iter().all(|value| value.is_nan()));
@@ -85,7 +85,7 @@ proptest! {
 
     /// Points of the outline are moved towards the centre and away from it by a billionth.
     #[test]
-    fn ellipses_hold_what_is_inside(a in 0.01..10.0f64, b in 0.01..10.0f64, rho in -0.99..0.99f64, power in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {
+    fn ellipses_contain_points_inside_their_outline_only(a in 0.01..10.0f64, b in 0.01..10.0f64, rho in -0.99..0.99f64, power in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {
         let unit = 2f64.powi(power);
         let cov = Matrix2::new(a * a, rho * a * b, rho * a * b, b * b) * (unit * unit);
         let centre = Vector2::new(centre.0, centre.1) * unit;
@@ -96,25 +96,25 @@ proptest! {
         let outline = ellipse.boundary(32);
         prop_assert_eq!(outline.first(), outline.last());
         for point in outline {
-            let scaled_point = |share: f64| (centre + (Vector2::from(point) - centre) * share).into();
+            let scaled_point = |fraction: f64| (centre + (Vector2::from(point) - centre) * fraction).into();
             prop_assert!(ellipse.contains(scaled_point(1.0 - 1e-9)) && !ellipse.contains(scaled_point(1.0 + 1e-9)), "{:?}", point);
         }
     }
 
     #[test]
-    fn matrices_that_are_no_covariances_are_refused(cov in covariances(), entry in (0..3usize, 0..3usize), number in any_double(), less in 0.01..1.0) {
-        let mut changed = cov;
-        changed[entry] = number;
-        match TangentNoiseModel::new(changed) {
-            Ok(model) => prop_assert_eq!(model.r, changed),
+    fn matrices_that_are_not_covariances_are_refused(cov in covariances(), entry in (0..3usize, 0..3usize), number in any_double(), reduction in 0.01..1.0) {
+        let mut changed_cov = cov;
+        changed_cov[entry] = number;
+        match TangentNoiseModel::new(changed_cov) {
+            Ok(model) => prop_assert_eq!(model.r, changed_cov),
             Err(error) => prop_assert_eq!(error == TangentNoiseError::NotFinite, !number.is_finite()),
         }
-        let with_negative_eigenvalue = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + less);
+        let with_negative_eigenvalue = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + reduction);
         prop_assert_eq!(TangentNoiseModel::new(with_negative_eigenvalue), Err(TangentNoiseError::NotPositiveSemidefinite));
         if entry.0 != entry.1 {
-            let mut asymmetric = cov;
-            asymmetric[entry] += less * (1.0 + cov.amax());
-            prop_assert_eq!(TangentNoiseModel::new(asymmetric), Err(TangentNoiseError::NotSymmetric));
+            let mut asymmetric_cov = cov;
+            asymmetric_cov[entry] += reduction * (1.0 + cov.amax());
+            prop_assert_eq!(TangentNoiseModel::new(asymmetric_cov), Err(TangentNoiseError::NotSymmetric));
         }
     }
 }

@@ -11,7 +11,7 @@ use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel}
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub const SAMPLERS: [Sampler; 3] = [Sampler::Endpoint, Sampler::WholeArc, Sampler::SubStepped(4)];
-pub const AHEAD: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
+pub const STRAIGHT_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
 
 fn model() -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas_of_noise_level(0.12)), noise: NoiseKind::Normal }
@@ -33,35 +33,35 @@ fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
 // -------------------------------------------------------------------------------------- the chapter's numbers
 
 /// Asserts that a fraction equals a published one. Both come from 60 000 draws, and the published one is rounded.
-fn assert_share(name: &str, accepted: usize, all: usize, published: f64) {
-    let share = accepted as f64 / all as f64;
-    let error = (2.0 * published * (1.0 - published) / all as f64).sqrt();
+fn assert_fraction(name: &str, accepted: usize, total: usize, published: f64) {
+    let fraction = accepted as f64 / total as f64;
+    let error = (2.0 * published * (1.0 - published) / total as f64).sqrt();
     assert!(
-        (share - published).abs() < MAX_STANDARD_ERRORS * error + 0.0005,
-        "{name}: {share} instead of {published}"
+        (fraction - published).abs() < MAX_STANDARD_ERRORS * error + 0.0005,
+        "{name}: {fraction} instead of {published}"
     );
 }
 
 #[test]
-fn the_published_shares() {
+fn fractions_equal_the_published_ones() {
     const DRAWS: usize = 60_000;
     let plan = FloorPlan::apartment();
-    let endpoint = conditioned_model(&plan, Sampler::Endpoint);
+    let endpoint_model = conditioned_model(&plan, Sampler::Endpoint);
     for (name, omega, acceptance, through_wall) in [
         ("doorway", 0.0, 0.849, 0.348),
         ("wall", 0.0, 0.832, 0.867),
         ("corridor", 0.0, 0.840, 0.242),
         ("doorway", 0.6, 0.781, 0.398),
     ] {
-        let (start, command) = (preset(name), VelocityCmd { omega, ..AHEAD });
+        let (start, command) = (preset(name), VelocityCmd { omega, ..STRAIGHT_COMMAND });
         let mut rng = seeded(5);
         let draws: Vec<_> = (0..DRAWS)
-            .map(|_| endpoint.draw_tester(&command, &start).test_draw(unit_noise(&mut rng)))
+            .map(|_| endpoint_model.draw_tester(&command, &start).test_draw(unit_noise(&mut rng)))
             .collect();
         let accepted_count = draws.iter().filter(|draw| draw.end.free).count();
         let through_wall_count = draws.iter().filter(|draw| draw.end.free && !draw.path.free).count();
-        assert_share(name, accepted_count, DRAWS, acceptance);
-        assert_share(name, through_wall_count, accepted_count, through_wall);
+        assert_fraction(name, accepted_count, DRAWS, acceptance);
+        assert_fraction(name, through_wall_count, accepted_count, through_wall);
         assert!(draws.iter().all(|draw| draw.end.free || !draw.path.free), "the end is part of the path");
     }
 }
@@ -70,17 +70,17 @@ fn the_published_shares() {
 #[test]
 fn the_last_turn_is_not_part_of_the_path() {
     let plan = FloorPlan::apartment();
-    let endpoint = conditioned_model(&plan, Sampler::Endpoint);
-    let (command, start) = (VelocityCmd { omega: 0.4, ..AHEAD }, preset("doorway"));
+    let endpoint_model = conditioned_model(&plan, Sampler::Endpoint);
+    let (command, start) = (VelocityCmd { omega: 0.4, ..STRAIGHT_COMMAND }, preset("doorway"));
     let mut rng = seeded(7);
     for _ in 0..1000 {
         let [v, omega, gamma] = unit_noise(&mut rng);
-        let draw = endpoint.draw_tester(&command, &start).test_draw([v, omega, gamma]);
-        let without_turn = endpoint.draw_tester(&command, &start).test_draw([v, omega, 0.0]);
+        let draw = endpoint_model.draw_tester(&command, &start).test_draw([v, omega, gamma]);
+        let without_turn = endpoint_model.draw_tester(&command, &start).test_draw([v, omega, 0.0]);
         assert_eq!((draw.arc, draw.end, draw.path), (without_turn.arc, without_turn.end, without_turn.path));
-        let executed = model().executed_motion(&command, [v, omega, gamma]);
-        assert!((draw.arc.length - 2.0 * executed.v_hat).abs() < 1e-15);
-        assert!((draw.arc.turn - 2.0 * executed.omega_hat).abs() < 1e-15);
+        let inversion = model().executed_motion(&command, [v, omega, gamma]);
+        assert!((draw.arc.length - 2.0 * inversion.v_hat).abs() < 1e-15);
+        assert!((draw.arc.turn - 2.0 * inversion.omega_hat).abs() < 1e-15);
         let pose = model().apply_noise(&command, &start, [v, omega, gamma]);
         assert!(crate::common::pose_distance(&draw.pose, &pose) < 1e-14);
         assert_ne!(draw.pose.theta(), without_turn.pose.theta());
@@ -94,7 +94,7 @@ fn the_last_turn_is_not_part_of_the_path() {
 #[test]
 fn samples_are_those_of_table_5_7() {
     let plan = FloorPlan::apartment();
-    let command = VelocityCmd { omega: 0.2, ..AHEAD };
+    let command = VelocityCmd { omega: 0.2, ..STRAIGHT_COMMAND };
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         for (name, _) in PRESETS {
             let (start, sampler) = (preset(name), conditioned_model(&plan, sampler));
@@ -105,13 +105,13 @@ fn samples_are_those_of_table_5_7() {
                 let pose = loop {
                     let mut noise_rng = expected_rng.clone();
                     let pose = model().sample(&command, &start, &mut expected_rng);
-                    let executed = model().executed_motion(&command, unit_noise(&mut noise_rng));
-                    let arc = Arc { start, length: 2.0 * executed.v_hat, turn: 2.0 * executed.omega_hat };
+                    let inversion = model().executed_motion(&command, unit_noise(&mut noise_rng));
+                    let arc = Arc { start, length: 2.0 * inversion.v_hat, turn: 2.0 * inversion.omega_hat };
                     draws += 1;
                     let end = plan.test_point([pose.x(), pose.y()], 0.13).free;
-                    let free =
+                    let is_free =
                         end && (sampler.sampler == Sampler::Endpoint || plan.test_arc(&arc, 0.13).free);
-                    if free {
+                    if is_free {
                         break pose;
                     }
                 };
@@ -130,21 +130,24 @@ pub fn too_small_room() -> FloorPlan {
 }
 
 #[test]
-fn a_wedged_robot_is_an_error_that_counts_its_draws() {
+fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
     let plan = too_small_room();
     let start = SE2::new(2.1, 2.1, 0.0);
     for sampler in SAMPLERS {
-        let error =
-            conditioned_model(&plan, sampler).sample(&AHEAD, &start, &mut seeded(12)).expect_err("no room");
+        let error = conditioned_model(&plan, sampler)
+            .sample(&STRAIGHT_COMMAND, &start, &mut seeded(12))
+            .expect_err("no room");
         assert_eq!(error.0.draws, MAX_DRAWS);
         assert_eq!(error.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
     }
     // The first part of the motion, 1 m ± 1 mm, is free and leads to a wall, which blocks the second part. All draws count.
     let dead_end = FloorPlan::new(vec![Segment { from: [1.5, 0.0], to: [1.5, 2.0] }], [0.0, 0.0, 2.0, 2.0])
         .expect("a valid plan");
-    let precise =
+    let precise_model =
         VelocityModel { alphas: VelocityAlphas([1e-6, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
-    let sampler = MapConditioned { model: precise, ..conditioned_model(&dead_end, Sampler::SubStepped(2)) };
-    let error = sampler.sample(&AHEAD, &SE2::new(0.3, 1.0, 0.0), &mut seeded(13)).expect_err("a dead end");
+    let sampler =
+        MapConditioned { model: precise_model, ..conditioned_model(&dead_end, Sampler::SubStepped(2)) };
+    let error =
+        sampler.sample(&STRAIGHT_COMMAND, &SE2::new(0.3, 1.0, 0.0), &mut seeded(13)).expect_err("a dead end");
     assert_eq!(error.0.draws, MAX_DRAWS + 1);
 }

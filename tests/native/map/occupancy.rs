@@ -42,23 +42,26 @@ impl Cells {
     }
 
     /// Returns the position in the map of a point in the grid's own axes, in cells.
-    fn in_map(&self, column: f64, row: f64) -> [f64; 2] {
+    fn to_map(&self, column: f64, row: f64) -> [f64; 2] {
         let ([x, y, yaw], (u, v)) = (self.origin, (column * self.resolution, row * self.resolution));
         [x + u * yaw.cos() - v * yaw.sin(), y + u * yaw.sin() + v * yaw.cos()]
     }
 
-    /// Returns the distance to the nearest occupied cell, as a square; 0 inside of a cell.
+    /// Returns the distance (m) from a point to the nearest occupied square cell; 0 inside of a cell.
     fn distance(&self, [x, y]: [f64; 2]) -> f64 {
         let ([x0, y0, yaw], size) = (self.origin, self.resolution);
         let u = (x - x0) * yaw.cos() + (y - y0) * yaw.sin();
         let v = (y - y0) * yaw.cos() - (x - x0) * yaw.sin();
-        let beyond = |at: f64, cell: usize| {
+        let distance_outside = |at: f64, cell: usize| {
             let low = cell as f64 * size;
             (low - at).max(at - low - size).max(0.0)
         };
         let occupied = (0..self.occupied.len()).filter(|i| self.occupied[*i]);
         occupied
-            .map(|i| beyond(u, i % self.width).hypot(beyond(v, self.height - 1 - i / self.width)))
+            .map(|i| {
+                distance_outside(u, i % self.width)
+                    .hypot(distance_outside(v, self.height - 1 - i / self.width))
+            })
             .fold(f64::INFINITY, f64::min)
     }
 }
@@ -67,7 +70,7 @@ impl Cells {
 
 /// For points outside the occupied cells, the distances to the walls of a grid equal those to the cells.
 #[test]
-fn the_walls_are_as_far_as_the_cells() {
+fn distances_to_walls_equal_distances_to_cells() {
     let mut rng = seeded(9900);
     let (mut points_inside, mut points_outside) = (0, 0);
     for _ in 0..100 {
@@ -77,7 +80,7 @@ fn the_walls_are_as_far_as_the_cells() {
         for _ in 0..50 {
             let column = uniform(&mut rng, 0.0, cells.width as f64);
             let row = uniform(&mut rng, 0.0, cells.height as f64);
-            let point = cells.in_map(column, row);
+            let point = cells.to_map(column, row);
             assert!((left..=right).contains(&point[0]) && (bottom..=top).contains(&point[1]));
             let distance = cells.distance(point);
             if distance == 0.0 {
@@ -104,7 +107,7 @@ fn the_walls_are_as_far_as_the_cells() {
 
 /// Neighbouring sides of cells form one wall. Between two occupied cells there is no wall, and walls meet at corners.
 #[test]
-fn outlines_are_joined() {
+fn sides_of_neighbouring_cells_form_one_wall() {
     let rows = ["##.", "#..", "..#"];
     let occupied = rows.iter().flat_map(|row| row.chars().map(|cell| cell == '#')).collect();
     let cells = Cells { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
@@ -126,8 +129,8 @@ fn outlines_are_joined() {
     ];
     assert_eq!(walls, expected);
     assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
-    let rotated = Cells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
-    let bounds = FloorPlan::from_grid(rotated.grid()).expect("a small grid").bounds();
+    let rotated_cells = Cells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
+    let bounds = FloorPlan::from_grid(rotated_cells.grid()).expect("a small grid").bounds();
     for (bound, expected) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
         assert!((bound - expected).abs() < 1e-15, "{bounds:?}");
     }
@@ -135,9 +138,12 @@ fn outlines_are_joined() {
 
 #[test]
 fn a_grid_of_too_many_walls_is_refused() {
-    let side = 320;
-    let occupied = (0..side * side).map(|i| i / side % 2 == 0 && i % side % 2 == 0).collect();
-    let single_cells = Cells { width: side, height: side, occupied, resolution: 0.05, origin: [0.0; 3] };
+    let cells_per_side = 320;
+    let occupied = (0..cells_per_side * cells_per_side)
+        .map(|i| i / cells_per_side % 2 == 0 && i % cells_per_side % 2 == 0)
+        .collect();
+    let single_cells =
+        Cells { width: cells_per_side, height: cells_per_side, occupied, resolution: 0.05, origin: [0.0; 3] };
     // 160 · 160 cells that stand alone, with four sides each.
     let error = FloorPlan::from_grid(single_cells.grid()).err();
     assert_eq!(error, Some(FloorPlanError::TooManySides(20_001)));
@@ -147,7 +153,7 @@ fn a_grid_of_too_many_walls_is_refused() {
 
 /// The error message names the origin, which is a field of the map.
 #[test]
-fn a_grid_that_reaches_too_far_is_refused() {
+fn a_grid_outside_the_range_of_coordinates_is_refused() {
     let grid = |resolution, origin| {
         Cells { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.grid()
     };
@@ -183,13 +189,14 @@ fn unknown_cells_are_free_or_blocked_as_set() {
     let rows: Vec<String> = (0..30)
         .map(|_| (0..30).map(|_| ['#', '?', '.', '.', '.', '.'][(rng.next_u32() % 6) as usize]).collect())
         .collect();
-    let with =
+    let rows_with =
         |from: &str, to: &str| -> Vec<String> { rows.iter().map(|row| row.replace(from, to)).collect() };
     let plan = |rows: &[String], unknown| {
         let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
         FloorPlan::from_grid(grid_of(&rows, unknown)).expect("a small grid")
     };
-    for (unknown, replaced) in [(UnknownCells::Blocked, with("?", "#")), (UnknownCells::Free, with("?", "."))]
+    for (unknown, replaced) in
+        [(UnknownCells::Blocked, rows_with("?", "#")), (UnknownCells::Free, rows_with("?", "."))]
     {
         let (plan1, plan2) = (plan(&rows, unknown), plan(&replaced, UnknownCells::Free));
         assert_eq!(plan1.walls(), plan2.walls(), "{unknown:?}");
@@ -211,12 +218,12 @@ fn unknown_cells_are_free_or_blocked_as_set() {
     assert_eq!(cells, [Cell::Occupied, Cell::Unknown, Cell::Free], "the cells themselves are unchanged");
 }
 
-// ----------------------------------------------------------------------------------------------------- open places
+// ----------------------------------------------------------------------------------------------------- free poses
 
 /// The pose is in the middle of the largest square that is known to be free, heading along the longest path known to be
 /// free.
 #[test]
-fn the_open_place_has_the_most_room() {
+fn the_free_pose_is_in_the_largest_free_square() {
     let rows = [
         "????????????????",
         "????????????????",
@@ -229,12 +236,12 @@ fn the_open_place_has_the_most_room() {
     ];
     for unknown in [UnknownCells::Free, UnknownCells::Blocked] {
         let plan = FloorPlan::from_grid(grid_of(&rows, unknown)).expect("a small grid");
-        let open_pose = plan.find_free_pose(0.1).expect("there is room");
+        let free_pose = plan.find_free_pose(0.1).expect("there is room");
         // The pose is in the middle of the first square of four free cells, and heads through the door.
-        assert!((open_pose.x() - 0.3).abs() + (open_pose.y() - 0.3).abs() < 1e-12, "{open_pose:?}");
-        assert!(plan.test_point([open_pose.x(), open_pose.y()], 0.1).free);
-        let drive = Arc { start: open_pose, length: 0.5, turn: 0.0 };
-        assert!(plan.test_arc(&drive, 0.0).free && open_pose.theta().abs() < 0.5, "{open_pose:?}");
+        assert!((free_pose.x() - 0.3).abs() + (free_pose.y() - 0.3).abs() < 1e-12, "{free_pose:?}");
+        assert!(plan.test_point([free_pose.x(), free_pose.y()], 0.1).free);
+        let drive = Arc { start: free_pose, length: 0.5, turn: 0.0 };
+        assert!(plan.test_arc(&drive, 0.0).free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
     }
     // A robot that just fits cannot move: the heading is then 0.
     let room =
@@ -242,9 +249,9 @@ fn the_open_place_has_the_most_room() {
     assert_eq!(room.find_free_pose(0.0499).expect("there is room").theta(), 0.0);
     // All cells are unknown: free or blocked, as the setting says.
     let unknown = grid_of(&["???", "???", "???"], UnknownCells::Free);
-    let open_pose =
+    let free_pose =
         FloorPlan::from_grid(unknown).expect("no walls").find_free_pose(0.1).expect("there is room");
-    assert!((open_pose.x() - 0.05).abs() + (open_pose.y() - 0.05).abs() < 1e-12, "the first: {open_pose:?}");
-    let blocked = grid_of(&["???", "???", "???"], UnknownCells::Blocked);
-    assert_eq!(FloorPlan::from_grid(blocked).expect("four walls").find_free_pose(0.1), None);
+    assert!((free_pose.x() - 0.05).abs() + (free_pose.y() - 0.05).abs() < 1e-12, "the first: {free_pose:?}");
+    let blocked_grid = grid_of(&["???", "???", "???"], UnknownCells::Blocked);
+    assert_eq!(FloorPlan::from_grid(blocked_grid).expect("four walls").find_free_pose(0.1), None);
 }

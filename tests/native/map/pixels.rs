@@ -11,8 +11,8 @@ fn pixels_are_read_as_map_server_reads_them() {
     let trinary = Interpretation::default();
     let pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opacity: 1.0 };
     let transparent = |value: u8| Pixel { opacity: 0.0, ..pixel(value) };
-    let scale = Interpretation { mode: Mode::Scale, ..trinary };
-    let raw = Interpretation { mode: Mode::Raw, ..trinary };
+    let scale_mode = Interpretation { mode: Mode::Scale, ..trinary };
+    let raw_mode = Interpretation { mode: Mode::Raw, ..trinary };
     let occupied_above = |occupied_thresh| Interpretation { occupied_thresh, ..trinary };
     let negated = |occupied_thresh| Interpretation { negate: true, ..occupied_above(occupied_thresh) };
     let free_below = |free_thresh| Interpretation { free_thresh, ..trinary };
@@ -32,16 +32,16 @@ fn pixels_are_read_as_map_server_reads_them() {
         ("at the threshold for free", free_below(0.2), pixel(204), Cell::Unknown),
         ("below the threshold for free", free_below(0.2), pixel(205), Cell::Free),
         ("nothing is below 0", free_below(0.0), pixel(255), Cell::Unknown),
-        ("scale, black", scale, pixel(0), Cell::Occupied),
-        ("scale, transparent black is unknown", scale, transparent(0), Cell::Unknown),
-        ("scale, what is between the thresholds is known in degrees", scale, pixel(150), Cell::Free),
-        ("raw, 100", raw, pixel(100), Cell::Occupied),
-        ("raw, 99", raw, pixel(99), Cell::Free),
-        ("raw, 101 is unknown", raw, pixel(101), Cell::Unknown),
-        ("raw, 0 is free", raw, pixel(0), Cell::Free),
-        ("raw, 255 is unknown", raw, pixel(255), Cell::Unknown),
-        ("raw does not negate", Interpretation { negate: true, ..raw }, pixel(100), Cell::Occupied),
-        ("raw does not negate", Interpretation { negate: true, ..raw }, pixel(155), Cell::Unknown),
+        ("scale, black", scale_mode, pixel(0), Cell::Occupied),
+        ("scale, transparent black is unknown", scale_mode, transparent(0), Cell::Unknown),
+        ("scale, what is between the thresholds is known in degrees", scale_mode, pixel(150), Cell::Free),
+        ("raw, 100", raw_mode, pixel(100), Cell::Occupied),
+        ("raw, 99", raw_mode, pixel(99), Cell::Free),
+        ("raw, 101 is unknown", raw_mode, pixel(101), Cell::Unknown),
+        ("raw, 0 is free", raw_mode, pixel(0), Cell::Free),
+        ("raw, 255 is unknown", raw_mode, pixel(255), Cell::Unknown),
+        ("raw does not negate", Interpretation { negate: true, ..raw_mode }, pixel(100), Cell::Occupied),
+        ("raw does not negate", Interpretation { negate: true, ..raw_mode }, pixel(155), Cell::Unknown),
     ];
     for (name, interpretation, pixel, cell) in cases {
         assert_eq!(interpretation.cell(pixel), cell, "{name}: {interpretation:?} {pixel:?}");
@@ -75,7 +75,7 @@ fn pgm_rasters_may_hold_any_bytes() {
 
 /// The error message names the line, the field, its value and what is allowed.
 #[test]
-fn malformed_pgm_files_are_explained() {
+fn errors_of_malformed_pgm_files_name_line_field_and_value() {
     let cases: [(&[u8], &str); 13] = [
         (b"", "line 1: the magic number is missing; allowed is P5 or P2"),
         (b"\x89PNG\r\n\x1a\n", r#"line 1: the magic number is "�PNG"; allowed is P5 or P2"#),

@@ -48,9 +48,9 @@ fn random_walls(count: usize, size: f64, bounds: [f64; 4], rng: &mut impl Rng) -
 // --------------------------------------------------------------------------------------------------- construction
 
 #[test]
-fn a_plan_is_checked() {
-    let outside = Segment { from: [10.001, 5.0], to: [1.0, 1.0] };
-    let error = FloorPlan::new(vec![wall(0.0, 0.0, 10.0, 10.0), outside], ROOM).expect_err("a bad wall");
+fn invalid_plans_are_refused() {
+    let outside_wall = Segment { from: [10.001, 5.0], to: [1.0, 1.0] };
+    let error = FloorPlan::new(vec![wall(0.0, 0.0, 10.0, 10.0), outside_wall], ROOM).expect_err("a bad wall");
     let message = error.to_string();
     assert!(message.starts_with("walls[1] ends at [") && message.contains("inside the bounds"), "{message}");
     let wall_segment = wall(1.0, 1.0, 9.0, 1.0);
@@ -70,9 +70,9 @@ fn a_plan_is_checked() {
 /// Collision results equal those of a loop over all walls. Maps are the apartment, long slanted walls close together, and a rotated
 /// grid. Arcs of all sizes turn by up to two circles, and robots have all sizes.
 #[test]
-fn verdicts_are_those_of_a_loop_over_all_walls() {
+fn collision_results_equal_those_of_a_loop_over_all_walls() {
     let mut rng = seeded(9650);
-    let diagonals = |count: u32| -> Vec<Segment> {
+    let diagonal_walls = |count: u32| -> Vec<Segment> {
         let end = |offset: f64| (offset.min(10.0), (offset - 10.0).max(0.0));
         let offsets = (0..count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(count));
         offsets.map(end).map(|(larger, smaller)| wall(smaller, larger, larger, smaller)).collect()
@@ -85,8 +85,8 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
     let long_walls = random_walls(12, 10.0, ROOM, &mut rng);
     let plans = [
         FloorPlan::apartment(),
-        room(diagonals(20)),
-        room(diagonals(300)),
+        room(diagonal_walls(20)),
+        room(diagonal_walls(300)),
         room(long_walls),
         room(vec![wall(2.0, 2.0, 9.0, 9.0); 300]),
         FloorPlan::from_grid(grid).expect("a small grid"),
@@ -107,25 +107,30 @@ fn verdicts_are_those_of_a_loop_over_all_walls() {
             let min_distance = |distance: &dyn Fn(&Segment) -> f64| {
                 plan.walls().iter().map(distance).fold(f64::INFINITY, f64::min)
             };
-            let to_end = min_distance(&|wall| wall.distance_to_point(end));
-            let to_arc = min_distance(&|wall| wall.distance_to_arc(&arc));
-            if (to_end - clearance).abs() < 1e-12 || (to_arc - clearance).abs() < 1e-12 {
+            let distance_to_end = min_distance(&|wall| wall.distance_to_point(end));
+            let distance_to_arc = min_distance(&|wall| wall.distance_to_arc(&arc));
+            if (distance_to_end - clearance).abs() < 1e-12 || (distance_to_arc - clearance).abs() < 1e-12 {
                 continue;
             }
-            let on_map = |point: [f64; 2]| {
+            let is_on_map = |point: [f64; 2]| {
                 (0..4).all(|i| {
                     let ([x0, y0], [x1, y1]) = (corners[i], corners[(i + 1) % 4]);
                     (x1 - x0) * (point[1] - y0) - (y1 - y0) * (point[0] - x0) >= 0.0
                 })
             };
             let edges = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] });
-            let leaves = edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
-            let in_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
-            let end_free = on_map(end) && !in_cell(end) && to_end > clearance;
-            let path_free = on_map(start) && !leaves && !in_cell(start) && end_free && to_arc > clearance;
-            assert_eq!(plan.test_point(end, clearance).free, end_free, "{number}: {arc:?} {clearance}");
-            assert_eq!(plan.test_arc(&arc, clearance).free, path_free, "{number}: {arc:?} {clearance}");
-            counts[usize::from(end_free) + usize::from(path_free)] += 1;
+            let crosses_edge =
+                edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
+            let is_in_occupied_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
+            let is_end_free = is_on_map(end) && !is_in_occupied_cell(end) && distance_to_end > clearance;
+            let is_path_free = is_on_map(start)
+                && !crosses_edge
+                && !is_in_occupied_cell(start)
+                && is_end_free
+                && distance_to_arc > clearance;
+            assert_eq!(plan.test_point(end, clearance).free, is_end_free, "{number}: {arc:?} {clearance}");
+            assert_eq!(plan.test_arc(&arc, clearance).free, is_path_free, "{number}: {arc:?} {clearance}");
+            counts[usize::from(is_end_free) + usize::from(is_path_free)] += 1;
         }
         assert!(counts.iter().all(|count| *count > 25), "{number}: {counts:?}");
     }
@@ -148,7 +153,7 @@ fn touching_is_not_free() {
 }
 
 #[test]
-fn the_open_place_has_the_most_room() {
+fn the_free_pose_is_in_the_largest_free_square() {
     let apartment = FloorPlan::apartment();
     for clearance in [0.0, 0.13, 0.5, 1.0] {
         let pose = apartment.find_free_pose(clearance).expect("there is room");

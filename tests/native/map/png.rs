@@ -51,7 +51,7 @@ fn grey_png(width: u32, samples: &[u16]) -> Vec<u8> {
 }
 
 #[test]
-fn every_kind_of_image_is_read_sample_for_sample() {
+fn every_kind_of_image_is_decoded_exactly() {
     let mut rng = seeded(9911);
     let kinds = [
         (ColorType::Grayscale, &[1, 2, 4, 8, 16][..]),
@@ -64,10 +64,11 @@ fn every_kind_of_image_is_read_sample_for_sample() {
         for (&bits, (width, height)) in depths.iter().flat_map(|bits| [(bits, (1, 1)), (bits, (33, 17))]) {
             for is_clear in [false, true] {
                 let count = width as usize * height * color.samples();
-                let mut random = |end: u32| (rng.next_u32() % end) as u16;
-                let samples: Vec<u16> = (0..count).map(|_| random(1 << bits)).collect();
-                let palette: Vec<u8> = (0..3 << bits.min(8)).map(|_| random(256) as u8).collect();
-                let opacities: Vec<u8> = (0..1 << (bits.min(8) - 1)).map(|_| random(256) as u8).collect();
+                let mut random_below = |end: u32| (rng.next_u32() % end) as u16;
+                let samples: Vec<u16> = (0..count).map(|_| random_below(1 << bits)).collect();
+                let palette: Vec<u8> = (0..3 << bits.min(8)).map(|_| random_below(256) as u8).collect();
+                let opacities: Vec<u8> =
+                    (0..1 << (bits.min(8) - 1)).map(|_| random_below(256) as u8).collect();
                 let first_pixel = &samples[..color.samples()];
                 let transparency = match color {
                     ColorType::Indexed => opacities.clone(),
@@ -81,7 +82,7 @@ fn every_kind_of_image_is_read_sample_for_sample() {
                     transparency: has_key.then_some(transparency),
                 };
                 let max_sample = f64::from((1u32 << bits) - 1);
-                let scaled = |sample: u16| (255.0 * f64::from(sample) / max_sample).round() as u8;
+                let to_byte = |sample: u16| (255.0 * f64::from(sample) / max_sample).round() as u8;
                 let expected: Vec<[u8; 4]> = samples
                     .chunks(color.samples())
                     .map(|pixel| {
@@ -93,10 +94,12 @@ fn every_kind_of_image_is_read_sample_for_sample() {
                                     opacities.get(index).copied().filter(|_| has_key).unwrap_or(255);
                                 [palette[3 * index], palette[3 * index + 1], palette[3 * index + 2], opacity]
                             }
-                            [grey] => [scaled(grey), scaled(grey), scaled(grey), opacity],
-                            [grey, opacity] => [scaled(grey), scaled(grey), scaled(grey), scaled(opacity)],
-                            [red, green, blue] => [scaled(red), scaled(green), scaled(blue), opacity],
-                            [red, green, blue, opacity] => [red, green, blue, opacity].map(scaled),
+                            [grey] => [to_byte(grey), to_byte(grey), to_byte(grey), opacity],
+                            [grey, opacity] => {
+                                [to_byte(grey), to_byte(grey), to_byte(grey), to_byte(opacity)]
+                            }
+                            [red, green, blue] => [to_byte(red), to_byte(green), to_byte(blue), opacity],
+                            [red, green, blue, opacity] => [red, green, blue, opacity].map(to_byte),
                             _ => unreachable!("four samples at most"),
                         }
                     })
@@ -111,7 +114,7 @@ fn every_kind_of_image_is_read_sample_for_sample() {
 
 /// The map does not depend on the format of its image.
 #[test]
-fn a_png_is_the_map_that_a_pgm_is() {
+fn a_png_gives_the_same_map_as_a_pgm() {
     let mut rng = seeded(9912);
     let samples: Vec<u16> = (0..20 * 30).map(|_| [0, 100, 205, 254][(rng.next_u32() % 4) as usize]).collect();
     let pgm = [b"P5 20 30 255\n".to_vec(), samples.iter().map(|sample| *sample as u8).collect()].concat();
@@ -143,7 +146,7 @@ fn an_image_that_is_cut_short_is_refused() {
 
 /// A small file may contain an enormous image. It must be refused from the size in its header.
 #[test]
-fn an_image_that_is_too_large_is_refused_unread() {
+fn an_image_that_is_too_large_is_refused_by_its_header() {
     let mut file = Vec::new();
     let side = 1 + (MAX_PIXELS as f64).sqrt() as u32;
     drop(Encoder::new(&mut file, side, side).write_header().expect("a header"));

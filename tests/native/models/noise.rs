@@ -11,7 +11,7 @@ fn draws(kind: NoiseKind, b2: f64, count: usize, seed: u64) -> Vec<f64> {
 }
 
 #[test]
-fn samples_have_the_distribution_they_should() {
+fn samples_follow_the_exact_distribution() {
     for kind in NOISE_KINDS {
         for (seed, b2) in [(1, 1.0), (2, 0.025), (3, 1e-8), (4, 400.0)] {
             let sample = draws(kind, b2, SAMPLES, seed);
@@ -22,7 +22,7 @@ fn samples_have_the_distribution_they_should() {
 }
 
 #[test]
-fn prob_is_a_density_and_that_of_the_samples() {
+fn prob_is_the_density_of_the_samples() {
     for kind in NOISE_KINDS {
         for b2 in [1e-6, 0.025, 1.0, 90.0] {
             let b = f64::sqrt(b2);
@@ -42,10 +42,10 @@ fn prob_is_a_density_and_that_of_the_samples() {
                     .sum::<f64>()
                     * h
                     / 3.0;
-                let exact = unit_cdf(kind, (left + width) / b) - unit_cdf(kind, left / b);
+                let increase_of_cdf = unit_cdf(kind, (left + width) / b) - unit_cdf(kind, left / b);
                 assert!(
-                    (simpson - exact).abs() < 3e-10,
-                    "{kind:?} b² = {b2} at {left}: {simpson}, not {exact}"
+                    (simpson - increase_of_cdf).abs() < 3e-10,
+                    "{kind:?} b² = {b2} at {left}: {simpson}, not {increase_of_cdf}"
                 );
                 integral += simpson;
             }
@@ -61,7 +61,7 @@ fn prob_is_a_density_and_that_of_the_samples() {
 }
 
 #[test]
-fn zero_variance_is_certainty() {
+fn with_zero_variance_samples_are_zero_and_prob_is_zero_or_one() {
     for kind in NOISE_KINDS {
         let mut rng = seeded(8);
         for _ in 0..100 {
@@ -95,13 +95,13 @@ fn quantiles_match_references_to_1e_15() {
 /// A seed gives equal draws in every release and on every machine, so that a shared link keeps showing the same picture. A
 /// computation from the generator's definition and 40-digit quantiles agrees to the last digit or the one before.
 #[test]
-fn seeded_draws_are_golden() {
-    for (kind, expected) in NOISE_KINDS.into_iter().zip(GOLDEN_DRAWS) {
+fn seeded_draws_equal_the_stored_ones() {
+    for (kind, expected) in NOISE_KINDS.into_iter().zip(STORED_DRAWS) {
         assert_eq!(draws(kind, 1.0, expected.len(), 2005), expected, "{kind:?}");
     }
 }
 
-const GOLDEN_DRAWS: [[f64; 6]; 2] = [
+const STORED_DRAWS: [[f64; 6]; 2] = [
     [
         0.27793797258994196,
         0.9207706073604969,

@@ -30,10 +30,11 @@ fn readings() -> [OdomDelta; 6] {
     ]
 }
 
-/// Returns the variances of Table 5.6. `angle` is the angle from which the noise of a rotation is computed.
-fn variances(reading: &OdomDelta, angle: impl Fn(f64) -> f64) -> [f64; 3] {
+/// Returns the variances of Table 5.6. `effective_angle` is the angle from which the noise of a rotation is computed.
+fn variances(reading: &OdomDelta, effective_angle: impl Fn(f64) -> f64) -> [f64; 3] {
     let [a1, a2, a3, a4] = ALPHAS.0;
-    let [r1, t, r2] = [angle(reading.rot1).powi(2), reading.trans.powi(2), angle(reading.rot2).powi(2)];
+    let [r1, t, r2] =
+        [effective_angle(reading.rot1).powi(2), reading.trans.powi(2), effective_angle(reading.rot2).powi(2)];
     [a1 * r1 + a2 * t, a3 * t + a4 * (r1 + r2), a1 * r2 + a2 * t]
 }
 
@@ -44,9 +45,9 @@ fn a_spin_on_the_spot_counts_as_the_second_rotation() {
         for jitter in [0.0, 1e-13, -1e-10] {
             let prev = SE2::new(3.0, -2.0, 1.0);
             let curr = SE2::new(3.0 + jitter, -2.0 - jitter, 1.0 + turn);
-            let step = OdomDelta::from_poses(&prev, &curr);
-            assert_eq!((step.rot1, step.trans), (0.0, 0.0));
-            assert!((step.rot2 - turn).abs() < 1e-15);
+            let spin_reading = OdomDelta::from_poses(&prev, &curr);
+            assert_eq!((spin_reading.rot1, spin_reading.trans), (0.0, 0.0));
+            assert!((spin_reading.rot2 - turn).abs() < 1e-15);
         }
     }
     // A translation of a nanometre or more has a direction.
@@ -60,22 +61,22 @@ fn a_spin_on_the_spot_counts_as_the_second_rotation() {
 
 /// Table 5.5 takes its variances from the hypothesis, not from the reading.
 #[test]
-fn prob_is_the_tables_score() {
+fn prob_is_the_score_of_table_5_5() {
     let mut rng = seeded(92);
     let x = SE2::new(1.0, 2.0, -0.5);
     for kind in NOISE_KINDS {
         for u in readings() {
             for _ in 0..200 {
-                let mut perturbed = |value: f64| value + uniform(&mut rng, -0.4, 0.4);
-                let executed = delta(perturbed(u.rot1), perturbed(u.trans), perturbed(u.rot2));
-                let [r1, t, r2] = variances(&executed, f64::abs);
-                let expected = kind.prob(u.rot1 - executed.rot1, Variance(r1))
-                    * kind.prob(u.trans - executed.trans, Variance(t))
-                    * kind.prob(u.rot2 - executed.rot2, Variance(r2));
-                let score = model(kind).prob(&executed.apply(&x), &u, &x);
+                let mut perturb = |value: f64| value + uniform(&mut rng, -0.4, 0.4);
+                let executed_legs = delta(perturb(u.rot1), perturb(u.trans), perturb(u.rot2));
+                let [r1, t, r2] = variances(&executed_legs, f64::abs);
+                let expected = kind.prob(u.rot1 - executed_legs.rot1, Variance(r1))
+                    * kind.prob(u.trans - executed_legs.trans, Variance(t))
+                    * kind.prob(u.rot2 - executed_legs.rot2, Variance(r2));
+                let score = model(kind).prob(&executed_legs.apply(&x), &u, &x);
                 assert!(
                     (score - expected).abs() <= 1e-9 * (1.0 + expected),
-                    "{executed:?} for {u:?}: {score}, not {expected}"
+                    "{executed_legs:?} for {u:?}: {score}, not {expected}"
                 );
             }
         }
@@ -83,7 +84,7 @@ fn prob_is_the_tables_score() {
 }
 
 #[test]
-fn zero_noise_gives_certainty_and_no_density() {
+fn without_noise_samples_are_exact_and_there_is_no_density() {
     let mut rng = seeded(93);
     let x = SE2::new(-1.0, 0.5, 2.0);
     for kind in NOISE_KINDS {
@@ -114,14 +115,14 @@ fn the_pose_density_divides_by_the_jacobian() {
             let variances = variances(&u, f64::abs);
             for _ in 0..100 {
                 let noise = variances.map(|b2| uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
-                let executed = delta(u.rot1 - noise[0], u.trans - noise[1], u.rot2 - noise[2]);
+                let executed_legs = delta(u.rot1 - noise[0], u.trans - noise[1], u.rot2 - noise[2]);
                 let [r1, t, r2] = [0, 1, 2].map(|leg| kind.prob(noise[leg], Variance(variances[leg])));
-                let expected = r1 * t * r2 / executed.trans;
-                let density = model(kind).pose_density(&executed.apply(&x), &u, &x).unwrap();
+                let expected = r1 * t * r2 / executed_legs.trans;
+                let density = model(kind).pose_density(&executed_legs.apply(&x), &u, &x).unwrap();
                 // Other legs that lead to the same pose, in reverse or with full turns, add less than 1e-6 with this noise.
                 assert!(
                     (density / expected - 1.0).abs() < 1e-6,
-                    "{u:?} at {executed:?}: {density}, not {expected}"
+                    "{u:?} at {executed_legs:?}: {density}, not {expected}"
                 );
             }
         }
@@ -178,25 +179,32 @@ fn cartesian_cov_is_the_linearized_motion() {
 
 /// Half a metre backwards is rot1 ≈ π, rot2 ≈ −π. Table 5.6 adds the noise of two half turns, and the option adds none.
 #[test]
-fn a_reversing_robot_has_the_noise_of_its_turn() {
+fn reverse_aware_noise_excludes_half_turns() {
     let x = SE2::new(1.0, 1.0, 0.5);
-    let back = OdomDelta::from_poses(&x, &x.boxplus(Vector3::new(-0.5, 0.0, 0.02)));
-    assert!(back.rot1.abs() > 3.0 && back.rot2.abs() > 3.0, "{back:?}");
-    let angle = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
+    let backward_reading = OdomDelta::from_poses(&x, &x.boxplus(Vector3::new(-0.5, 0.0, 0.02)));
+    assert!(backward_reading.rot1.abs() > 3.0 && backward_reading.rot2.abs() > 3.0, "{backward_reading:?}");
+    let effective_angle = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
     for kind in NOISE_KINDS {
-        let (unaware, aware) = (model(kind), ReverseAware(model(kind)));
+        let (unaware_model, aware_model) = (model(kind), ReverseAware(model(kind)));
         let mut rng = seeded(110);
-        let cloud: Vec<SE2> = (0..SAMPLES).map(|_| aware.sample(&back, &x, &mut rng)).collect();
-        let (value, limit) = box_around(&back, &x, variances(&back, angle))
-            .chi_square(&cloud, |pose| aware.pose_density(pose, &back, &x).unwrap());
+        let cloud: Vec<SE2> =
+            (0..SAMPLES).map(|_| aware_model.sample(&backward_reading, &x, &mut rng)).collect();
+        let (value, limit) = box_around(&backward_reading, &x, variances(&backward_reading, effective_angle))
+            .chi_square(&cloud, |pose| aware_model.pose_density(pose, &backward_reading, &x).unwrap());
         assert!(value < limit, "{kind:?}: χ² = {value}, limit {limit}");
 
         // `prob` computes variances from the hypothesis, also without half turns.
-        let executed = delta(back.rot1 + 0.02, back.trans - 0.05, back.rot2 - 0.03);
-        let [r1, t, r2] = variances(&OdomDelta::from_poses(&x, &executed.apply(&x)), angle);
+        let executed_legs =
+            delta(backward_reading.rot1 + 0.02, backward_reading.trans - 0.05, backward_reading.rot2 - 0.03);
+        let [r1, t, r2] = variances(&OdomDelta::from_poses(&x, &executed_legs.apply(&x)), effective_angle);
         let expected =
             kind.prob(0.02, Variance(r1)) * kind.prob(0.05, Variance(t)) * kind.prob(0.03, Variance(r2));
-        assert!((aware.prob(&executed.apply(&x), &back, &x) / expected - 1.0).abs() < 1e-9);
-        assert!(aware.prob(&back.apply(&x), &back, &x) > 50.0 * unaware.prob(&back.apply(&x), &back, &x));
+        assert!(
+            (aware_model.prob(&executed_legs.apply(&x), &backward_reading, &x) / expected - 1.0).abs() < 1e-9
+        );
+        assert!(
+            aware_model.prob(&backward_reading.apply(&x), &backward_reading, &x)
+                > 50.0 * unaware_model.prob(&backward_reading.apply(&x), &backward_reading, &x)
+        );
     }
 }

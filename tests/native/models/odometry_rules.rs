@@ -29,38 +29,38 @@ fn variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
 #[test]
 fn the_variances_of_each_rule_match_its_source() {
     // The robot turns by 0.5, drives 2 m and turns back by 1. No angle is nearer to π than to 0, and the total turn is −0.5.
-    let bend = delta(0.5, 2.0, -1.0);
+    let bend_reading = delta(0.5, 2.0, -1.0);
     // 0.1·0.25 + 0.2·4, 0.3·4 + 0.4·(0.25 + 1), 0.1·1 + 0.2·4.
     let bend_variances = [0.825, 1.7, 0.9, 0.0];
     // 0.3·4 + 0.4·0.25, 0.1·0.25 + 0.2·4, 0.5·4 + 0.4·0.25.
     let omni_bend_variances = [0.0, 1.3, 0.825, 2.1];
     // The robot backs up by 1 m: both rotations are π − 3 without their half turns, and the total turn is 0.
-    let backward_drive = delta(3.0, 1.0, -3.0);
+    let backward_reading = delta(3.0, 1.0, -3.0);
     let table_reverse_variances = [1.1, 7.5, 1.1, 0.0];
     let nav2_reverse_variances = [0.202004848, 0.316038784, 0.202004848, 0.0];
     // A turn on the spot by more than a quarter turn.
-    let spin = delta(0.0, 0.0, 2.2);
+    let spin_reading = delta(0.0, 0.0, 2.2);
     // The encoders jitter by half a centimetre, to the left and backwards, with a turn of 0.01 rad.
-    let jitter = delta(2.0, 0.005, -1.99);
+    let jitter_reading = delta(2.0, 0.005, -1.99);
     let cases = [
-        (Table, bend, bend_variances),
-        (Nav2, bend, bend_variances),
-        (Beluga, bend, bend_variances),
-        (Omni, bend, omni_bend_variances),
-        (Table, backward_drive, table_reverse_variances),
-        (Nav2, backward_drive, nav2_reverse_variances),
-        (Beluga, backward_drive, nav2_reverse_variances),
-        (Omni, backward_drive, [0.0, 0.3, 0.2, 0.5]),
-        (Table, spin, [0.0, 1.936, 0.484, 0.0]),
-        (Nav2, spin, [0.0, 0.35463869, 0.088659673, 0.0]),
-        (Beluga, spin, [0.0, 0.35463869, 0.088659673, 0.0]),
-        (Omni, spin, [0.0, 1.936, 0.484, 1.936]),
+        (Table, bend_reading, bend_variances),
+        (Nav2, bend_reading, bend_variances),
+        (Beluga, bend_reading, bend_variances),
+        (Omni, bend_reading, omni_bend_variances),
+        (Table, backward_reading, table_reverse_variances),
+        (Nav2, backward_reading, nav2_reverse_variances),
+        (Beluga, backward_reading, nav2_reverse_variances),
+        (Omni, backward_reading, [0.0, 0.3, 0.2, 0.5]),
+        (Table, spin_reading, [0.0, 1.936, 0.484, 0.0]),
+        (Nav2, spin_reading, [0.0, 0.35463869, 0.088659673, 0.0]),
+        (Beluga, spin_reading, [0.0, 0.35463869, 0.088659673, 0.0]),
+        (Omni, spin_reading, [0.0, 1.936, 0.484, 1.936]),
         // 0.1·4 + 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·(4 + 3.9601), 0.1·3.9601 + 0.2·2.5e-5.
-        (Table, jitter, [0.400005, 3.1840475, 0.396015, 0.0]),
+        (Table, jitter_reading, [0.400005, 3.1840475, 0.396015, 0.0]),
         // 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·1e-4, 0.1·1e-4 + 0.2·2.5e-5.
-        (Nav2, jitter, [0.000005, 0.0000475, 0.000015, 0.0]),
-        (Beluga, jitter, [0.000005, 0.0000475, 0.000015, 0.0]),
-        (Omni, jitter, [0.0, 0.0000475, 0.000015, 0.0000525]),
+        (Nav2, jitter_reading, [0.000005, 0.0000475, 0.000015, 0.0]),
+        (Beluga, jitter_reading, [0.000005, 0.0000475, 0.000015, 0.0]),
+        (Omni, jitter_reading, [0.0, 0.0000475, 0.000015, 0.0000525]),
     ];
     for (rule, reading, expected) in cases {
         for (computed, expected) in variances(rule, reading).into_iter().zip(expected) {
@@ -73,7 +73,7 @@ fn the_variances_of_each_rule_match_its_source() {
 }
 
 #[test]
-fn nav2_and_beluga_disagree_at_a_centimetre_alone() {
+fn nav2_and_beluga_differ_at_exactly_a_centimetre_only() {
     let reading = |trans| delta(1.0, trans, -0.4);
     for (trans, nav2_rot1, beluga_rot1) in [
         (MAX_SPIN_DISTANCE.next_down(), 0.0, 0.0),
@@ -90,7 +90,7 @@ fn nav2_and_beluga_disagree_at_a_centimetre_alone() {
 }
 
 #[test]
-fn the_table_and_the_reversing_option_are_the_models_of_the_crate() {
+fn table_and_nav2_variances_equal_those_of_the_two_odometry_models() {
     let mut rng = seeded(190);
     let [a1, a2, a3, a4, _] = ALPHAS;
     let model = OdometryModel { alphas: OdomAlphas([a1, a2, a3, a4]), noise: NoiseKind::Normal };
@@ -100,12 +100,13 @@ fn the_table_and_the_reversing_option_are_the_models_of_the_crate() {
             uniform(&mut rng, MAX_SPIN_DISTANCE.next_up(), 3.0),
             uniform(&mut rng, -PI, PI),
         );
-        let three = |rule| -> [f64; 3] { std::array::from_fn(|leg| variances(rule, reading)[leg]) };
-        assert_eq!(three(Table), model.variances(&reading).map(|variance| variance.0));
+        let leg_variances = |rule| -> [f64; 3] { std::array::from_fn(|leg| variances(rule, reading)[leg]) };
+        assert_eq!(leg_variances(Table), model.variances(&reading).map(|variance| variance.0));
         // The score of the pose to which the reading leads is the product of three densities at 0. They depend on the variances only.
         let x = SE2::identity();
         let peak = ReverseAware(model).prob(&reading.apply(&x), &reading, &x);
-        let product: f64 = three(Nav2).iter().map(|b2| NoiseKind::Normal.prob(0.0, Variance(*b2))).product();
+        let product: f64 =
+            leg_variances(Nav2).iter().map(|b2| NoiseKind::Normal.prob(0.0, Variance(*b2))).product();
         assert!((peak / product - 1.0).abs() < 1e-9, "{peak}, not {product}");
     }
 }
@@ -117,10 +118,10 @@ fn legs_of_every_rule_end_where_the_reading_does() {
     for _ in 0..10_000 {
         let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
         let (from, to) = (SE2::new(draw(5.0), draw(5.0), draw(PI)), SE2::new(draw(5.0), draw(5.0), draw(PI)));
-        let nearby = from
+        let nearby_pose = from
             * SE2::new(0.2 * MAX_SPIN_DISTANCE * draw(1.0), 0.2 * MAX_SPIN_DISTANCE * draw(1.0), draw(PI));
         for rule in OdometryRule::ALL {
-            for (to, tolerance) in [(to, 1e-13), (nearby, MAX_SPIN_DISTANCE)] {
+            for (to, tolerance) in [(to, 1e-13), (nearby_pose, MAX_SPIN_DISTANCE)] {
                 let legs = rule.legs(&OdomDelta::from_poses(&from, &to));
                 let without_noise = rule.variances(&legs, &[0.0; 5]).executed_motion(&legs, [1.0; 3]);
                 assert!(pose_distance(&without_noise.poses(&from)[3], &to) < tolerance, "{rule:?}");
@@ -148,7 +149,7 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
 
 /// The mean square of n outcomes with kurtosis κ has the relative standard error √((κ − 1)/n). κ is estimated from the outcomes.
 #[test]
-fn exact_spreads_match_samples() {
+fn exact_variances_match_samples() {
     let readings = [delta(0.7, 1.5, 0.5), delta(3.0, 1.0, -3.0), delta(0.2, 0.3, FRAC_PI_2)];
     for (kind, rule) in NOISE_KINDS.into_iter().flat_map(|kind| OdometryRule::ALL.map(|rule| (kind, rule))) {
         for reading in readings {
@@ -161,11 +162,12 @@ fn exact_spreads_match_samples() {
             let outcomes: Vec<[f64; 2]> = (0..SAMPLES)
                 .map(|_| {
                     let [a, b, c] = [draw(), draw(), draw()];
-                    let executed =
+                    let executed_motion =
                         variances.executed_motion(&legs, [a, b, rho * a + (1.0 - rho * rho).sqrt() * c]);
-                    let [_, _, driven, _] = executed.poses(&start);
+                    let [_, _, driven, _] = executed_motion.poses(&start);
                     let (dx, dy) = (driven.x() - start.x(), driven.y() - start.y());
-                    let turn_error = executed.legs.rot1 + executed.legs.rot2 - legs.rot1 - legs.rot2;
+                    let turn_error =
+                        executed_motion.legs.rot1 + executed_motion.legs.rot2 - legs.rot1 - legs.rot2;
                     [dy * bearing.cos() - dx * bearing.sin(), turn_error]
                 })
                 .collect();

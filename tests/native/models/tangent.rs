@@ -14,7 +14,7 @@ const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
 /// Command of one of twenty steps that are compounded.
 const STEP: VelocityCmd = VelocityCmd { dt: 0.2, ..U };
-const FULL_RANK: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]);
+const FULL_RANK_ALPHAS: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]);
 
 fn model_of(alphas: VelocityAlphas) -> VelocityModel {
     VelocityModel { alphas, noise: NoiseKind::Normal }
@@ -31,14 +31,14 @@ fn log_normal(d: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     -0.5 * (d.dot(&(inverse * d)) + cov.determinant().ln() + 3.0 * (2.0 * PI).ln())
 }
 
-fn starts() -> [SE2; 2] {
+fn start_poses() -> [SE2; 2] {
     [SE2::identity(), SE2::new(-2.0, 5.0, 2.8)]
 }
 
 #[test]
 fn log_prob_is_a_gaussian_in_exponential_coordinates() {
     let mut rng = seeded(120);
-    for x in starts() {
+    for x in start_poses() {
         let model = TangentNoiseModel::new(full_cov()).unwrap();
         for _ in 0..500 {
             let w = Vector3::from_fn(|_, _| uniform(&mut rng, -1.0, 1.0));
@@ -61,7 +61,7 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
 /// Without noise of speed, of turn or of both, the density is a sheet of a micrometre or a microradian instead of undefined. Residuals
 /// are rounded to 1e-16, a ten-billionth of that, and the relative change of the other variances is 4e-11.
 #[test]
-fn no_noise_before_the_last_turn_has_a_thin_density() {
+fn without_noise_in_the_arc_the_density_is_finite() {
     for [along, turn] in [[0.0, 0.025], [0.025, 0.0], [0.0, 0.0]] {
         let alphas = VelocityAlphas([0.8 * along, 0.8 * along, 0.8 * turn, 0.8 * turn, 0.01, 0.01]);
         let model = TangentNoiseModel::from_velocity(&model_of(alphas), &U).unwrap();
@@ -75,18 +75,18 @@ fn no_noise_before_the_last_turn_has_a_thin_density() {
 
 /// A density over ξ is a density over poses times dx dy dθ / dξ = sinc²(ξ_ω/2), with the turn ξ_ω.
 #[test]
-fn the_velocity_models_tangent_form_has_the_same_density() {
+fn the_tangent_form_has_the_density_of_the_velocity_model() {
     let mut rng = seeded(121);
     let alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
-    for x in starts() {
+    for x in start_poses() {
         for (v, omega) in [(1.0, 0.5), (1.0, -0.5), (-1.0, 0.5), (-0.8, -1.0)] {
             let u = VelocityCmd { v, omega, dt: 1.2 };
             let model = TangentNoiseModel::from_velocity(&model_of(alphas), &u).unwrap();
             for _ in 0..200 {
-                let unit = [(); 3].map(|()| uniform(&mut rng, -2.0, 2.0));
-                let next = model_of(alphas).apply_noise(&u, &x, unit);
-                let half = 0.5 * next.boxminus(&x).z;
-                let log_volume = 2.0 * (half.sin() / half).ln();
+                let unit_noise = [(); 3].map(|()| uniform(&mut rng, -2.0, 2.0));
+                let next = model_of(alphas).apply_noise(&u, &x, unit_noise);
+                let half_turn = 0.5 * next.boxminus(&x).z;
+                let log_volume = 2.0 * (half_turn.sin() / half_turn).ln();
                 let expected = model_of(alphas).pose_density(&next, &u, &x).unwrap().ln() + log_volume;
                 let value = model.log_prob(&next, &u, &x);
                 assert!((value - expected).abs() < 1e-6, "{u:?} at {next:?}: {value}, not {expected}");
@@ -111,7 +111,7 @@ fn sampler_and_density_agree() {
         let distance = kolmogorov_smirnov(component, |z| unit_cdf(NoiseKind::Normal, z));
         assert!(distance < MAX_KOLMOGOROV_SMIRNOV, "axis {axis}: √n·D = {distance}");
     }
-    // Squared radii that cut χ² with three degrees of freedom at the quartiles.
+    // Quartiles of χ² with three degrees of freedom.
     const QUARTILES: [f64; 3] = [1.212_532_903_045_966, 2.365_973_884_375_339, 4.108_344_935_632_316];
     let mut counts = [0.0; 32];
     for w in &whitened {
@@ -142,25 +142,31 @@ fn compound_is_the_chapters_recursion() {
         }
     }
     // γ̂'s variance is part of the chapter's R.
-    let model = TangentNoiseModel::from_velocity(&model_of(FULL_RANK), &U).unwrap();
+    let model = TangentNoiseModel::from_velocity(&model_of(FULL_RANK_ALPHAS), &U).unwrap();
     let expected = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.03125));
     assert!((model.compound(&Matrix3::zeros(), &Vector3::zeros()) - expected).amax() < 1e-16);
 }
 
 /// A step from an exact pose transforms noise inside the arc to J_r R J_rᵀ. Noise of γ̂, which turns the robot after the arc, stays as it is.
 #[test]
-fn first_order_turns_the_noise_inside_the_arc_only() {
+fn first_order_transforms_the_noise_inside_the_arc_only() {
     let tau = TangentNoiseModel::twist(&U);
     let jacobian = SE2::right_jacobian(&tau);
     let arc_cov = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025));
     let turn_cov = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 0.00625));
     let one_step =
         |model: &TangentNoiseModel| model.propagate(&Matrix3::zeros(), &tau, Compounding::FirstOrder);
-    let separate = TangentNoiseModel::from_velocity(&model_of(FULL_RANK), &U).unwrap();
-    assert!((one_step(&separate) - (jacobian * arc_cov * jacobian.transpose() + turn_cov)).amax() < 1e-15);
-    let merged = TangentNoiseModel::new(arc_cov + turn_cov).unwrap();
-    assert!((one_step(&merged) - jacobian * (arc_cov + turn_cov) * jacobian.transpose()).amax() < 1e-15);
-    assert!((one_step(&separate) - one_step(&merged)).amax() > 1e-4);
+    let separate_turn_model = TangentNoiseModel::from_velocity(&model_of(FULL_RANK_ALPHAS), &U).unwrap();
+    assert!(
+        (one_step(&separate_turn_model) - (jacobian * arc_cov * jacobian.transpose() + turn_cov)).amax()
+            < 1e-15
+    );
+    let merged_turn_model = TangentNoiseModel::new(arc_cov + turn_cov).unwrap();
+    assert!(
+        (one_step(&merged_turn_model) - jacobian * (arc_cov + turn_cov) * jacobian.transpose()).amax()
+            < 1e-15
+    );
+    assert!((one_step(&separate_turn_model) - one_step(&merged_turn_model)).amax() > 1e-4);
 }
 
 fn after_twenty_steps(model: &TangentNoiseModel, order: Compounding) -> Matrix3<f64> {
@@ -170,7 +176,7 @@ fn after_twenty_steps(model: &TangentNoiseModel, order: Compounding) -> Matrix3<
 
 #[test]
 fn twenty_steps_match_the_references() {
-    let model = TangentNoiseModel::from_velocity(&model_of(FULL_RANK), &STEP).unwrap();
+    let model = TangentNoiseModel::from_velocity(&model_of(FULL_RANK_ALPHAS), &STEP).unwrap();
     let table = Table::parse(include_str!("../../reference/compounding.csv"));
     for (row, order) in
         table.rows().zip([Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder])

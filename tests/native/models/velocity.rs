@@ -25,13 +25,14 @@ fn noise_free_end(u: &VelocityCmd, x: &SE2) -> SE2 {
 /// Returns commands with all signs of v and ω, straight ones, and spins on the spot.
 fn commands() -> Vec<VelocityCmd> {
     let signs = [(1.0, 0.5), (1.0, -0.5), (-1.0, 0.5), (-1.0, -0.5)];
-    let mut list: Vec<_> = signs.map(|(v, omega)| command(v, omega, 1.0)).to_vec();
-    list.extend(signs.map(|(v, omega)| command(0.3 * v, 4.0 * omega, 0.8)));
-    list.extend([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(v, omega)| command(v, omega, 1.3)));
-    list
+    let mut command_list: Vec<_> = signs.map(|(v, omega)| command(v, omega, 1.0)).to_vec();
+    command_list.extend(signs.map(|(v, omega)| command(0.3 * v, 4.0 * omega, 0.8)));
+    command_list
+        .extend([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(v, omega)| command(v, omega, 1.3)));
+    command_list
 }
 
-fn starts() -> [SE2; 3] {
+fn start_poses() -> [SE2; 3] {
     [SE2::identity(), SE2::new(-3.0, 7.0, 2.5), SE2::new(40.0, 0.1, -PI / 2.0)]
 }
 
@@ -43,14 +44,14 @@ fn prob_falls_off_as_the_noise_does() {
     {
         let model = model(WITH_LAST_TURN, kind);
         for u in commands().into_iter().filter(|u| u.v != 0.0) {
-            for x in starts() {
+            for x in start_poses() {
                 let peak = model.prob(&noise_free_end(&u, &x), &u, &x);
                 for control in 0..3 {
                     for sign in [1.0, -1.0] {
-                        let mut unit = [0.0; 3];
-                        unit[control] = sign;
-                        let score = model.prob(&model.apply_noise(&u, &x, unit), &u, &x);
-                        assert!((score / peak - ratio).abs() < 1e-9, "{kind:?} {u:?} noise {unit:?}");
+                        let mut unit_noise = [0.0; 3];
+                        unit_noise[control] = sign;
+                        let score = model.prob(&model.apply_noise(&u, &x, unit_noise), &u, &x);
+                        assert!((score / peak - ratio).abs() < 1e-9, "{kind:?} {u:?} noise {unit_noise:?}");
                     }
                 }
             }
@@ -59,12 +60,12 @@ fn prob_falls_off_as_the_noise_does() {
 }
 
 #[test]
-fn zero_noise_gives_certainty_and_no_density() {
+fn without_noise_samples_are_exact_and_there_is_no_density() {
     let mut rng = seeded(53);
     for kind in NOISE_KINDS {
         let noise_free_model = model(VelocityAlphas([0.0; 6]), kind);
         for u in commands() {
-            for x in starts() {
+            for x in start_poses() {
                 let end = noise_free_end(&u, &x);
                 assert_eq!(noise_free_model.sample(&u, &x, &mut rng), end);
                 assert_eq!(noise_free_model.prob(&end, &u, &x), 1.0);
@@ -79,11 +80,11 @@ fn zero_noise_gives_certainty_and_no_density() {
             }
         }
         // Noise is proportional to motion. A parked robot has none.
-        let parked = command(0.0, 0.0, 1.0);
-        for x in starts() {
-            assert_eq!(model(WITH_LAST_TURN, kind).sample(&parked, &x, &mut rng), x);
-            assert_eq!(model(WITH_LAST_TURN, kind).prob(&x, &parked, &x), 1.0);
-            assert_eq!(model(WITH_LAST_TURN, kind).pose_density(&x, &parked, &x), None);
+        let parked_command = command(0.0, 0.0, 1.0);
+        for x in start_poses() {
+            assert_eq!(model(WITH_LAST_TURN, kind).sample(&parked_command, &x, &mut rng), x);
+            assert_eq!(model(WITH_LAST_TURN, kind).prob(&x, &parked_command, &x), 1.0);
+            assert_eq!(model(WITH_LAST_TURN, kind).pose_density(&x, &parked_command, &x), None);
         }
     }
 }
@@ -101,8 +102,8 @@ fn samples_far_from_the_origin_have_a_positive_score() {
             for _ in 0..1000 {
                 let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
                 let x = SE2::new(draw(distance), draw(distance), draw(PI));
-                let unit = [draw(2.0), draw(2.0), 0.0];
-                let end = model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit);
+                let unit_noise = [draw(2.0), draw(2.0), 0.0];
+                let end = model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit_noise);
                 assert!(
                     model(alphas, NoiseKind::Normal).prob(&end, &u, &x) > 0.0,
                     "{u:?} from {x:?} to {end:?}"
@@ -119,10 +120,10 @@ fn the_pose_density_divides_by_the_jacobian() {
     let model = model(WITH_LAST_TURN, NoiseKind::Normal);
     for u in commands().into_iter().filter(|u| u.v != 0.0) {
         let deviations = model.variances(&u).map(|b2| b2.0.sqrt());
-        for x in starts() {
-            let unit = [(); 3].map(|()| uniform(&mut rng, -1.5, 1.5));
-            let end = model.apply_noise(&u, &x, unit);
-            let derivative = derivative(unit, |unit| model.apply_noise(&u, &x, unit));
+        for x in start_poses() {
+            let unit_noise = [(); 3].map(|()| uniform(&mut rng, -1.5, 1.5));
+            let end = model.apply_noise(&u, &x, unit_noise);
+            let derivative = derivative(unit_noise, |unit_noise| model.apply_noise(&u, &x, unit_noise));
             let determinant = derivative.determinant().abs() / deviations.iter().product::<f64>();
             let expected = model.prob(&end, &u, &x) / determinant;
             let density = model.pose_density(&end, &u, &x).unwrap();
@@ -165,7 +166,7 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
 /// spaced headings is exact except for harmonics, which are below 1e-12 from a deviation of 0.1 on.
 #[test]
 fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
-    const HEADINGS: u32 = 128;
+    const HEADING_COUNT: u32 = 128;
     let x = SE2::new(1.0, -1.0, -2.0);
     let u = command(1.0, 0.5, 1.0);
     for (a, b) in [(1.0, 0.2), (0.8, 0.1)] {
@@ -173,8 +174,9 @@ fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
         let density = |deviation: f64| -> f64 {
             let alpha5 = deviation * deviation;
             let model = model(VelocityAlphas([0.05, 0.05, 0.05, 0.09, alpha5, 0.0]), NoiseKind::Normal);
-            let spacing = TAU / f64::from(HEADINGS);
-            let poses = (0..HEADINGS).map(|i| SE2::new(position.x(), position.y(), spacing * f64::from(i)));
+            let spacing = TAU / f64::from(HEADING_COUNT);
+            let poses =
+                (0..HEADING_COUNT).map(|i| SE2::new(position.x(), position.y(), spacing * f64::from(i)));
             poses.map(|pose| model.pose_density(&pose, &u, &x).unwrap()).sum::<f64>() * spacing
         };
         let expected = density(0.1);
@@ -211,20 +213,20 @@ fn the_tables_prob_differs_from_the_density_by_a_few_percent() {
     let (u, x) = (command(1.0, 0.5, 1.0), SE2::identity());
     let model = model(WITH_LAST_TURN, NoiseKind::Normal);
     let grid = box_around(&model, &u, &x);
-    let density = grid.masses(|pose| model.pose_density(pose, &u, &x).unwrap());
-    let scores = grid.masses(|pose| model.prob(pose, &u, &x));
+    let density = grid.cell_masses(|pose| model.pose_density(pose, &u, &x).unwrap());
+    let scores = grid.cell_masses(|pose| model.prob(pose, &u, &x));
     let total: f64 = scores.iter().sum();
-    let variation: f64 = density.iter().zip(&scores).map(|(d, s)| 0.5 * (d - s / total).abs()).sum();
-    assert!((0.02..0.15).contains(&variation), "total variation {variation}");
+    let total_variation: f64 = density.iter().zip(&scores).map(|(d, s)| 0.5 * (d - s / total).abs()).sum();
+    assert!((0.02..0.15).contains(&total_variation), "total variation {total_variation}");
 }
 
 #[test]
 fn cartesian_cov_is_the_linearized_arc() {
     for u in commands() {
-        for x in starts() {
+        for x in start_poses() {
             for alphas in [WITHOUT_LAST_TURN, WITH_LAST_TURN] {
                 let model = model(alphas, NoiseKind::Normal);
-                let jacobian = derivative([0.0; 3], |unit| model.apply_noise(&u, &x, unit));
+                let jacobian = derivative([0.0; 3], |unit_noise| model.apply_noise(&u, &x, unit_noise));
                 let expected = jacobian * jacobian.transpose();
                 let cov = model.cartesian_cov(&u, &x);
                 assert!((cov - expected).amax() < 1e-8, "{u:?} from {x:?}\n{cov}{expected}");

@@ -36,7 +36,7 @@ fn numbers_in_messages_are_formatted_as_in_javascript() {
 }
 
 #[test]
-fn settings_js_is_what_the_core_declares() {
+fn settings_js_equals_the_declarations_in_the_core() {
     let expected = settings_js();
     if std::env::var_os("UPDATE_SETTINGS").is_some() {
         std::fs::write(PATH, &expected).expect("www/settings.js can be written");
@@ -159,9 +159,9 @@ fn object_lines(objects: impl IntoIterator<Item = String>) -> String {
 /// Returns a line for each setting, and for each number of a group or list. `number_sentences` describe the numbers of a list.
 fn declaration_lines(mut defaults: impl DeclaredSettings, number_sentences: &[&str]) -> String {
     let mut objects = Vec::new();
-    let shared = shared_fields(&mut defaults);
+    let shared_keys = shared_fields(&mut defaults);
     let _ = defaults.visit_settings(&mut |declaration, setting| {
-        describe(declaration, setting, number_sentences, &shared, &mut objects);
+        describe_setting(declaration, setting, number_sentences, &shared_keys, &mut objects);
         ControlFlow::Continue(())
     });
     object_lines(objects)
@@ -169,24 +169,25 @@ fn declaration_lines(mut defaults: impl DeclaredSettings, number_sentences: &[&s
 
 /// Returns the keys of fields that more than one group has, as two poses do. Their attributes consist of the group's name and the key.
 fn shared_fields(defaults: &mut impl DeclaredSettings) -> Vec<&'static str> {
-    let (mut seen, mut shared) = (Vec::new(), Vec::new());
+    let (mut seen_keys, mut shared_keys) = (Vec::new(), Vec::new());
     let _ = defaults.visit_settings(&mut |_, setting| {
         if let Setting::Group(group) = setting {
             for Field { declaration, .. } in group.fields() {
-                if seen.contains(&declaration.key) { &mut shared } else { &mut seen }.push(declaration.key);
+                if seen_keys.contains(&declaration.key) { &mut shared_keys } else { &mut seen_keys }
+                    .push(declaration.key);
             }
         }
         ControlFlow::Continue(())
     });
-    shared
+    shared_keys
 }
 
 /// Appends the JavaScript object that describes a setting. A setting with several numbers has another object for each of them.
-fn describe(
+fn describe_setting(
     declaration: &Declaration,
     setting: Setting,
     number_sentences: &[&str],
-    shared: &[&str],
+    shared_keys: &[&str],
     objects: &mut Vec<String>,
 ) {
     let Declaration { key, of, sentence, unit } = *declaration;
@@ -235,9 +236,12 @@ fn describe(
             for (i, field) in group.fields().iter().enumerate() {
                 let value = *group.number(i);
                 let Declaration { key: part, sentence, unit, .. } = field.declaration;
-                let name = if shared.contains(&part) {
-                    let (initial, tail) = part.split_at(1);
-                    format!("key: '{key}{}{tail}', in: '{key}', field: '{part}'", initial.to_uppercase())
+                let name = if shared_keys.contains(&part) {
+                    let (initial, remaining_key) = part.split_at(1);
+                    format!(
+                        "key: '{key}{}{remaining_key}', in: '{key}', field: '{part}'",
+                        initial.to_uppercase()
+                    )
                 } else {
                     format!("key: '{part}', in: '{key}'")
                 };

@@ -12,7 +12,7 @@ fn machine(settings: Settings) -> AlphaCalibrator {
 }
 
 /// Returns true for each α, and then for each systematic error, whose interval holds the value of the simulation.
-fn intervals_hold_truth(machine: &AlphaCalibrator) -> [bool; 10] {
+fn intervals_contain_truth(machine: &AlphaCalibrator) -> [bool; 10] {
     let calibration = machine.calibration();
     let truth = machine.truth().expect("a simulated log");
     let [ahead, left] = truth.lever_arm;
@@ -28,9 +28,9 @@ fn intervals_hold_truth(machine: &AlphaCalibrator) -> [bool; 10] {
 }
 
 #[test]
-fn the_opening_intervals_hold_the_true_values() {
+fn the_initial_intervals_contain_the_true_values() {
     let machine = machine(Settings::default());
-    assert_eq!(intervals_hold_truth(&machine), [true; 10]);
+    assert_eq!(intervals_contain_truth(&machine), [true; 10]);
     assert_eq!(machine.calibration().diagnostics.verdict, Verdict::Consistent);
 }
 
@@ -52,7 +52,7 @@ fn legs_end_after_a_duration_where_one_is_set() {
 
 /// A standard deviation of 0 is estimated from the log; any other is used as stated.
 #[test]
-fn the_noise_of_the_reference_is_stated_or_estimated() {
+fn the_reference_noise_is_estimated_unless_it_is_stated() {
     let reference_noise = |position_std: f64, yaw_std: f64| {
         let machine = machine(Settings { position_std, yaw_std, ..Settings::default() });
         machine.calibration().reference_noise.map(|std| (std.value, std.interval[0] == std.interval[1]))
@@ -87,11 +87,12 @@ fn panels_are_means_of_squared_innovations() {
             [turns, innovation * innovation - (variance - slope * turns)]
         })
         .collect();
-    points.sort_by(|one, other| one[0].total_cmp(&other[0]));
-    let bin_len = points.len().div_ceil(8);
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let bin_size = points.len().div_ceil(8);
     // A bin of legs ends after all legs that turned exactly as much as its last one.
-    let bin_end =
-        |i: usize| points.partition_point(|point| point[0] <= points[(i * bin_len).min(points.len()) - 1][0]);
+    let bin_end = |i: usize| {
+        points.partition_point(|point| point[0] <= points[(i * bin_size).min(points.len()) - 1][0])
+    };
     for i in 0..8 {
         let bin = &points[if i == 0 { 0 } else { bin_end(i) }..bin_end(i + 1)];
         let mean = |axis: usize| bin.iter().map(|point| point[axis]).sum::<f64>() / bin.len() as f64;
@@ -123,8 +124,8 @@ fn the_error_bars_of_panels_hold_the_fitted_lines() {
             }
         }
     }
-    let share = |count: usize| count as f64 / bins as f64;
-    assert!(share(over2) < 0.0455 && share(over3) < 0.0027, "{over2} and {over3} of {bins}");
+    let fraction = |count: usize| count as f64 / bins as f64;
+    assert!(fraction(over2) < 0.0455 && fraction(over3) < 0.0027, "{over2} and {over3} of {bins}");
 }
 
 #[test]
@@ -137,9 +138,12 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     let motion = from.inverse() * to;
     assert_eq!(view.ended, [motion.x(), motion.y(), motion.theta()]);
     let [rot1, trans, rot2] = calibration.observations[index].reading;
-    let read = OdomDelta { rot1, trans, rot2 }.apply(&SE2::identity());
+    let odometry_end = OdomDelta { rot1, trans, rot2 }.apply(&SE2::identity());
     assert!(
-        view.read.iter().zip([read.x(), read.y(), read.theta()]).all(|(is, has)| (is - has).abs() < 1e-12)
+        view.read
+            .iter()
+            .zip([odometry_end.x(), odometry_end.y(), odometry_end.theta()])
+            .all(|(is, has)| (is - has).abs() < 1e-12)
     );
     // Outcomes are drawn by the rule, with an inflation of four: variances times four.
     let mut alphas = [0.0; 5];
@@ -182,13 +186,13 @@ fn the_nearest_leg_passes_through_the_point() {
 }
 
 #[test]
-fn the_model_and_the_rule_go_together() {
+fn changing_the_model_or_the_rule_adjusts_the_other() {
     use motion::sim::settings::Rules;
     let settings_after = |change: fn(&mut Settings), named: &str| {
-        let before = Settings::default();
-        let mut settings = before;
+        let results_before = Settings::default();
+        let mut settings = results_before;
         change(&mut settings);
-        settings.adjust(&before, &[named]);
+        settings.adjust(&results_before, &[named]);
         settings
     };
     assert_eq!(settings_after(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
@@ -200,22 +204,30 @@ fn the_model_and_the_rule_go_together() {
 }
 
 #[test]
-fn a_restored_fit_is_the_fitted_one_to_the_last_bit() {
+fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
     let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
     let machine = machine(settings);
-    let mut restored = AlphaCalibrator::restore(settings, &machine.save()).expect("a fit");
+    let mut restored_machine = AlphaCalibrator::restore(settings, &machine.save()).expect("a fit");
     // Residuals that a leg does not show are NaN, which equals nothing.
     let results = |fit: &AlphaCalibrator| {
         let panels = [Regressor::Turn, Regressor::Distance].map(|regressor| fit.panels(regressor));
         format!("{:?} {panels:?} {:?} {:?}", fit.calibration(), fit.leg(5), fit.nearest([0.5, 1.0], 3.0))
     };
-    let before = results(&machine);
-    assert!(results(&restored) == before && restored.truth().is_none() && !restored.is_pending());
+    let results_before = results(&machine);
+    assert!(
+        results(&restored_machine) == results_before
+            && restored_machine.truth().is_none()
+            && !restored_machine.is_pending()
+    );
     // A new inflation changes only predictions. Another rule needs the log.
-    restored.configure(Settings { inflation: 2.0, ..settings }).expect("allowed");
-    assert!(!restored.is_pending() && results(&restored) != before);
-    restored.configure(Settings::default()).expect("allowed");
-    assert!(restored.is_pending() && results(&restored) == before && *restored.fitted_settings() == settings);
+    restored_machine.configure(Settings { inflation: 2.0, ..settings }).expect("allowed");
+    assert!(!restored_machine.is_pending() && results(&restored_machine) != results_before);
+    restored_machine.configure(Settings::default()).expect("allowed");
+    assert!(
+        restored_machine.is_pending()
+            && results(&restored_machine) == results_before
+            && *restored_machine.fitted_settings() == settings
+    );
     assert_eq!(AlphaCalibrator::restore(settings, &[1, 2]).unwrap_err(), RestoreError::Bytes);
 }
 

@@ -80,8 +80,8 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
         let Stats { commanded, driven, last_turn, .. } = stats(settings);
         assert!(wrap_angle(driven.end[2] + last_turn - next.theta()).abs() < 1e-13, "{settings:?}");
         let [commanded_end, driven_end, _] = machine(settings).poses_at(1.0);
-        for (robot, bend) in [(commanded_end, commanded), (driven_end, driven)] {
-            assert_eq!([robot.x(), robot.y()], bend.end[..2], "{settings:?}");
+        for (robot, arc) in [(commanded_end, commanded), (driven_end, driven)] {
+            assert_eq!([robot.x(), robot.y()], arc.end[..2], "{settings:?}");
         }
     }
 }
@@ -92,27 +92,27 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
 fn the_printed_option_mirrors_centres_to_the_right() {
     let mut right_count = 0;
     for settings in random_settings(4).take(2000) {
-        let signed = stats(settings);
+        let signed_stats = stats(settings);
         let printed = stats(Settings { printed: true, ..settings });
         let [x, y, _] = printed.driven.end;
         let (start, next) = poses(&settings);
-        let mirrored = [2.0 * start.x() - next.x(), 2.0 * start.y() - next.y()];
-        let expected = if signed.inverted.radius < 0.0 { mirrored } else { [next.x(), next.y()] };
-        right_count += usize::from(signed.inverted.radius < 0.0);
-        let allowed = 1e-13 * (10.0 + signed.driven.arc_length.abs());
+        let mirrored_end = [2.0 * start.x() - next.x(), 2.0 * start.y() - next.y()];
+        let expected = if signed_stats.inverted.radius < 0.0 { mirrored_end } else { [next.x(), next.y()] };
+        right_count += usize::from(signed_stats.inverted.radius < 0.0);
+        let allowed = 1e-13 * (10.0 + signed_stats.driven.arc_length.abs());
         assert!((x - expected[0]).hypot(y - expected[1]) < allowed, "{settings:?}");
-        assert_eq!(printed.inverted, signed.inverted);
-        assert_eq!(printed.factors[1..], signed.factors[1..]);
-        assert_eq!(printed.density, signed.density);
+        assert_eq!(printed.inverted, signed_stats.inverted);
+        assert_eq!(printed.factors[1..], signed_stats.factors[1..]);
+        assert_eq!(printed.density, signed_stats.density);
         assert_eq!(printed.driven.arc_length.signum(), printed.driven.turn.signum());
     }
     assert!(right_count > 500);
     // The setting `printed` lowers p to nearly 0 in two presets, and has no effect in the others.
     for (name, collapses) in [("left", false), ("right", true), ("reverse", true), ("straight", false)] {
-        let (signed, printed) =
+        let (signed_stats, printed) =
             (stats(preset(name)).share, stats(Settings { printed: true, ..preset(name) }).share);
-        assert_eq!(printed < 1e-10 * signed, collapses, "{name}: {signed} {printed}");
-        assert!(collapses || printed == signed);
+        assert_eq!(printed < 1e-10 * signed_stats, collapses, "{name}: {signed_stats} {printed}");
+        assert!(collapses || printed == signed_stats);
     }
 }
 
@@ -156,7 +156,7 @@ fn without_noise_a_residual_is_zero_or_infinite() {
 
 /// The expected lateral velocity comes from central differences of the path.
 #[test]
-fn the_twist_slips_sideways_when_there_is_a_last_turn() {
+fn a_last_turn_gives_the_twist_a_lateral_velocity() {
     for settings in random_settings(6).take(200) {
         let machine = machine(settings);
         let [along, lateral, _] = machine.stats().xi;
@@ -190,12 +190,14 @@ fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
     assert_eq!(factors[0].estimate, 2.0);
     let [mu, x, y, radius, turn, v, ..] = machine.table().lines;
     assert!([mu, x, y, radius].iter().all(|line| line.is_infinite()) && turn == 0.0 && v == 2.0);
-    let nearest = FinalPose { x: f64::from_bits(1), y: 0.0, theta: 0.0 };
-    let nearly_staying = ArcAnatomy::new(Settings { next: nearest, ..settings }).expect("valid settings");
-    assert!(nearly_staying.table().lines[0].is_infinite());
-    let back = stats(Settings { next: FinalPose { x: -2.0, y: 0.0, theta: 0.0 }, printed: true, ..settings });
-    assert_eq!(back.factors[0].estimate, -2.0);
-    assert!(back.factors[1].estimate.to_bits() == 0, "a turn of −0");
+    let nearest_pose = FinalPose { x: f64::from_bits(1), y: 0.0, theta: 0.0 };
+    let machine_with_tiny_motion =
+        ArcAnatomy::new(Settings { next: nearest_pose, ..settings }).expect("valid settings");
+    assert!(machine_with_tiny_motion.table().lines[0].is_infinite());
+    let backward_stats =
+        stats(Settings { next: FinalPose { x: -2.0, y: 0.0, theta: 0.0 }, printed: true, ..settings });
+    assert_eq!(backward_stats.factors[0].estimate, -2.0);
+    assert!(backward_stats.factors[1].estimate.to_bits() == 0, "a turn of −0");
     let turn_on_spot = Settings { next: FinalPose { x: 0.0, y: 0.0, theta: 0.7 }, ..settings };
     let Stats { factors, density, xi, .. } = stats(turn_on_spot);
     assert_eq!(factors.map(|factor| factor.estimate), [0.0, 0.7, 0.0]);

@@ -40,11 +40,11 @@ const POSE_ACCURACY: f64 = 4.0 * ACCURACY;
 
 /// The poses equal the model's own samples from the same seed, forward and in reverse.
 #[test]
-fn the_cloud_is_what_the_model_samples() {
+fn the_cloud_equals_samples_of_the_model() {
     let start = SE2::identity();
-    let reverse = VelocityCmd { v: -1.0, omega: 0.5, dt: 1.0 };
+    let reverse_command = VelocityCmd { v: -1.0, omega: 0.5, dt: 1.0 };
     for (noise, command) in
-        NOISE_KINDS.into_iter().flat_map(|noise| [GENTLE, reverse].map(|command| (noise, command)))
+        NOISE_KINDS.into_iter().flat_map(|noise| [GENTLE, reverse_command].map(|command| (noise, command)))
     {
         let settings = Settings { noise, command, samples: 500, seed: 2005, ..preset("gentle") };
         let assert_same = |settings: Settings, draw: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
@@ -76,11 +76,11 @@ fn changed_settings_move_the_same_robots() {
         let [v, omega, gamma] = model.variances(&settings.command).map(|b2| b2.0.sqrt());
         (0..300)
             .map(|i| {
-                let executed = machine.inspect(i).unwrap();
+                let sample = machine.inspect(i).unwrap();
                 [
-                    (executed.v_hat - settings.command.v) / v,
-                    (executed.omega_hat - settings.command.omega) / omega,
-                    executed.gamma_hat / gamma,
+                    (sample.v_hat - settings.command.v) / v,
+                    (sample.omega_hat - settings.command.omega) / omega,
+                    sample.gamma_hat / gamma,
                 ]
             })
             .collect()
@@ -107,13 +107,13 @@ fn changed_settings_move_the_same_robots() {
 fn a_large_cloud_grows_in_blocks() {
     for settings in settings_of_models() {
         let larger_settings = Settings { samples: 60_000, ..settings };
-        let mut growing = BananaMachine::with_shown_count(settings, 0).unwrap();
-        growing.configure_first(larger_settings, usize::MAX).unwrap();
-        assert_eq!(growing.shown_count(), 25_000);
-        while growing.shown_count() < larger_settings.samples {
-            growing.add_samples(growing.block_size());
+        let mut growing_machine = BananaMachine::with_shown_count(settings, 0).unwrap();
+        growing_machine.configure_first(larger_settings, usize::MAX).unwrap();
+        assert_eq!(growing_machine.shown_count(), 25_000);
+        while growing_machine.shown_count() < larger_settings.samples {
+            growing_machine.add_samples(growing_machine.block_size());
         }
-        assert_eq!(results(&growing), results(&machine(larger_settings)));
+        assert_eq!(results(&growing_machine), results(&machine(larger_settings)));
     }
 }
 
@@ -143,28 +143,38 @@ fn long_turns_stay_on_the_branch_of_the_command() {
 }
 
 #[test]
-fn isolating_an_alpha_silences_the_others() {
-    let straight = Settings { command: PRESETS[0].command, samples: 1000, ..preset("gentle") };
+fn isolating_an_alpha_sets_the_others_to_zero() {
+    let straight_settings = Settings { command: PRESETS[0].command, samples: 1000, ..preset("gentle") };
     let end = SE2::new(2.0, 0.0, 0.0);
-    let isolated = |alpha| machine(Settings { isolate: Some(alpha), ..straight });
+    let isolated_machine = |alpha| machine(Settings { isolate: Some(alpha), ..straight_settings });
     for alpha in [4, 6] {
-        let machine = isolated(alpha);
+        let machine = isolated_machine(alpha);
         assert!(machine.poses().all(|pose| pose == end), "α₄ and α₆ are silent where nothing is turned");
         assert!(machine.stats().cross_track_skew.is_nan());
         assert_eq!(machine.stats().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
     }
-    assert!(isolated(1).poses().all(|pose| (pose.y(), pose.theta()) == (0.0, 0.0)), "α₁ turns nobody");
-    assert!(isolated(3).poses().all(|pose| (pose.log().x - 2.0).abs() < 1e-14), "α₃ fans arcs of one length");
-    assert!(isolated(5).poses().all(|pose| (pose.x(), pose.y()) == (2.0, 0.0)), "α₅ moves nothing");
-    assert!(isolated(5).poses().any(|pose| pose.theta().abs() > 0.1), "and turns");
-    let mut again = isolated(3);
-    assert_eq!(again.settings().velocity_alphas, straight.velocity_alphas, "the sliders stay where they are");
-    again.configure(straight).unwrap();
-    assert_eq!(results(&again), results(&machine(straight)));
+    assert!(
+        isolated_machine(1).poses().all(|pose| (pose.y(), pose.theta()) == (0.0, 0.0)),
+        "α₁ turns nobody"
+    );
+    assert!(
+        isolated_machine(3).poses().all(|pose| (pose.log().x - 2.0).abs() < 1e-14),
+        "α₃ fans arcs of one length"
+    );
+    assert!(isolated_machine(5).poses().all(|pose| (pose.x(), pose.y()) == (2.0, 0.0)), "α₅ moves nothing");
+    assert!(isolated_machine(5).poses().any(|pose| pose.theta().abs() > 0.1), "and turns");
+    let mut reconfigured = isolated_machine(3);
+    assert_eq!(
+        reconfigured.settings().velocity_alphas,
+        straight_settings.velocity_alphas,
+        "the sliders stay where they are"
+    );
+    reconfigured.configure(straight_settings).unwrap();
+    assert_eq!(results(&reconfigured), results(&machine(straight_settings)));
 }
 
 #[test]
-fn a_dragged_end_is_reached() {
+fn the_reaching_command_ends_at_the_target() {
     for (x, y) in [(1.0, 0.2), (1.0, -2.0), (-1.0, 0.3), (-0.5, -0.5), (2.0, 0.0), (-2.0, 0.0), (0.0, 1.0)] {
         for (omega, dt) in [(0.3, 0.5), (-0.2, 2.0), (2.0, 3.0), (-1.5, 2.5)] {
             let command = command_reaching(x, y, &VelocityCmd { v: 1.0, omega, dt });
@@ -184,7 +194,7 @@ fn a_dragged_end_is_reached() {
 
 /// Exponential coordinates are infinite for a full turn. Statistics in them are then undefined, and the others are not.
 #[test]
-fn without_a_chart_exponential_values_are_undefined() {
+fn exponential_statistics_are_undefined_near_a_full_turn() {
     let machine_with_turn = |omega: f64| {
         let command = VelocityCmd { v: 1.0, omega, dt: 3.0 };
         machine(Settings { command, velocity_alphas: [0.01; 6], samples: 500, ..preset("gentle") })
@@ -194,8 +204,11 @@ fn without_a_chart_exponential_values_are_undefined() {
         let machine = machine_with_turn(omega);
         assert_eq!(machine.is_chart_defined(), is_defined, "ω = {omega}");
         let (stats, contours) = (machine.stats(), machine.contours());
-        let exponential = [stats.gaussian_skew, stats.coverage.exponential, stats.exponential.mean.x];
-        assert!(exponential.iter().all(|value| value.is_nan() != is_defined), "ω = {omega}: {stats:?}");
+        let exponential_values = [stats.gaussian_skew, stats.coverage.exponential, stats.exponential.mean.x];
+        assert!(
+            exponential_values.iter().all(|value| value.is_nan() != is_defined),
+            "ω = {omega}: {stats:?}"
+        );
         assert_eq!(contours.exponential.is_empty(), !is_defined);
         assert_eq!(contours.twist_ellipse.is_empty(), !is_defined);
         assert!(stats.cross_track_skew.is_finite() && stats.coverage.ellipse.is_finite());
@@ -215,8 +228,9 @@ fn both_views_find_the_nearest_sample() {
         for target in [[0.9, 0.3], [1.2, 0.1], [0.2, 0.9]] {
             let distance =
                 |[x, y]: [f64; 2]| ((x - target[0]) / 0.1).powi(2) + ((y - target[1]) / 0.3).powi(2);
-            let best = (0..points.len()).min_by(|&a, &b| distance(points[a]).total_cmp(&distance(points[b])));
-            let expected = best.filter(|&index| distance(points[index]) <= 1.0);
+            let nearest_index =
+                (0..points.len()).min_by(|&a, &b| distance(points[a]).total_cmp(&distance(points[b])));
+            let expected = nearest_index.filter(|&index| distance(points[index]) <= 1.0);
             assert_eq!(machine.nearest(view, target, [0.1, 0.3]), expected);
         }
         assert_eq!(machine.nearest(view, points[17], [1e-9, 1e-9]), Some(17));
@@ -233,17 +247,17 @@ fn both_views_find_the_nearest_sample() {
 fn the_executed_motion_leads_to_the_pose() {
     for settings in settings_of_models() {
         let machine = machine(Settings { samples: 200, ..settings });
-        for ((i, executed), pose) in machine.executed_motions().enumerate().zip(machine.poses()) {
+        for ((i, sample), pose) in machine.executed_motions().enumerate().zip(machine.poses()) {
             let Sample { v_hat, omega_hat, gamma_hat, legs, .. } = machine.inspect(i).unwrap();
             let end = match legs {
                 None => {
-                    assert_eq!(executed, [v_hat, omega_hat, gamma_hat]);
+                    assert_eq!(sample, [v_hat, omega_hat, gamma_hat]);
                     let dt = settings.command.dt;
                     let end = SE2::exp(&Vector3::new(v_hat * dt, 0.0, omega_hat * dt));
                     end * SE2::new(0.0, 0.0, gamma_hat * dt)
                 }
                 Some(legs) => {
-                    assert_eq!(executed, [legs.rot1, legs.trans, legs.rot2]);
+                    assert_eq!(sample, [legs.rot1, legs.trans, legs.rot2]);
                     legs.apply(&SE2::identity())
                 }
             };
@@ -290,7 +304,7 @@ fn additive_noise_does_not_depend_on_the_motion() {
 /// The default seed is chosen so that each readout differs from its exact value by less than a fifth of a standard error.
 /// Only one seed in 250 has such small differences.
 #[test]
-fn the_opening_cloud_shows_the_exact_values() {
+fn the_initial_cloud_is_close_to_the_exact_values() {
     let machine = machine(Settings::default());
     let (cloud, exact) = (machine.stats(), machine.table().exact);
     assert!((cloud.cross_track_skew - exact.cross_track_skew).abs() < 0.2 * cloud.cross_track_skew_error);

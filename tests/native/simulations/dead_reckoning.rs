@@ -13,21 +13,21 @@ pub fn machine(settings: Settings) -> DeadReckoning {
 }
 
 /// Returns the settings with which the widget opens, with fewer robots.
-fn few(samples: usize) -> Settings {
+fn settings_with_robots(samples: usize) -> Settings {
     Settings { samples, ..Settings::default() }
 }
 
 /// Returns settings where approximations fail: sharp turns, reverse, large noise, headings beyond half a turn.
-fn hard_settings() -> Vec<Settings> {
+fn difficult_settings() -> Vec<Settings> {
     let with_command = |v: f64, omega: f64, dt: f64, alphas| Settings {
         command: VelocityCmd { v, omega, dt },
         alphas,
         steps: 12,
-        ..few(700)
+        ..settings_with_robots(700)
     };
     let default_alphas = Settings::default().alphas;
     vec![
-        few(700),
+        settings_with_robots(700),
         with_command(-1.0, 0.5, 0.2, default_alphas),
         with_command(1.0, -2.0, 1.0, default_alphas),
         with_command(1.0, 0.0, 0.5, default_alphas),
@@ -35,7 +35,7 @@ fn hard_settings() -> Vec<Settings> {
         with_command(0.3, 7.0, 1.0, [0.1; 6]),
         with_command(1.0, 0.5, 0.2, [0.0; 6]),
         with_command(1.0, 0.5, 0.2, [0.5, 0.1, 20.0, 4.0, 3.0, 1.0]),
-        Settings { per: NoisePer::Path, ..few(700) },
+        Settings { per: NoisePer::Path, ..settings_with_robots(700) },
     ]
 }
 
@@ -49,19 +49,19 @@ fn assert_same([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
 #[test]
 fn lanes_agree_with_poses_composed_one_by_one() {
     use motion::noise::centred_uniform;
-    for settings in hard_settings() {
+    for settings in difficult_settings() {
         let machine = machine(settings);
         let (u, model) = (settings.command, settings.model());
         // Robot 513 is the second robot of the third block of 256. Each block has its own stream of random numbers.
-        let mut stream = seeded(settings.seed);
-        stream.jump();
-        stream.jump();
+        let mut block_rng = seeded(settings.seed);
+        block_rng.jump();
+        block_rng.jump();
         let mut pose = SE2::identity();
         let poses = machine.rollout(513).expect("a robot");
         let mut path_size = 1.0;
         for rollout_pose in poses {
             let uniforms: Vec<[f64; 3]> =
-                (0..256).map(|_| std::array::from_fn(|_| centred_uniform(&mut stream))).collect();
+                (0..256).map(|_| std::array::from_fn(|_| centred_uniform(&mut block_rng))).collect();
             let unit_noise = uniforms[1].map(|q| NoiseKind::Normal.quantile(q));
             let previous = pose;
             pose = model.apply_noise(&u, &pose, unit_noise);
@@ -76,7 +76,7 @@ fn lanes_agree_with_poses_composed_one_by_one() {
 /// The expected means, covariances and relative errors are sums over the paths of all robots.
 #[test]
 fn moments_are_those_of_the_cloud() {
-    for (i, settings) in hard_settings().into_iter().enumerate() {
+    for (i, settings) in difficult_settings().into_iter().enumerate() {
         let machine = machine(settings);
         let n = settings.samples as f64;
         let paths: Vec<_> =
@@ -132,25 +132,28 @@ fn ratios_and_misses_are_counted() {
 }
 
 /// Returns, for each component, whether misses of the chapter's recursion can be established.
-fn decidable(settings: Settings) -> [bool; 3] {
+fn are_misses_decidable(settings: Settings) -> [bool; 3] {
     machine(settings).comparison(Compounding::Chapter).misses.map(|misses| misses.decidable)
 }
 
 /// Misses of the chapter's recursion are reported only if the robots have a spread and are enough to measure it.
 #[test]
 fn misses_are_reported_with_enough_robots_only() {
-    assert_eq!(decidable(Settings::default()), [true; 3]);
-    assert_eq!(decidable(few(5000)), [false; 3]);
-    assert_eq!(decidable(Settings { alphas: [0.0; 6], ..few(20_000) }), [false; 3]);
-    let empty = DeadReckoning::with_shown_count(Settings::default(), 0).expect("valid settings");
+    assert_eq!(are_misses_decidable(Settings::default()), [true; 3]);
+    assert_eq!(are_misses_decidable(settings_with_robots(5000)), [false; 3]);
+    assert_eq!(
+        are_misses_decidable(Settings { alphas: [0.0; 6], ..settings_with_robots(20_000) }),
+        [false; 3]
+    );
+    let empty_machine = DeadReckoning::with_shown_count(Settings::default(), 0).expect("valid settings");
     assert!(
-        empty
+        empty_machine
             .comparison(Compounding::Chapter)
             .misses
             .iter()
             .all(|misses| !misses.decidable && misses.end.is_nan())
     );
-    assert_eq!(empty.stats().n, 0);
+    assert_eq!(empty_machine.stats().n, 0);
 }
 
 /// A component without variance has no relative error, however small the numbers are.
@@ -158,25 +161,34 @@ fn misses_are_reported_with_enough_robots_only() {
 fn a_zero_variance_has_no_relative_error() {
     let errors = |settings| machine(settings).measured_moments()[1].relative_error;
     for samples in [1, 2] {
-        assert!(errors(Settings { alphas: [0.0; 6], ..few(samples) }).iter().all(|error| error.is_nan()));
+        assert!(
+            errors(Settings { alphas: [0.0; 6], ..settings_with_robots(samples) })
+                .iter()
+                .all(|error| error.is_nan())
+        );
     }
-    assert!(errors(few(1)).iter().all(|error| error.is_nan()));
+    assert!(errors(settings_with_robots(1)).iter().all(|error| error.is_nan()));
     // Two robots always have a kurtosis of 1, from which the error would be 0.
-    assert!(errors(few(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt()));
+    assert!(errors(settings_with_robots(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt()));
     // Robots that only turn have no variance along the track.
     let on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
-    let [along, _, heading] =
-        errors(Settings { command: on_the_spot, alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0], ..few(300) }).into();
+    let [along, _, heading] = errors(Settings {
+        command: on_the_spot,
+        alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0],
+        ..settings_with_robots(300)
+    })
+    .into();
     assert!(along.is_nan() && heading.is_finite(), "{along} {heading}");
     // The squares of such small variances underflow.
-    let slow_drive = Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..few(300) };
-    assert_eq!(decidable(slow_drive), [false; 3]);
+    let slow_drive =
+        Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..settings_with_robots(300) };
+    assert_eq!(are_misses_decidable(slow_drive), [false; 3]);
 }
 
 /// Fourth-order corrections can produce a matrix that is no covariance. From that step on there is no covariance and no ratio.
 #[test]
 fn a_fourth_order_without_a_covariance_has_no_ratio() {
-    let settings = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..few(1000) };
+    let settings = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..settings_with_robots(1000) };
     let machine = machine(settings);
     let covs = machine.predicted_covariances(Compounding::FourthOrder);
     let end = covs.iter().position(Option::is_none).expect("some step without");
@@ -194,10 +206,11 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
 /// Other α's scale the noise.
 #[test]
 fn a_seed_gives_the_same_draws() {
-    let large_cloud = machine(few(1500));
-    let small_cloud = machine(few(300));
-    let short_path = machine(Settings { steps: 7, ..few(300) });
-    let noisy = machine(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..few(300) });
+    let large_cloud = machine(settings_with_robots(1500));
+    let small_cloud = machine(settings_with_robots(300));
+    let short_path = machine(Settings { steps: 7, ..settings_with_robots(300) });
+    let noisy_cloud =
+        machine(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..settings_with_robots(300) });
     for index in [0, 1, 255, 256, 299] {
         let path = large_cloud.rollout(index).expect("a robot");
         assert_eq!(small_cloud.rollout(index).as_ref(), Some(&path));
@@ -206,19 +219,19 @@ fn a_seed_gives_the_same_draws() {
         let u = Settings::default().command;
         let noise = |path: &[[f64; 3]]| {
             let [x, y, theta] = path[0];
-            let executed = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
-            Vector3::new(executed.v_hat - u.v, executed.omega_hat - u.omega, executed.gamma_hat)
+            let inversion = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
+            Vector3::new(inversion.v_hat - u.v, inversion.omega_hat - u.omega, inversion.gamma_hat)
         };
-        let double_noise = noise(&noisy.rollout(index).expect("a robot"));
+        let double_noise = noise(&noisy_cloud.rollout(index).expect("a robot"));
         assert!((double_noise - noise(&path) * 2.0).amax() < 1e-12, "{double_noise}");
     }
-    assert_ne!(large_cloud.rollout(0), machine(Settings { seed: 4, ..few(300) }).rollout(0));
+    assert_ne!(large_cloud.rollout(0), machine(Settings { seed: 4, ..settings_with_robots(300) }).rollout(0));
     assert_eq!(large_cloud.rollout(1500), None);
 }
 
 /// Each step has a share of the variance of the whole path. The shares add up to that variance for any number of steps.
 #[test]
-fn noise_of_the_whole_path_is_shared_by_its_steps() {
+fn noise_of_the_whole_path_is_divided_among_its_steps() {
     let whole_command = VelocityCmd { v: 1.0, omega: 0.5, dt: 4.0 };
     let expected =
         VelocityModel { alphas: VelocityAlphas(Settings::default().alphas), noise: NoiseKind::Normal }
@@ -226,7 +239,7 @@ fn noise_of_the_whole_path_is_shared_by_its_steps() {
             .map(|variance| variance.0 * whole_command.dt * whole_command.dt);
     for steps in [1, 20, 200] {
         let command = VelocityCmd { dt: whole_command.dt / f64::from(steps), ..whole_command };
-        let settings = Settings { command, steps, step: 1, per: NoisePer::Path, ..few(1) };
+        let settings = Settings { command, steps, step: 1, per: NoisePer::Path, ..settings_with_robots(1) };
         let noise = settings.model().variances(&command).map(|variance| variance.0 * command.dt * command.dt);
         for i in 0..3 {
             assert!((noise[i] * f64::from(steps) / expected[i] - 1.0).abs() < 1e-12, "{steps}, {i}");
@@ -241,14 +254,17 @@ fn noise_of_the_whole_path_is_shared_by_its_steps() {
 #[test]
 fn the_level_of_heading_noise_is_that_of_four_alphas() {
     assert_eq!(Settings::default().heading_noise(), Some(0.02));
-    assert_eq!(Settings { alphas: PRESETS[1].alphas, ..few(1) }.heading_noise(), Some(0.08));
-    assert_eq!(Settings { alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.0], ..few(1) }.heading_noise(), None);
+    assert_eq!(Settings { alphas: PRESETS[1].alphas, ..settings_with_robots(1) }.heading_noise(), Some(0.08));
+    assert_eq!(
+        Settings { alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.0], ..settings_with_robots(1) }.heading_noise(),
+        None
+    );
 }
 
 /// Points of the outlines of both Gaussians are two standard deviations from the commanded pose.
 #[test]
-fn outlines_are_those_of_the_covariance() {
-    let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..few(300) };
+fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
+    let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..settings_with_robots(300) };
     let machine = machine(settings);
     let covariance = machine.predicted_covariances(Compounding::FirstOrder)[19].expect("a covariance");
     let nominal = machine.nominal_poses()[19];
@@ -256,8 +272,8 @@ fn outlines_are_those_of_the_covariance() {
     assert_eq!([machine.outlines(0), machine.outlines(21)], [None, None]);
     let information = covariance.fixed_view::<2, 2>(0, 0).into_owned().try_inverse().expect("full rank");
     for [x, y] in &outlines.ellipse {
-        let relative = nominal.inverse() * SE2::new(*x, *y, 0.0);
-        let position = nalgebra::Vector2::new(relative.x(), relative.y());
+        let relative_pose = nominal.inverse() * SE2::new(*x, *y, 0.0);
+        let position = nalgebra::Vector2::new(relative_pose.x(), relative_pose.y());
         assert!(((position.transpose() * information * position)[0] - 4.0).abs() < 1e-9);
     }
     for [a, l] in &outlines.predicted {
@@ -265,13 +281,14 @@ fn outlines_are_those_of_the_covariance() {
         assert!(((position.transpose() * information * position)[0] - 4.0).abs() < 1e-9);
     }
     // In the first step the lateral variance is 0. The predicted outline is a line.
-    let first = DeadReckoning::new(few(300)).expect("valid settings").outlines(1).expect("a step");
+    let first =
+        DeadReckoning::new(settings_with_robots(300)).expect("valid settings").outlines(1).expect("a step");
     assert!(first.predicted.iter().all(|[_, lateral]| *lateral == 0.0));
 }
 
 #[test]
 fn the_commanded_path_leads_through_its_poses() {
-    for settings in hard_settings() {
+    for settings in difficult_settings() {
         let machine = machine(settings);
         let path = machine.commanded_path();
         let chords_per_step = (path.len() - 1) / settings.steps as usize;
@@ -294,7 +311,7 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
     for (v, [along, turn]) in [(1.0, [1e-6, 1e-6]), (-0.5, [2e-6, 1e-6]), (1.4, [1e-6, 7e-6])] {
         let command = VelocityCmd { v, omega: 0.3, dt: 0.2 };
         let alphas = [along, 1e-6, turn, 1e-6, 0.0, 0.0];
-        let machine = machine(Settings { command, alphas, ..few(1) });
+        let machine = machine(Settings { command, alphas, ..settings_with_robots(1) });
         let growth = machine.straight_growth();
         let crossing = growth.crossing.expect("a crossing");
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
@@ -321,7 +338,7 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
     }
     let crossing_of = |v, alphas| {
         let command = VelocityCmd { v, ..Settings::default().command };
-        machine(Settings { command, alphas, ..few(1) }).straight_growth().crossing
+        machine(Settings { command, alphas, ..settings_with_robots(1) }).straight_growth().crossing
     };
     for (v, alphas) in [(0.0, [0.02; 6]), (1.0, [0.0; 6]), (1.0, [0.02, 0.0, 0.0, 0.0, 0.0, 0.0])] {
         assert_eq!(crossing_of(v, alphas), None, "{v} {alphas:?}");

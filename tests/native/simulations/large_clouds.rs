@@ -18,8 +18,8 @@ struct ExactSum {
 impl ExactSum {
     fn add(&mut self, term: f64) {
         let sum = self.sum + term;
-        let added = sum - self.sum;
-        self.rounding += (self.sum - (sum - added)) + (term - added);
+        let rounded_term = sum - self.sum;
+        self.rounding += (self.sum - (sum - rounded_term)) + (term - rounded_term);
         self.sum = sum;
     }
 }
@@ -58,31 +58,35 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
     let mean_turn = mean(residuals().map(|r| r.z));
     for i in 0..3 {
         for j in 0..3 {
-            let centred = |r: Vector3<f64>, k: usize| if k == 2 { r.z - mean_turn } else { r[k] };
-            let cov = mean(residuals().map(|r| centred(r, i) * centred(r, j))) * n / (n - 1.0);
+            let centred_component = |r: Vector3<f64>, k: usize| if k == 2 { r.z - mean_turn } else { r[k] };
+            let cov =
+                mean(residuals().map(|r| centred_component(r, i) * centred_component(r, j))) * n / (n - 1.0);
             let scale = (cartesian.cov[(i, i)] * cartesian.cov[(j, j)]).sqrt();
             assert_close(&format!("cov {i}{j}"), cartesian.cov[(i, j)], cov, scale);
         }
     }
 
     let (sin, cos) = libm::sincos(heading);
-    let along_and_across = |r: Vector3<f64>| (r.x * cos + r.y * sin, r.y * cos - r.x * sin, r.z);
-    let tracks = || residuals().map(along_and_across);
-    let m2 = mean(tracks().map(|(_, d, _)| d * d));
+    let track_coordinates = |r: Vector3<f64>| (r.x * cos + r.y * sin, r.y * cos - r.x * sin, r.z);
+    let all_track_coordinates = || residuals().map(track_coordinates);
+    let m2 = mean(all_track_coordinates().map(|(_, d, _)| d * d));
     let sd = m2.sqrt();
-    let skew = mean(tracks().map(|(_, d, _)| (d / sd).powi(3)));
+    let skew = mean(all_track_coordinates().map(|(_, d, _)| (d / sd).powi(3)));
     assert_close("skew", cross_track[0], skew, 1.0);
     let resultant = mean(residuals().map(|r| libm::cos(r.z)));
-    let (ad, add) = (mean(tracks().map(|(a, d, _)| a * d)), mean(tracks().map(|(a, d, _)| a * d * d)));
+    let (ad, add) = (
+        mean(all_track_coordinates().map(|(a, d, _)| a * d)),
+        mean(all_track_coordinates().map(|(a, d, _)| a * d * d)),
+    );
     let heading_factor = 3.0 * (skew * ad / m2 - add / (m2 * sd)) / resultant;
     let influence = |(_, d, turn): (f64, f64, f64)| {
         let z = d / sd;
         z * z * z - skew - 3.0 * z - 1.5 * skew * (z * z - 1.0) + heading_factor * libm::sin(turn)
     };
-    let skew_error = (mean(tracks().map(|track| influence(track).powi(2))) / n).sqrt();
+    let skew_error = (mean(all_track_coordinates().map(|track| influence(track).powi(2))) / n).sqrt();
     assert_close("skew error", cross_track[1], skew_error, skew_error);
     let turn_variance = mean(residuals().map(|r| (r.z - mean_turn).powi(2)));
-    let rho = mean(tracks().map(|(_, d, turn)| d * turn)) / (m2 * turn_variance).sqrt();
+    let rho = mean(all_track_coordinates().map(|(_, d, turn)| d * turn)) / (m2 * turn_variance).sqrt();
     assert_close("rho", cross_track[2], rho, 1.0);
 }
 
@@ -94,9 +98,10 @@ fn assert_exact(machine: &BananaMachine) {
     let cross_track = [stats.cross_track_skew, stats.cross_track_skew_error, stats.rho_cross_heading];
     assert_exact_moments(&poses, &cartesian, cross_track);
 
-    let twist = |pose: &SE2| pose.log_near(machine.settings().command.omega * machine.settings().command.dt);
-    let twists = || poses.iter().map(twist);
-    let twist_mean = Vector3::from_fn(|i, _| mean(twists().map(|twist| twist[i])));
+    let twist_of =
+        |pose: &SE2| pose.log_near(machine.settings().command.omega * machine.settings().command.dt);
+    let twists = || poses.iter().map(twist_of);
+    let twist_mean = Vector3::from_fn(|i, _| mean(twists().map(|twist_of| twist_of[i])));
     // A cloud that turns a full circle has no exponential coordinates to compare.
     for i in if machine.is_chart_defined() { 0..3 } else { 0..0 } {
         assert_close(&format!("twist {i}"), exponential.mean[i], twist_mean[i], 1.0);
@@ -108,9 +113,9 @@ fn assert_exact(machine: &BananaMachine) {
     }
 
     let ellipse = Ellipse::from_moments(&cartesian);
-    let inside = poses.iter().filter(|pose| ellipse.contains([pose.x(), pose.y()])).count();
+    let inside_count = poses.iter().filter(|pose| ellipse.contains([pose.x(), pose.y()])).count();
     // Rounding may decide whether one robot on the contour is inside.
-    assert_close("coverage", stats.coverage.ellipse, inside as f64 / n, 1.5e12 / n);
+    assert_close("coverage", stats.coverage.ellipse, inside_count as f64 / n, 1.5e12 / n);
 }
 
 #[test]
@@ -122,7 +127,7 @@ fn ten_million_agree_with_exact_sums() {
 
 /// Clouds of many shapes. In some of them robots turn by more than a full circle, or end far from the noise-free pose.
 #[test]
-fn small_and_odd_clouds_agree_with_exact_sums() {
+fn small_and_unusual_clouds_agree_with_exact_sums() {
     for model in [ModelKind::Velocity, ModelKind::Odometry] {
         for noise in [NoiseKind::Normal, NoiseKind::Triangular] {
             for command in

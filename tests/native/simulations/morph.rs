@@ -12,8 +12,8 @@ use nalgebra::Vector3;
 
 const MORPHS: [f64; 5] = [0.0, 0.2, 0.5, 0.9, 1.0];
 
-fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
-    (one[0] - other[0]).hypot(one[1] - other[1])
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 /// Returns the position at which a body with constant velocity in its own frame ends, by steps of the midpoint rule.
@@ -27,7 +27,7 @@ fn integrated_twist([vx, vy, omega]: [f64; 3]) -> [f64; 2] {
 }
 
 #[test]
-fn robots_are_where_the_map_has_them() {
+fn nearest_finds_robots_at_their_morphed_positions() {
     for settings in [
         preset("banana"),
         preset("hard"),
@@ -44,8 +44,8 @@ fn robots_are_where_the_map_has_them() {
                     Some(index),
                     "{morph}"
                 );
-                let remaining = 1.0 - morph;
-                let [x, y] = integrated_twist([twist.x, remaining * twist.y, remaining * twist.z]);
+                let bend_factor = 1.0 - morph;
+                let [x, y] = integrated_twist([twist.x, bend_factor * twist.y, bend_factor * twist.z]);
                 assert!(distance(position, [x, y + morph * twist.z]) < 1e-5, "{morph}: {twist}");
             }
             assert!(distance(unbend(&twist, 0.0), [pose.x(), pose.y()]) < 1e-12);
@@ -70,7 +70,7 @@ fn robots_move_smoothly() {
 /// Without the last turn γ̂ the morph is one-to-one, so that the same robots stay inside an outline. Exceptions are robots between an
 /// outline's curve and the chords with which it is drawn.
 #[test]
-fn outlines_keep_their_robots() {
+fn the_same_robots_stay_inside_an_outline() {
     let alphas = [0.002, 0.002, 0.1, 0.1, 0.0, 0.0];
     for omega in [0.0, 0.4] {
         let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
@@ -90,9 +90,9 @@ fn outlines_keep_their_robots() {
         let on_floor = inside(0.0);
         for morph in MORPHS {
             for (robot_inside, floor) in inside(morph).iter().zip(&on_floor) {
-                let changed =
+                let changed_count =
                     robot_inside.iter().zip(floor).filter(|(inside, floor)| inside != floor).count();
-                assert!(changed <= 10, "{changed} robots at {morph}");
+                assert!(changed_count <= 10, "{changed_count} robots at {morph}");
             }
         }
     }
@@ -100,7 +100,7 @@ fn outlines_keep_their_robots() {
 
 /// At both ends of the morph, the outline of the Gaussian in exponential coordinates equals that of the view, also with a last turn γ̂.
 #[test]
-fn the_outline_ends_as_both_views_have_it() {
+fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
     let machine = machine(Settings { samples: 5000, ..preset("hard") });
     let stats = machine.stats();
     let contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
@@ -112,24 +112,24 @@ fn the_outline_ends_as_both_views_have_it() {
 
 /// A line that does not surround the start stays connected. A line around the start would be torn, and is omitted.
 #[test]
-fn a_line_is_carried_whole_or_not_at_all() {
-    let circle = |x: f64| -> Vec<[f64; 2]> {
+fn a_morphed_line_stays_connected_or_is_omitted() {
+    let circle_around = |x: f64| -> Vec<[f64; 2]> {
         let angles = (0..=128).map(|i| std::f64::consts::TAU * f64::from(i) / 128.0);
         angles.map(|angle| [x + 0.5 * angle.cos(), 0.5 * angle.sin()]).collect()
     };
     for morph in MORPHS {
-        assert!(unbend_line(&circle(0.1), 0.3, morph).is_empty());
-        let unbent_line = unbend_line(&circle(0.7), 0.3, morph);
+        assert!(unbend_line(&circle_around(0.1), 0.3, morph).is_empty());
+        let unbent_line = unbend_line(&circle_around(0.7), 0.3, morph);
         assert_eq!(unbent_line.len(), 129);
         assert!(unbent_line.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.4), "{morph}");
     }
-    for (point, unbent) in circle(0.7).iter().zip(unbend_line(&circle(0.7), 0.3, 0.0)) {
+    for (point, unbent) in circle_around(0.7).iter().zip(unbend_line(&circle_around(0.7), 0.3, 0.0)) {
         assert!(distance(*point, unbent) < 1e-12);
     }
 }
 
 #[test]
-fn a_place_leads_back_to_its_arc() {
+fn find_arc_inverts_the_morph() {
     for morph in MORPHS {
         for [length, turn] in [[1.0, 0.5], [2.0, -1.0], [1.4, 1.7], [0.3, 0.0]] {
             let position = unbend(&Vector3::new(length, 0.0, turn), morph);
@@ -140,7 +140,7 @@ fn a_place_leads_back_to_its_arc() {
 }
 
 #[test]
-fn gaps_are_in_the_ellipse_alone_and_empty() {
+fn gaps_are_inside_the_ellipse_only_and_contain_no_robot() {
     let machine = machine(preset("banana"));
     let (gaps, contours) = (machine.gaps(), machine.contours());
     assert_eq!(gaps.len(), 2);

@@ -10,14 +10,14 @@ pub fn machine(settings: Settings) -> OdometryDecomposer {
     OdometryDecomposer::new(settings).expect("a valid setting")
 }
 
-pub fn of_preset(name: &str) -> Settings {
+pub fn settings_of_preset(name: &str) -> Settings {
     let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
     Settings { from: preset.from, to: preset.to, ..Settings::default() }
 }
 
 /// With the rule of Table 5.6 the outcomes equal samples of `OdometryModel` with the same seed.
 #[test]
-fn the_outcomes_are_the_models_samples() {
+fn the_outcomes_equal_samples_of_the_model() {
     for noise in NOISE_KINDS {
         let settings =
             Settings { from: OdometryPose([0.5, -1.0, 2.0]), noise, samples: 1001, ..Settings::default() };
@@ -27,8 +27,8 @@ fn the_outcomes_are_the_models_samples() {
         let mut rng = seeded(settings.seed);
         assert_eq!(machine.poses().len(), 1001);
         for pose in machine.poses() {
-            let drawn = model.sample(&machine.reading(), &settings.from.into(), &mut rng);
-            assert!(pose_distance(pose, &drawn) < 1e-14, "{pose:?}, drawn {drawn:?}");
+            let expected_pose = model.sample(&machine.reading(), &settings.from.into(), &mut rng);
+            assert!(pose_distance(pose, &expected_pose) < 1e-14, "{pose:?}, drawn {expected_pose:?}");
         }
     }
 }
@@ -36,58 +36,64 @@ fn the_outcomes_are_the_models_samples() {
 /// With only α₃, the lengths of the drives differ by constant random numbers times √α₃.
 #[test]
 fn changed_settings_move_the_same_outcomes() {
-    let with_alpha3_only = |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..of_preset("drive-turn") };
+    let with_alpha3_only =
+        |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..settings_of_preset("drive-turn") };
     let mut machine = machine(with_alpha3_only(0.01));
     let excess_lengths = |machine: &OdometryDecomposer| -> Vec<f64> {
         machine.poses().iter().map(|pose| pose.x() - 1.5).collect()
     };
-    let before = excess_lengths(&machine);
+    let lengths_before = excess_lengths(&machine);
     machine.configure(with_alpha3_only(0.04)).expect("a valid setting");
-    for (before, after) in before.iter().zip(excess_lengths(&machine)) {
-        assert!((2.0 * before - after).abs() < 1e-14);
+    for (lengths_before, after) in lengths_before.iter().zip(excess_lengths(&machine)) {
+        assert!((2.0 * lengths_before - after).abs() < 1e-14);
     }
     // A larger cloud begins with the smaller one.
     let more_samples = Settings { samples: 900, ..with_alpha3_only(0.01) };
     machine.configure_first(more_samples, 700).expect("a valid setting");
-    assert_eq!((machine.poses().len(), &excess_lengths(&machine)[..500]), (700, &before[..]));
+    assert_eq!((machine.poses().len(), &excess_lengths(&machine)[..500]), (700, &lengths_before[..]));
     assert_eq!(machine.add_samples(usize::MAX), 900);
 }
 
 #[test]
-fn the_linkage_is_the_reading() {
+fn the_linkage_follows_the_legs_of_the_reading() {
     for preset in PRESETS {
         for rule in OdometryRule::ALL {
-            let machine = machine(Settings { rule, ..of_preset(preset.name) });
-            let [start, rotated, driven, end] = machine.linkage();
+            let machine = machine(Settings { rule, ..settings_of_preset(preset.name) });
+            let [start, after_rot1, after_drive, end] = machine.linkage();
             let legs = machine.legs();
             assert_eq!(start, preset.from.into());
-            assert_eq!((rotated.x(), rotated.y()), (start.x(), start.y()));
-            assert!(((driven.x() - start.x()).hypot(driven.y() - start.y()) - legs.trans).abs() < 1e-15);
-            assert_eq!([driven.x(), driven.y(), driven.theta()], [end.x(), end.y(), rotated.theta()]);
+            assert_eq!((after_rot1.x(), after_rot1.y()), (start.x(), start.y()));
+            assert!(
+                ((after_drive.x() - start.x()).hypot(after_drive.y() - start.y()) - legs.trans).abs() < 1e-15
+            );
+            assert_eq!(
+                [after_drive.x(), after_drive.y(), after_drive.theta()],
+                [end.x(), end.y(), after_rot1.theta()]
+            );
             assert!(pose_distance(&end, &preset.to.into()) < 0.01, "{} by {rule:?}", preset.name);
-            let robot = |phase| {
+            let robot_at = |phase| {
                 let settings = Settings { phase, ..*machine.settings() };
                 OdometryDecomposer::new(settings).expect("a valid setting").robot_pose()
             };
-            for (phase, pose) in [(0.0, start), (1.0, rotated), (2.0, driven), (3.0, end)] {
-                assert!(pose_distance(&robot(phase), &pose) < 1e-15, "{phase}");
+            for (phase, pose) in [(0.0, start), (1.0, after_rot1), (2.0, after_drive), (3.0, end)] {
+                assert!(pose_distance(&robot_at(phase), &pose) < 1e-15, "{phase}");
             }
-            assert!((robot(1.5).x() - 0.5 * (start.x() + end.x())).abs() < 1e-15);
+            assert!((robot_at(1.5).x() - 0.5 * (start.x() + end.x())).abs() < 1e-15);
         }
     }
-    // Without noise every ghost is the linkage itself.
+    // Without noise the linkage of every outcome equals that of the reading.
     let noise_free_machine = machine(Settings { alphas: [0.0; 5], ..Settings::default() });
     assert_eq!(noise_free_machine.sample_linkages(7), [noise_free_machine.linkage(); 7]);
     assert_eq!(noise_free_machine.sample_linkages(usize::MAX).len(), 500);
-    let opening = machine(Settings::default());
-    for (ghost, pose) in opening.sample_linkages(20).iter().zip(opening.poses()) {
-        assert_eq!(ghost[3], *pose);
+    let initial_machine = machine(Settings::default());
+    for (linkage, pose) in initial_machine.sample_linkages(20).iter().zip(initial_machine.poses()) {
+        assert_eq!(linkage[3], *pose);
     }
 }
 
 /// The prediction depends only on the relative motion. A drift of the odometry's frame does not change it.
 #[test]
-fn the_prediction_does_not_see_the_drift() {
+fn the_prediction_does_not_depend_on_the_drift() {
     let with_drift = |drift| machine(Settings { drift, ..Settings::default() });
     let (without_drift, with_long_drift) = (with_drift(0.0), with_drift(300.0));
     assert_eq!(without_drift.poses(), with_long_drift.poses());
@@ -107,7 +113,7 @@ fn the_prediction_does_not_see_the_drift() {
 /// The curve contains the values of the readouts. With a large noise of the rotation, the linear estimate `lever` is too large: it exceeds
 /// the length of the drive, which no robot can.
 #[test]
-fn the_curve_goes_through_the_reading() {
+fn the_curve_contains_the_values_of_the_readouts() {
     for rule in OdometryRule::ALL {
         let machine = machine(Settings { rule, ..Settings::default() });
         let stats = machine.stats();

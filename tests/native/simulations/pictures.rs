@@ -19,12 +19,12 @@ fn ramp(ramp_number: u8) -> Ramp {
 }
 
 /// Returns the index of the cell of a point, row by row from the top, by the definition of a grid.
-fn cell(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
+fn cell_index(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
     let Grid { min, max, columns, rows } = *grid;
     let column = ((x - min[0]) / (max[0] - min[0]) * columns as f64).floor();
     let row = ((max[1] - y) / (max[1] - min[1]) * rows as f64).floor();
-    let inside = (0.0..columns as f64).contains(&column) && (0.0..rows as f64).contains(&row);
-    inside.then(|| row as usize * columns + column as usize)
+    let is_inside = (0.0..columns as f64).contains(&column) && (0.0..rows as f64).contains(&row);
+    is_inside.then(|| row as usize * columns + column as usize)
 }
 
 /// Returns the step of the ramp for a count: 255·√(count/max_count), rounded.
@@ -33,7 +33,7 @@ fn ramp_step(count: u32, max_count: u32) -> u8 {
 }
 
 #[test]
-fn a_cloud_is_painted_as_it_is_dense() {
+fn pixels_show_the_density_of_the_cloud() {
     let settings = Settings { samples: 3000, ..preset("gentle") };
     let mut machine = BananaMachine::new(settings).expect("a valid setting");
     let positions: Vec<[f64; 2]> = machine.poses().map(|pose| [pose.x(), pose.y()]).collect();
@@ -43,7 +43,10 @@ fn a_cloud_is_painted_as_it_is_dense() {
     let twist_cases = grids([0.75, 0.1], [1.2, 0.7]).map(to_case(View::Twist, &twists));
     for (view, points, grid) in plane_cases.into_iter().chain(twist_cases) {
         let mut counts = vec![0u32; grid.columns * grid.rows];
-        points.iter().filter_map(|point| cell(&grid, *point)).for_each(|cell| counts[cell] += 1);
+        points
+            .iter()
+            .filter_map(|point| cell_index(&grid, *point))
+            .for_each(|cell_index| counts[cell_index] += 1);
         let max_count = *counts.iter().max().expect("there are cells");
         assert!((1..3000).contains(&counts.iter().sum::<u32>()), "some are outside");
         // Painted twice, because nothing of an image may remain in the next one.
@@ -69,8 +72,8 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
     for grid in grids([2.9, 3.4], [3.7, 4.9]) {
         let mut counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
         for attempt in machine.attempts() {
-            if let Some(cell) = cell(&grid, [attempt.pose.x(), attempt.pose.y()]) {
-                counts[cell][attempt.outcome_kind() as usize] += 1;
+            if let Some(cell_index) = cell_index(&grid, [attempt.pose.x(), attempt.pose.y()]) {
+                counts[cell_index][attempt.outcome_kind() as usize] += 1;
             }
         }
         let totals: Vec<u32> = counts.iter().map(|kinds| kinds.iter().sum()).collect();

@@ -1,7 +1,7 @@
 //! The machine of Map Squeeze: common random numbers, draw budget, tally and its interval.
 
 use crate::common::seeded;
-use crate::map::conditioned::{AHEAD, SAMPLERS, too_small_room};
+use crate::map::conditioned::{SAMPLERS, STRAIGHT_COMMAND, too_small_room};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
 use motion::sim::settings::Rules;
@@ -29,7 +29,7 @@ fn results(machine: &MapSqueeze) -> String {
 
 /// The sampler, conditioning and the map change which attempts are accepted, and no random number.
 #[test]
-fn changed_settings_move_no_sample() {
+fn changed_samplers_and_maps_move_no_sample() {
     let settings = Settings { samples: 3000, ..Settings::default() };
     let mut machine = machine(settings);
     let (old_results, cloud) = (results(&machine), poses(&machine));
@@ -67,21 +67,21 @@ fn only_rejected_parts_move_samples() {
     let settings = Settings { sampler: Sampler::SubStepped(4), samples: 500, ..Settings::default() };
     let mut machine = machine(settings);
     machine.set_plan(FloorPlan::new(Vec::new(), [-50.0, -50.0, 50.0, 50.0]).expect("an open field"));
-    let open_field = poses(&machine);
+    let poses_in_open_field = poses(&machine);
     machine.configure(Settings { conditioned: false, ..settings }).expect("valid");
-    assert!(poses(&machine) == open_field);
+    assert!(poses(&machine) == poses_in_open_field);
     machine.set_plan(FloorPlan::apartment());
-    assert!(poses(&machine) == open_field, "without conditioning walls have no effect");
+    assert!(poses(&machine) == poses_in_open_field, "without conditioning walls have no effect");
     let tally = machine.tally();
     assert_eq!((tally.accepted, tally.draws, tally.wall_tests), (500, 2000, 0));
     machine.configure(settings).expect("valid");
-    let moved_count = poses(&machine).iter().zip(&open_field).filter(|(a, b)| a != b).count();
+    let moved_count = poses(&machine).iter().zip(&poses_in_open_field).filter(|(a, b)| a != b).count();
     let rejections = machine.tally().draws - 2000;
     assert!(moved_count > 0 && moved_count <= rejections, "{moved_count} moved by {rejections} rejections");
 }
 
 #[test]
-fn attempts_have_the_arcs_that_they_drove() {
+fn the_arcs_of_an_attempt_end_at_its_pose() {
     for sampler in SAMPLERS {
         let machine = machine(Settings { sampler, samples: 2000, ..Settings::default() });
         let (tally, attempts) = (machine.tally(), machine.attempts());
@@ -95,8 +95,8 @@ fn attempts_have_the_arcs_that_they_drove() {
             assert_eq!(arcs.len(), parts as usize);
             let end = arcs[arcs.len() - 1].end();
             assert!((end.x() - attempt.pose.x()).abs() + (end.y() - attempt.pose.y()).abs() < 1e-12);
-            let free = arcs.iter().all(|arc| machine.plan().test_arc(arc, 0.13).free);
-            assert_eq!(attempt.path_free, free);
+            let is_path_free = arcs.iter().all(|arc| machine.plan().test_arc(arc, 0.13).free);
+            assert_eq!(attempt.path_free, is_path_free);
             let are_joined = arcs.windows(2).all(|pair| {
                 let end = pair[0].end();
                 (end.x(), end.y()) == (pair[1].start.x(), pair[1].start.y())
@@ -107,7 +107,7 @@ fn attempts_have_the_arcs_that_they_drove() {
 }
 
 #[test]
-fn the_commanded_path_and_the_room_at_its_start() {
+fn the_commanded_arc_and_the_test_of_its_start_follow_the_settings() {
     let command = VelocityCmd { v: -0.5, omega: 0.8, dt: 1.5 };
     let mut machine = machine(Settings { command, ..Settings::default() });
     let arc = machine.commanded_arc();
@@ -115,9 +115,9 @@ fn the_commanded_path_and_the_room_at_its_start() {
     assert!((arc.turn - 1.2).abs() < 1e-15);
     // The doorposts are 1.2 m ahead and 0.45 m to either side: √(1.2² + 0.45²) = 1.2816 m away.
     assert!(machine.is_start_free());
-    for (clearance, free) in [(1.282, false), (1.281, true)] {
+    for (clearance, is_start_free) in [(1.282, false), (1.281, true)] {
         machine.configure(Settings { clearance, ..Settings::default() }).expect("valid");
-        assert_eq!(machine.is_start_free(), free, "{clearance}");
+        assert_eq!(machine.is_start_free(), is_start_free, "{clearance}");
     }
     machine.set_plan(too_small_room());
     assert!(!machine.is_start_free());
@@ -126,10 +126,13 @@ fn the_commanded_path_and_the_room_at_its_start() {
 #[test]
 fn the_product_of_samples_and_parts_is_limited() {
     for (sampler, max_samples) in [(Sampler::WholeArc, 1_000_000), (Sampler::SubStepped(4), 250_000)] {
-        let refused = |samples| {
+        let refused_field = |samples| {
             Settings { samples, sampler, ..Settings::default() }.check().err().map(|error| error.field)
         };
-        assert_eq!([refused(max_samples), refused(max_samples + 1)], [None, Some("samples".to_owned())]);
+        assert_eq!(
+            [refused_field(max_samples), refused_field(max_samples + 1)],
+            [None, Some("samples".to_owned())]
+        );
     }
 }
 
@@ -181,7 +184,7 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
         let mut rng = seeded(7);
         let mut expected = (0, 0);
         for _ in 0..500 {
-            let sample = conditioned.sample(&AHEAD, &start, &mut rng).expect("it fits");
+            let sample = conditioned.sample(&STRAIGHT_COMMAND, &start, &mut rng).expect("it fits");
             expected = (expected.0 + sample.cost.draws, expected.1 + sample.cost.wall_tests);
         }
         assert_eq!((cost.draws, cost.wall_tests), expected);

@@ -18,7 +18,10 @@ const LARGE_REPETITIONS: u64 = 3000;
 const ROBOTS: usize = 5000;
 
 /// Returns the share of repetitions in which an interval holds the exact value, for each of several intervals.
-fn shares<const N: usize>(repetitions: u64, mut covered_by: impl FnMut(u64) -> [bool; N]) -> [f64; N] {
+fn coverage_fractions<const N: usize>(
+    repetitions: u64,
+    mut covered_by: impl FnMut(u64) -> [bool; N],
+) -> [f64; N] {
     let mut counts = [0; N];
     for seed in 0..repetitions {
         for (count, holds) in counts.iter_mut().zip(covered_by(seed)) {
@@ -28,16 +31,16 @@ fn shares<const N: usize>(repetitions: u64, mut covered_by: impl FnMut(u64) -> [
     counts.map(|count| f64::from(count) / repetitions as f64)
 }
 
-fn assert_covered(case: &str, share: f64, repetitions: u64) {
+fn assert_covered(case: &str, fraction: f64, repetitions: u64) {
     let allowed = MAX_STANDARD_ERRORS * (0.95 * 0.05 / repetitions as f64).sqrt();
-    assert!((share - 0.95).abs() <= allowed, "{case}: {:.2} % hold the exact value", 100.0 * share);
+    assert!((fraction - 0.95).abs() <= allowed, "{case}: {:.2} % hold the exact value", 100.0 * fraction);
 }
 
 /// Returns shares of clouds: those whose skew, pose gain and floor gain differ by at most 1.96 standard errors from the exact value.
-fn shares_within_errors(settings: Settings, repetitions: u64) -> [f64; 3] {
+fn fractions_within_errors(settings: Settings, repetitions: u64) -> [f64; 3] {
     let mut machine = BananaMachine::new(settings).expect("valid settings");
     let (skew, gain) = (machine.exact_moments().cross_track_skew, machine.exact_gain().value);
-    shares(repetitions, |seed| {
+    coverage_fractions(repetitions, |seed| {
         machine.configure(Settings { seed, ..settings }).expect("valid settings");
         let stats = machine.stats();
         let (gains, error) = (stats.likelihood_gain, stats.likelihood_gain_error);
@@ -54,16 +57,17 @@ const STATISTIC_NAMES: [&str; 3] = ["skew", "gain of poses", "gain on the floor"
 
 #[test]
 #[ignore = "nightly: thousands of clouds"]
-fn errors_of_small_clouds() {
+fn standard_errors_of_small_clouds_cover_95_percent() {
     for (cloud_name, settings) in [
         ("gentle arc", preset("gentle")),
         ("hard arc", Settings { noise: NoiseKind::Triangular, ..preset("hard") }),
         ("odometry", Settings { model: ModelKind::Odometry, ..preset("gentle") }),
     ] {
         let settings = Settings { samples: ROBOTS, ..settings };
-        for (statistic, share) in STATISTIC_NAMES.into_iter().zip(shares_within_errors(settings, REPETITIONS))
+        for (statistic, fraction) in
+            STATISTIC_NAMES.into_iter().zip(fractions_within_errors(settings, REPETITIONS))
         {
-            assert_covered(&format!("{statistic}, {cloud_name}"), share, REPETITIONS);
+            assert_covered(&format!("{statistic}, {cloud_name}"), fraction, REPETITIONS);
         }
     }
 }
@@ -71,10 +75,10 @@ fn errors_of_small_clouds() {
 /// In this cloud a few distant robots cause most of the variance.
 #[test]
 #[ignore = "nightly: thousands of clouds"]
-fn errors_of_the_banana_preset() {
-    let shares = shares_within_errors(preset("banana"), LARGE_REPETITIONS);
-    for (statistic, share) in STATISTIC_NAMES.into_iter().zip(shares) {
-        assert_covered(&format!("{statistic}, banana"), share, LARGE_REPETITIONS);
+fn standard_errors_of_the_banana_preset_cover_95_percent() {
+    let coverage_fractions = fractions_within_errors(preset("banana"), LARGE_REPETITIONS);
+    for (statistic, fraction) in STATISTIC_NAMES.into_iter().zip(coverage_fractions) {
+        assert_covered(&format!("{statistic}, banana"), fraction, LARGE_REPETITIONS);
     }
 }
 
@@ -87,14 +91,14 @@ fn small_clouds_hold_the_exact_skew_as_often_as_printed() {
     );
     for (percent, robots) in [(percent_of_few, few), (percent_of_more, more)] {
         let settings = Settings { samples: robots.value as usize, ..preset("gentle") };
-        let [skew, ..] = shares_within_errors(settings, REPETITIONS);
+        let [skew, ..] = fractions_within_errors(settings, REPETITIONS);
         percent.assert_percent(skew, 0.0);
     }
 }
 
 /// Returns the share of motions whose path is blocked among those whose end is free. It is a sum over the noises of speed and turn rate,
 /// because the turn after the arc does not change the position.
-fn share_through_walls(settings: &squeeze::Settings) -> f64 {
+fn fraction_through_walls(settings: &squeeze::Settings) -> f64 {
     const NODES: usize = 600;
     const MAX_SIGMAS: f64 = 6.0;
     let (plan, [x, y, theta]) = (FloorPlan::apartment(), settings.start);
@@ -119,16 +123,16 @@ fn share_through_walls(settings: &squeeze::Settings) -> f64 {
 
 #[test]
 #[ignore = "nightly: thousands of clouds"]
-fn the_interval_of_the_share_through_walls() {
+fn the_interval_of_the_fraction_through_walls_covers_95_percent() {
     for (name, start) in PRESETS {
         let settings = squeeze::Settings { start, ..squeeze::Settings::default() };
-        let exact = share_through_walls(&settings);
+        let exact = fraction_through_walls(&settings);
         let mut machine = MapSqueeze::new(settings).expect("valid settings");
-        let [share] = shares(REPETITIONS, |seed| {
+        let [fraction] = coverage_fractions(REPETITIONS, |seed| {
             machine.configure(squeeze::Settings { seed, ..settings }).expect("valid settings");
             let [low, high] = machine.tally().through_wall_interval();
             [low <= exact && exact <= high]
         });
-        assert_covered(&format!("{name}, exactly {exact}"), share, REPETITIONS);
+        assert_covered(&format!("{name}, exactly {exact}"), fraction, REPETITIONS);
     }
 }

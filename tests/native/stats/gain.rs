@@ -56,10 +56,10 @@ fn determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVector<f64>) -
     let columns: Vec<DVector<f64>> = (0..at.len())
         .map(|i| {
             let difference = |steps: f64| {
-                let mut varied = [at.clone(), at.clone()];
-                varied[0][i] += steps * STEP;
-                varied[1][i] -= steps * STEP;
-                (map(&varied[0]) - map(&varied[1])) / (2.0 * steps * STEP)
+                let mut shifted_points = [at.clone(), at.clone()];
+                shifted_points[0][i] += steps * STEP;
+                shifted_points[1][i] -= steps * STEP;
+                (map(&shifted_points[0]) - map(&shifted_points[1])) / (2.0 * steps * STEP)
             };
             (4.0 * difference(1.0) - difference(2.0)) / 3.0
         })
@@ -92,10 +92,10 @@ fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
         DVector::from_vec(vec![x, y])
     };
     let gains_of =
-        |plain: &[DVector<f64>], bent: &[DVector<f64>], map: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
-            let (plain, log) = (log_densities(plain), log_densities(bent));
-            let robots = bent.iter().zip(plain.iter().zip(&log));
-            robots.map(|(at, (plain, log))| log - determinant(map, at).abs().ln() - plain).collect()
+        |cartesian: &[DVector<f64>], curved: &[DVector<f64>], map: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
+            let (cartesian, log) = (log_densities(cartesian), log_densities(curved));
+            let robots = curved.iter().zip(cartesian.iter().zip(&log));
+            robots.map(|(at, (cartesian, log))| log - determinant(map, at).abs().ln() - cartesian).collect()
         };
     [gains_of(&coordinates, &twists, &pose_of_twist), gains_of(&positions, &arcs, &position_of_arc)]
 }
@@ -103,7 +103,7 @@ fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
 /// The machine computes the gain from sums, for every model and size. It computes the error from all robots up to 2048, and from a sample
 /// of a larger cloud.
 #[test]
-fn the_machine_has_the_gain_of_its_poses() {
+fn the_gain_equals_its_definition_over_all_poses() {
     for model in [ModelKind::Velocity, ModelKind::Odometry] {
         for noise in NOISE_KINDS {
             for [v, omega, dt] in
@@ -159,7 +159,7 @@ fn exact_gains_match_the_references() {
 
 /// The last turn γ̂ does not change the position.
 #[test]
-fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
+fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
     for Preset { command, .. } in PRESETS {
         let floor_gains = |last: f64| {
             let machine = machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 10_000);
@@ -190,7 +190,7 @@ fn the_gain_on_the_floor_is_the_same_whatever_the_last_turn() {
 
 /// The expected areas are those of the drawn outlines, by the shoelace formula.
 #[test]
-fn the_ratio_is_that_of_the_areas_drawn() {
+fn the_area_ratio_is_that_of_the_drawn_outlines() {
     let area = |outline: &[[f64; 2]]| -> f64 {
         outline.windows(2).map(|w| 0.5 * (w[0][0] * w[1][1] - w[1][0] * w[0][1])).sum::<f64>().abs()
     };
@@ -210,7 +210,7 @@ fn the_ratio_is_that_of_the_areas_drawn() {
 /// The reported error is compared with the standard deviation of the ratio over independent clouds. Over 20,000 clouds of 1000 robots it is
 /// 0.89 to 0.99 times that, because it is computed from the outline in arc coordinates instead of the one in ξ.
 #[test]
-fn the_error_of_the_ratio_is_its_spread_over_clouds() {
+fn the_error_of_the_area_ratio_matches_its_deviation_over_clouds() {
     const CLOUDS: usize = 300;
     for Preset { name, command, alphas } in PRESETS {
         let stats_of = |seed: usize| {
@@ -231,20 +231,20 @@ fn the_error_of_the_ratio_is_its_spread_over_clouds() {
 
 /// Without the last turn γ̂ the poses lie on a curved surface, which is a plane in exponential coordinates.
 #[test]
-fn the_gain_is_infinite_where_only_the_bent_cloud_is_flat() {
+fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
     for noise in NOISE_KINDS {
         for Preset { command, .. } in PRESETS {
             for samples in [5, 2000, 30_000] {
                 let velocity_alphas = [0.05, 0.05, 0.05, 0.09, 0.0, 0.0];
                 let settings = Settings { command, velocity_alphas, noise, samples, ..Settings::default() };
-                let flat = BananaMachine::new(settings).expect("a valid setting");
-                let Stats { likelihood_gain: value, likelihood_gain_error: error, .. } = flat.stats();
+                let flat_machine = BananaMachine::new(settings).expect("a valid setting");
+                let Stats { likelihood_gain: value, likelihood_gain_error: error, .. } = flat_machine.stats();
                 assert!(
                     value.pose == f64::INFINITY && error.pose.is_nan(),
                     "{command:?} {samples}: {value:?}"
                 );
                 assert!(value.floor.is_finite() && error.floor > 0.0, "{command:?} {samples}");
-                let exact = flat.table().exact.likelihood_gain;
+                let exact = flat_machine.table().exact.likelihood_gain;
                 assert!(exact.pose == f64::INFINITY && exact.floor.is_finite(), "{command:?}");
             }
             // With a tiny variance of γ̂ the gain is finite. It grows by half a nat if that variance falls by a factor e.

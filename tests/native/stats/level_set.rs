@@ -31,18 +31,18 @@ fn a_circle_is_one_closed_line() {
 }
 
 #[test]
-fn a_saddle_is_parted_as_the_mean_of_its_corners_says() {
+fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
     for (level, low_cut_off) in [(0.4, true), (0.6, false)] {
         let lines = level_set(&[1.0, 0.0, 0.0, 1.0], 2, level);
         assert_eq!(lines.len(), 2);
         // Two lines that cut off the low corners, or the high ones.
-        let cuts_off = |corner: [f64; 2]| {
+        let is_cut_off = |corner: [f64; 2]| {
             lines
                 .iter()
                 .any(|line| line.iter().all(|[x, y]| (x - corner[0]).abs() + (y - corner[1]).abs() < 1.0))
         };
-        assert_eq!(cuts_off([1.0, 0.0]) && cuts_off([0.0, 1.0]), low_cut_off, "{lines:?}");
-        assert_eq!(cuts_off([0.0, 0.0]) && cuts_off([1.0, 1.0]), !low_cut_off, "{lines:?}");
+        assert_eq!(is_cut_off([1.0, 0.0]) && is_cut_off([0.0, 1.0]), low_cut_off, "{lines:?}");
+        assert_eq!(is_cut_off([0.0, 0.0]) && is_cut_off([1.0, 1.0]), !low_cut_off, "{lines:?}");
     }
 }
 
@@ -55,18 +55,18 @@ fn contours_of_noise_contain_every_crossing() {
     let values: Vec<f64> = (0..columns * rows).map(|_| uniform(&mut rng, -1.0, 1.0)).collect();
     let mut crossings = 0;
     for i in 0..columns * rows {
-        let crosses = |k: usize| usize::from((values[i] > 0.2) != (values[k] > 0.2));
-        crossings += if i % columns + 1 < columns { crosses(i + 1) } else { 0 };
-        crossings += if i / columns + 1 < rows { crosses(i + columns) } else { 0 };
+        let is_crossed = |k: usize| usize::from((values[i] > 0.2) != (values[k] > 0.2));
+        crossings += if i % columns + 1 < columns { is_crossed(i + 1) } else { 0 };
+        crossings += if i / columns + 1 < rows { is_crossed(i + columns) } else { 0 };
     }
     let lines = level_set(&values, columns, 0.2);
     let mut point_count = 0;
     for line in &lines {
-        let closed = line.len() > 2 && line.first() == line.last();
-        point_count += line.len() - usize::from(closed);
-        let on_rim =
+        let is_closed = line.len() > 2 && line.first() == line.last();
+        point_count += line.len() - usize::from(is_closed);
+        let is_on_rim =
             |[x, y]: [f64; 2]| x == 0.0 || y == 0.0 || x == (columns - 1) as f64 || y == (rows - 1) as f64;
-        assert!(closed || (on_rim(line[0]) && on_rim(line[line.len() - 1])), "{line:?}");
+        assert!(is_closed || (is_on_rim(line[0]) && is_on_rim(line[line.len() - 1])), "{line:?}");
         for ends in line.windows(2) {
             assert!((ends[1][0] - ends[0][0]).abs().max((ends[1][1] - ends[0][1]).abs()) <= 1.0);
         }
@@ -90,7 +90,7 @@ fn surface(settings: Settings) -> Surface {
 /// times the second derivative. This is largest across the drive: at the distance d the arc's turn changes by 2/d per metre. From
 /// d = 0.7 m on, (2/d)² · (1/σ_ω² + 1/σ_γ²) is below 770, so the error of log p is at most 0.075.
 #[test]
-fn contours_are_where_the_models_have_their_levels() {
+fn contours_lie_at_the_levels_of_the_models() {
     let settings = Settings { map: SurfaceKind::Density, ..Settings::default() };
     let Surface { columns, rows, shades, prob, density } = surface(settings);
     assert!(columns * rows == shades.len() && (5_000..=10_000).contains(&shades.len()));
@@ -126,7 +126,7 @@ fn contours_are_where_the_models_have_their_levels() {
 }
 
 #[test]
-fn a_map_without_noise_is_empty() {
+fn a_heat_map_without_noise_is_empty() {
     let settings = Settings { alphas: [0.0; 6], map: SurfaceKind::Prob, ..Settings::default() };
     let Surface { shades, prob, density, .. } = surface(settings);
     assert!(shades.iter().all(|shade| *shade == 0) && prob.is_empty() && density.is_empty());

@@ -18,7 +18,7 @@ const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 const ALPHAS: VelocityAlphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
 
 /// Share 1 − exp(−2²/2) of a two-dimensional Gaussian that lies within two standard deviations.
-const TWO_SIGMA_SHARE: f64 = 0.864_664_716_763_387_3;
+const TWO_SIGMA_FRACTION: f64 = 0.864_664_716_763_387_3;
 
 #[test]
 fn exponential_moments_are_means_of_twists_from_the_start() {
@@ -43,29 +43,33 @@ fn the_exponential_contour_covers_two_deviations() {
     let model = VelocityModel { alphas, noise: NoiseKind::Normal };
     let mut rng = seeded(134);
     let poses: Vec<SE2> = (0..200_000).map(|_| model.sample(&U, &start, &mut rng)).collect();
-    let share = |moments: &ExponentialMoments| {
+    let fraction_inside = |moments: &ExponentialMoments| {
         let contour = ExponentialContour::new(moments, &start);
         poses.iter().filter(|pose| contour.contains(pose)).count() as f64 / 200_000.0
     };
-    let error = (TWO_SIGMA_SHARE * (1.0 - TWO_SIGMA_SHARE) / 200_000.0).sqrt();
+    let error = (TWO_SIGMA_FRACTION * (1.0 - TWO_SIGMA_FRACTION) / 200_000.0).sqrt();
     let exact =
         ExponentialMoments { mean: TangentNoiseModel::twist(&U), cov: model.tangent_cov(&U).unwrap() };
-    assert!((share(&exact) - TWO_SIGMA_SHARE).abs() < MAX_STANDARD_ERRORS * error, "{}", share(&exact));
-    let fitted = share(&ExponentialMoments::from_poses(&poses, &start));
-    assert!((fitted - TWO_SIGMA_SHARE).abs() < MAX_STANDARD_ERRORS * error, "{fitted}");
+    assert!(
+        (fraction_inside(&exact) - TWO_SIGMA_FRACTION).abs() < MAX_STANDARD_ERRORS * error,
+        "{}",
+        fraction_inside(&exact)
+    );
+    let fitted_fraction = fraction_inside(&ExponentialMoments::from_poses(&poses, &start));
+    assert!((fitted_fraction - TWO_SIGMA_FRACTION).abs() < MAX_STANDARD_ERRORS * error, "{fitted_fraction}");
 
     let contour = ExponentialContour::new(&exact, &start);
     let outline = contour.boundary(48);
     assert_eq!(outline.first(), outline.last());
     for &[x, y] in &outline {
         // In exponential coordinates the outline is the 2σ ellipse of (along, heading).
-        let executed = motion::invert_arc(&start, &SE2::new(x, y, 0.0), 1.0);
-        let radius = ((executed.v_hat - 1.0).powi(2) + (executed.omega_hat - 0.5).powi(2)) / 0.025;
+        let inversion = motion::invert_arc(&start, &SE2::new(x, y, 0.0), 1.0);
+        let radius = ((inversion.v_hat - 1.0).powi(2) + (inversion.omega_hat - 0.5).powi(2)) / 0.025;
         assert!((radius - 4.0).abs() < 1e-9, "{radius}");
-        for (scale, inside) in [(0.99, true), (1.01, false)] {
-            let v = 1.0 + scale * (executed.v_hat - 1.0);
-            let turn = 0.5 + scale * (executed.omega_hat - 0.5);
-            assert_eq!(contour.contains(&start.boxplus(Vector3::new(v, 0.0, turn))), inside);
+        for (scale, is_inside) in [(0.99, true), (1.01, false)] {
+            let v = 1.0 + scale * (inversion.v_hat - 1.0);
+            let turn = 0.5 + scale * (inversion.omega_hat - 0.5);
+            assert_eq!(contour.contains(&start.boxplus(Vector3::new(v, 0.0, turn))), is_inside);
         }
     }
 }
@@ -84,16 +88,16 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
     for (mean, cov) in cases {
         let start = SE2::new(2.0, -1.0, 0.7);
         let precision = cov.try_inverse().unwrap();
-        let spread = f64::sqrt(cov[(2, 2)]);
+        let heading_std = f64::sqrt(cov[(2, 2)]);
         for [x, y] in ExponentialContour::new(&ExponentialMoments { mean, cov }, &start).boundary(48) {
             let distance = |heading: f64| {
-                let step = start.inverse() * SE2::new(x, y, start.theta() + heading);
-                let offset = step.log_near(heading) - mean;
+                let relative_pose = start.inverse() * SE2::new(x, y, start.theta() + heading);
+                let offset = relative_pose.log_near(heading) - mean;
                 offset.dot(&(precision * offset)).sqrt()
             };
             // Minimizes the distance over 4001 headings within three standard deviations. The step is so small that the
             // minimum is too large by less than 1e-5.
-            let headings = (0..=4000).map(|i| mean.z + spread * 3.0 * (f64::from(i) / 2000.0 - 1.0));
+            let headings = (0..=4000).map(|i| mean.z + heading_std * 3.0 * (f64::from(i) / 2000.0 - 1.0));
             let min_distance = headings.map(distance).fold(f64::INFINITY, f64::min);
             assert!((1.9..2.0 + 1e-5).contains(&min_distance), "({x}, {y}): {min_distance}");
         }
@@ -188,17 +192,21 @@ fn degenerate_clouds_give_nan() {
         let lateral_cov = Matrix3::from_diagonal(&Vector3::y());
         assert!(predicted_cross_track_skew(&Vector3::new(0.0, 0.0, turn), &lateral_cov).is_nan());
     }
-    let along =
+    let along_only_model =
         VelocityModel { alphas: VelocityAlphas([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
-    let noise_free_model = VelocityModel { alphas: VelocityAlphas([0.0; 6]), ..along };
+    let noise_free_model = VelocityModel { alphas: VelocityAlphas([0.0; 6]), ..along_only_model };
     assert!(ExactMoments::of_velocity(&noise_free_model, &U).cross_track_skew.is_nan());
-    assert!(ExactMoments::of_velocity(&along, &VelocityCmd { omega: 0.0, ..U }).cross_track_skew.is_nan());
+    assert!(
+        ExactMoments::of_velocity(&along_only_model, &VelocityCmd { omega: 0.0, ..U })
+            .cross_track_skew
+            .is_nan()
+    );
 }
 
 /// A width of the size of rounding counts as 0, also if robots drive forward and in reverse so that their mean is at the start. Lengths
 /// have a standard deviation of a millimetre here, and turns of `turn`.
 #[test]
-fn a_cloud_whose_breadth_is_rounding_is_a_line() {
+fn a_width_of_the_size_of_rounding_counts_as_zero() {
     const SPEED: f64 = 1e-6;
     let skews = |turn: f64| {
         let turn_per_speed = turn / SPEED;
@@ -217,11 +225,11 @@ fn a_cloud_whose_breadth_is_rounding_is_a_line() {
 
 /// A spread that is only rounding of a distant cloud counts as 0, too. At a kilometre, coordinates are rounded to 1e-13 m.
 #[test]
-fn a_cloud_whose_breadth_is_rounding_of_its_place_is_a_line() {
-    const BREADTH: f64 = 1e-10;
+fn a_width_of_the_size_of_position_rounding_counts_as_zero() {
+    const WIDTH: f64 = 1e-10;
     let skew = |[x, y]: [f64; 2]| {
         let mut rng = seeded(146);
-        let mut offset = || uniform(&mut rng, -BREADTH, BREADTH);
+        let mut offset = || uniform(&mut rng, -WIDTH, WIDTH);
         let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + offset(), y + offset(), 0.3)).collect();
         cross_track_skew(&poses)
     };

@@ -10,12 +10,12 @@ use std::f64::consts::PI;
 
 /// Sixth powers of small residuals underflow. The standard error of the skew must not become 0 for that reason.
 #[test]
-fn a_cloud_too_small_for_its_powers_has_no_skew() {
+fn a_cloud_whose_sixth_powers_underflow_has_no_skew() {
     for (unit, is_finite) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
         let cloud = [0.0, 1.0, 3.0, 7.0].map(|y| SE2::new(unit, unit * y, 0.0));
-        let track = CrossTrack::from_poses(&cloud);
-        let values = [track.skew, track.skew_error];
-        assert!(values.iter().all(|value| value.is_finite() == is_finite), "{unit}: {track:?}");
+        let cross_track = CrossTrack::from_poses(&cloud);
+        let values = [cross_track.skew, cross_track.skew_error];
+        assert!(values.iter().all(|value| value.is_finite() == is_finite), "{unit}: {cross_track:?}");
     }
     let command = VelocityCmd { v: 1e-60, omega: 0.5, dt: 1.0 };
     let alphas = [0.05, 0.0, 0.05, 0.05, 0.0, 0.0];
@@ -26,7 +26,7 @@ fn a_cloud_too_small_for_its_powers_has_no_skew() {
 
 /// The direction of a subnormal chord must not be computed with a reciprocal, which overflows.
 #[test]
-fn an_arc_of_subnormal_length_is_judged() {
+fn an_arc_of_subnormal_length_is_tested_correctly() {
     let plan = FloorPlan::apartment();
     for length in [0.0, 1e-300, 9.7e-310, 5e-324, -5e-324] {
         for turn in [0.0, 1.7e-308, 0.5, 3.0, 100.0] {
@@ -52,7 +52,7 @@ fn a_circle_too_long_for_a_double_is_not_driven() {
 
 /// A displacement whose square underflows must count as 0, instead of giving 0 / 0.
 #[test]
-fn a_displacement_with_a_subnormal_square_counts_as_none() {
+fn a_displacement_with_a_subnormal_square_counts_as_zero() {
     let model = model([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);
     let u = VelocityCmd { v: 78.0, omega: 38.0, dt: 633_457.9 };
     let (x, next) = (SE2::new(2.2e-308, 0.0, PI), SE2::identity());
@@ -72,10 +72,10 @@ fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
 /// The search for an open place divides the shorter side of these plans into squares too, although the longer one is over 256 times as
 /// long.
 #[test]
-fn a_narrow_plan_has_an_open_place() {
+fn a_narrow_plan_has_a_free_pose() {
     for bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {
         let plan = FloorPlan::new(Vec::new(), bounds).expect("bounds");
-        let open_place = plan.find_free_pose(0.0).expect("nothing is in the way");
-        assert!(plan.test_point([open_place.x(), open_place.y()], 0.0).free, "{open_place:?}");
+        let free_pose = plan.find_free_pose(0.0).expect("nothing is in the way");
+        assert!(plan.test_point([free_pose.x(), free_pose.y()], 0.0).free, "{free_pose:?}");
     }
 }

@@ -326,7 +326,7 @@ testEach('a figure with all folds open fits into 320 px', async (page, name, isF
   }
 });
 
-test('the help of a slider covers no slider of its group, and no outline crosses it @nightly', async ({ page, figure }) => {
+testEach('the help of a slider covers no slider of its group and no rule, and no outline crosses it', async (page, figure) => {
   const widget = await showUnfolded(page, figure);
   for (const [width, lang] of /** @type {const} */ ([[320, 'en'], [700, 'de']])) {
     await page.setViewportSize({ width, height: 812 });
@@ -334,15 +334,18 @@ test('the help of a slider covers no slider of its group, and no outline crosses
     await frames(page);
     const coveredSliders = await widget.evaluate((element) => {
       const root = /** @type {ShadowRoot} */ (element.shadowRoot);
+      const ruleY = /** @type {Element} */ (root.querySelector('.folds')).getBoundingClientRect().top;
       return [...root.querySelectorAll('.slider')].flatMap((row) => {
         const slider = /** @type {HTMLInputElement} */ (row.querySelector('input[type=range]'));
         slider.focus();
-        const help = /** @type {Element} */ (row.querySelector('.effect')).getBoundingClientRect();
+        const help = row.querySelector('.effect')?.getBoundingClientRect();
+        if (!help) return [];
         // The outline of a thumb ends 4 px outside it, and a thumb has the radius 0.525 rem.
         return [.../** @type {Element} */ (row.closest('fieldset, .controls')).querySelectorAll('.slider input[type=range]')]
           .map((control) => control.getBoundingClientRect())
           .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > help.top && (top + bottom) / 2 < help.bottom)
-          .map(() => slider.id);
+          .map(() => slider.id)
+          .concat(help.top < ruleY && help.bottom > ruleY ? `${slider.id} on the rule` : []);
       });
     });
     expect(coveredSliders, `${width} px, ${lang}`).toEqual([]);

@@ -115,6 +115,13 @@ const figureLayout = css`
     border-top: 1px solid var(--rule);
   }
 
+  /* Narrow columns of sliders have texts of two lines, which end above the rule. */
+  @container (width < 56em) {
+    .folds {
+      margin-top: 1.3em;
+    }
+  }
+
   .folds > details {
     min-width: 0;
   }

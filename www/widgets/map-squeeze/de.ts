@@ -14,13 +14,13 @@ export const de: typeof import('./en.ts').en = {
   settings: {
     v: { effect: 'Bestimmt, wie weit der Roboter fährt und wie viele Wände er treffen kann.' },
     omega: { effect: 'Biegt den Weg: Er kann hinter einer Ecke im Freien enden.' },
-    dt: { effect: 'Zeit zwischen zwei Kollisionsprüfungen.' },
+    dt: { effect: 'Wie lange er fährt: Je länger, desto mehr Wände kann er treffen.' },
     noise: { name: 'Rauschpegel', effect: 'Verbreitert die Wolke: setzt α₁ bis α₄; α₅ und α₆ sind ein Viertel.' },
     clearance: { name: 'Roboterradius', effect: 'Ein breiterer Roboter hat an weniger Stellen Platz und trifft mehr Wände.' },
     unknown: { name: 'Unbekannte Zellen' },
     sampler: { name: 'Verfahren' },
     steps: { name: 'Teilschritte', effect: 'Teile des Befehls, jeder mit eigenem Rauschen.' },
-    samples: { effect: 'Mehr Bewegungen verengen das Intervall des Anteils durch die Wand.' },
+    samples: { effect: 'Mehr Stichproben verengen das Intervall.' },
     view: { name: 'Ansicht' },
   },
   overlays: {

@@ -16,13 +16,13 @@ export const en = {
   settings: {
     v: { effect: 'Sets how far the robot is sent, and how many walls it may meet.' },
     omega: { effect: 'Bends the path: it can end in free space behind a corner.' },
-    dt: { effect: 'Time between collision checks.' },
+    dt: { effect: 'How long it drives: the longer, the more walls it may meet.' },
     noise: { name: 'noise level', effect: 'Spreads the cloud: sets α₁ to α₄; α₅ and α₆ are a quarter.' },
     clearance: { name: 'robot radius', effect: 'A wider robot fits in fewer places and meets more walls.' },
     unknown: { name: 'Unknown cells' },
     sampler: { name: 'Sampler' },
     steps: { name: 'sub-steps', effect: 'Parts of the command, each with noise of its own.' },
-    samples: { effect: 'More motions narrow the interval of the share through a wall.' },
+    samples: { effect: 'More samples narrow the interval of the share.' },
     view: { name: 'View' },
   },
   overlays: {

@@ -356,6 +356,7 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   assert.equal((await outputOf([a, b, '--json'])).err, orderWarning);
   const inMillimetres = fileWith('mm.csv', readFileSync(example('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
   assert.match(await inspectionOf([inMillimetres], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
+  assert.match(await inspectionOf([a, b, fileWith('empty_table.csv', 't,x,y,yaw\n')]), /^Give two files without empty_table\.csv:\n\n {2}npx motion-widgets calibrate --odometry FILE --reference FILE --rule nav2$/m);
   const alternating = fileWith('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
   assert.equal((await inspectionOf([alternating], 2)).match(/give the log of one robot/g)?.length, 1);
   assert.match(await inspectionOf([inMillimetres, '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry DIR\/mm\.csv --reference FILE --length-unit mm --rule nav2$/m);
@@ -395,6 +396,8 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const checks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
   const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks } });
   assert.match(reportOfFailure, /^\nQuestionable: one check failed \(enough-legs\)\. .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);
+  const roundedChecks = [{ name: 'window-2m-covered', value: 0.8636, expected: [0.8641, 1], passed: false, message: '' }];
+  assert.match(reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +0\.8636 +0\.8641 to 1 +FAILED$/m);
   assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nUnusable: .* It does not identify any α\.\n\n/);
   const boundedInflation = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
   assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: boundedInflation } }), /^\nUnusable: .* Find the cause\.\n/);

@@ -41,8 +41,10 @@ export async function inspect(given: GivenRecording[], stated: [name: string, va
   const recordings: Contents[] = [];
   for (const { recording } of given) recordings.push(await contentsOf(recording, onProgress));
   onProgress?.(undefined);
-  const isRefused = recordings.some(({ series, refused }) => refused.length > 0 && !series.some(({ summary }) => summary));
-  return { recordings, ...(isRefused ? {} : nextCommand(given, stated)) };
+  const refusedNames = recordings.flatMap(({ name, series, refused }) => (refused.length > 0 && !series.some(({ summary }) => summary) ? [name] : []));
+  if (refusedNames.length === 0) return { recordings, ...nextCommand(given, stated) };
+  const others = { missing: `Give two files without ${new Intl.ListFormat('en').format(refusedNames)}:`, command: commandText(stated, '--odometry FILE', '--reference FILE') };
+  return { recordings, ...(refusedNames.length < recordings.length && others) };
 }
 
 async function contentsOf(recording: Recording, onProgress?: (share: number | undefined) => void): Promise<Contents> {
@@ -112,11 +114,13 @@ async function readLogs(recording: Recording, choices: Choice[], onProgress?: (s
 export const byOrder = ({ unpaired: { odometry: [first], reference: [second] } }: LogPlan): string =>
   `${first.recording.name} is taken as the odometry and ${second.recording.name} as the reference, by their order: neither name says which is which.`;
 
+const commandText = (stated: [name: string, value: string][], ...options: string[]) =>
+  ['npx motion-widgets calibrate', ...options, ...stated.map(([name, value]) => `--${name} ${shellQuoted(value)}`), '--rule nav2'].join(' ');
+
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
 function nextCommand(given: GivenRecording[], stated: [name: string, value: string][]): Pick<InspectionResult, 'command' | 'missing'> {
   const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => shellQuoted(given.find((file) => file.recording === recording)?.path ?? recording.name);
-  const unitOptions = stated.map(([name, value]) => `--${name} ${shellQuoted(value)}`);
-  const command = (...options: string[]) => ['npx motion-widgets calibrate', ...new Set(options), ...unitOptions, '--rule nav2'].join(' ');
+  const command = (...options: string[]) => commandText(stated, ...new Set(options));
   const paths = given.map(({ recording }) => quotedPath({ recording }));
   try {
     const plan = planDrives(given.map(({ recording }) => recording));

@@ -152,8 +152,10 @@ function persistenceRow({ persistence: { correlation: { value, interval }, lengt
 }
 
 function checkRow({ name, value, expected: [low, high], passed }: any): string[] {
-  const bounds = low === -Infinity ? `≤ ${toText(high)}` : high === Infinity ? `≥ ${toText(low)}` : `${toText(low)} to ${toText(high)}`;
-  return [name, value === Infinity ? '∞' : toText(value), bounds, passed ? 'ok' : 'FAILED'];
+  // A value that fails must not round to a bound.
+  const digits = [3, 4, 6, 17].find((count) => passed || [low, high].every((bound) => toText(value, count) !== toText(bound, count)));
+  const bounds = low === -Infinity ? `≤ ${toText(high, digits)}` : high === Infinity ? `≥ ${toText(low, digits)}` : `${toText(low, digits)} to ${toText(high, digits)}`;
+  return [name, value === Infinity ? '∞' : toText(value, digits), bounds, passed ? 'ok' : 'FAILED'];
 }
 
 function windowRow({ length, count, coverage, nees }: any): string[] {

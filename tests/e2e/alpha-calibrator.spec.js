@@ -15,6 +15,7 @@ test('opens with the simulated log, labelled as simulated, with its true α’s'
     expect(await pixelCountOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(20);
   }
   expect(await pixelCountOf(widget.locator('canvas.leg'), 'prediction')).toBeGreaterThan(20);
+  expect(await widget.evaluate((element) => /** @type {any} */ (element).toCSV())).toMatch(/^# \{"element":"alpha-calibrator","model":/);
 });
 
 test('the true α’s are shown where the fit is of their rule and legs, and nowhere else', async ({ page }) => {

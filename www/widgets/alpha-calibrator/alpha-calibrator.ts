@@ -209,7 +209,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     const columns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`));
     return {
       description: [pathText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
-      settings: { log: this.log?.name ?? null, ...fitted },
+      settings: { ...(this.log && { log: this.log.name }), ...fitted },
       columns: [
         'begins_s', 'ends_s', ...columns('odometry'), ...columns('reference'), 'reading_1', 'reading_2', 'reading_3',
         ...['residual', 'standardized', 'std'].flatMap((statistic) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`)), 'squared_mahalanobis', 'outlier',

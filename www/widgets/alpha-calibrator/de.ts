@@ -231,7 +231,7 @@ export const de: typeof import('./en.ts').en = {
     fit: 'Für Nav2 anpassen',
     fitTitle: 'Diese α’s gelten für ein anderes Modell: das von Nav2 anpassen, dann kopieren',
     json: 'Alles als JSON speichern',
-    none: 'Keine Zeilen: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
+    none: 'Keine Zeilen für nav2_params.yaml: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
     otherRule: 'Nicht nach der Regel von Nav2 angepasst, die nav2 heißt.',
     notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt',
     zero: (upperBound) => `nicht signifikant von 0 verschieden, höchstens ${upperBound}`,

@@ -197,7 +197,7 @@ export const en = {
     fit: 'Fit for Nav2',
     fitTitle: 'These α’s are of another model: fit that of Nav2’s AMCL, then copy',
     json: 'Save all as JSON',
-    none: 'No lines: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
+    none: 'No lines for nav2_params.yaml: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
     otherRule: 'Not fitted by the rule of Nav2’s AMCL, which is called nav2.',
     notIdentifiable: 'not identifiable from this log',
     zero: (upperBound) => `not significantly different from 0, at most ${upperBound}`,

@@ -117,6 +117,16 @@ test('a centre out of sight is pointed to, with its distance @nightly', async ({
   expect(Math.abs(heights[0] - heights[1])).toBeGreaterThan(12);
 });
 
+test('the whole wedge of the last turn is in a narrow picture', async ({ page }) => {
+  await page.setViewportSize({ width: 375, height: 812 });
+  const widget = await openArcAnatomy(page, 'preset="straight"');
+  const [end, edge] = await widget.evaluate((element) => {
+    const { pictures: [{ view }], machine: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
+    return [view.ray({ ...next, theta: next.theta - lastTurn }, 64)[1][0], view.frame.right];
+  });
+  expect(end).toBeLessThan(edge);
+});
+
 test('as printed, a right turn loses p and the verdict says why, and a left turn does not', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   await unfold(widget);

@@ -60,7 +60,7 @@ export class ArcPicture extends Picture<Scene> {
   view: View = new View();
   #surface = new SurfaceLayer();
 
-  fit({ config: { start, next }, stats: { commanded, inverted }, paths }: Scene) {
+  fit({ config: { start, next }, stats: { commanded, inverted, lastTurn }, paths, overlays }: Scene) {
     let box = extentAround([start.x, start.y, next.x, next.y], 2);
     for (const path of [paths.commanded, paths.inverted, paths.driven]) box = extentAround(path, 2, box);
     const pathExtent = Math.hypot(box.xMax - box.xMin, box.yMax - box.yMin);
@@ -68,7 +68,11 @@ export class ArcPicture extends Picture<Scene> {
       if (center && Math.abs(radius) < Math.max(MAX_RADIUS.metres, MAX_RADIUS.ways * pathExtent)) box = extentAround(center, 2, box);
     }
     const { xMin, yMin, xMax, yMax } = box;
-    this.view.fit({ xMin: xMin - MARGIN_METRES, yMin: yMin - MARGIN_METRES, xMax: xMax + MARGIN_METRES, yMax: yMax + MARGIN_METRES });
+    const padded = { xMin: xMin - MARGIN_METRES, yMin: yMin - MARGIN_METRES, xMax: xMax + MARGIN_METRES, yMax: yMax + MARGIN_METRES };
+    // The view's own margin makes up for the scale that the wedge itself reduces.
+    const wedgeRadius = WEDGE_RADIUS / this.view.scaleFor(padded);
+    const sides = overlays.includes('wedge') ? [next.theta, next.theta - lastTurn] : [];
+    this.view.fit(extentAround(sides.flatMap((theta) => [next.x + wedgeRadius * Math.cos(theta), next.y + wedgeRadius * Math.sin(theta)]), 2, padded));
   }
 
   paint: Picture<Scene>['paint'] = (brush, scene) => {

@@ -6,7 +6,7 @@ use super::residuals::Model;
 use super::result::LegFit;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
-use crate::geom::se2::{SE2, wrap_angle};
+use crate::geom::se2::SE2;
 use crate::models::OdometryRule;
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
@@ -37,7 +37,7 @@ pub enum CheckName {
     SamplingDense,
     /// Fraction of outliers.
     OutliersFew,
-    /// Fraction of the legs in which the odometry moves sideways.
+    /// Fraction of the legs in which the odometry moves sideways, or backwards where the rule takes that for two turns.
     SidewaysRare,
     /// Difference of the distance scales of straight and turning legs, or of both halves of the log, whichever is larger.
     DistanceScaleConstant,
@@ -146,7 +146,7 @@ impl CheckName {
                 "Many legs are outliers. The α's are those of the rest, and too small if the outliers are slip of the wheels. Look at the listed legs: a jump of the reference or slip?"
             }
             Self::SidewaysRare => {
-                "The odometry moves sideways: its positions are noisy, or its frame is off the axle. α₁ and α₄ are too small. Use odometry of the axle."
+                "The odometry moves sideways, or backwards under Table 5.6: its positions are noisy, its frame is off the axle, or the robot reverses. α₁ and α₄ are too small. Use odometry of the axle, or the rule of Nav2."
             }
             Self::DistanceScaleConstant => {
                 "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
@@ -201,9 +201,6 @@ const PIECE_LENGTHS: [f64; 2] = [200.0, 5.0];
 /// Scales that wheels can have. Any other scale shows that the reference has another unit.
 const PLAUSIBLE_SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
-/// Sine of the angle between a leg's displacement and its heading halfway, above which the leg moves sideways. An arc has 0.
-const MIN_SIDEWAYS_SINE: f64 = 0.5;
-
 /// Number of windows below which nothing is concluded from them.
 pub(super) const MIN_WINDOWS: usize = 20;
 
@@ -240,17 +237,12 @@ pub(super) fn log_checks(
         Check::new(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
         Check::new(CheckName::OutliersFew, outlier_count as f64 / count as f64, [0.0, 0.05]),
     ]);
-    if matches!(sample.options.model, Model::Odometry(rule) if rule != OdometryRule::Omni) {
-        let sideways = sample.observations.iter().filter(|leg| moves_sideways(leg.reading)).count();
+    let model = sample.options.model;
+    if matches!(model, Model::Odometry(rule) if rule != OdometryRule::Omni) {
+        let sideways = sample.observations.iter().filter(|leg| leg.moves_sideways(model)).count();
         checks.push(Check::new(CheckName::SidewaysRare, sideways as f64 / count as f64, [0.0, 0.02]));
     }
     checks
-}
-
-/// Returns true if a reading is a drive to the side of its heading. Its first rotation is then large. In a turn on the spot the first
-/// rotation is only noise. A reading without a first rotation has no direction.
-fn moves_sideways([rot1, _, rot2]: [f64; 3]) -> bool {
-    rot1 != 0.0 && libm::sin(rot1 - 0.5 * wrap_angle(rot1 + rot2)).abs() > MIN_SIDEWAYS_SINE
 }
 
 /// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. This is done

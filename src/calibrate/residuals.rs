@@ -112,6 +112,24 @@ impl Observation {
     }
 }
 
+/// Sine of the angle between a leg's displacement and its heading halfway, above which the leg moves sideways. An arc has 0.
+const MIN_SIDEWAYS_SINE: f64 = 0.5;
+
+impl Observation {
+    /// Returns true if the reading is a drive to the side of its heading, which the rule takes for large turns. Under Table 5.6 a drive
+    /// backwards is one too. In a turn on the spot the first rotation is only noise; without a first rotation a reading has no direction.
+    pub(crate) fn moves_sideways(&self, model: Model) -> bool {
+        let [rot1, _, rot2] = self.reading;
+        let (sin, cos) = libm::sincos(rot1 - 0.5 * wrap_angle(rot1 + rot2));
+        match model {
+            Model::Odometry(OdometryRule::Omni) | Model::Velocity => false,
+            Model::Odometry(rule) => {
+                rot1 != 0.0 && (sin.abs() > MIN_SIDEWAYS_SINE || (rule == OdometryRule::Table && cos < 0.0))
+            }
+        }
+    }
+}
+
 /// Returns the variances of a reading twice: with the first α of each component 1 and the second 0, and with the first 0 and the second 1.
 fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 2] {
     [[1.0, 0.0, 1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0, 0.0]].map(|alphas| rule.variances(reading, &alphas))

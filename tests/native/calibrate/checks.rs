@@ -200,6 +200,14 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         [sideways_check_passes(&shifted, omni), sideways_check_passes(&shifted, Model::Velocity)],
         [None; 2]
     );
+    // Table 5.6 takes a drive backwards for two turns by half a circle.
+    let reversing =
+        Simulation { drive: Some(|leg| [if leg % 5 == 0 { -0.3 } else { 0.3 }, 0.2]), ..good_log(300, 12) };
+    let is_reported = |model| {
+        let calibration = calibrated_log(&reversing.log(), &Options { model, ..sim.options() });
+        names_of_failed_checks(&calibration).contains(&SidewaysRare)
+    };
+    assert_eq!([table, NAV2].map(is_reported), [true, false]);
 }
 
 /// Asserts that a check fails because a systematic error is not constant, and that the error is not corrected.

@@ -18,7 +18,7 @@ const MESSAGES: Record<string, string> = {
   'outliers-few':
     'Viele Etappen sind Ausreißer. Die α gelten für den Rest und sind zu klein, wenn die Ausreißer Schlupf der Räder sind. Die markierten Etappen ansehen: ein Sprung der Referenz oder Schlupf?',
   'sideways-rare':
-    'Die Odometrie bewegt sich seitwärts: Ihre Positionen rauschen, oder ihr Koordinatensystem liegt nicht auf der Achse. α₁ und α₄ sind zu klein. Odometrie der Räder verwenden, in der Mitte ihrer Achse.',
+    'Die Odometrie bewegt sich seitwärts, oder rückwärts nach Tabelle 5.6: Ihre Positionen rauschen, ihr Koordinatensystem liegt nicht auf der Achse, oder der Roboter fährt rückwärts. α₁ und α₄ sind zu klein. Odometrie der Räder in der Mitte ihrer Achse verwenden, oder die Regel von Nav2.',
   'distance-scale-constant':
     'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
   'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert. Spurweite und Schlupf auf diesem Boden prüfen.',
@@ -94,7 +94,7 @@ export const de: typeof import('./en.ts').en = {
       'legs-lost': 'verlorene Etappen',
       'sampling-dense': 'Etappenlänge durch verlangte Länge',
       'outliers-few': 'Ausreißer',
-      'sideways-rare': 'Etappen mit seitlicher Odometrie',
+      'sideways-rare': 'Etappen seitwärts oder rückwärts',
       'distance-scale-constant': 'Änderung des Skalenfaktors, Strecke',
       'turn-scale-constant': 'Änderung des Skalenfaktors, Drehung',
       'inflation-bounded': 'Vergrößerung, die Fenster von 1 m brauchen',
@@ -168,7 +168,7 @@ export const de: typeof import('./en.ts').en = {
     title: 'Residuen und Bewegung',
     against: 'Über dem Quadrat',
     regressors: { turn: 'der Drehung', distance: 'der Strecke' },
-    caption: 'Quadrierte Residuen in Klassen aus gleich vielen Etappen, ohne den Anteil des anderen *α*. Die Steigung ist das *α*, das Band sein 95-%-Intervall; Balken sind Standardfehler.',
+    caption: 'Quadrierte Residuen in Klassen aus gleich vielen Etappen, ohne den Anteil des anderen *α* und ohne Etappen seitwärts oder rückwärts (siehe die Prüfung). Die Steigung ist das *α*, das Band sein 95-%-Intervall; Balken sind Standardfehler.',
     kinds: { rot1: 'erste Drehung', trans: 'Strecke', rot2: 'zweite Drehung', strafe: 'Seitwärtsbewegung', v: 'Geschwindigkeit v̂', omega: 'Drehrate ω̂', gamma: 'letzte Drehung γ̂' },
     turn: 'Drehung² (rad²)',
     distance: 'Strecke² (m²)',

@@ -1,8 +1,8 @@
 //! Probabilistic motion models of a planar robot: one command, a distribution of outcomes.
 //!
-//! The models are those of an online book's chapter "Probabilistic Motion Models", which follows Thrun, Burgard and Fox,
+//! The models are those of an online book's chapter "Probabilistic Motion Models". The chapter follows Thrun, Burgard and Fox,
 //! *Probabilistic Robotics*, chapter 5, and Long et al., "The Banana Distribution is Gaussian", RSS 2012. The crate also has
-//! statistics of clouds, and the simulations of the chapter's widgets.
+//! statistics of clouds of poses, and the simulations of the chapter's widgets.
 //!
 //! ```
 //! use motion::geom::se2::SE2;

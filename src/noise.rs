@@ -34,8 +34,8 @@ pub struct NegativeVariance(pub f64);
 
 /// Largest residual that counts as 0 for a noise of zero variance (m/s or rad/s, or m or rad for odometry legs).
 ///
-/// The inversion of an arc of 0.01 s at 1 m/s, a kilometre from the origin, has an error of up to 4e-9 in γ̂, and a larger one at
-/// lower speeds. A smaller bound would therefore reject poses of the sampler itself. No robot is controlled to 0.1 µm/s, so that
+/// The inversion of an arc of 0.01 s at 1 m/s, a kilometre from the origin, has an error of up to 4e-9 in γ̂. At lower speeds
+/// it is larger. A smaller bound would therefore reject poses of the sampler itself. No robot is controlled to 0.1 µm/s, so that
 /// the bound accepts no motion that deviates from the command.
 const MAX_ZERO_RESIDUAL: f64 = 1e-7;
 
@@ -151,7 +151,7 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
         NoiseKind::Triangular if sd == 0.0 => noise.prob(a, b2),
         NoiseKind::Triangular => {
             let half_width = SQRT_6 * sd;
-            // The arithmetic series first, first + 2π, … up to the end of the support, on either side.
+            // Sums half_width − x over x = first, first + 2π, … up to half_width: the triangle's terms on one side of its peak.
             let sum_on_side = |first: f64| {
                 let term_count = ((half_width - first) / TAU).ceil().max(0.0);
                 term_count * (half_width - first) - TAU * term_count * (term_count - 1.0) / 2.0

@@ -1,6 +1,6 @@
 //! Circular arcs driven from a pose, in the chord form.
 //!
-//! A robot at the origin with heading 0 that drives the signed length `s` while turning by `φ` ends at distance
+//! A robot at the origin with heading 0 drives the signed length `s` while turning by `φ`. It ends at distance
 //! s · sinc(φ/2) on the bearing φ/2. The formula equals the arc update of Table 5.3 with the radius r = s/φ cancelled. It
 //! needs no branch for straight lines. It loses no digits as φ → 0, where the centre of the circle goes to infinity.
 
@@ -47,10 +47,10 @@ impl ArcInversion {
     }
 }
 
-/// Returns the arc that leaves `x` along its heading and reaches the position of `x_next` in `dt` seconds (Table 5.1,
-/// lines 1–8, with a signed radius).
+/// Returns the arc that leaves `x` along its heading and reaches the position of `x_next` in `dt` seconds. It is Table 5.1,
+/// lines 1–8, with a signed radius.
 ///
-/// With the displacement in the frame of `x` at distance d and bearing β, the arc turns by φ = 2β and v̂Δt = d / sinc(β).
+/// The displacement in the frame of `x` has distance d and bearing β. The arc turns by φ = 2β, and v̂Δt = d / sinc(β).
 /// Several arcs of the circle lead there, in both directions and with several revolutions. This is the one with |φ| ≤ π. It
 /// is driven in reverse if the displacement points backwards. γ̂ = wrap(θ′ − θ − φ)/Δt.
 ///
@@ -81,8 +81,8 @@ pub fn invert_arc(x: &SE2, x_next: &SE2, dt: f64) -> ArcInversion {
     }
 }
 
-/// Returns the signed length (m) and turn (rad) of the arc from `x` along its heading to the position of `x_next` whose turn is nearest to
-/// `near_turn` (rad). The arc may be driven in reverse, and with several revolutions.
+/// Returns the signed length (m) and turn (rad) of an arc from `x` along its heading to the position of `x_next`. Of all such
+/// arcs, it is the one whose turn is nearest to `near_turn` (rad). It may be driven in reverse, and with several revolutions.
 ///
 /// All such arcs lie on one circle, where the length driven is proportional to the turn. Without displacement the length
 /// is 0; along a straight line, which closes no circle, the turn is 0.

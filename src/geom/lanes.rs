@@ -199,7 +199,7 @@ const LOG_COEFFICIENTS: [f64; 7] = [
 const MAX_REDUCED_ANGLE: f64 = 3e6;
 const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
 
-/// Constant that rounds a number to a whole one, if it is added and then subtracted. Twice the constant rounds to an even number.
+/// Constant that rounds a number to an integer, if it is added and then subtracted. Twice the constant rounds to an even number.
 pub(crate) const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
 /// Returns the number of half circles that are subtracted from x so that the rest is within a quarter circle of 0.

@@ -73,8 +73,8 @@ impl SE2 {
         self.log_of_turn(self.theta)
     }
 
-    /// Returns the logarithm on the branch whose ω is within half a turn of `turn` (rad), for a body that has turned by about
-    /// that angle. It equals [`SE2::log`] if both ω are equal. Near a turn of whole circles it grows without bound, unless the
+    /// Returns the logarithm whose ω is within half a turn of `turn` (rad), about which the body has turned.
+    /// It equals [`SE2::log`] if both ω are equal. Near a turn of whole circles it grows without bound, unless the
     /// body is back at its start.
     pub fn log_near(&self, turn: f64) -> Vector3<f64> {
         self.log_of_turn(turn + wrap_angle(self.theta - turn))

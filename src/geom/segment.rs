@@ -40,9 +40,9 @@ impl Segment {
 
     /// Returns the distance (m) between the nearest points of the segment and of an arc; 0 where they cross.
     ///
-    /// The minimum is a crossing, or an end of segment or arc with the nearest point of the other, or a pair of inner points where
-    /// the segment is parallel to the arc and outside its circle. There are no other minima, because inside the circle the distance
-    /// to it is concave along a line.
+    /// The nearest points are a crossing, or an end of segment or arc with the nearest point of the other. Or they are inner
+    /// points, where the segment is parallel to the arc and outside its circle. There are no other minima, because inside the
+    /// circle the distance to it is concave along a line.
     pub fn distance_to_arc(&self, arc: &Arc) -> f64 {
         self.distance_to_local_arc(&arc.local_arc())
     }

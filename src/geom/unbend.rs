@@ -1,6 +1,6 @@
 //! Morph of the plane from positions (x, y) to exponential coordinates (along, heading).
 //!
-//! With D = diag(1, 1 − μ, 1 − μ), the morph μ takes the twist ξ to the point
+//! Stage μ of the morph takes the twist ξ to the point F_μ(ξ), with D = diag(1, 1 − μ, 1 − μ):
 //!
 //! ```text
 //! F_μ(ξ) = position of exp(D·ξ) + (0, μ·ξ_heading)

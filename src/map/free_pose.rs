@@ -90,7 +90,7 @@ impl<'a> SquareRaster<'a> {
                     *first_free_row = row as u32 + 1;
                 }
             }
-            // A square with a side of `largest_side + 1` ends at this row if each column from `left` to `right` has been free for as many rows.
+            // A square with a side of `largest_side + 1` columns and rows ends at this row if it is free from `left` to `right`.
             // Columns below `first_unchecked` were checked already.
             let (mut left, mut first_unchecked) = (0, 0);
             while left + largest_side < self.columns {

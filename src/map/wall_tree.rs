@@ -4,21 +4,21 @@ use crate::geom::segment::Segment;
 use std::ops::Range;
 
 /// Tree of walls by position and direction. Each node has a capsule that contains its walls: all points within its thickness of a
-/// line segment. Thus long walls side by side need as few comparisons as short walls in one place. Walls that are nearly equal are compared as
-/// one, and a node of equal walls is measured once.
+/// line segment. Thus long walls side by side need as few comparisons as short walls in one place. The distance to a node of equal
+/// walls is computed once.
 ///
 /// It is a full binary tree without pointers: the children of node i are 2i and 2i + 1, the root is 1.
 #[derive(Clone, Debug)]
 pub(super) struct WallTree {
     /// Walls in an order in which those of each node are contiguous.
     walls: Vec<Segment>,
-    /// Walls prepared for distances, in the same order.
-    lines: Vec<PreparedSegment>,
+    /// Walls prepared for the computation of distances, in the same order.
+    prepared_walls: Vec<PreparedSegment>,
     nodes: Vec<Node>,
     /// Number of times that the walls are halved.
     depth: u32,
     /// Upper bound on the rounding error of any distance on the map, m.
-    slack: f64,
+    rounding_slack: f64,
 }
 
 /// Node of the tree: the capsule of the walls of its subtree.
@@ -28,7 +28,7 @@ pub(super) struct Node {
     /// Maximum distance of a wall of the node from the axis of the capsule, m.
     pub thickness: f64,
     /// True if all walls of the node are equal, so that one represents them.
-    all_equal: bool,
+    has_equal_walls: bool,
 }
 
 /// Maximum number of walls of a leaf, and of a tree that is a single leaf. Smaller leaves would need more nodes; larger ones more
@@ -46,25 +46,32 @@ impl WallTree {
         };
         let mut tree = Self {
             walls: walls.to_vec(),
-            lines: Vec::new(),
-            // The root is always visited, and has no sibling.
-            nodes: vec![Node { hull: PreparedSegment::POINT, thickness: f64::INFINITY, all_equal: false }; 2],
+            prepared_walls: Vec::new(),
+            // Node 0 is unused. The root is always visited.
+            nodes: vec![
+                Node {
+                    hull: PreparedSegment::POINT,
+                    thickness: f64::INFINITY,
+                    has_equal_walls: false
+                };
+                2
+            ],
             depth: leaf_count.ilog2(),
-            slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
+            rounding_slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
         };
         for parent in 1..leaf_count {
             tree.divide_in_half(parent);
             let children = [2 * parent, 2 * parent + 1].map(|child| tree.make_node(child));
             tree.nodes.extend(children);
         }
-        tree.lines = tree.walls.iter().map(PreparedSegment::new).collect();
+        tree.prepared_walls = tree.walls.iter().map(PreparedSegment::new).collect();
         tree
     }
 
     /// Sorts the walls of a node into two halves, one for each child. The sort key is the coordinate of [`sort_keys`] that varies
     /// most: x or y of the midpoint, or x or y of the direction.
-    fn divide_in_half(&mut self, at: usize) {
-        let (wall_range, middle) = (self.wall_range(at), self.wall_range(2 * at).end);
+    fn divide_in_half(&mut self, node_index: usize) {
+        let (wall_range, middle) = (self.wall_range(node_index), self.wall_range(2 * node_index).end);
         let walls = &mut self.walls[wall_range.clone()];
         let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
         for wall in &*walls {
@@ -77,8 +84,8 @@ impl WallTree {
         select_smallest(walls, middle - wall_range.start, axis);
     }
 
-    fn make_node(&self, at: usize) -> Node {
-        let walls = &self.walls[self.wall_range(at)];
+    fn make_node(&self, node_index: usize) -> Node {
+        let walls = &self.walls[self.wall_range(node_index)];
         // The capsule lies along the mean direction of the walls or along an axis, whichever makes it narrowest.
         let sum = walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], key| [x + key[2], y + key[3]]);
         let length = libm::hypot(sum[0], sum[1]);
@@ -108,29 +115,37 @@ impl WallTree {
         // No point of a wall is further from the capsule's axis than the further end of the wall.
         let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
         let distance = wall_ends.map(|end| hull.squared_distance(end)).fold(0.0, max_of).sqrt();
-        Node { hull, thickness: distance + self.slack, all_equal: walls.iter().all(|wall| *wall == walls[0]) }
+        Node {
+            hull,
+            thickness: distance + self.rounding_slack,
+            has_equal_walls: walls.iter().all(|wall| *wall == walls[0]),
+        }
     }
 
     /// Returns the range of the walls of a node.
-    fn wall_range(&self, at: usize) -> Range<usize> {
-        let depth = at.ilog2();
-        let (count, index_in_level) = (self.walls.len() as u64, (at - (1 << depth)) as u64);
+    fn wall_range(&self, node_index: usize) -> Range<usize> {
+        let depth = node_index.ilog2();
+        let (count, index_in_level) = (self.walls.len() as u64, (node_index - (1 << depth)) as u64);
         let end_index = |key: u64| ((count * key) >> depth) as usize;
         end_index(index_in_level)..end_index(index_in_level + 1)
     }
 
     /// Returns the indices of the walls of a node: one if all of them are equal.
-    pub fn distinct_walls(&self, at: usize) -> Range<usize> {
-        let wall_range = self.wall_range(at);
-        if self.nodes[at].all_equal { wall_range.start..wall_range.start + 1 } else { wall_range }
+    pub fn distinct_walls(&self, node_index: usize) -> Range<usize> {
+        let wall_range = self.wall_range(node_index);
+        if self.nodes[node_index].has_equal_walls {
+            wall_range.start..wall_range.start + 1
+        } else {
+            wall_range
+        }
     }
 
     pub fn prepared_wall(&self, wall: usize) -> &PreparedSegment {
-        &self.lines[wall]
+        &self.prepared_walls[wall]
     }
 
-    pub fn node(&self, at: usize) -> &Node {
-        &self.nodes[at]
+    pub fn node(&self, node_index: usize) -> &Node {
+        &self.nodes[node_index]
     }
 
     /// Returns the number of walls.
@@ -139,8 +154,8 @@ impl WallTree {
     }
 
     /// Returns true if the node is a leaf.
-    pub fn is_leaf(&self, at: usize) -> bool {
-        at >> self.depth > 0 || self.nodes[at].all_equal
+    pub fn is_leaf(&self, node_index: usize) -> bool {
+        node_index >> self.depth > 0 || self.nodes[node_index].has_equal_walls
     }
 
     /// Returns true if `wall_test` holds for all walls. Walls of nodes for which `is_far` holds are skipped.
@@ -150,22 +165,22 @@ impl WallTree {
         mut is_far: impl FnMut(&Node) -> bool,
         mut wall_test: impl FnMut(&Segment) -> bool,
     ) -> bool {
-        let mut at = 1;
+        let mut node_index = 1;
         loop {
-            if at == 1 || !is_far(&self.nodes[at]) {
-                if !self.is_leaf(at) {
-                    at *= 2;
+            if node_index == 1 || !is_far(&self.nodes[node_index]) {
+                if !self.is_leaf(node_index) {
+                    node_index *= 2;
                     continue;
                 }
-                if !self.walls[self.distinct_walls(at)].iter().all(&mut wall_test) {
+                if !self.walls[self.distinct_walls(node_index)].iter().all(&mut wall_test) {
                     return false;
                 }
             }
             // Goes to the next node outside this subtree: its right sibling, or that of the nearest ancestor that has one. After the
             // last node this is the root.
-            at += 1;
-            at >>= at.trailing_zeros();
-            if at == 1 {
+            node_index += 1;
+            node_index >>= node_index.trailing_zeros();
+            if node_index == 1 {
                 return true;
             }
         }

@@ -105,10 +105,10 @@ pub trait RotTransRot {
 }
 
 impl<M: RotTransRot> MotionModel for M {
-    /// Reading that [`OdomDelta::from_poses`] makes of two poses of the odometry frame, never of the map's.
+    /// Odometry reading of [`OdomDelta::from_poses`], from two poses of the odometry frame, not of the map frame.
     type Control = OdomDelta;
 
-    /// Table 5.5. As there, the variances are those of the hypothesis, not of the reading.
+    /// Returns the score of Table 5.5. As there, the variances are those of the hypothetical legs, not of the reading.
     fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
         let (noise, hat) = (self.noise(), OdomDelta::from_poses(x, x_next));
         let [rot1_variance, trans_variance, rot2_variance] = self.variances(&hat);

@@ -19,8 +19,8 @@ pub enum OdometryRule {
     /// Before 2.0, α₄ applied to the whole turn rot1 + rot2 instead of to each rotation.
     Beluga,
     /// AMCL of Navigation2 for a robot that can drive sideways: `nav2_amcl/src/motion_model/omni_motion_model.cpp` (same
-    /// commit). The bearing is exact; noise is in the distance, across it (the strafe, α₄ and α₅), and in the turn as a
-    /// whole, which counts as it is.
+    /// commit). The bearing is exact. Noise is in the distance, across it (the strafe, α₄ and α₅), and in the turn as a
+    /// whole, whose variance does not allow for driving in reverse.
     Omni,
 }
 
@@ -29,8 +29,8 @@ impl OdometryRule {
     pub const ALL: [Self; 4] = [Self::Table, Self::Nav2, Self::Beluga, Self::Omni];
 }
 
-/// Deployed localizers treat readings below this distance (m) as turns on the spot, because the direction of so short a motion
-/// is only jitter of the encoders. A larger bound would lose the bearing of a slow robot's forward motion.
+/// Distance (m) below which deployed localizers treat a reading as a turn on the spot. The direction of so short a motion is only
+/// jitter of the encoders. A larger bound would lose the bearing of a slow robot's forward motion.
 pub const MAX_SPIN_DISTANCE: f64 = 0.01;
 
 /// Noise parameters α₁…α₅, each 0 or more. Only [`OdometryRule::Omni`] uses the fifth.
@@ -117,9 +117,9 @@ impl ExecutedLegs {
 }
 
 impl LegVariances {
-    /// Returns the executed legs when the noises are these multiples of their standard deviations. `across` is the noise of the first
-    /// rotation or of sliding (no rule has both), `along` that of the drive, `turn` that of the second rotation. As in Table 5.6,
-    /// noise is subtracted.
+    /// Returns the executed legs when the noises are these multiples of their standard deviations. `across` is the noise of the
+    /// first rotation or of sliding, because no rule has both. `along` is that of the drive, `turn` that of the second rotation.
+    /// As in Table 5.6, noise is subtracted.
     pub fn executed_motion(&self, legs: &OdomDelta, [across, along, turn]: [f64; 3]) -> ExecutedLegs {
         ExecutedLegs {
             legs: OdomDelta {
@@ -141,7 +141,7 @@ impl LegVariances {
     /// σ₁² + σ₂² + 2ρσ₁σ₂.
     pub fn heading_variance(&self, correlation: f64) -> f64 {
         let [first, second] = [self.rot1, self.rot2].map(std_from_variance);
-        // A sum of squares: for equal variances and ρ = −1 the three terms might add up to slightly less than 0.
+        // A sum of squares is never negative. The three terms might add up to slightly less than 0 for equal variances and ρ = −1.
         let correlated_std = first + correlation * second;
         correlated_std * correlated_std + (1.0 - correlation * correlation) * second * second
     }

@@ -117,13 +117,13 @@ impl TangentNoiseModel {
     /// Returns the logarithm of the density of ξ = x_t ⊟ x_{t−1}, over dξ in the order (along, lateral, heading).
     ///
     /// Without a turn after the arc it is log N(ξ; τ, R + 10⁻¹²·I). Times sinc⁻²(ξ_ω/2) that would be a density over dx dy dθ.
-    /// With such a turn it is the density of the noises (v̂Δt, ω̂Δt, γ̂Δt) that lead to x_t by the arc of at most half a turn.
-    /// That density is multiplied by sinc²(ξ_ω/2) and divided by v̂Δt·sinc²(ω̂Δt/2)/2, the determinant of the map from noises to
+    /// With such a turn it is the density of the noises (v̂Δt, ω̂Δt, γ̂Δt). They lead to x_t by the arc of at most half a turn.
+    /// The density is multiplied by sinc²(ξ_ω/2) and divided by v̂Δt·sinc²(ω̂Δt/2)/2, the determinant of the map from noises to
     /// (x, y, θ).
     pub fn log_prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
         if self.last_turn_variance == 0.0 {
             let padded_cov = self.r + Matrix3::identity() * PADDING_VARIANCE;
-            return log_normal(&(x_next.boxminus(x) - Self::twist(u)), &padded_cov);
+            return log_gaussian_density(&(x_next.boxminus(x) - Self::twist(u)), &padded_cov);
         }
         let inversion = invert_arc(x, x_next, u.dt);
         let (length, turn) = (inversion.v_hat * u.dt, inversion.omega_hat * u.dt);
@@ -135,7 +135,7 @@ impl TangentNoiseModel {
         );
         let twist_sinc = sinc(0.5 * x.between(x_next).theta());
         let arc_sinc = sinc(0.5 * turn);
-        log_normal(&residual, &Matrix3::from_diagonal(&variances))
+        log_gaussian_density(&residual, &Matrix3::from_diagonal(&variances))
             + libm::log(2.0 * twist_sinc * twist_sinc / (length.abs() * arc_sinc * arc_sinc))
     }
 
@@ -192,7 +192,7 @@ fn small_adjoint(twist: &Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// Returns log N(residual; 0, cov) for a positive definite `cov`; −∞ if `cov` is not positive definite after rounding.
-fn log_normal(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
+fn log_gaussian_density(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let Some(root) = cov.cholesky().map(|cholesky| cholesky.unpack()) else { return f64::NEG_INFINITY };
     let log_det: f64 = (0..3).map(|i| 2.0 * libm::log(root[(i, i)])).sum();
     // The squared norm of the whitened residual avoids a division by a variance, which may underflow.

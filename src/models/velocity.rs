@@ -87,11 +87,11 @@ impl VelocityModel {
         *x * SE2::new(forward, left, (omega_hat + gamma_hat) * u.dt)
     }
 
-    /// Returns the covariance of (x, y, θ) that an EKF carries: the arc linearized in (v̂, ω̂, γ̂) at the command, 3 ×
-    /// 3, in the frame in which `x` is given (m², m·rad, rad²). It does not depend on the shape of the noise.
+    /// Returns the 3 × 3 covariance of (x, y, θ) that an EKF carries, from the arc linearized in (v̂, ω̂, γ̂) at the command. It is
+    /// in the frame of `x` (m², m·rad, rad²). It does not depend on the shape of the noise.
     ///
-    /// It is R·(J_r R_u J_rᵀ + diag(0, 0, Δt²·Var γ̂))·Rᵀ, with R_u = Δt²·diag(Var v̂, 0, Var ω̂), the right Jacobian J_r of SE(2) at the
-    /// commanded twist, and the rotation R to the final heading.
+    /// It is R·(J_r R_u J_rᵀ + diag(0, 0, Δt²·Var γ̂))·Rᵀ with R_u = Δt²·diag(Var v̂, 0, Var ω̂). J_r is the right Jacobian of SE(2)
+    /// at the commanded twist. R is the rotation to the final heading.
     pub fn cartesian_cov(&self, u: &VelocityCmd, x: &SE2) -> Matrix3<f64> {
         let [along, turn, last] = self.variances(u).map(|variance| u.dt * u.dt * variance.0);
         let twist = TangentNoiseModel::twist(u);
@@ -117,8 +117,10 @@ impl MotionModel for VelocityModel {
         ])
     }
 
-    /// With d the distance and φ the turn of the arc, the map (v̂, ω̂, γ̂) → (x, y, θ) has the determinant
-    /// d · sinc(φ/2) · Δt³/2. The circle through both positions can be driven by φ + 2πk for every whole k.
+    /// Returns the density over dx dy dθ; None if a variance is 0.
+    ///
+    /// The map (v̂, ω̂, γ̂) → (x, y, θ) has the determinant d · sinc(φ/2) · Δt³/2. Here d is the distance between the positions, and φ the
+    /// turn of the arc. The circle through both positions can be driven by φ + 2πk for every integer k.
     fn pose_density(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> Option<f64> {
         let variances = self.variances(u);
         if variances.iter().any(|variance| variance.0 == 0.0) {

@@ -201,7 +201,7 @@ pub trait Keyword {
     /// Returns the keyword of the value.
     fn get(&self) -> &'static str;
     /// Sets the value by its keyword. Returns false if the keyword is not in [`Keyword::all`].
-    fn set(&mut self, word: &str) -> bool;
+    fn set(&mut self, keyword: &str) -> bool;
     /// Returns the keywords of all values.
     fn all(&self) -> Vec<&'static str>;
 }
@@ -215,8 +215,8 @@ impl<T: Keywords> Keyword for T {
             .map_or("", |(keyword, _)| keyword)
     }
 
-    fn set(&mut self, word: &str) -> bool {
-        let matching_keyword = T::KEYWORDS.iter().find(|(candidate, _)| *candidate == word);
+    fn set(&mut self, keyword: &str) -> bool {
+        let matching_keyword = T::KEYWORDS.iter().find(|(candidate, _)| *candidate == keyword);
         matching_keyword.inspect(|(_, value)| *self = *value).is_some()
     }
 

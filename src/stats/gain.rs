@@ -9,11 +9,11 @@ use nalgebra::{Matrix3, Vector3};
 use wide::f64x4;
 
 /// Mean log-likelihood of a cloud under one Gaussian minus that under another, in nats per robot. Both Gaussians have the
-/// cloud's own moments in their coordinates, and both are densities over the same measure, so that neither units nor the
-/// frame matter.
+/// cloud's own moments in their coordinates. Both are densities over the same measure, so that neither units nor the frame
+/// matter.
 ///
-/// A gain is NaN if there are too few poses, or if they fill no volume in (x, y, θ) or no area in (x, y). It is infinite if
-/// they fill a volume (an area) there, but none in exponential (arc) coordinates. The Gaussian is then infinitely narrow.
+/// A gain is NaN if there are too few poses. It is also NaN if they fill no volume in (x, y, θ), or no area in (x, y). It is
+/// infinite if they fill a volume (an area) there, but none in exponential (arc) coordinates. The Gaussian is then infinitely narrow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct LikelihoodGain {
@@ -48,7 +48,7 @@ pub(super) struct FourRobots {
     /// x and y (m), and the heading relative to the mean heading (rad).
     pub cartesian: [f64x4; 3],
     pub twist: [f64x4; 3],
-    /// Length (m) and turn (rad) of the arc that ends at x, y, and 0.
+    /// Length (m) and turn (rad) of the arc that ends at (x, y); the third component is 0.
     pub arc: [f64x4; 3],
     /// Jacobian determinants: dx dy dθ over dξ, and dx dy over ds dφ.
     pub jacobians: [f64x4; 2],

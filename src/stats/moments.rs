@@ -44,8 +44,8 @@ impl ExponentialMoments {
     /// Returns the moments of `poses` in the chart anchored at `start`, the pose from which all of them were driven.
     /// NaN as for [`CartesianMoments::from_poses`].
     ///
-    /// Each ξ is on the branch of the logarithm within half a turn of the mean heading, so that a cloud around a half turn stays in
-    /// one piece. Usually that is x_t ⊟ x_{t−1} itself.
+    /// The turn of each ξ is within half a turn of the mean heading, so that a cloud around a half turn stays in one piece.
+    /// Usually ξ is x_t ⊟ x_{t−1} itself.
     pub fn from_poses(poses: &[SE2], start: &SE2) -> Self {
         let mean_turn = wrap_angle(mean_heading(poses) - start.theta());
         let start_inverse = start.inverse();

@@ -97,8 +97,8 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
 }
 
-/// Reads width, height, and red, green, blue and opacity of each pixel of an ImageData, or of an object with its
-/// properties, because Node has no such class.
+/// Reads width, height, and red, green, blue and opacity of each pixel of an ImageData. An object with the same properties will
+/// do, because Node has no such class.
 fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
     let fields = Fields::with_any_keys("image", "image.", image)?;
     let width = read_integer("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;

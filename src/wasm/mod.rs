@@ -44,8 +44,8 @@ pub fn random_seed() -> Result<f64, JsError> {
     Ok(f64::from(getrandom::u32()?))
 }
 
-/// Returns the speeds that lead from the origin, heading along x, to the point (x, y) of the picture in the duration of the given
-/// command. x and y are from −1e6 to 1e6 m. Of the many arcs that lead there, the one with the turn nearest to that of the command
+/// Returns the speeds that lead from the origin, heading along x, to the point (x, y) of the picture. The duration is that of the
+/// given command. x and y are from −1e6 to 1e6 m. Of the many arcs that lead there, the one with the turn nearest to that of the command
 /// is used. `morph` is the stage of the picture, from 0 (the default, the floor) to 1 (exponential coordinates).
 #[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
 pub fn js_command_reaching(

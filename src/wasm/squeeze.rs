@@ -149,8 +149,7 @@ impl JsMapSqueeze {
         flat_float_array(&poses.collect::<Vec<_>>())
     }
 
-    /// Result of each attempt as one byte, the sum of 1 if its end is free, 2 if its path is free, and 4 if it is
-    /// accepted.
+    /// Result of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.
     #[wasm_bindgen(getter)]
     pub fn verdicts(&self) -> Vec<u8> {
         self.0.attempts().iter().map(Attempt::verdict_bits).collect()

@@ -130,7 +130,7 @@ impl AlphaCalibrator {
         Ok(Self { settings, source, fit: Fit { settings, calibration }, fit_revision: 1 })
     }
 
-    /// Returns the fit as bytes for [`AlphaCalibrator::restore`], on the same machine.
+    /// Returns the fit as bytes, which [`AlphaCalibrator::restore`] reads.
     pub fn save(&self) -> Vec<u8> {
         postcard::to_allocvec(self.calibration()).unwrap_or_default()
     }

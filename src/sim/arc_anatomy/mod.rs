@@ -41,7 +41,7 @@ js_structs! {
     }
 }
 
-/// Simulation of the widget. All results are computed from the settings when they change.
+/// Simulation of the widget. Every result is computed from the settings when it is read.
 #[derive(Clone, Debug)]
 pub struct ArcAnatomy {
     settings: Settings,

@@ -300,7 +300,7 @@ impl BananaMachine {
         self.settings.model_with_input(self.settings.command).exact_moments()
     }
 
-    /// Returns the exact moments of the exponential coordinates, by quadrature.
+    /// Returns the exact likelihood gain and the exact moments of the exponential coordinates, by quadrature.
     pub fn exact_gain(&self) -> ExactGain {
         let Settings { command, .. } = self.settings;
         self.settings.model_with_input(command).exact_gain(&command)

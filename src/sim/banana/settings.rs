@@ -54,7 +54,7 @@ settings! {
         /// Seed of the random numbers. Equal seeds draw equal robots.
         seed: u64 = INITIAL_SEED, in 0..=MAX_SEED;
         kept {
-            /// Each model keeps its own α's, so that switching between models loses nothing.
+            /// Noise parameters of the velocity model. Each model keeps its own, so that switching between models loses none.
             velocity_alphas: [f64; 6] = BANANA_PRESET.alphas;
             /// Noise parameters of the odometry model.
             odometry_alphas: [f64; 4] = [0.05, 0.05, 0.05, 0.05];

@@ -55,9 +55,9 @@ js_structs! {
 /// Coordinate systems that are defined for all turns of a cloud.
 #[derive(Clone, Copy, Debug)]
 pub struct DefinedCharts {
-    /// True for exponential coordinates.
+    /// True if exponential coordinates are defined.
     pub pose: bool,
-    /// True for the length and turn of the arc that ends at the robot.
+    /// True if arc coordinates are defined: length and turn of the arc that ends at the robot.
     pub arc: bool,
 }
 

@@ -9,8 +9,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Thresholds of the squared distance above which a group of four robots is far or farthest; other groups are near. The squared distance of a robot is
-/// the sum of its squared unit noises, and that of a group the largest of its robots.
+/// Thresholds of the squared distance above which a group of four robots is far or farthest; other groups are near. The squared
+/// distance of a robot is the sum of its squared unit noises. That of a group is the largest of its robots.
 ///
 /// Standard errors are expensive, and therefore computed from a weighted subsample of the groups. A few distant robots may contribute
 /// most of a variance, so that distant groups are sampled more densely. With Gaussian noise 1.8 % of the groups are far and

@@ -38,7 +38,7 @@ pub struct DeadReckoning {
     rollouts: Rollouts,
     /// Number of robots driven.
     shown_count: usize,
-    /// Predictions by recursion.
+    /// Predicted covariances after each step, by each of [`RECURSIONS`]; None where undefined.
     predicted: [Vec<Option<Matrix3<f64>>>; 3],
     measured: Vec<MeasuredMoments>,
     comparisons: [Comparison; 3],

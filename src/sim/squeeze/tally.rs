@@ -1,9 +1,9 @@
-//! Counts over the attempts, and their statistics.
+//! Counts of draws, wall tests and accepted attempts, and their statistics.
 
 use crate::js::js_structs;
 use crate::noise::NoiseKind;
 
-/// Counts over the attempts shown.
+/// Counts for the attempts shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Draws of the model; for the sub-stepped sampler, of its shorter motions.

@@ -26,7 +26,7 @@ fn full_cov() -> Matrix3<f64> {
 }
 
 /// Returns log N(d; 0, cov), computed with the inverse of the covariance.
-fn log_normal(d: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
+fn log_gaussian_density(d: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let inverse = cov.try_inverse().unwrap();
     -0.5 * (d.dot(&(inverse * d)) + cov.determinant().ln() + 3.0 * (2.0 * PI).ln())
 }
@@ -43,7 +43,7 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
         for _ in 0..500 {
             let w = Vector3::from_fn(|_, _| uniform(&mut rng, -1.0, 1.0));
             let next = x.boxplus(Vector3::new(1.0, 0.0, 0.5) + w);
-            let (value, expected) = (model.log_prob(&next, &U, &x), log_normal(&w, &full_cov()));
+            let (value, expected) = (model.log_prob(&next, &U, &x), log_gaussian_density(&w, &full_cov()));
             assert!((value - expected).abs() < 1e-8, "{value}, not {expected}");
         }
     }
@@ -68,7 +68,8 @@ fn without_noise_in_the_arc_the_density_is_finite() {
         let value = model.log_prob(&SE2::exp(&TangentNoiseModel::twist(&U)), &U, &SE2::identity());
         let variances = Vector3::new(along.max(1e-12), turn.max(1e-12), 0.0125);
         // The volume factors of chart and arc cancel, except for one factor of 2.
-        let expected = log_normal(&Vector3::zeros(), &Matrix3::from_diagonal(&variances)) + 2f64.ln();
+        let expected =
+            log_gaussian_density(&Vector3::zeros(), &Matrix3::from_diagonal(&variances)) + 2f64.ln();
         assert!((value - expected).abs() < 1e-9, "{alphas:?}: {value}, not {expected}");
     }
 }

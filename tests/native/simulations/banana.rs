@@ -184,7 +184,7 @@ fn the_reaching_command_ends_at_the_target() {
             // A chord d on an arc of length s = |v|Δt carries the rounding of s.
             let rounding = 1e-14 * (1.0 + (command.v * dt).abs());
             assert!(pose_distance(&end_position, &SE2::new(x, y, 0.0)) < rounding, "({x}, {y}): {end}");
-            // Arcs to one end differ by whole circles: the nearest turn is within π of the present one. A straight line is the only arc to its end.
+            // The turns of arcs to the same end differ by whole circles, so that the nearest is within π. A straight line has no other arc.
             assert!(((command.omega - omega) * dt).abs() <= PI + 1e-14 || command.omega == 0.0);
         }
     }

@@ -166,7 +166,7 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
 /// exactly symmetric, and contains neither 0 nor the ends, whose quantiles are infinite.
 #[inline(always)]
 pub fn centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
-    const SCALE: f64 = 1.0 / (1u64 << 53) as f64;
+    const NUMBER_SPACING: f64 = 1.0 / (1u64 << 53) as f64;
     let signed_integer = rng.next_u64() as i64 >> 11;
-    (signed_integer as f64 + 0.5) * SCALE
+    (signed_integer as f64 + 0.5) * NUMBER_SPACING
 }

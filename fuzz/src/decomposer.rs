@@ -5,7 +5,7 @@ use super::laws;
 use super::settings::{are_allowed, with_changes};
 use motion::geom::se2::SE2;
 use motion::models::{OdomDelta, MAX_SPIN_DISTANCE};
-use motion::sim::odometry_decomposer::{Drifted, OdometryDecomposer, Settings, Stats};
+use motion::sim::odometry_decomposer::{DriftedOdometry, OdometryDecomposer, Settings, Stats};
 use motion::sim::settings::QUANTITY_RANGE;
 
 /// Maximum number of outcomes in a run, of points of a curve, and of calls.
@@ -98,7 +98,7 @@ fn assert_results(machine: &OdometryDecomposer) {
     machine.poses().iter().for_each(|pose| laws::assert_pose("an outcome", pose));
     machine.linkage().iter().for_each(|pose| laws::assert_pose("the linkage", pose));
     laws::assert_pose("the robot", &machine.robot_pose());
-    let Drifted { frame, from, to, legs } = machine.drifted_odometry();
+    let DriftedOdometry { frame, from, to, legs } = machine.drifted_odometry();
     [frame, from, to].iter().for_each(|pose| laws::assert_pose("drifted", pose));
     assert_legs("drifted legs", &legs);
     assert_legs("reading", &machine.reading());

@@ -132,10 +132,15 @@ impl Arc {
     /// Returns a box that holds the arc: minimum x, minimum y, maximum x, maximum y.
     pub fn bounding_box(&self) -> [f64; 4] {
         // No point of the arc is further from its middle than half its length, or than the diameter of its circle.
-        let middle = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
+        let middle_pose = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
         let diameter = if self.turn == 0.0 { f64::INFINITY } else { 2.0 * (self.length / self.turn).abs() };
         let max_offset = (0.5 * self.length.abs()).min(diameter);
-        [middle.x() - max_offset, middle.y() - max_offset, middle.x() + max_offset, middle.y() + max_offset]
+        [
+            middle_pose.x() - max_offset,
+            middle_pose.y() - max_offset,
+            middle_pose.x() + max_offset,
+            middle_pose.y() + max_offset,
+        ]
     }
 
     pub(crate) fn local_arc(&self) -> LocalArc {

@@ -21,7 +21,7 @@ const SPLITTER: f64 = 134_217_729.0;
 const SERIES_TERMS: i32 = 12;
 
 /// Number of times that the angle is halved before the series, and doubled after it.
-const HALVINGS: i32 = 4;
+const HALVING_COUNT: i32 = 4;
 
 /// Returns a + b without rounding error, if |a| ≥ |b|.
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
@@ -39,8 +39,8 @@ fn two_sum(a: f64, b: f64) -> DoubleDouble {
 /// Returns a · b without rounding error, as long as nothing under- or overflows.
 fn two_product(a: f64, b: f64) -> DoubleDouble {
     let split_in_halves = |x: f64| {
-        let scaled = SPLITTER * x;
-        let high = scaled - (scaled - x);
+        let scaled_x = SPLITTER * x;
+        let high = scaled_x - (scaled_x - x);
         [high, x - high]
     };
     let high = a * b;
@@ -110,7 +110,7 @@ impl DoubleDouble {
     /// It evaluates Taylor's series for a sixteenth of the angle, and then doubles the angle four times: sin 2a = 2 sin a cos a
     /// and 1 − cos 2a = 2 sin² a. Computing 1 − cos a instead of cos a loses no digits.
     pub fn sin_cos(self) -> (Self, Self) {
-        let angle_divisor = f64::from(1 << HALVINGS);
+        let angle_divisor = f64::from(1 << HALVING_COUNT);
         let a = Self { high: self.high / angle_divisor, low: self.low / angle_divisor };
         let angle_squared = a * a;
         // Sine a − a³/3! + …, and versine 1 − cos a = ½a² − a⁴/4! + …
@@ -123,7 +123,7 @@ impl DoubleDouble {
         }
         let mut sine = a * sine;
         let mut versine = (angle_squared * versine).divided_by(2.0);
-        for _ in 0..HALVINGS {
+        for _ in 0..HALVING_COUNT {
             let cosine = Self::from(1.0) - versine;
             (sine, versine) = (times_two(sine * cosine), times_two(sine * sine));
         }

@@ -73,25 +73,25 @@ impl Trigonometry {
     #[inline(never)]
     pub fn sin_cos_any_angle(&self, x: f64x4) -> SinCos {
         let half_circles = half_circle_count(x);
-        let reduced = self.sin_cos_small_angle(subtract_half_circles(x, half_circles));
+        let reduced_sin_cos = self.sin_cos_small_angle(subtract_half_circles(x, half_circles));
         // Difference from the nearest even number: ±1 if the number of half circles is odd.
         let parity = half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
         let parity_sign = f64x4::splat(1.0) - 2.0 * parity.abs();
-        let (sin, cos) = (reduced.sin * parity_sign, reduced.cos * parity_sign);
-        let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(reduced.sinc, sin / x);
+        let (sin, cos) = (reduced_sin_cos.sin * parity_sign, reduced_sin_cos.cos * parity_sign);
+        let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(reduced_sin_cos.sinc, sin / x);
         if !any_lane_beyond(x, MAX_REDUCED_ANGLE) {
             return SinCos { sinc, sin, cos };
         }
-        let lane_by_lane = |vector_results: f64x4, scalar: fn(f64) -> f64| {
+        let with_scalar_results = |vector_results: f64x4, scalar: fn(f64) -> f64| {
             from_lanes(|i| {
                 let angle = x.to_array()[i];
                 if angle.abs() > MAX_REDUCED_ANGLE { scalar(angle) } else { vector_results.to_array()[i] }
             })
         };
         SinCos {
-            sinc: lane_by_lane(sinc, super::sinc::sinc),
-            sin: lane_by_lane(sin, libm::sin),
-            cos: lane_by_lane(cos, libm::cos),
+            sinc: with_scalar_results(sinc, super::sinc::sinc),
+            sin: with_scalar_results(sin, libm::sin),
+            cos: with_scalar_results(cos, libm::cos),
         }
     }
 
@@ -109,9 +109,9 @@ impl Trigonometry {
         let mut half_on_branch = subtract_half_circles(half, half_circle_count(half - near));
         if any_lane_beyond(half - near, MAX_REDUCED_ANGLE) {
             let wrapped_near = |half: f64| near + 0.5 * wrap_angle(2.0 * (half - near));
-            let is_far = (half - near).abs().simd_gt(f64x4::splat(MAX_REDUCED_ANGLE));
-            half_on_branch =
-                is_far.bitselect(from_lanes(|i| wrapped_near(half.to_array()[i])), half_on_branch);
+            let is_beyond_reduction = (half - near).abs().simd_gt(f64x4::splat(MAX_REDUCED_ANGLE));
+            half_on_branch = is_beyond_reduction
+                .bitselect(from_lanes(|i| wrapped_near(half.to_array()[i])), half_on_branch);
         }
         let SinCos { sinc, sin, cos } = self.sin_cos_any_angle(half_on_branch);
         LogTerms { half: half_on_branch, cotangent: cos / sinc, sinc, sin, cos }
@@ -168,15 +168,17 @@ pub(crate) fn log(x: f64x4) -> f64x4 {
     let biased_exponent = f64x4::from_bits((shifted_bits >> 52) | u64x4::splat(TWO_52.to_bits()));
     let exponent = biased_exponent - (TWO_52 + 1023.0);
     let f = f64x4::from_bits((shifted_bits & u64x4::splat((1 << 52) - 1)) + u64x4::splat(HALF_SQRT_2)) - 1.0;
-    let half_square = 0.5 * f * f;
+    let half_f_squared = 0.5 * f * f;
     let s = f / (2.0 + f);
     let z = s * s;
     let w = z * z;
-    let even = w * (LOG_COEFFICIENTS[1] + w * (LOG_COEFFICIENTS[3] + w * LOG_COEFFICIENTS[5]));
-    let odd = z
+    let even_terms = w * (LOG_COEFFICIENTS[1] + w * (LOG_COEFFICIENTS[3] + w * LOG_COEFFICIENTS[5]));
+    let odd_terms = z
         * (LOG_COEFFICIENTS[0]
             + w * (LOG_COEFFICIENTS[2] + w * (LOG_COEFFICIENTS[4] + w * LOG_COEFFICIENTS[6])));
-    s * (half_square + (odd + even)) + exponent * LN_2_PARTS[1] - half_square + f + exponent * LN_2_PARTS[0]
+    s * (half_f_squared + (odd_terms + even_terms)) + exponent * LN_2_PARTS[1] - half_f_squared
+        + f
+        + exponent * LN_2_PARTS[0]
 }
 
 /// ln 2 in two parts: the second has the digits that the first lacks.

@@ -169,7 +169,7 @@ impl From<[f64; 3]> for SE2 {
 /// Returns h·cot h with h = ω/2. Near 0 it is a series, because the three roundings of the closed form would be the largest
 /// error of the logarithm.
 fn half_cotangent(turn: f64) -> f64 {
-    if turn.abs() < SERIES_BELOW {
+    if turn.abs() < MAX_SERIES_ANGLE {
         return 1.0 - turn * cotangent_defect(turn);
     }
     let (sin, cos) = libm::sincos(0.5 * turn);
@@ -185,11 +185,11 @@ fn sinc_squared_half(turn: f64) -> f64 {
 /// Minimum |ω| of the closed forms. Below it two quotients would cancel, and are computed by series. Above it the closed forms
 /// lose up to four bits of small quotients, so that sums with them are exact to rounding. A smaller bound would lose more bits; a
 /// larger one would need more terms.
-const SERIES_BELOW: f64 = 1.0;
+const MAX_SERIES_ANGLE: f64 = 1.0;
 
 /// Returns (ω − sin ω)/ω² = ω/3! − ω³/5! + ω⁵/7! − …
 fn sine_defect(turn: f64) -> f64 {
-    if turn.abs() >= SERIES_BELOW {
+    if turn.abs() >= MAX_SERIES_ANGLE {
         return (turn - libm::sin(turn)) / (turn * turn);
     }
     let turn_squared = turn * turn;
@@ -204,7 +204,7 @@ fn sine_defect(turn: f64) -> f64 {
 
 /// Returns (1 − h·cot h)/ω with h = ω/2, = ω/12 + ω³/720 + ω⁵/30240 + …, coefficients |B₂ₖ|/(2k)!.
 fn cotangent_defect(turn: f64) -> f64 {
-    if turn.abs() >= SERIES_BELOW {
+    if turn.abs() >= MAX_SERIES_ANGLE {
         return (1.0 - half_cotangent(turn)) / turn;
     }
     /// |B₂ₖ|/(2k)! for k = 1, 2, …; they fall by (2π)² each, so that at |ω| = 1 the first omitted one is 1e-18.

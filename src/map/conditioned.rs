@@ -109,7 +109,7 @@ pub const MAX_DRAWS: usize = 10_000;
 /// Collision tests of draws from one pose under one command.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawTester<'a> {
-    conditioned: &'a MapConditioned<'a>,
+    conditioned_model: &'a MapConditioned<'a>,
     part: PartMotion,
     from: PreparedPose,
     trigonometry: Trigonometry,
@@ -129,7 +129,7 @@ impl DrawTester<'_> {
     }
 
     fn test_motion(&self, (pose, driven): (SE2, DrivenArc)) -> Draw {
-        let MapConditioned { plan, clearance, .. } = *self.conditioned;
+        let MapConditioned { plan, clearance, .. } = *self.conditioned_model;
         let end = plan.test_point(driven.end, clearance);
         Draw { pose, arc: driven.arc, end, path: plan.test_path(&driven, end, clearance) }
     }
@@ -316,7 +316,7 @@ impl MapConditioned<'_> {
 
     fn tester_of_part(&self, part: PartMotion, x: &SE2) -> DrawTester<'_> {
         DrawTester {
-            conditioned: self,
+            conditioned_model: self,
             part,
             from: PreparedPose::new(*x),
             trigonometry: Trigonometry::default(),

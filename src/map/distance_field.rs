@@ -127,7 +127,7 @@ struct Block {
     first: [usize; 2],
     size: usize,
     /// Range of the candidates of the block in `candidates`.
-    range: [usize; 2],
+    candidate_range: [usize; 2],
 }
 
 /// Wall, or all walls of a node of the tree.
@@ -152,7 +152,7 @@ impl FieldBuilder {
             vec![Candidate::Node(1)]
         };
         let size = columns.max(rows).next_power_of_two();
-        let whole_block = Block { first: [0, 0], size, range: [0, candidates.len()] };
+        let whole_block = Block { first: [0, 0], size, candidate_range: [0, candidates.len()] };
         Self {
             field: DistanceField {
                 corner: [left, bottom],
@@ -175,7 +175,7 @@ impl FieldBuilder {
 
     /// Fills a block or divides it.
     fn fill_block(&mut self, tree: &WallTree, occupied_grid: Option<&OccupancyGrid>, block: Block) {
-        let Block { first: [left, bottom], size, range } = block;
+        let Block { first: [left, bottom], size, candidate_range } = block;
         if left >= self.field.columns || bottom >= self.rows {
             return;
         }
@@ -184,7 +184,7 @@ impl FieldBuilder {
         let radius = size as f64 * self.field.radius;
         let uncertainty = size as f64 * self.field.uncertainty;
         // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
-        self.candidates.truncate(range[1]);
+        self.candidates.truncate(candidate_range[1]);
         let Some([min_distance, max_distance]) = self.measure_candidates(tree, centre, block, uncertainty)
         else {
             return;
@@ -197,10 +197,14 @@ impl FieldBuilder {
                     .filter(|(lower_bound, _)| *lower_bound <= max_lower_bound)
                     .map(|(_, candidate)| *candidate),
             );
-            let range = [range[1], self.candidates.len()];
+            let candidate_range = [candidate_range[1], self.candidates.len()];
             let half_size = size / 2;
             for [column, row] in [[half_size, half_size], [0, half_size], [half_size, 0], [0, 0]] {
-                self.blocks.push(Block { first: [left + column, bottom + row], size: half_size, range });
+                self.blocks.push(Block {
+                    first: [left + column, bottom + row],
+                    size: half_size,
+                    candidate_range,
+                });
             }
             return;
         }
@@ -233,7 +237,7 @@ impl FieldBuilder {
         uncertainty: f64,
     ) -> Option<[f64; 2]> {
         let Self { candidates, unmeasured, measured, .. } = self;
-        let Block { size, range: [from, to], .. } = block;
+        let Block { size, candidate_range: [from, to], .. } = block;
         // Take the wall that is nearest to some point of the block. Its distance from the middle exceeds that of the wall nearest
         // to the middle by at most one diameter of the block.
         let max_excess = 2.0 * size as f64 * self.field.radius + self.rounding_slack;

@@ -221,7 +221,7 @@ impl FloorPlan {
         if !end.free || self.leaves_bounds(driven) || self.is_in_blocked_cell(start) {
             return Verdict { free: false, ..end };
         }
-        let mut sweep = Sweep {
+        let mut sweep = ArcSweep {
             plan: self,
             field: self.field(),
             arc: &driven.arc,
@@ -314,7 +314,7 @@ impl FloorPlan {
 }
 
 /// Disc that moves along an arc.
-struct Sweep<'a> {
+struct ArcSweep<'a> {
     plan: &'a FloorPlan,
     field: &'a DistanceField,
     arc: &'a Arc,
@@ -324,7 +324,7 @@ struct Sweep<'a> {
     wall_tests: usize,
 }
 
-impl Sweep<'_> {
+impl ArcSweep<'_> {
     /// Tests whether an arc piece is free between `from` and `to` metres after its middle. Tests four parts of it at once.
     fn is_free(&mut self, piece: &ArcPiece, from: f64, to: f64) -> bool {
         let field = self.field;

@@ -156,10 +156,10 @@ impl TangentNoiseModel {
         }
         let jacobian = SE2::right_jacobian(tau);
         let step_cov = jacobian * self.r * jacobian.transpose() + last_turn_cov;
-        let first_order = transported_cov + step_cov;
+        let first_order_cov = transported_cov + step_cov;
         match order {
-            Compounding::FourthOrder => first_order + fourth_order(&transported_cov, &step_cov),
-            _ => first_order,
+            Compounding::FourthOrder => first_order_cov + fourth_order(&transported_cov, &step_cov),
+            _ => first_order_cov,
         }
     }
 }
@@ -176,10 +176,10 @@ fn fourth_order(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
 /// Returns E[f(ad(ξ), ad(ξ))] for a bilinear f and ξ of covariance `cov`: ad is linear, so it is a sum over the basis
 /// twists.
 fn expectation(cov: &Matrix3<f64>, f: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>) -> Matrix3<f64> {
-    let generators = [Vector3::x(), Vector3::y(), Vector3::z()].map(|basis| small_adjoint(&basis));
+    let basis_adjoints = [Vector3::x(), Vector3::y(), Vector3::z()].map(|basis| small_adjoint(&basis));
     let mut sum = Matrix3::zeros();
-    for (i, left) in generators.iter().enumerate() {
-        for (j, right) in generators.iter().enumerate() {
+    for (i, left) in basis_adjoints.iter().enumerate() {
+        for (j, right) in basis_adjoints.iter().enumerate() {
             sum += f(left, right) * cov[(i, j)];
         }
     }

@@ -27,18 +27,18 @@ pub(super) fn normal_quantile(q: f64) -> f64 {
 
 /// Number of vectors in a chunk, whose numbers in the tails are gathered into full vectors. 1024 numbers take 10 kB of stack. Smaller chunks
 /// would leave more incomplete vectors.
-const CHUNK: usize = 256;
+const CHUNK_VECTORS: usize = 256;
 
 /// Replaces each number q by its quantile, with the same bits as [`normal_quantile`].
 pub(super) fn normal_quantiles(numbers: &mut [f64x4]) {
-    numbers.chunks_mut(CHUNK).for_each(replace_chunk);
+    numbers.chunks_mut(CHUNK_VECTORS).for_each(replace_chunk);
 }
 
 /// Replaces the numbers of a chunk by their quantiles. One number in seven is in a tail, and every second vector has one. Gathering
 /// these numbers into full vectors saves most of their cost, and unpredictable branches.
 fn replace_chunk(numbers: &mut [f64x4]) {
-    let mut tail_numbers = [0.0; LANES * CHUNK + LANES];
-    let mut tail_indices = [0u16; LANES * CHUNK + LANES];
+    let mut tail_numbers = [0.0; LANES * CHUNK_VECTORS + LANES];
+    let mut tail_indices = [0u16; LANES * CHUNK_VECTORS + LANES];
     let mut tail_count = 0;
     for (group, q) in numbers.iter_mut().enumerate() {
         let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();

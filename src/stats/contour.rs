@@ -24,7 +24,7 @@ pub struct Ellipse {
     /// Lower triangular L with L·Lᵀ the covariance.
     root: Matrix2<f64>,
     /// L⁻¹, with 0 for a coordinate in which the Gaussian has no extent.
-    whitening: Matrix2<f64>,
+    whitening_matrix: Matrix2<f64>,
 }
 
 impl Ellipse {
@@ -42,8 +42,8 @@ impl Ellipse {
         );
         let inverse_or_zero = |std: f64| if std > 0.0 { 1.0 / std } else { 0.0 };
         let (z, w) = (inverse_or_zero(first_std), inverse_or_zero(second_std));
-        let whitening = Matrix2::new(z, 0.0, -cross_term * z * w, w);
-        Self { centre, root: Matrix2::new(first_std, 0.0, cross_term, second_std), whitening }
+        let whitening_matrix = Matrix2::new(z, 0.0, -cross_term * z * w, w);
+        Self { centre, root: Matrix2::new(first_std, 0.0, cross_term, second_std), whitening_matrix }
     }
 
     /// Returns the ellipse of the position (x, y), m.
@@ -75,7 +75,7 @@ impl Ellipse {
 
     /// Returns the Mahalanobis distance of a point from the centre, in standard deviations.
     pub fn distance(&self, [first, second]: [f64; 2]) -> f64 {
-        (self.whitening * (Vector2::new(first, second) - self.centre)).norm()
+        (self.whitening_matrix * (Vector2::new(first, second) - self.centre)).norm()
     }
 
     /// Returns the point at a fraction of the line from the centre (0) to a point (1).
@@ -96,8 +96,8 @@ impl Ellipse {
             return f64x4::splat(0.0);
         }
         let (first, second) = (first - self.centre.x, second - self.centre.y);
-        let z = first * self.whitening[(0, 0)];
-        let w = first * self.whitening[(1, 0)] + second * self.whitening[(1, 1)];
+        let z = first * self.whitening_matrix[(0, 0)];
+        let w = first * self.whitening_matrix[(1, 0)] + second * self.whitening_matrix[(1, 1)];
         (z * z + w * w).simd_le(f64x4::splat(CONTOUR_SIGMAS * CONTOUR_SIGMAS))
     }
 }

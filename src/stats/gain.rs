@@ -167,7 +167,7 @@ impl LogDensityDifferences {
 struct Gaussian {
     mean: Vector3<f64>,
     /// Lower triangular L with L·Lᵀ = covariance. The diagonal has the reciprocals, 0 for a direction without extent.
-    root: Matrix3<f64>,
+    cov_root: Matrix3<f64>,
     /// ½ ln det of the covariance of the first, the first two and all three coordinates; −∞ if it is 0 up to rounding.
     log_volumes: [f64; 3],
 }
@@ -177,17 +177,17 @@ impl Gaussian {
     #[inline(never)]
     fn new((mean, cov): &MeanAndCov, length_count: usize) -> Self {
         let squared_extent: f64 = (0..length_count).map(|i| mean[i] * mean[i] + cov[(i, i)]).sum();
-        let mut root = covariance_root(cov).unwrap_or_else(|_| Matrix3::zeros());
+        let mut cov_root = covariance_root(cov).unwrap_or_else(|_| Matrix3::zeros());
         let mut sum = 0.0;
         let log_volumes = std::array::from_fn(|j| {
-            let deviation = root[(j, j)];
+            let pivot_std = cov_root[(j, j)];
             let is_flat =
-                deviation <= MIN_RELATIVE_STD * if j < length_count { squared_extent.sqrt() } else { 1.0 };
-            sum += if is_flat { f64::NEG_INFINITY } else { libm::log(deviation) };
-            root[(j, j)] = if is_flat { 0.0 } else { 1.0 / deviation };
+                pivot_std <= MIN_RELATIVE_STD * if j < length_count { squared_extent.sqrt() } else { 1.0 };
+            sum += if is_flat { f64::NEG_INFINITY } else { libm::log(pivot_std) };
+            cov_root[(j, j)] = if is_flat { 0.0 } else { 1.0 / pivot_std };
             sum
         });
-        Self { mean: *mean, root, log_volumes }
+        Self { mean: *mean, cov_root, log_volumes }
     }
 
     /// Returns the squared Mahalanobis distances of four points in the first, the first two and all three coordinates.
@@ -196,8 +196,8 @@ impl Gaussian {
         let mut offsets: [f64x4; 3] = std::array::from_fn(|j| points[j] - self.mean[j]);
         let mut sum = f64x4::splat(0.0);
         std::array::from_fn(|j| {
-            let whitened_offset = offsets[j] * self.root[(j, j)];
-            (j + 1..3).for_each(|row| offsets[row] -= whitened_offset * self.root[(row, j)]);
+            let whitened_offset = offsets[j] * self.cov_root[(j, j)];
+            (j + 1..3).for_each(|row| offsets[row] -= whitened_offset * self.cov_root[(row, j)]);
             sum += whitened_offset * whitened_offset;
             sum
         })

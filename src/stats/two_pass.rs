@@ -183,8 +183,9 @@ impl FirstPass {
         let n = count as f64;
         let sums = self.sums.finish();
         let means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
-        let squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
-        let has_lost_digits = (0..5).any(|i| means[i] * means[i] > 0.99 * squares[i] && squares[i] > 0.0);
+        let mean_squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
+        let has_lost_digits =
+            (0..5).any(|i| means[i] * means[i] > 0.99 * mean_squares[i] && mean_squares[i] > 0.0);
         has_lost_digits.then(|| std::array::from_fn(|i| self.reference[i] + means.get(i).unwrap_or(&0.0)))
     }
 
@@ -262,14 +263,32 @@ impl SecondPass {
         let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
         let s = (theta_sin * cos - theta_cos * sin) & mask;
         let lane_counts = f64x4::splat(1.0) & mask;
-        let in_ellipse = self.ellipse.contains_four(poses.x, poses.y) & lane_counts;
-        let in_contour = self.twist_ellipse.contains_four(poses.along, poses.half * 2.0) & lane_counts;
+        let counts_in_ellipse = self.ellipse.contains_four(poses.x, poses.y) & lane_counts;
+        let counts_in_contour = self.twist_ellipse.contains_four(poses.along, poses.half * 2.0) & lane_counts;
         let d2 = d * d;
         let d3 = d2 * d;
         let [ad, ad2, d4, d5, d6] = [a * d, a * d2, d2 * d2, d2 * d3, d3 * d3];
         let [ss, sd, sd2, sd3, tt, td] = [s * s, s * d, s * d2, s * d3, t * t, t * d];
         let ta = t * a;
-        let terms = [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, ta, in_ellipse, in_contour];
+        let terms = [
+            ad,
+            ad2,
+            d2,
+            d3,
+            d4,
+            d5,
+            d6,
+            ss,
+            sd,
+            sd2,
+            sd3,
+            t,
+            tt,
+            td,
+            ta,
+            counts_in_ellipse,
+            counts_in_contour,
+        ];
         add(&mut self.sums.block, terms);
     }
 

@@ -163,18 +163,18 @@ fn estimate_to_js(Estimate { value, interval }: &Estimate) -> JsValue {
 
 fn reason_keyword(reason: Option<NotIdentifiable>) -> JsValue {
     reason.map_or(JsValue::NULL, |reason| {
-        let word = match reason {
+        let keyword = match reason {
             NotIdentifiable::InsufficientRotation => "insufficient-rotation",
             NotIdentifiable::InsufficientTranslation => "insufficient-translation",
             NotIdentifiable::ReferenceTooNoisy => "reference-too-noisy",
             NotIdentifiable::Collinear => "collinear",
         };
-        word.into()
+        keyword.into()
     })
 }
 
 fn systematic_to_js(calibration: &Calibration) -> JsValue {
-    let value_of = |error: SystematicError| {
+    let estimate_of = |error: SystematicError| {
         let is_identified = calibration.systematic_stds[error as usize].is_some();
         number_or_null(is_identified.then(|| calibration.systematic.get(error)))
     };
@@ -183,9 +183,9 @@ fn systematic_to_js(calibration: &Calibration) -> JsValue {
         |mask: &ErrorMask, errors: &[SystematicError]| errors.iter().any(|error| mask[*error as usize]);
     let error_entries = SYSTEMATIC_ERROR_KEYS.iter().map(|(key, errors)| {
         let [value, interval] = match errors {
-            [error] => [value_of(*error), interval_of_error(*error)],
+            [error] => [estimate_of(*error), interval_of_error(*error)],
             errors => [
-                errors.iter().map(|error| value_of(*error)).collect::<Array>().into(),
+                errors.iter().map(|error| estimate_of(*error)).collect::<Array>().into(),
                 errors.iter().map(|error| interval_of_error(*error)).collect::<Array>().into(),
             ],
         };

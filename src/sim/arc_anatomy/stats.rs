@@ -154,8 +154,8 @@ impl Stats {
         let estimates = selected_inversion(settings);
         let inverted_arc = signed_inversion(settings);
         let factors = residuals(settings, &estimates).map(|residual| Factor::of(*noise, residual));
-        let sigmas_off = |i: &usize| factors[*i].deviations.abs();
-        let weakest = (0..3).rev().max_by(|a, b| sigmas_off(a).total_cmp(&sigmas_off(b))).unwrap_or(0);
+        let abs_deviation = |i: &usize| factors[*i].deviations.abs();
+        let weakest = (0..3).rev().max_by(|a, b| abs_deviation(a).total_cmp(&abs_deviation(b))).unwrap_or(0);
         let arc = |v: f64, omega: f64| Arc { start, length: v * command.dt, turn: omega * command.dt };
         Self {
             commanded: ArcWithCircle::of(&arc(command.v, command.omega)),

@@ -46,10 +46,11 @@ impl Surface {
         let [width, height] = [max[0] - min[0], max[1] - min[1]];
         let columns = (max_cells * width / height).sqrt().max(1.0).min(max_cells).floor();
         let rows = (max_cells / columns).max(1.0).floor();
-        let size = [width / columns, height / rows];
+        let cell_size = [width / columns, height / rows];
         let (columns, rows) = (columns as usize, rows as usize);
-        let cell_centre =
-            |[column, row]: [f64; 2]| [min[0] + (column + 0.5) * size[0], max[1] - (row + 0.5) * size[1]];
+        let cell_centre = |[column, row]: [f64; 2]| {
+            [min[0] + (column + 0.5) * cell_size[0], max[1] - (row + 0.5) * cell_size[1]]
+        };
         let values_of = |value: &dyn Fn(&Settings) -> f64| -> Vec<f64> {
             let value_at = |i: usize| {
                 let [x, y] = cell_centre([(i % columns) as f64, (i / columns) as f64]);

@@ -358,7 +358,7 @@ impl BananaMachine {
     /// Returns the curves that are drawn over the cloud.
     pub fn contours(&self) -> Contours {
         let Stats { cartesian, exponential, .. } = &self.stats;
-        let outline_if =
+        let outline_or_empty =
             |is_defined: bool, outline: Vec<[f64; 2]>| if is_defined { outline } else { Vec::new() };
         let has_outlines = self.shown_count() > 1;
         let has_exponential = has_outlines && self.is_chart_defined();
@@ -366,10 +366,13 @@ impl BananaMachine {
         let contour = ExponentialContour::new(exponential, &START_POSE);
         Contours {
             command: arc_points(v * dt, omega * dt),
-            ellipse: outline_if(has_outlines, Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS)),
+            ellipse: outline_or_empty(
+                has_outlines,
+                Ellipse::from_moments(cartesian).boundary(OUTLINE_SEGMENTS),
+            ),
             linearized: Ellipse::from_moments(&self.linearized_moments()).boundary(OUTLINE_SEGMENTS),
-            exponential: outline_if(has_exponential, contour.boundary(OUTLINE_SEGMENTS)),
-            twist_ellipse: outline_if(has_exponential, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
+            exponential: outline_or_empty(has_exponential, contour.boundary(OUTLINE_SEGMENTS)),
+            twist_ellipse: outline_or_empty(has_exponential, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
             additive: Ellipse::from_moments(&self.additive_moments()).boundary(OUTLINE_SEGMENTS),
         }
     }
@@ -377,7 +380,7 @@ impl BananaMachine {
     /// Returns sample `index` of the samples shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
-        let no_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
+        let undefined_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
         let executed = self
             .settings
             .model_with_input(self.settings.command)
@@ -385,7 +388,7 @@ impl BananaMachine {
         let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs, path) = match executed {
             ExecutedMotion::Arc { arc, dt } => (arc, None, arc_points(arc.v_hat * dt, arc.omega_hat * dt)),
             ExecutedMotion::Legs(legs) => {
-                (no_arc, Some(legs), vec![[START_POSE.x(), START_POSE.y()], [pose.x(), pose.y()]])
+                (undefined_arc, Some(legs), vec![[START_POSE.x(), START_POSE.y()], [pose.x(), pose.y()]])
             }
         };
         let (pose, twist) = (pose.into(), self.twist(&pose).into());

@@ -121,8 +121,8 @@ impl Draws {
         for (group, noise) in
             self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed_groups)
         {
-            let mask = from_lanes(|lane| if LANES * group + lane < count { ALL_BITS_SET } else { 0.0 });
-            all_sums.add([noise[0], noise[1]], mask);
+            let lane_mask = from_lanes(|lane| if LANES * group + lane < count { ALL_BITS_SET } else { 0.0 });
+            all_sums.add([noise[0], noise[1]], lane_mask);
         }
         all_sums.close_block();
         all_sums.finish()

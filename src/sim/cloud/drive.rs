@@ -96,22 +96,22 @@ impl Drive {
     pub fn end_points(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;
         let is_outside_short_formulas = self.is_outside_short_formulas(motions);
-        let circle = if is_outside_short_formulas {
+        let bearing_sin_cos = if is_outside_short_formulas {
             self.trigonometry.sin_cos_any_angle(bearing)
         } else {
             self.trigonometry.sin_cos_small_angle(bearing)
         };
-        let ends = self.end_points_on_bearing(motions, &circle);
+        let ends = self.end_points_on_bearing(motions, &bearing_sin_cos);
         if is_outside_short_formulas || !self.is_arc {
             return (ends, self.arcs_to_points(bearing, ends), false);
         }
-        (ends, FourArcs { length, half: bearing, sinc: circle.sinc }, true)
+        (ends, FourArcs { length, half: bearing, sinc: bearing_sin_cos.sinc }, true)
     }
 
     #[inline(always)]
-    fn end_points_on_bearing(&self, motions: &Motions, circle: &SinCos) -> [f64x4; 2] {
-        let distance = if self.is_arc { motions.length * circle.sinc } else { motions.length };
-        [distance * circle.cos, distance * circle.sin]
+    fn end_points_on_bearing(&self, motions: &Motions, bearing_sin_cos: &SinCos) -> [f64x4; 2] {
+        let distance = if self.is_arc { motions.length * bearing_sin_cos.sinc } else { motions.length };
+        [distance * bearing_sin_cos.cos, distance * bearing_sin_cos.sin]
     }
 
     /// Returns the deviations that noise adds to the length and half turn of regular arcs (see [`Drive::end_points`]).
@@ -174,8 +174,8 @@ impl Drive {
     #[inline(never)]
     pub fn coordinates_of_four(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);
-        let circle = self.trigonometry.sin_cos_any_angle(motions.bearing);
-        let ends = self.end_points_on_bearing(&motions, &circle);
+        let bearing_sin_cos = self.trigonometry.sin_cos_any_angle(motions.bearing);
+        let ends = self.end_points_on_bearing(&motions, &bearing_sin_cos);
         let turn = self.trigonometry.log_terms_any_angle(motions.half, self.half_commanded_turn);
         (with_logarithms(&ends, turn), self.arcs_to_points(motions.bearing, ends))
     }

@@ -209,8 +209,8 @@ impl DeadReckoning {
     /// Returns ξ = x_k ⊟ x̄_k of the robots in the picture after the selected step: along, lateral (m), heading (rad).
     pub fn twists(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let step = self.settings.step;
-        let nominal = self.nominal_poses()[step as usize - 1];
-        self.poses(step).iter().map(move |pose| SE2::from(*pose).boxminus(&nominal).into())
+        let nominal_pose = self.nominal_poses()[step as usize - 1];
+        self.poses(step).iter().map(move |pose| SE2::from(*pose).boxminus(&nominal_pose).into())
     }
 
     /// Returns x, y (m) and θ (rad) of one robot after each step; None if the index is too large.
@@ -247,10 +247,10 @@ impl DeadReckoning {
         let Settings { command, steps, .. } = self.settings;
         let twist = TangentNoiseModel::twist(&command);
         // A chord of 0.1 rad deviates from its arc by 1/800 of its length.
-        let chords = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MAX_CHORDS);
-        (0..=chords * steps as usize)
+        let chords_per_step = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MAX_CHORDS);
+        (0..=chords_per_step * steps as usize)
             .map(|i| {
-                let pose = SE2::exp(&(twist * (i as f64 / chords as f64)));
+                let pose = SE2::exp(&(twist * (i as f64 / chords_per_step as f64)));
                 [pose.x(), pose.y()]
             })
             .collect()
@@ -271,8 +271,8 @@ impl DeadReckoning {
         };
         let xi_moments = ExponentialMoments { mean: Vector3::zeros(), cov };
         let (sin, cos) = libm::sincos(pose.theta());
-        let rotation = Matrix2::new(cos, -sin, sin, cos);
-        let position_cov = rotation * cov.fixed_view::<2, 2>(0, 0) * rotation.transpose();
+        let heading_rotation = Matrix2::new(cos, -sin, sin, cos);
+        let position_cov = heading_rotation * cov.fixed_view::<2, 2>(0, 0) * heading_rotation.transpose();
         let ellipse = Ellipse::new(Vector2::new(pose.x(), pose.y()), position_cov);
         Outlines {
             ellipse: ellipse.boundary(OUTLINE_SEGMENTS),

@@ -93,14 +93,14 @@ impl StepInErrorFrame {
         let [length, turn, last] = settings.model().variances(u).map(|variance| variance.0.sqrt() * u.dt);
         let (mean_length, mean_half) = (u.v * u.dt, 0.5 * (u.omega * u.dt));
         let trigonometry = Trigonometry::default();
-        let circle = trigonometry.sin_cos(f64x4::splat(mean_half));
-        let chord = f64x4::splat(mean_length) * circle.sinc;
+        let mean_sin_cos = trigonometry.sin_cos(f64x4::splat(mean_half));
+        let chord_length = f64x4::splat(mean_length) * mean_sin_cos.sinc;
         let (sin, cos) = libm::sincos(2.0 * mean_half);
         Self {
             length: [mean_length, length],
             half_turn: [mean_half, 0.5 * turn],
             half_last_turn_std: 0.5 * last,
-            end: [chord * circle.cos, chord * circle.sin],
+            end: [chord_length * mean_sin_cos.cos, chord_length * mean_sin_cos.sin],
             sin,
             cos,
             trigonometry,
@@ -113,12 +113,12 @@ impl StepInErrorFrame {
         let length = *first * self.length[1] + self.length[0];
         let turn_noise = *second * self.half_turn[1];
         let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(turn_noise + self.half_turn[0]);
-        let chord = length * sinc;
+        let chord_length = length * sinc;
         // The bearing of the chord is the heading of the robot plus half the turn of its arc.
         let heading_sin = 2.0 * robots.sin * robots.cos;
         let heading_cos = 1.0 - 2.0 * robots.sin * robots.sin;
-        let x = robots.x + chord * (heading_cos * cos - heading_sin * sin) - self.end[0];
-        let y = robots.y + chord * (heading_sin * cos + heading_cos * sin) - self.end[1];
+        let x = robots.x + chord_length * (heading_cos * cos - heading_sin * sin) - self.end[0];
+        let y = robots.y + chord_length * (heading_sin * cos + heading_cos * sin) - self.end[1];
         let half_turn = robots.half + (turn_noise + *third * self.half_last_turn_std);
         let is_far = any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
         let LogTerms { half, cotangent, sin, cos, .. } = if is_far {

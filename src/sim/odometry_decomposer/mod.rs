@@ -60,7 +60,7 @@ js_structs! {
 
 /// Odometry poses in the world, in which the odometry frame has drifted, and the legs computed from these poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drifted {
+pub struct DriftedOdometry {
     /// Pose of the odometry frame in the world.
     pub frame: SE2,
     /// Odometry pose before the motion, in the world.
@@ -266,10 +266,10 @@ impl OdometryDecomposer {
     pub fn deviation_curve(&self, max_length: f64, count: usize) -> Vec<CurvePoint> {
         let Settings { rule, alphas, noise, .. } = self.settings;
         let reading = self.reading();
-        let trans_step = max_length / count.saturating_sub(1).max(1) as f64;
+        let length_step = max_length / count.saturating_sub(1).max(1) as f64;
         (0..count)
             .map(|i| {
-                let trans = trans_step * i as f64;
+                let trans = length_step * i as f64;
                 let variances = rule.variances(&OdomDelta { trans, ..reading }, &alphas);
                 CurvePoint {
                     trans,
@@ -282,10 +282,10 @@ impl OdometryDecomposer {
     }
 
     /// Returns the odometry poses in the world. Their frame has moved by exp(t·d) in the drift time t.
-    pub fn drifted_odometry(&self) -> Drifted {
+    pub fn drifted_odometry(&self) -> DriftedOdometry {
         let frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
         let (from, to) = (frame * self.start_pose(), frame * SE2::from(self.settings.to));
-        Drifted { frame, from, to, legs: self.settings.rule.legs(&OdomDelta::from_poses(&from, &to)) }
+        DriftedOdometry { frame, from, to, legs: self.settings.rule.legs(&OdomDelta::from_poses(&from, &to)) }
     }
 
     /// Returns the outcome shown that ends nearest to a point (m), within `radius`.

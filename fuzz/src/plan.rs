@@ -33,8 +33,8 @@ pub fn read_plan(input: &mut Input) -> Option<FloorPlan> {
     let [left, bottom, right, top] = bounds;
     let coordinate = |input: &mut Input, low: f64, high: f64| {
         let fraction = f64::from(input.next_byte()) / 255.0;
-        let inside = low + (high - low) * fraction;
-        if input.next_choice(16) == 0 { input.next_number() } else { inside }
+        let number_inside = low + (high - low) * fraction;
+        if input.next_choice(16) == 0 { input.next_number() } else { number_inside }
     };
     let count = input.next_choice(1 + MAX_WALLS);
     let mut walls: Vec<Segment> = Vec::new();

@@ -22,10 +22,10 @@ const CLASSES: [(&str, &str); 8] = [
     ("OdometryDecomposer({ samples: 5_000 })", "stats"),
     ("DeadReckoning({ samples: 2_000 })", "stats"),
     ("AlphaCalibrator()", "stats"),
-    ("VelocityModel({ alphas: Array(6).fill(0.1) })", SCORE),
-    ("OdometryModel({ alphas: Array(4).fill(0.1), reverseAware: true })", SCORE),
+    ("VelocityModel({ alphas: Array(6).fill(0.1) })", SCORE_CALL),
+    ("OdometryModel({ alphas: Array(4).fill(0.1), reverseAware: true })", SCORE_CALL),
 ];
-const SCORE: &str = "prob(it.pose, it.pose, it.pose)";
+const SCORE_CALL: &str = "prob(it.pose, it.pose, it.pose)";
 
 #[wasm_bindgen_test]
 fn a_freed_object_is_gone_with_its_memory() {

@@ -12,7 +12,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use wasm_bindgen_test::wasm_bindgen_test;
 
 /// Arguments of the tests in JavaScript. The constants and functions below have equal values in Rust.
-const VALUES: &str = "{
+const JS_VALUES: &str = "{
     start: { x: 1, y: -2, theta: 0.5 }, next: { x: 1.7, y: -1.3, theta: 1.2 },
     command: { v: 1, omega: 0.5, dt: 1 }, control: { rot1: 0.2, trans: 1, rot2: 0.3 },
     velocity: new motion.VelocityModel({ alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02], noise: 'triangular' }),
@@ -22,7 +22,7 @@ const VALUES: &str = "{
 }";
 const COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 const READING: OdomDelta = OdomDelta { rot1: 0.2, trans: 1.0, rot2: 0.3 };
-const REVERSE: OdomDelta = OdomDelta { rot1: 3.0, trans: 1.0, rot2: -3.0 };
+const REVERSE_READING: OdomDelta = OdomDelta { rot1: 3.0, trans: 1.0, rot2: -3.0 };
 const VELOCITY_MODEL: VelocityModel = VelocityModel {
     alphas: VelocityAlphas([0.02, 0.03, 0.04, 0.05, 0.01, 0.02]),
     noise: NoiseKind::Triangular,
@@ -34,11 +34,11 @@ fn start() -> SE2 {
     SE2::new(1.0, -2.0, 0.5)
 }
 
-fn next() -> SE2 {
+fn next_pose() -> SE2 {
     SE2::new(1.7, -1.3, 1.2)
 }
 
-fn behind() -> SE2 {
+fn pose_behind() -> SE2 {
     SE2::new(0.1, -2.4, 0.55)
 }
 
@@ -61,20 +61,20 @@ fn rows_of(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
 
 #[wasm_bindgen_test]
 fn poses_and_twists_are_those_of_rust() {
-    let it = Object::new(VALUES);
+    let it = Object::new(JS_VALUES);
     let twist = Vector3::new(0.3, -0.1, 0.7);
     let pose = |expression: &str| it.get::<[f64; 3]>(&format!("Object.values(motion.se2.{expression})"));
     assert_eq!(pose("exp([0.3, -0.1, 0.7])"), coordinates(&SE2::exp(&twist)));
-    assert_eq!(pose("compose(it.start, it.next)"), coordinates(&(start() * next())));
+    assert_eq!(pose("compose(it.start, it.next)"), coordinates(&(start() * next_pose())));
     assert_eq!(pose("inverse(it.start)"), coordinates(&start().inverse()));
     assert_eq!(
         pose("boxplus(it.start, new Float64Array([0.3, -0.1, 0.7]))"),
         coordinates(&start().boxplus(twist))
     );
-    assert_eq!(it.get::<Vec<f64>>("motion.se2.log(it.next)"), next().log().as_slice());
+    assert_eq!(it.get::<Vec<f64>>("motion.se2.log(it.next)"), next_pose().log().as_slice());
     assert_eq!(
         it.get::<Vec<f64>>("motion.se2.boxminus(it.next, it.start)"),
-        next().boxminus(&start()).as_slice()
+        next_pose().boxminus(&start()).as_slice()
     );
     let matrix = |expression: &str| it.get::<Vec<Vec<f64>>>(&format!("motion.se2.{expression}"));
     assert_eq!(matrix("adjoint(it.start)"), rows_of(&start().adjoint()));
@@ -84,8 +84,8 @@ fn poses_and_twists_are_those_of_rust() {
 
 #[wasm_bindgen_test]
 fn an_arc_is_inverted_and_two_poses_are_decomposed() {
-    let it = Object::new(VALUES);
-    let arc = invert_arc(&start(), &next(), 2.0);
+    let it = Object::new(JS_VALUES);
+    let arc = invert_arc(&start(), &next_pose(), 2.0);
     let [x, y] = arc.centre(&start()).expect("an arc");
     assert_eq!(
         it.get::<Vec<f64>>(
@@ -94,9 +94,9 @@ fn an_arc_is_inverted_and_two_poses_are_decomposed() {
         ),
         [arc.v_hat, arc.omega_hat, arc.gamma_hat, x, y, arc.radius(), 2.0 * arc.omega_hat]
     );
-    let straight = "motion.invertArc({ x: 0, y: 0, theta: 0 }, { x: -2, y: 0, theta: 0.5 }, 0.5)";
+    let straight_arc_call = "motion.invertArc({ x: 0, y: 0, theta: 0 }, { x: -2, y: 0, theta: 0.5 }, 0.5)";
     assert_eq!(
-        get::<(f64, f64, f64, Option<()>, f64, f64)>(&format!("Object.values({straight})")),
+        get::<(f64, f64, f64, Option<()>, f64, f64)>(&format!("Object.values({straight_arc_call})")),
         (-4.0, 0.0, 1.0, None, f64::INFINITY, 0.0)
     );
     let legs = get("Object.values(motion.decompose({ x: 1, y: 1, theta: 0.2 }, { x: 4, y: 5, theta: 1.5 }))");
@@ -106,18 +106,21 @@ fn an_arc_is_inverted_and_two_poses_are_decomposed() {
 
 #[wasm_bindgen_test]
 fn models_score_and_draw_as_in_rust() {
-    let it = Object::new(VALUES);
+    let it = Object::new(JS_VALUES);
     let [velocity, odometry, aware]: [(f64, Option<f64>); 3] = it.get(
         "[[it.velocity, it.next, it.command], [it.odometry, it.next, it.control], [it.aware, it.back,
             it.reverse]]
             .map(([model, next, control]) =>
                 [model.prob(next, control, it.start), model.poseDensity(next, control, it.start)])",
     );
-    assert_eq!(velocity, scores(&VELOCITY_MODEL, &next(), &COMMAND));
-    assert_eq!(odometry, scores(&ODOMETRY_MODEL, &next(), &READING));
+    assert_eq!(velocity, scores(&VELOCITY_MODEL, &next_pose(), &COMMAND));
+    assert_eq!(odometry, scores(&ODOMETRY_MODEL, &next_pose(), &READING));
     let model = ReverseAware(ODOMETRY_MODEL);
-    assert_eq!(aware, scores(&model, &behind(), &REVERSE));
-    assert!(aware.0 > 10.0 * ODOMETRY_MODEL.prob(&behind(), &REVERSE, &start()), "the option has an effect");
+    assert_eq!(aware, scores(&model, &pose_behind(), &REVERSE_READING));
+    assert!(
+        aware.0 > 10.0 * ODOMETRY_MODEL.prob(&pose_behind(), &REVERSE_READING, &start()),
+        "the option has an effect"
+    );
 
     assert_eq!(
         it.get::<Vec<f64>>("it.velocity.sample(it.command, it.start, 5, 9)"),
@@ -127,7 +130,10 @@ fn models_score_and_draw_as_in_rust() {
         it.get::<Vec<f64>>("it.odometry.sample(it.control, it.start, 5, 9)"),
         draws(&ODOMETRY_MODEL, &READING)
     );
-    assert_eq!(it.get::<Vec<f64>>("it.aware.sample(it.reverse, it.start, 5, 9)"), draws(&model, &REVERSE));
+    assert_eq!(
+        it.get::<Vec<f64>>("it.aware.sample(it.reverse, it.start, 5, 9)"),
+        draws(&model, &REVERSE_READING)
+    );
     it.assert("it.aware.sample(it.reverse, it.start, 5, 9) instanceof Float64Array");
     // Without a last turn the poses lie on a surface, and have no density in space.
     let flat = "new motion.VelocityModel({ alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] })";
@@ -138,7 +144,7 @@ fn models_score_and_draw_as_in_rust() {
 fn covariances_are_propagated_as_in_rust() {
     let noise = TangentNoiseModel::from_velocity(&VELOCITY_MODEL, &COMMAND).expect("a covariance");
     let twist = TangentNoiseModel::twist(&COMMAND);
-    let it = Object::new(VALUES);
+    let it = Object::new(JS_VALUES);
     for (word, order) in [
         ("chapter", Compounding::Chapter),
         ("first-order", Compounding::FirstOrder),
@@ -178,7 +184,7 @@ fn a_dragged_end_is_reached_and_seeds_are_random() {
 
 #[wasm_bindgen_test]
 fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
-    let it = Object::new(VALUES);
+    let it = Object::new(JS_VALUES);
     it.assert_refused(
         "it",
         r#"

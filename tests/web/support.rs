@@ -52,11 +52,13 @@ impl Object {
     /// more indentation than the first continues the line before it.
     pub fn assert_refused(&self, state: &str, cases: &str) {
         let indentation = |line: &str| line.len() - line.trim_start().len();
-        let base = cases.lines().find(|line| !line.trim().is_empty()).map_or(0, indentation);
+        let base_indentation = cases.lines().find(|line| !line.trim().is_empty()).map_or(0, indentation);
         let mut lines: Vec<String> = Vec::new();
         for line in cases.lines().filter(|line| !line.trim().is_empty()) {
             match lines.last_mut() {
-                Some(before) if indentation(line) > base => *before += &format!(" {}", line.trim()),
+                Some(previous_line) if indentation(line) > base_indentation => {
+                    *previous_line += &format!(" {}", line.trim())
+                }
                 _ => lines.push(line.trim().to_owned()),
             }
         }

@@ -51,8 +51,8 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
     let sim = good_log(600, 1);
     let [odometry, reference] = sim.log();
     let [_, other_reference] = good_log(600, 2).log();
-    type Change = fn(SE2) -> SE2;
-    let changes: [(&str, Change); 5] = [
+    type PoseChange = fn(SE2) -> SE2;
+    let changes: [(&str, PoseChange); 5] = [
         ("degrees", |pose| SE2::new(pose.x(), pose.y(), pose.theta().to_degrees())),
         ("y up", |pose| SE2::new(pose.x(), 0.1, 0.0)),
         ("mirrored", |pose| SE2::new(-pose.x(), pose.y(), pose.theta())),
@@ -73,10 +73,17 @@ fn a_copy_of_the_odometry_is_no_reference() {
     let [odometry, _] = sim.log();
     // Copies in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and numbers rounded to six digits, to three and to two.
     for digits in [6, 3, 2] {
-        let round = |value: f64| (value * 10_f64.powi(digits)).round() / 10_f64.powi(digits);
+        let round_to_digits = |value: f64| (value * 10_f64.powi(digits)).round() / 10_f64.powi(digits);
         let copied_samples = odometry.samples().map(|(time, pose)| {
             let shifted = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
-            (time + 0.1, SE2::new(round(shifted.x()), round(shifted.y()), round(shifted.theta())))
+            (
+                time + 0.1,
+                SE2::new(
+                    round_to_digits(shifted.x()),
+                    round_to_digits(shifted.y()),
+                    round_to_digits(shifted.theta()),
+                ),
+            )
         });
         let calibration = calibrated_log(&[odometry.clone(), trajectory(copied_samples)], &sim.options());
         let message = calibration.diagnostics.checks[0].message();
@@ -108,9 +115,9 @@ fn legs_that_hardly_move_are_not_compared() {
 #[test]
 fn few_legs_are_questionable_and_fewer_unusable() {
     assert_fails(EnoughLegs, &calibrated(&good_log(80, 3)));
-    let few_legs_fit = calibrated(&good_log(25, 3));
-    assert!(names_of_failed_checks(&few_legs_fit).contains(&EnoughLegs));
-    assert_unusable(&few_legs_fit, "25 legs");
+    let fit_of_few_legs = calibrated(&good_log(25, 3));
+    assert!(names_of_failed_checks(&fit_of_few_legs).contains(&EnoughLegs));
+    assert_unusable(&fit_of_few_legs, "25 legs");
 }
 
 /// The reference is missing during 30 s of each 90 s.
@@ -142,9 +149,10 @@ fn a_log_that_no_inflation_covers_is_unusable() {
     let sim = good_log(600, 12);
     let [odometry, reference] = sim.log();
     let jump_time = 0.75 * reference.span().expect("samples")[1];
-    let shift = SE2::new(10.0, 0.0, 0.0);
-    let jumped_samples =
-        reference.samples().map(|(time, pose)| (time, if time < jump_time { pose } else { shift * pose }));
+    let jump_of_reference = SE2::new(10.0, 0.0, 0.0);
+    let jumped_samples = reference
+        .samples()
+        .map(|(time, pose)| (time, if time < jump_time { pose } else { jump_of_reference * pose }));
     let options = Options { outliers: Outliers::Keep, ..sim.options() };
     let calibration = calibrated_log(&[odometry, trajectory(jumped_samples)], &options);
     assert_eq!(names_of_failed_checks(&calibration)[0], InflationBounded);

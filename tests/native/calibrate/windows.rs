@@ -23,22 +23,23 @@ fn motion_of(leg: &Leg) -> SE2 {
 
 /// Returns true if the motion over some legs is inside of the 95 % ellipsoid of its samples, in exponential coordinates.
 fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng) -> bool {
-    let compose =
+    let composed_motion =
         |motions: &mut dyn Iterator<Item = SE2>| motions.fold(SE2::identity(), |pose, motion| pose * motion);
-    let odom_motion = compose(&mut legs.iter().map(motion_of));
+    let odom_motion = composed_motion(&mut legs.iter().map(motion_of));
     let mut sample = |leg| {
         let noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
         executed_motion(model, alphas, &motion_of(leg), leg.duration(), noise)
     };
-    let samples: Vec<Vector3<f64>> =
-        (0..SAMPLES).map(|_| compose(&mut legs.iter().map(&mut sample)).boxminus(&odom_motion)).collect();
+    let samples: Vec<Vector3<f64>> = (0..SAMPLES)
+        .map(|_| composed_motion(&mut legs.iter().map(&mut sample)).boxminus(&odom_motion))
+        .collect();
     let mean = samples.iter().sum::<Vector3<f64>>() / SAMPLES as f64;
     let covariance =
         samples.iter().map(|sample| (sample - mean) * (sample - mean).transpose()).sum::<Matrix3<f64>>();
     let reference_motion = legs[0].reference[0].inverse() * legs[legs.len() - 1].reference[1];
     let deviation = reference_motion.boxminus(&odom_motion) - mean;
-    let inverse = (covariance / SAMPLES as f64).try_inverse().expect("noise in all directions");
-    deviation.dot(&(inverse * deviation)) < CHI2_95
+    let inverse_covariance = (covariance / SAMPLES as f64).try_inverse().expect("noise in all directions");
+    deviation.dot(&(inverse_covariance * deviation)) < CHI2_95
 }
 
 /// Returns the numbers of windows of a metre that are covered, and of all windows, in logs that were not used for the

@@ -9,7 +9,7 @@ use motion::geom::se2::{SE2, wrap_angle};
 use std::f64::consts::PI;
 
 /// Nodes on (−1, 1) and weights of the eight-point Gauss–Legendre rule (Abramowitz and Stegun, table 25.4).
-const GAUSS: [(f64, f64); 8] = [
+const GAUSS_LEGENDRE_RULE: [(f64, f64); 8] = [
     (-0.960_289_856_497_536, 0.101_228_536_290_376),
     (-0.796_666_477_413_627, 0.222_381_034_453_374),
     (-0.525_532_409_916_329, 0.313_706_645_877_887),
@@ -65,7 +65,7 @@ impl Grid {
     pub fn cell_masses(&self, density: impl Fn(&SE2) -> f64) -> Vec<f64> {
         let nodes = |axis: usize, index: usize| {
             let (low, step) = (self.lower_bound(axis, index), self.step[axis]);
-            GAUSS.map(|(node, weight)| (low + 0.5 * (1.0 + node) * step, 0.5 * weight * step))
+            GAUSS_LEGENDRE_RULE.map(|(node, weight)| (low + 0.5 * (1.0 + node) * step, 0.5 * weight * step))
         };
         let mut cell_masses = Vec::with_capacity(self.cells.iter().product());
         for i in 0..self.cells[0] {
@@ -130,9 +130,9 @@ impl Grid {
             "the density has more mass than 1: {} poses remain",
             pooled_cells.1
         );
-        let term = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
+        let chi_square_term = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
         // If only a few poses remain, the error of the quadrature may exceed their number. They are left out.
-        let remainder = if pooled_cells.1 >= 20.0 { term(&pooled_cells) } else { 0.0 };
-        (large.iter().map(term).sum::<f64>() + remainder, chi_square_limit(large.len() + 1))
+        let remainder = if pooled_cells.1 >= 20.0 { chi_square_term(&pooled_cells) } else { 0.0 };
+        (large.iter().map(chi_square_term).sum::<f64>() + remainder, chi_square_limit(large.len() + 1))
     }
 }

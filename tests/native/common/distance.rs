@@ -36,10 +36,10 @@ pub fn point_to_line(p: Point, [a, b]: [Point; 2]) -> f64 {
         return norm(r);
     }
     let unit = [d[0] / length, d[1] / length];
-    let along = unit[0] * r[0] + unit[1] * r[1];
-    if along <= 0.0 {
+    let distance_along = unit[0] * r[0] + unit[1] * r[1];
+    if distance_along <= 0.0 {
         norm(r)
-    } else if along >= length {
+    } else if distance_along >= length {
         norm(difference(p, b))
     } else {
         cross(unit, r).abs()

@@ -63,7 +63,7 @@ pub fn preset(name: &str) -> Settings {
 
 /// Returns true if a closed outline winds around a point.
 pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
-    let turns: i32 = outline
+    let windings: i32 = outline
         .windows(2)
         .map(|ends| {
             let [[ax, ay], [bx, by]] = [ends[0], ends[1]];
@@ -71,7 +71,7 @@ pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
             i32::from(ay <= y && by > y && left) - i32::from(ay > y && by <= y && !left)
         })
         .sum();
-    turns != 0
+    windings != 0
 }
 
 // ------------------------------------------------------------------------------------------- reference tables
@@ -150,9 +150,9 @@ pub fn unit_cdf(kind: NoiseKind, z: f64) -> f64 {
     match kind {
         NoiseKind::Normal => 0.5 * libm::erfc(-z / 2f64.sqrt()),
         NoiseKind::Triangular => {
-            let limit = 6f64.sqrt();
-            let tail = (limit - z.abs()).max(0.0).powi(2) / 12.0;
-            if z < 0.0 { tail } else { 1.0 - tail }
+            let support_end = 6f64.sqrt();
+            let tail_probability = (support_end - z.abs()).max(0.0).powi(2) / 12.0;
+            if z < 0.0 { tail_probability } else { 1.0 - tail_probability }
         }
     }
 }

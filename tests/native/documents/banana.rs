@@ -45,8 +45,8 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_machine() {
         skew.assert(exact.cross_track_skew, 1e-12);
         exact
     };
-    let worked = document().numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
-    assert_row(&machine_of("worked"), worked);
+    let worked_row = document().numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
+    assert_row(&machine_of("worked"), worked_row);
     let [(gentle, _), (hard, hard_machine), (banana, _)] = [
         ("gentle", "| 1, 0.5, 1; (0.05, 0.05, 0.05, 0.09, 0.01, 0.01)"),
         ("hard", "| 1, 1.2, 1.4; the same"),
@@ -99,15 +99,15 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
     let machine = machine(Settings { samples: 300_000, ..preset("banana") });
     let contours = machine.contours();
     let is_inside = |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
-    const STEP: f64 = 0.02;
+    const CELL_SIZE: f64 = 0.02;
     let grid = (0..250).flat_map(|column| (0..250).map(move |row| (column, row)));
     let cells: Vec<[bool; 2]> = grid
-        .map(|(column, row)| is_inside([f64::from(column) * STEP, f64::from(row) * STEP - 2.5]))
+        .map(|(column, row)| is_inside([f64::from(column) * CELL_SIZE, f64::from(row) * CELL_SIZE - 2.5]))
         .collect();
     let robots: Vec<[bool; 2]> = machine.poses().map(|pose| is_inside([pose.x(), pose.y()])).collect();
     let density = |inside: [bool; 2]| {
         let count = |points: &[[bool; 2]]| points.iter().filter(|point| **point == inside).count() as f64;
-        count(&robots) / (count(&cells) * STEP * STEP)
+        count(&robots) / (count(&cells) * CELL_SIZE * CELL_SIZE)
     };
     let ratio = density([false, true]) / density([true, false]);
     assert_eq!(ratio.round(), 7.0, "{ratio}");

@@ -28,27 +28,27 @@ fn steps_off(ratios: &[f64]) -> Vec<usize> {
 
 #[test]
 fn printed_losses_of_variance_equal_those_of_the_machine() {
-    let opening = machine(Settings::default());
+    let initial_machine = machine(Settings::default());
     let [printed_loss]: [Number; 1] =
         page().numbers("what its own loses by the end: # % of the variance along the track");
-    let comparison = opening.comparison(Compounding::Chapter);
+    let comparison = initial_machine.comparison(Compounding::Chapter);
     printed_loss.assert_percent(-comparison.misses[0].end, 0.0);
-    printed_loss.assert_percent(1.0 - exact_ratios(&opening, Compounding::Chapter, 0)[19], 0.0);
+    printed_loss.assert_percent(1.0 - exact_ratios(&initial_machine, Compounding::Chapter, 0)[19], 0.0);
     let [along_loss, lateral_loss]: [Number; 2] = page().numbers(
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
     );
     for (loss, axis) in [(along_loss, 0), (lateral_loss, 1)] {
         loss.assert_percent(-comparison.misses[axis].end, 0.0);
-        loss.assert_percent(1.0 - exact_ratios(&opening, Compounding::Chapter, axis)[19], 0.0);
+        loss.assert_percent(1.0 - exact_ratios(&initial_machine, Compounding::Chapter, axis)[19], 0.0);
     }
     page().assert_says("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
     assert_eq!(comparison.ratios[0].y, 0.0);
-    assert!(opening.measured_moments()[0].cov[(1, 1)] > 0.0);
+    assert!(initial_machine.measured_moments()[0].cov[(1, 1)] > 0.0);
     let [ratio_at_2, ratio_at_5]: [Number; 2] =
         page().numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
     for ratios in [
-        exact_ratios(&opening, Compounding::Chapter, 1),
+        exact_ratios(&initial_machine, Compounding::Chapter, 1),
         comparison.ratios.iter().map(|ratio| ratio.y).collect(),
     ] {
         ratio_at_2.assert(ratios[1], 0.0);
@@ -58,7 +58,7 @@ fn printed_losses_of_variance_equal_those_of_the_machine() {
         "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
     );
     for order in [Compounding::FirstOrder, Compounding::FourthOrder] {
-        for ratio in &opening.comparison(order).ratios {
+        for ratio in &initial_machine.comparison(order).ratios {
             assert!(ratio.iter().all(|ratio| (ratio - 1.0).abs() < 0.01), "{order:?}: {ratio}");
         }
     }
@@ -99,13 +99,13 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
 /// Checks the numbers on the page and in doc/exercises.md.
 #[test]
 fn the_crossing_times_are_those_of_exercise_2() {
-    let opening = machine(Settings { samples: 1, ..Settings::default() });
-    let growth = opening.straight_growth();
+    let initial_machine = machine(Settings { samples: 1, ..Settings::default() });
+    let growth = initial_machine.straight_growth();
     let end = growth.durations.len() - 1;
     let power =
         |stds: &[f64]| (stds[end] / stds[0]).ln() / (growth.durations[end] / growth.durations[0]).ln();
     let powers = [&growth.along_first_order, &growth.across_first_order].map(|stds| power(stds));
-    let h = 4.0 * opening.settings().heading_noise().expect("a level");
+    let h = 4.0 * initial_machine.settings().heading_noise().expect("a level");
     let alphas = [0.02, 0.02, h, h, h / 4.0, h / 4.0];
     let doubled = machine(Settings { alphas, samples: 1, ..Settings::default() });
     let times = [&growth, &doubled.straight_growth()].map(|growth| growth.crossing.expect("a crossing"));

@@ -26,14 +26,14 @@ fn error_of_arc_form(omega: f64, dt: f64) -> f64 {
     let (radius, phi) = (1.0 / omega, omega * dt);
     let (forward, left) = (dt * (1.0 - phi * phi / 6.0), dt * phi * (0.5 - phi * phi / 24.0));
     let headings = 1001;
-    let squares = (0..headings).map(|i| {
+    let squared_errors = (0..headings).map(|i| {
         let theta = 2.0 * PI * f64::from(i) / f64::from(headings) - PI;
         let (sin, cos) = theta.sin_cos();
         let (x, y) = (forward * cos - left * sin, forward * sin + left * cos);
         let next = theta + phi;
         (radius * next.sin() - radius * sin - x).powi(2) + (radius * cos - radius * next.cos() - y).powi(2)
     });
-    (squares.sum::<f64>() / f64::from(headings)).sqrt()
+    (squared_errors.sum::<f64>() / f64::from(headings)).sqrt()
 }
 
 #[test]
@@ -42,8 +42,9 @@ fn exercise_1_prints_the_errors_of_the_straight_line_branch() {
     let line_error = |omega: f64| 0.5 * omega * dt * dt;
     // The error varies strongly with ω. Its mean over a tenth of a decade is compared.
     let ratio = |omega: f64| {
-        let rates = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
-        (rates.map(|omega| (error_of_arc_form(omega, dt) / line_error(omega)).ln()).sum::<f64>() / 20.0).exp()
+        let turn_rates = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
+        (turn_rates.map(|omega| (error_of_arc_form(omega, dt) / line_error(omega)).ln()).sum::<f64>() / 20.0)
+            .exp()
     };
     let crossover =
         (0..400).map(|i| 1e-9 * 10f64.powf(f64::from(i) / 100.0)).find(|omega| ratio(*omega) < 1.0);

@@ -20,16 +20,16 @@ fn assert_same(a: &SE2, b: &SE2, tolerance: f64, law: &str) {
 /// Composition is compared with its textbook formula, because the other laws hold in any group.
 #[test]
 fn composition_places_the_second_pose_in_the_frame_of_the_first() {
-    let at_quarter_turn = SE2::new(2.0, 1.0, PI / 2.0);
+    let turned_pose = SE2::new(2.0, 1.0, PI / 2.0);
     assert_same(
-        &(at_quarter_turn * SE2::new(3.0, 0.5, 0.25)),
+        &(turned_pose * SE2::new(3.0, 0.5, 0.25)),
         &SE2::new(1.5, 4.0, PI / 2.0 + 0.25),
         LAW_TOLERANCE,
         "composition by hand",
     );
     let facing_north = SE2::new(5.0, 5.0, PI / 2.0);
-    let ahead = facing_north.boxplus(Vector3::x());
-    assert_same(&ahead, &SE2::new(5.0, 6.0, PI / 2.0), 16.0 * LAW_TOLERANCE, "in its frame");
+    let pose_ahead = facing_north.boxplus(Vector3::x());
+    assert_same(&pose_ahead, &SE2::new(5.0, 6.0, PI / 2.0), 16.0 * LAW_TOLERANCE, "in its frame");
 }
 
 /// With a turn given to select the branch, the logarithm inverts exp beyond half a turn. Its coordinates grow towards a full turn.
@@ -59,24 +59,24 @@ fn exp_and_jacobians_match_the_references() {
     let table = Table::parse(include_str!("../../reference/group.csv"));
     for row in table.rows() {
         let twist = Vector3::from(row.all(["a", "b", "w"]));
-        let allowed = ACCURACY * twist.norm().max(1.0);
-        let check = |column: &str, computed: f64| {
+        let allowed_error = ACCURACY * twist.norm().max(1.0);
+        let assert_near = |column: &str, computed: f64| {
             let error = row.error(column, computed);
             assert!(
-                error <= allowed,
-                "{column} at {:?}: off by {error:e}, allowed {allowed:e}",
+                error <= allowed_error,
+                "{column} at {:?}: off by {error:e}, allowed {allowed_error:e}",
                 twist.as_slice()
             );
         };
         let pose = SE2::exp(&twist);
-        check("x", pose.x());
-        check("y", pose.y());
+        assert_near("x", pose.x());
+        assert_near("y", pose.y());
         assert_eq!(pose.theta(), twist.z);
         for (prefix, matrix) in
             [("j", SE2::right_jacobian(&twist)), ("i", SE2::right_jacobian_inverse(&twist))]
         {
             for (i, j) in [(0, 0), (0, 1), (0, 2), (1, 2)] {
-                check(&format!("{prefix}{i}{j}"), matrix[(i, j)]);
+                assert_near(&format!("{prefix}{i}{j}"), matrix[(i, j)]);
             }
             assert_eq!(matrix[(1, 1)], matrix[(0, 0)]);
             assert_eq!(matrix[(1, 0)], -matrix[(0, 1)]);
@@ -90,10 +90,13 @@ fn log_matches_the_references() {
     for row in Table::parse(include_str!("../../reference/log.csv")).rows() {
         let pose = SE2::new(row.get("x"), row.get("y"), row.get("w"));
         let twist = pose.log();
-        let allowed = ACCURACY * Vector3::new(row.get("a"), row.get("b"), row.get("w")).norm().max(1.0);
+        let allowed_error = ACCURACY * Vector3::new(row.get("a"), row.get("b"), row.get("w")).norm().max(1.0);
         for (column, computed) in [("a", twist.x), ("b", twist.y)] {
             let error = row.error(column, computed);
-            assert!(error <= allowed, "{column} of log {pose:?}: off by {error:e}, allowed {allowed:e}");
+            assert!(
+                error <= allowed_error,
+                "{column} of log {pose:?}: off by {error:e}, allowed {allowed_error:e}"
+            );
         }
         assert_eq!(twist.z, row.get("w"));
     }

@@ -24,13 +24,13 @@ pub fn cases(count: u32) -> ProptestConfig {
 pub fn any_double() -> impl Strategy<Value = f64> {
     prop_oneof![
         2 => any::<u64>().prop_map(f64::from_bits),
-        1 => finite(),
+        1 => finite_doubles(),
         1 => prop_oneof![Just(f64::INFINITY), Just(f64::NEG_INFINITY), Just(f64::NAN), Just(-f64::NAN)],
     ]
 }
 
 /// Returns finite doubles of any exponent, of common sizes, and near limits of ranges.
-pub fn finite() -> impl Strategy<Value = f64> {
+pub fn finite_doubles() -> impl Strategy<Value = f64> {
     prop_oneof![
         3 => POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO,
         3 => -100.0..100.0,
@@ -68,9 +68,9 @@ fn range_limits() -> impl Strategy<Value = f64> {
 }
 
 /// Returns finite doubles up to `max_abs` in absolute value.
-pub fn up_to(max_abs: f64) -> impl Strategy<Value = f64> {
+pub fn doubles_up_to(max_abs: f64) -> impl Strategy<Value = f64> {
     prop_oneof![
-        4 => finite().prop_filter("too large", move |number| number.abs() <= max_abs),
+        4 => finite_doubles().prop_filter("too large", move |number| number.abs() <= max_abs),
         1 => -max_abs..=max_abs,
         1 => prop_oneof![Just(max_abs), Just(-max_abs)],
     ]
@@ -80,12 +80,14 @@ pub fn up_to(max_abs: f64) -> impl Strategy<Value = f64> {
 pub const LARGE: f64 = 1e300;
 
 pub fn poses() -> impl Strategy<Value = SE2> {
-    (up_to(LARGE), up_to(LARGE), up_to(PI)).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
+    (doubles_up_to(LARGE), doubles_up_to(LARGE), doubles_up_to(PI))
+        .prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
 /// Returns twists that turn by up to `max`.
 pub fn twists(max: f64) -> impl Strategy<Value = Vector3<f64>> {
-    (up_to(LARGE), up_to(LARGE), up_to(max)).prop_map(|(x, y, turn)| Vector3::new(x, y, turn))
+    (doubles_up_to(LARGE), doubles_up_to(LARGE), doubles_up_to(max))
+        .prop_map(|(x, y, turn)| Vector3::new(x, y, turn))
 }
 
 /// Returns the sum of the absolute coordinates of a pose.

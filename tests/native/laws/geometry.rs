@@ -3,7 +3,7 @@
 //! A law may be off by a few units in the last place for each map that it composes. The tolerance is 32 units, as in `group_laws.rs`,
 //! relative to the size of the arguments, which may be 10⁻³⁰⁸ or 10³⁰⁰.
 
-use super::doubles::{assert_same_pose, cases, extent, finite, poses, twists};
+use super::doubles::{assert_same_pose, cases, extent, finite_doubles, poses, twists};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::geom::sinc::sinc;
 use nalgebra::{Matrix3, Vector3};
@@ -17,7 +17,7 @@ proptest! {
 
     /// The remainder of a division is exact, and so is the subtraction of a full turn.
     #[test]
-    fn wrapped_angles_are_remainders(angle in finite()) {
+    fn wrapped_angles_are_remainders(angle in finite_doubles()) {
         let wrapped = wrap_angle(angle);
         prop_assert!(-PI < wrapped && wrapped <= PI);
         let remainder = angle % TAU;
@@ -30,7 +30,7 @@ proptest! {
     }
 
     #[test]
-    fn sinc_is_even_and_within_its_hull(t in finite()) {
+    fn sinc_is_even_and_within_its_hull(t in finite_doubles()) {
         let value = sinc(t);
         prop_assert_eq!(value.to_bits(), sinc(-t).to_bits());
         let bound = if t == 0.0 { 1.0 } else { (1.0 / t.abs()).min(1.0) };

@@ -1,6 +1,6 @@
 //! Noises, and probabilities of poses under the models.
 
-use super::doubles::{any_double, cases, finite, up_to};
+use super::doubles::{any_double, cases, doubles_up_to, finite_doubles};
 use motion::geom::se2::SE2;
 use motion::sim::settings::{ALPHA_RANGE, DURATION_RANGE};
 use motion::{
@@ -17,7 +17,7 @@ fn noise_kinds() -> impl Strategy<Value = NoiseKind> {
 /// Returns numbers in the range of a setting, including its ends.
 fn in_range(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
     let [low, high] = [*range.start(), *range.end()];
-    up_to(high).prop_map(move |number| if low >= 0.0 { number.abs().max(low) } else { number })
+    doubles_up_to(high).prop_map(move |number| if low >= 0.0 { number.abs().max(low) } else { number })
 }
 
 fn alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
@@ -27,15 +27,17 @@ fn alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
 
 /// Returns commands in the range of the settings.
 fn commands() -> impl Strategy<Value = VelocityCmd> {
-    (up_to(1e6), up_to(1e6), in_range(DURATION_RANGE)).prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
+    (doubles_up_to(1e6), doubles_up_to(1e6), in_range(DURATION_RANGE))
+        .prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
 }
 
 fn start_poses() -> impl Strategy<Value = SE2> {
-    (up_to(1e18), up_to(1e18), up_to(PI)).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
+    (doubles_up_to(1e18), doubles_up_to(1e18), doubles_up_to(PI))
+        .prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
 fn readings() -> impl Strategy<Value = OdomDelta> {
-    (up_to(PI), up_to(1e12), up_to(PI)).prop_map(|(rot1, trans, rot2)| OdomDelta {
+    (doubles_up_to(PI), doubles_up_to(1e12), doubles_up_to(PI)).prop_map(|(rot1, trans, rot2)| OdomDelta {
         rot1,
         trans: trans.abs(),
         rot2,
@@ -71,7 +73,7 @@ proptest! {
 
     /// Residuals are arbitrary. Variances do not overflow when multiplied by six.
     #[test]
-    fn noise_densities_are_at_most_their_peak(kind in noise_kinds(), a in finite(), b2 in up_to(1e307)) {
+    fn noise_densities_are_at_most_their_peak(kind in noise_kinds(), a in finite_doubles(), b2 in doubles_up_to(1e307)) {
         let b2 = b2.abs();
         let (density, peak) = (kind.prob(a, Variance(b2)), kind.prob(0.0, Variance(b2)));
         prop_assert!(density >= 0.0 && density <= peak, "{} {}", density, peak);

@@ -1,6 +1,6 @@
 //! Arcs, and motions of rotation, translation and rotation: computed from two poses, and then executed.
 
-use super::doubles::{assert_same_pose, cases, extent, poses, up_to};
+use super::doubles::{assert_same_pose, cases, doubles_up_to, extent, poses};
 use motion::geom::arc::{Arc, arc_with_turn_near, chord, invert_arc};
 use motion::geom::se2::SE2;
 use motion::models::OdomDelta;
@@ -32,7 +32,7 @@ proptest! {
     /// The start is the origin, whose coordinates add no rounding. Half a turn is driven forward or in reverse,
     /// depending on rounding.
     #[test]
-    fn inverting_a_driven_arc_returns_its_controls(length in up_to(1e300), turn in up_to(3.1), last_turn in up_to(3.1), dt in durations()) {
+    fn inverting_a_driven_arc_returns_its_controls(length in doubles_up_to(1e300), turn in doubles_up_to(3.1), last_turn in doubles_up_to(3.1), dt in durations()) {
         let (forward, left) = chord(length, turn);
         // The bearing of a shorter chord is inaccurate.
         prop_assume!(forward.hypot(left) > 1e-290 && forward.hypot(left) < 1e290);

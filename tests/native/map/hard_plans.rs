@@ -56,10 +56,14 @@ fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
         ),
         ("long ones anywhere", make_walls(&mut |_| wall(random(), random(), random(), random()))),
         ("a mesh", {
-            let mut across = false;
+            let mut is_horizontal = false;
             make_walls(&mut |s| {
-                across = !across;
-                if across { wall(0.0, 10.0 * s, 10.0, 10.0 * s) } else { wall(10.0 * s, 0.0, 10.0 * s, 10.0) }
+                is_horizontal = !is_horizontal;
+                if is_horizontal {
+                    wall(0.0, 10.0 * s, 10.0, 10.0 * s)
+                } else {
+                    wall(10.0 * s, 0.0, 10.0 * s, 10.0)
+                }
             })
         }),
     ]
@@ -82,7 +86,7 @@ fn a_collision_check_in_a_hard_plan_measures_few_walls() {
         let plan = FloorPlan::new(walls, ROOM).expect("allowed");
         assert_eq!(plan.walls().len(), FloorPlan::MAX_WALLS);
         let mut rng = seeded(9802);
-        let tests: usize = (0..300).map(|_| plan.test_arc(&some_arc(&mut rng), 0.13).wall_tests).sum();
-        assert!(tests < 300 * MAX_MEAN_WALL_TESTS, "{name}: {tests}");
+        let wall_tests: usize = (0..300).map(|_| plan.test_arc(&some_arc(&mut rng), 0.13).wall_tests).sum();
+        assert!(wall_tests < 300 * MAX_MEAN_WALL_TESTS, "{name}: {wall_tests}");
     }
 }

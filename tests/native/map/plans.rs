@@ -95,7 +95,7 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
         let [left, bottom, right, top] = plan.bounds();
         let box_corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
         let corners = plan.grid().map_or(box_corners, OccupancyGrid::corners);
-        let mut counts = [0; 3];
+        let mut verdict_counts = [0; 3];
         for _ in 0..3_000 {
             let start = random_point(plan.bounds(), &mut rng);
             let length_factor = signed_log_uniform(&mut rng, 1e-3, 1.0);
@@ -130,9 +130,9 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
                 && distance_to_arc > clearance;
             assert_eq!(plan.test_point(end, clearance).free, is_end_free, "{number}: {arc:?} {clearance}");
             assert_eq!(plan.test_arc(&arc, clearance).free, is_path_free, "{number}: {arc:?} {clearance}");
-            counts[usize::from(is_end_free) + usize::from(is_path_free)] += 1;
+            verdict_counts[usize::from(is_end_free) + usize::from(is_path_free)] += 1;
         }
-        assert!(counts.iter().all(|count| *count > 25), "{number}: {counts:?}");
+        assert!(verdict_counts.iter().all(|count| *count > 25), "{number}: {verdict_counts:?}");
     }
 }
 
@@ -160,8 +160,8 @@ fn the_free_pose_is_in_the_largest_free_square() {
         assert!(apartment.test_point([pose.x(), pose.y()], clearance).free);
         // The largest room has a square of 4 m between the closet's side and the wall opposite.
         assert!((pose.x() - 4.0).abs() < 0.1 && (pose.y() - 7.0).abs() < 0.1, "{pose:?}");
-        let ahead = Arc { start: pose, length: 2.0, turn: 0.0 };
-        assert!(apartment.test_arc(&ahead, 0.13).free, "{pose:?}");
+        let straight_arc = Arc { start: pose, length: 2.0, turn: 0.0 };
+        assert!(apartment.test_arc(&straight_arc, 0.13).free, "{pose:?}");
     }
     assert_eq!(apartment.find_free_pose(2.5), None, "no room is that large");
     for bounds in [[-3.0, -2.0, 7.0, 5.0], [3.0, 2.0, 7.0, 5.0]] {

@@ -15,12 +15,12 @@ struct Format {
 }
 
 /// Returns the file of an image. Samples of a pixel follow each other.
-fn encoded_png(kind: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
-    let row = width as usize * kind.color.samples();
+fn encoded_png(format: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
+    let row = width as usize * format.color.samples();
     let mut data = Vec::new();
     for row in samples.chunks(row) {
         let bits: String =
-            row.iter().map(|sample| format!("{sample:0width$b}", width = kind.bits as usize)).collect();
+            row.iter().map(|sample| format!("{sample:0width$b}", width = format.bits as usize)).collect();
         let bytes = bits.as_bytes().chunks(8).map(|byte| {
             let digits = byte.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
             digits << (8 - byte.len())
@@ -29,15 +29,15 @@ fn encoded_png(kind: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
     }
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, width, (samples.len() / row) as u32);
-    encoder.set_color(kind.color);
-    encoder.set_depth(BitDepth::from_u8(kind.bits as u8).expect("a depth"));
+    encoder.set_color(format.color);
+    encoder.set_depth(BitDepth::from_u8(format.bits as u8).expect("a depth"));
     encoder.set_filter(Filter::Adaptive);
     // A gamma chunk changes the shades in browsers. It must not affect this reader.
     encoder.set_source_gamma(png::ScaledFloat::new(0.3));
-    if let Some(palette) = &kind.palette {
+    if let Some(palette) = &format.palette {
         encoder.set_palette(palette.clone());
     }
-    if let Some(transparency) = &kind.transparency {
+    if let Some(transparency) = &format.transparency {
         encoder.set_trns(transparency.clone());
     }
     encoder.write_header().expect("a header").write_image_data(&data).expect("an image");
@@ -46,21 +46,21 @@ fn encoded_png(kind: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
 
 /// Returns the file of an opaque grey image of 8 bits.
 fn grey_png(width: u32, samples: &[u16]) -> Vec<u8> {
-    let kind = Format { color: ColorType::Grayscale, bits: 8, palette: None, transparency: None };
-    encoded_png(&kind, width, samples)
+    let format = Format { color: ColorType::Grayscale, bits: 8, palette: None, transparency: None };
+    encoded_png(&format, width, samples)
 }
 
 #[test]
 fn every_kind_of_image_is_decoded_exactly() {
     let mut rng = seeded(9911);
-    let kinds = [
+    let formats = [
         (ColorType::Grayscale, &[1, 2, 4, 8, 16][..]),
         (ColorType::Rgb, &[8, 16]),
         (ColorType::Indexed, &[1, 2, 4, 8]),
         (ColorType::GrayscaleAlpha, &[8, 16]),
         (ColorType::Rgba, &[8, 16]),
     ];
-    for (color, depths) in kinds {
+    for (color, depths) in formats {
         for (&bits, (width, height)) in depths.iter().flat_map(|bits| [(bits, (1, 1)), (bits, (33, 17))]) {
             for is_clear in [false, true] {
                 let count = width as usize * height * color.samples();
@@ -75,7 +75,7 @@ fn every_kind_of_image_is_decoded_exactly() {
                     _ => first_pixel.iter().flat_map(|sample| sample.to_be_bytes()).collect(),
                 };
                 let has_key = is_clear && !matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
-                let kind = Format {
+                let format = Format {
                     color,
                     bits,
                     palette: (color == ColorType::Indexed).then(|| palette.clone()),
@@ -104,7 +104,7 @@ fn every_kind_of_image_is_decoded_exactly() {
                         }
                     })
                     .collect();
-                let image = read_png(&encoded_png(&kind, width, &samples)).expect("an image");
+                let image = read_png(&encoded_png(&format, width, &samples)).expect("an image");
                 assert_eq!((image.width, image.height), (width as usize, height));
                 assert_eq!(image.pixels, expected, "{color:?} {bits} {width} {is_clear}");
             }

@@ -32,20 +32,21 @@ fn prob_is_the_density_of_the_samples() {
             let width = 2.0 * limit / panels as f64;
             let mut integral = 0.0;
             for panel in 0..panels {
-                let left = -limit + panel as f64 * width;
+                let interval_start = -limit + panel as f64 * width;
                 let h = width / 64.0;
                 let simpson: f64 = (0..=64)
                     .map(|i| {
                         let weight = if i == 0 || i == 64 { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
-                        weight * kind.prob(left + i as f64 * h, Variance(b2))
+                        weight * kind.prob(interval_start + i as f64 * h, Variance(b2))
                     })
                     .sum::<f64>()
                     * h
                     / 3.0;
-                let increase_of_cdf = unit_cdf(kind, (left + width) / b) - unit_cdf(kind, left / b);
+                let increase_of_cdf =
+                    unit_cdf(kind, (interval_start + width) / b) - unit_cdf(kind, interval_start / b);
                 assert!(
                     (simpson - increase_of_cdf).abs() < 3e-10,
-                    "{kind:?} b² = {b2} at {left}: {simpson}, not {increase_of_cdf}"
+                    "{kind:?} b² = {b2} at {interval_start}: {simpson}, not {increase_of_cdf}"
                 );
                 integral += simpson;
             }

@@ -41,19 +41,22 @@ fn settings_js_equals_the_declarations_in_the_core() {
     if std::env::var_os("UPDATE_SETTINGS").is_some() {
         std::fs::write(PATH, &expected).expect("www/settings.js can be written");
     }
-    let existing = std::fs::read_to_string(PATH).unwrap_or_default();
-    let line = existing.lines().zip(expected.lines()).position(|(existing, expected)| existing != expected);
+    let existing_text = std::fs::read_to_string(PATH).unwrap_or_default();
+    let line = existing_text
+        .lines()
+        .zip(expected.lines())
+        .position(|(existing_text, expected)| existing_text != expected);
     assert!(
-        existing == expected,
+        existing_text == expected,
         "www/settings.js is stale, at line {}: `UPDATE_SETTINGS=1 cargo test --test native settings` writes it anew",
-        line.unwrap_or_else(|| existing.lines().count().min(expected.lines().count())) + 1,
+        line.unwrap_or_else(|| existing_text.lines().count().min(expected.lines().count())) + 1,
     );
 }
 
 fn settings_js() -> String {
     let banana::Settings { velocity_alphas, odometry_alphas, .. } = banana::Settings::default();
     format!(
-        "{HEAD}
+        "{FILE_HEAD}
 /** @type {{Record<string, Declaration[]>}} settings of each widget, by its tag, in the order in which they are declared */
 export const settings = {{
   'banana-machine': [
@@ -123,7 +126,7 @@ export const verdict = {{ endFree: {END_FREE_BIT}, pathFree: {PATH_FREE_BIT}, ac
     )
 }
 
-const HEAD: &str = "\
+const FILE_HEAD: &str = "\
 // Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test native settings`: not to be edited.
 
 /**

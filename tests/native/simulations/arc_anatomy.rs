@@ -29,10 +29,14 @@ fn poses(settings: &Settings) -> (SE2, SE2) {
 fn random_settings(seed: u64) -> impl Iterator<Item = Settings> {
     let mut rng = seeded(seed);
     std::iter::repeat_with(move || {
-        let mut up_to = |reach: f64| uniform(&mut rng, -reach, reach);
-        let start = [up_to(3.0), up_to(3.0), up_to(PI)];
-        let next = FinalPose { x: up_to(3.0), y: up_to(3.0), theta: up_to(PI) };
-        let command = VelocityCmd { v: up_to(1.5), omega: up_to(2.0), dt: 0.1 + up_to(1.0).abs() };
+        let mut uniform_up_to = |reach: f64| uniform(&mut rng, -reach, reach);
+        let start = [uniform_up_to(3.0), uniform_up_to(3.0), uniform_up_to(PI)];
+        let next = FinalPose { x: uniform_up_to(3.0), y: uniform_up_to(3.0), theta: uniform_up_to(PI) };
+        let command = VelocityCmd {
+            v: uniform_up_to(1.5),
+            omega: uniform_up_to(2.0),
+            dt: 0.1 + uniform_up_to(1.0).abs(),
+        };
         Settings { start, next, command, ..Settings::default() }
     })
 }

@@ -16,7 +16,7 @@ use nalgebra::{Matrix3, Vector3};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::PI;
 
-const GENTLE: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+const GENTLE_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
 pub fn machine(settings: Settings) -> BananaMachine {
     BananaMachine::new(settings).expect("a valid setting")
@@ -43,8 +43,9 @@ const POSE_ACCURACY: f64 = 4.0 * ACCURACY;
 fn the_cloud_equals_samples_of_the_model() {
     let start = SE2::identity();
     let reverse_command = VelocityCmd { v: -1.0, omega: 0.5, dt: 1.0 };
-    for (noise, command) in
-        NOISE_KINDS.into_iter().flat_map(|noise| [GENTLE, reverse_command].map(|command| (noise, command)))
+    for (noise, command) in NOISE_KINDS
+        .into_iter()
+        .flat_map(|noise| [GENTLE_COMMAND, reverse_command].map(|command| (noise, command)))
     {
         let settings = Settings { noise, command, samples: 500, seed: 2005, ..preset("gentle") };
         let assert_same = |settings: Settings, draw: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
@@ -85,21 +86,21 @@ fn changed_settings_move_the_same_robots() {
             })
             .collect()
     };
-    let noises = unit_noises(&machine);
+    let initial_noises = unit_noises(&machine);
     let command = VelocityCmd { v: -0.6, omega: 1.1, dt: 0.7 };
     for settings in [
         Settings { velocity_alphas: [0.01, 0.2, 0.03, 0.04, 0.3, 0.2], ..first_settings },
         Settings { command, ..first_settings },
     ] {
         machine.configure(settings).unwrap();
-        for (a, b) in unit_noises(&machine).iter().zip(&noises) {
+        for (a, b) in unit_noises(&machine).iter().zip(&initial_noises) {
             assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} was {b:?}");
         }
     }
     machine.configure(first_settings).unwrap();
-    assert_eq!(unit_noises(&machine), noises, "and back again to the bit");
+    assert_eq!(unit_noises(&machine), initial_noises, "and back again to the bit");
     machine.configure(Settings { seed: 8, ..first_settings }).unwrap();
-    assert!(unit_noises(&machine).iter().zip(&noises).all(|(a, b)| a != b), "a new seed changes it");
+    assert!(unit_noises(&machine).iter().zip(&initial_noises).all(|(a, b)| a != b), "a new seed changes it");
 }
 
 /// Blocks have 25,000 robots or more. The growth of smaller clouds is tested in `tests/fuzz.rs`.
@@ -236,10 +237,10 @@ fn both_views_find_the_nearest_sample() {
         assert_eq!(machine.nearest(view, points[17], [1e-9, 1e-9]), Some(17));
         assert_eq!(machine.nearest(view, [50.0, 50.0], [1.0, 1.0]), None);
         // The search ends at its radii: the outermost sample is found from a target just inside of its radius, and not from just outside.
-        let outermost = (0..points.len()).max_by(|&a, &b| points[a][0].total_cmp(&points[b][0])).unwrap();
-        let right_of_outermost = |distance| [points[outermost][0] + distance, points[outermost][1]];
-        assert_eq!(machine.nearest(view, right_of_outermost(0.0099), [0.01, 1e-9]), Some(outermost));
-        assert_eq!(machine.nearest(view, right_of_outermost(0.0101), [0.01, 1e-9]), None);
+        let rightmost = (0..points.len()).max_by(|&a, &b| points[a][0].total_cmp(&points[b][0])).unwrap();
+        let right_of_rightmost = |distance| [points[rightmost][0] + distance, points[rightmost][1]];
+        assert_eq!(machine.nearest(view, right_of_rightmost(0.0099), [0.01, 1e-9]), Some(rightmost));
+        assert_eq!(machine.nearest(view, right_of_rightmost(0.0101), [0.01, 1e-9]), None);
     }
 }
 
@@ -269,7 +270,7 @@ fn the_executed_motion_leads_to_the_pose() {
 /// In reverse, Table 5.6 adds the noise of two half turns to the heading. The option `reverse_aware` does not.
 #[test]
 fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
-    let command = VelocityCmd { v: -1.0, ..GENTLE };
+    let command = VelocityCmd { v: -1.0, ..GENTLE_COMMAND };
     let odometry = Settings { model: ModelKind::Odometry, command, samples: 10, ..preset("gentle") };
     let machines = [false, true].map(|reverse_aware| machine(Settings { reverse_aware, ..odometry }));
     let [alpha1, alpha2, ..] = odometry.odometry_alphas;

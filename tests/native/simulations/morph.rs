@@ -87,9 +87,9 @@ fn the_same_robots_stay_inside_an_outline() {
                     .collect::<Vec<_>>()
             })
         };
-        let on_floor = inside(0.0);
+        let inside_on_floor = inside(0.0);
         for morph in MORPHS {
-            for (robot_inside, floor) in inside(morph).iter().zip(&on_floor) {
+            for (robot_inside, floor) in inside(morph).iter().zip(&inside_on_floor) {
                 let changed_count =
                     robot_inside.iter().zip(floor).filter(|(inside, floor)| inside != floor).count();
                 assert!(changed_count <= 10, "{changed_count} robots at {morph}");

@@ -37,12 +37,12 @@ fn changed_samplers_and_maps_move_no_sample() {
         machine.attempts().iter().map(|Attempt { end_free, path_free, .. }| [*end_free, *path_free]).collect()
     };
     let outcomes = verdicts(&machine);
-    let acceptances = |machine: &MapSqueeze| -> Vec<bool> {
+    let are_accepted = |machine: &MapSqueeze| -> Vec<bool> {
         machine.attempts().iter().map(|attempt| attempt.accepted).collect()
     };
-    assert!(acceptances(&machine).iter().zip(&outcomes).all(|(accepted, [end, _])| accepted == end));
+    assert!(are_accepted(&machine).iter().zip(&outcomes).all(|(accepted, [end, _])| accepted == end));
     machine.configure(Settings { sampler: Sampler::WholeArc, ..settings }).expect("valid");
-    assert!(acceptances(&machine).iter().zip(&outcomes).all(|(accepted, [_, path])| accepted == path));
+    assert!(are_accepted(&machine).iter().zip(&outcomes).all(|(accepted, [_, path])| accepted == path));
     assert_eq!((poses(&machine), verdicts(&machine)), (cloud.clone(), outcomes.clone()));
     assert_eq!(machine.tally().through_wall, 0);
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
@@ -76,8 +76,11 @@ fn only_rejected_parts_move_samples() {
     assert_eq!((tally.accepted, tally.draws, tally.wall_tests), (500, 2000, 0));
     machine.configure(settings).expect("valid");
     let moved_count = poses(&machine).iter().zip(&poses_in_open_field).filter(|(a, b)| a != b).count();
-    let rejections = machine.tally().draws - 2000;
-    assert!(moved_count > 0 && moved_count <= rejections, "{moved_count} moved by {rejections} rejections");
+    let rejected_draws = machine.tally().draws - 2000;
+    assert!(
+        moved_count > 0 && moved_count <= rejected_draws,
+        "{moved_count} moved by {rejected_draws} rejections"
+    );
 }
 
 #[test]

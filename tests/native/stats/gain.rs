@@ -12,9 +12,9 @@ use std::f64::consts::TAU;
 const GENTLE_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 /// α's with noise mainly in the turn, which bend the cloud strongly and without skew.
 const BANANA_ALPHAS: [f64; 6] = [0.002, 0.002, 0.1, 0.1, 0.002, 0.002];
-const GENTLE: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
-const HARD: VelocityCmd = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
-const STRAIGHT: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
+const GENTLE_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+const SHARP_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
+const STRAIGHT_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
 
 fn machine(command: VelocityCmd, velocity_alphas: [f64; 6], samples: usize) -> BananaMachine {
     let settings = Settings { command, velocity_alphas, samples, ..Settings::default() };
@@ -116,19 +116,19 @@ fn the_gain_equals_its_definition_over_all_poses() {
                         Settings { model, noise, command, odometry_alphas, samples, ..preset("gentle") };
                     let machine = BananaMachine::new(settings).expect("a valid setting");
                     let gains_found = gains(machine.stats());
-                    let case = format!("{model:?} {noise:?} {command:?} {samples}");
+                    let case_name = format!("{model:?} {noise:?} {command:?} {samples}");
                     if samples > 4 {
                         let robot_gains = robot_gains(&poses(&machine), omega * dt);
                         for ([value, error], robot_gains) in gains_found.into_iter().zip(robot_gains) {
-                            assert_close(&case, value, mean(&robot_gains), 1e-9);
+                            assert_close(&case_name, value, mean(&robot_gains), 1e-9);
                             if samples <= 2048 {
                                 let expected = (variance(&robot_gains) / samples as f64).sqrt();
-                                assert_close(&case, error, expected, 1e-8 * expected);
+                                assert_close(&case_name, error, expected, 1e-8 * expected);
                             }
                         }
                     }
-                    assert_eq!(gains_found[0][0].is_nan(), samples < 4, "{case}");
-                    assert_eq!(gains_found[1][0].is_nan(), samples < 3, "{case}");
+                    assert_eq!(gains_found[0][0].is_nan(), samples < 4, "{case_name}");
+                    assert_eq!(gains_found[1][0].is_nan(), samples < 3, "{case_name}");
                 }
             }
         }
@@ -174,14 +174,14 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
         }
     }
     // That holds also if headings spread over a full turn, where exponential coordinates are undefined.
-    let wide_cloud = machine(GENTLE, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
+    let wide_cloud = machine(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
     assert!(!wide_cloud.is_chart_defined());
     let Stats { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } = wide_cloud.stats();
     assert!(gain.pose.is_nan() && error.pose.is_nan() && area_ratio.is_nan());
     assert_close(
         "floor",
         gain.floor,
-        machine(GENTLE, GENTLE_ALPHAS, 10_000).stats().likelihood_gain.floor,
+        machine(GENTLE_COMMAND, GENTLE_ALPHAS, 10_000).stats().likelihood_gain.floor,
         1e-12,
     );
 }
@@ -195,10 +195,10 @@ fn the_area_ratio_is_that_of_the_drawn_outlines() {
         outline.windows(2).map(|w| 0.5 * (w[0][0] * w[1][1] - w[1][0] * w[0][1])).sum::<f64>().abs()
     };
     for (command, alphas) in [
-        (GENTLE, GENTLE_ALPHAS),
-        (HARD, GENTLE_ALPHAS),
-        (STRAIGHT, BANANA_ALPHAS),
-        (VelocityCmd { v: -1.0, ..HARD }, BANANA_ALPHAS),
+        (GENTLE_COMMAND, GENTLE_ALPHAS),
+        (SHARP_COMMAND, GENTLE_ALPHAS),
+        (STRAIGHT_COMMAND, BANANA_ALPHAS),
+        (VelocityCmd { v: -1.0, ..SHARP_COMMAND }, BANANA_ALPHAS),
     ] {
         let machine = machine(command, alphas, 5000);
         let contours = machine.contours();
@@ -255,7 +255,7 @@ fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
         }
     }
     // The cloud is a curve in the plane, and a straight line in exponential coordinates.
-    let fan = machine(STRAIGHT, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0], 2000);
+    let fan = machine(STRAIGHT_COMMAND, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0], 2000);
     let Stats { likelihood_gain: gain, area_ratio, .. } = fan.stats();
     assert!(gain.pose == f64::INFINITY && gain.floor == f64::INFINITY && area_ratio.is_nan());
     assert_eq!(fan.table().exact.likelihood_gain, *gain);
@@ -265,9 +265,9 @@ fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
 #[test]
 fn robots_on_a_line_have_no_gain() {
     for (command, alphas) in [
-        (STRAIGHT, [0.1, 0.0, 0.0, 0.0, 0.0, 0.0]),
-        (STRAIGHT, [0.1, 0.0, 0.0, 0.0, 0.1, 0.0]),
-        (GENTLE, [0.1, 0.1, 0.0, 0.0, 0.0, 0.0]),
+        (STRAIGHT_COMMAND, [0.1, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        (STRAIGHT_COMMAND, [0.1, 0.0, 0.0, 0.0, 0.1, 0.0]),
+        (GENTLE_COMMAND, [0.1, 0.1, 0.0, 0.0, 0.0, 0.0]),
     ] {
         let machine = machine(command, alphas, 5000);
         for gain in [machine.stats().likelihood_gain, machine.table().exact.likelihood_gain] {

@@ -87,13 +87,13 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
     ];
     for (mean, cov) in cases {
         let start = SE2::new(2.0, -1.0, 0.7);
-        let precision = cov.try_inverse().unwrap();
+        let inverse_cov = cov.try_inverse().unwrap();
         let heading_std = f64::sqrt(cov[(2, 2)]);
         for [x, y] in ExponentialContour::new(&ExponentialMoments { mean, cov }, &start).boundary(48) {
             let distance = |heading: f64| {
                 let relative_pose = start.inverse() * SE2::new(x, y, start.theta() + heading);
                 let offset = relative_pose.log_near(heading) - mean;
-                offset.dot(&(precision * offset)).sqrt()
+                offset.dot(&(inverse_cov * offset)).sqrt()
             };
             // Minimizes the distance over 4001 headings within three standard deviations. The step is so small that the
             // minimum is too large by less than 1e-5.
@@ -207,11 +207,11 @@ fn degenerate_clouds_give_nan() {
 /// have a standard deviation of a millimetre here, and turns of `turn`.
 #[test]
 fn a_width_of_the_size_of_rounding_counts_as_zero() {
-    const SPEED: f64 = 1e-6;
+    const TINY_SPEED: f64 = 1e-6;
     let skews = |turn: f64| {
-        let turn_per_speed = turn / SPEED;
+        let turn_per_speed = turn / TINY_SPEED;
         let velocity_alphas = [1e6, 0.0, turn_per_speed * turn_per_speed, 0.0, 0.0, 0.0];
-        let command = VelocityCmd { v: SPEED, omega: 0.0, dt: 1.0 };
+        let command = VelocityCmd { v: TINY_SPEED, omega: 0.0, dt: 1.0 };
         let settings = Settings { command, velocity_alphas, samples: 1000, ..Settings::default() };
         let machine = BananaMachine::new(settings).expect("a valid setting");
         let poses: Vec<SE2> = machine.poses().collect();
@@ -226,10 +226,10 @@ fn a_width_of_the_size_of_rounding_counts_as_zero() {
 /// A spread that is only rounding of a distant cloud counts as 0, too. At a kilometre, coordinates are rounded to 1e-13 m.
 #[test]
 fn a_width_of_the_size_of_position_rounding_counts_as_zero() {
-    const WIDTH: f64 = 1e-10;
+    const TINY_WIDTH: f64 = 1e-10;
     let skew = |[x, y]: [f64; 2]| {
         let mut rng = seeded(146);
-        let mut offset = || uniform(&mut rng, -WIDTH, WIDTH);
+        let mut offset = || uniform(&mut rng, -TINY_WIDTH, TINY_WIDTH);
         let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + offset(), y + offset(), 0.3)).collect();
         cross_track_skew(&poses)
     };

@@ -15,6 +15,7 @@ fn arrays_are_copies_of_the_samples() {
     it.assert("Object.values(it.contours).every((outline) => outline instanceof Float64Array)");
     it.assert("it.density('twist', -4, -4, 4, 4, 20, 10) instanceof Uint32Array");
     it.assert("it.firstPoses(18).join() === it.poses.slice(0, 54).join()");
+    it.assert("it.firstTwists(18).join() === it.twists.slice(0, 54).join()");
     it.run(
         "[it.poses.fill(NaN), it.config.command.v = 9, it.config.alphas[0] = 9,
         it.stats.cartesian.mean[0] = 9]",

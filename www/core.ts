@@ -16,8 +16,8 @@ let requestedSource: Source | undefined;
 /** Functions of a bundle that load a module, and the JavaScript that wasm-bindgen made for it (its glue). */
 type BundledCore = typeof bundled.motion;
 
-/** Modules that are compiled or compiling. */
-const modules: Map<BundledCore, Promise<WebAssembly.Module>> = new Map();
+/** Modules that are compiled or compiling, by their sources. The source of a bundled core is the core itself. */
+const modules: Map<Source | BundledCore, Promise<WebAssembly.Module>> = new Map();
 /** Tags of the widgets that external.js has found in the page. */
 export const knownTags: Set<string> = new Set();
 let loadingCore: Promise<Motion> | undefined;
@@ -117,21 +117,28 @@ async function moduleAndGlue(name: string): Promise<[WebAssembly.Module, Awaited
 /** Returns the bundled core of a widget. Pages with several kinds of widgets use the common core, which is smaller than several cores. */
 function bundledCoreOf(name: string) {
   const ownCore = bundled[name];
-  const core = ownCore && (modules.has(ownCore) || (requestedSource === undefined && knownTags.size < 2)) ? ownCore : bundled.motion;
+  const core = ownCore && requestedSource === undefined && (modules.has(ownCore) || knownTags.size < 2) ? ownCore : bundled.motion;
   return bundled.embedded && requestedSource === undefined && (isUnreachable || !core.source()) ? bundled.embedded : core;
 }
 
 function compiledModule(core: BundledCore): Promise<WebAssembly.Module> {
-  let module = modules.get(core);
+  const key = requestedSource ?? core;
+  let module = modules.get(key);
   if (!module) {
     module = compile(requestedSource ?? core.source()).catch((error) => {
       requestedSource = undefined;
-      modules.delete(core);
+      modules.delete(key);
       throw error;
     });
-    modules.set(core, module);
+    modules.set(key, module);
   }
   return module;
+}
+
+/** Starts to compile the module of a bundle that contains it, while this thread still evaluates scripts. */
+export function precompile() {
+  // A bundle with an embedded core besides has the others in files.
+  if (!bundled.embedded && requestedSource === undefined) compiledModule(bundled.motion).catch(() => {});
 }
 
 /** Advice for the author of a site without the module. */
@@ -142,7 +149,8 @@ const ADVICE =
 const MAX_ADDRESS_LENGTH = 200;
 
 async function compile(given: Source | Promise<BufferSource> | undefined) {
-  const source = await given;
+  // Bytes are compiled at once.
+  const source = (given instanceof Promise ? await given : given) as Source;
   if (source instanceof WebAssembly.Module) return source;
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
   if (source instanceof URL || typeof source === 'string') {

@@ -1,6 +1,6 @@
 /** Core of a figure. It is freed when the element is removed. After a trap, a new core gets the last valid state. */
 
-import { abandonMachine, instantiateFor } from '../core.ts';
+import { abandonMachine, instantiateFor, precompile } from '../core.ts';
 import { FigureController } from './controller.ts';
 
 export class Runtime extends FigureController {
@@ -19,6 +19,10 @@ export class Runtime extends FigureController {
   start(): Promise<void> {
     if (!this.machine && this.host.isConnected) this.#startPromise ??= this.#create();
     return this.#startPromise ?? Promise.resolve();
+  }
+
+  hostConnected() {
+    precompile();
   }
 
   hostDisconnected() {

@@ -93,7 +93,7 @@ export class Cloud extends FigureController {
 
   #restart() {
     this.#goalCount = 0;
-    this.configure({});
+    if (this.#latest.shown > 0) this.configure({});
     this.host.settings.stale = true;
   }
 

@@ -164,7 +164,7 @@ export class Renderer extends FigureController {
       // A drag keeps the scale of pictures with handles, so that they stay under the pointer.
       const still = pressed && canvas.parentElement!.querySelector('.handle') !== null;
       isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...options, still }) || isMoving;
-      this.#hasPicturesLeft = this.#undrawn.size > 0 && !this.#resizing && performance.now() - beganAt > MAX_PICTURES_MS;
+      this.#hasPicturesLeft = this.#undrawn.size > 0 && (!this.#resizing || this.opening) && performance.now() - beganAt > MAX_PICTURES_MS;
     }
     host.placeHandles(scene);
     const now = performance.now();

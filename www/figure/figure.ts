@@ -365,6 +365,12 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
     else super.requestUpdate(...change);
   }
 
+  /** Renders the first time a task later. If the core is ready by then, no placeholder is rendered before the content. */
+  protected async scheduleUpdate() {
+    if (!this.hasUpdated) await new Promise((resolve) => setTimeout(resolve));
+    return super.scheduleUpdate();
+  }
+
   update(changed: Parameters<LitElement['update']>[0]) {
     const renderContent = () => {
       super.update(changed);

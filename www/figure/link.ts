@@ -4,7 +4,7 @@
  */
 
 import { packJson, unpack } from './packing.ts';
-import { words } from '../messages/registry.ts';
+import { useLanguageOf, words } from '../messages/registry.ts';
 import { FigureController } from './controller.ts';
 
 /** Maximum length of a packed state. Firefox opens addresses of up to 1 MiB, other browsers up to 2 MiB and more. */
@@ -59,6 +59,7 @@ export class Link extends FigureController {
       if (token === this.#latestRead) host.runtime.attemptOrReport(() => host.setState(state as any));
     } catch (error) {
       host.runtime.report(error);
+      useLanguageOf(host);
       host.notice.show(words.unreadableLink);
     }
   }

@@ -27,8 +27,8 @@ export class Visibility extends FigureController {
       observer.observe(host);
       host.connection.signal.addEventListener('abort', () => observer.disconnect());
     }
-    // In the next frame the figure has its layout.
-    void host.updateComplete.then(() => {
+    // The script that defines the element may still call `load(source)`.
+    queueMicrotask(() => {
       this.#checkPosition();
       this.hostUpdated();
     });

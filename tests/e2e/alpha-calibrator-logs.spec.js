@@ -52,10 +52,11 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   const otherResults = 'The results are still those of the simulated log, not of the files chosen last.';
   await expect(widget.locator('.drop-zone .muted')).toContainText(otherResults);
   await expect(widget.locator('.to-do')).toHaveText(otherResults);
-  const fitButton = widget.getByRole('button', { name: 'Fit for Nav2' });
-  await expect(fitButton).toBeDisabled();
+  await unfold(widget);
+  const resultButtons = ['Fit for Nav2', 'Save all as JSON'].map((name) => widget.getByRole('button', { name }));
+  for (const resultButton of resultButtons) await expect(resultButton).toBeDisabled();
   await widget.getByRole('button', { name: 'Keep these results' }).click();
-  await expect(fitButton).toBeEnabled();
+  for (const resultButton of resultButtons) await expect(resultButton).toBeEnabled();
   await expect(alert).toHaveCount(0);
   await choose(widget, { 'odom.csv': tables.odometry });
   await expect(alert).toHaveCount(1);

@@ -264,7 +264,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
           ${group(say.oneLeg(integer(chosen + 1)), legReadouts(this))}
           ${diagnostics(this)}
           ${group(say.panels.title, regressionPanels(this))}
-          ${group(say.nav2.title, nav2Exports(this))}`,
+          ${group(say.nav2.title, nav2Exports(this, this.#opener.otherResults))}`,
         csvTitle: say.csvTitle,
       })}
       ${this.#opener.reader?.logSummary(this.#opener)}`)}

@@ -34,12 +34,13 @@ export function copyButton(figure: Figure, obstacle: string) {
 /** Returns the message of the button, which stands where it moves neither the button nor the table. */
 export const copyMessage = (figure: Figure) => figure.copies.answer('nav2', yamlOf(figure));
 
-export function nav2Exports(figure: Figure) {
+/** Returns the lines, and the button that saves all results. `obstacle` disables it. */
+export function nav2Exports(figure: Figure, obstacle: string) {
   const say = words.calibrator.nav2;
   const yaml = yamlOf(figure);
   const fileName = `${figure.localName}-${figure.reading.config.seed}.json`;
   return html`${yaml ? html`<textarea class="yaml" readonly rows=${yaml.split('\n').length} aria-label=${say.label} .value=${yaml}></textarea>` : html`<p>${say.none}</p>`}
     <div class="buttons">
-      ${button(say.json, () => save(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })))}
+      ${button(say.json, () => save(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
     </div>`;
 }

@@ -80,7 +80,7 @@ impl FloorPlanError {
                 format!("walls has a length of {count} or more; allowed is at most {}", FloorPlan::MAX_WALLS)
             }
             Self::TooManySides(count) => format!(
-                "image has cells in the way with {count} sides or more; allowed are at most {}",
+                "image has blocked cells with {count} sides or more; allowed are at most {}: remove specks or use larger cells",
                 FloorPlan::MAX_WALLS
             ),
         }

@@ -39,7 +39,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<PgmPixels<'_>>, PgmError> {
     };
     let width = reader.read_number("the width", 1, MAX_PIXELS)?;
     let height = reader.read_number("the height", 1, MAX_PIXELS / width)?;
-    let max_value = reader.read_number("the greatest value", 1, 65_535)?;
+    let max_value = reader.read_number("the maximum value", 1, 65_535)?;
     let count = width * height;
     let coding = if is_plain {
         let mut pixels = reader.clone();

@@ -10,7 +10,7 @@ test('one slider carries the floor to exponential coordinates and back, and call
   const plane = widget.locator('canvas.plane');
   const slider = widget.getByRole('slider', { name: 'From the floor' });
   const pictures = [await pictureOf(plane)];
-  for (const [morph, title] of [['0.5', 'On the way'], ['1', 'Same robots'], ['0', 'On the floor']]) {
+  for (const [morph, title] of [['0.5', 'On the way'], ['1', 'The floor, morphed'], ['0', 'On the floor']]) {
     await slider.fill(morph);
     pictures.push(await pictureOf(plane));
     expect(/** @type {any} */ (await stateOf(widget)).morph).toBe(Number(morph));

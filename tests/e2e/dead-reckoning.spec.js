@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, dragSlider, frames, mount, pictureOf, pixelCountOf, readout, test, unfold, untilSettled } from './support.js';
+import { STILL, dragSlider, frames, mount, pictureOf, pixelCountOf, readout, readoutDetail, test, unfold, untilSettled } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -41,6 +41,7 @@ test('opens with the chapter’s 6 % along the track, and says that the lateral 
     'At the end the predicted along-track variance is off by −6.1\u202f%. Before, the lateral one is 0.00 (step 1), 0.44 (step 2), 0.77 (step 5) of the measured one.',
   );
   await expect(readout(widget, 'predicted along-track variance')).toHaveText('0.94');
+  await expect(readoutDetail(widget, 'predicted along-track variance')).toHaveText('± 0.01 of the measured, at step 20, 50\u202f000 robots');
   expect(await missedSteps(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
   await expect(widget.getByRole('row', { name: 'along, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 20: along 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);

@@ -1,4 +1,5 @@
 import { expect } from '@playwright/test';
+import { generator } from '../random.js';
 import { expectAccessible } from './axe.js';
 import { FIGURE_FACTS } from './figures.js';
 import { FRESH, STILL, frames, mount, property, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
@@ -252,12 +253,11 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
     // Cells that cannot be compressed.
-    await widget.evaluate((element) => {
-      const byteCount = (4000 * 2000) / 8;
-      const unknown = btoa(Array.from({ length: byteCount }, () => String.fromCharCode(256 * Math.random())).join(''));
-      const occupied = btoa('\0'.repeat(byteCount));
+    const byteCount = (4000 * 2000) / 8;
+    const random = generator(1);
+    await widget.evaluate((element, [occupied, unknown]) => {
       Object.assign(element, { map: { columns: 4000, rows: 2000, resolution: 0.05, origin: [0, 0, 0], occupied, unknown } });
-    });
+    }, [Buffer.alloc(byteCount), Buffer.from(Array.from({ length: byteCount }, () => 256 * random()))].map((bytes) => bytes.toString('base64')));
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toContainText('Your map is too large for a link and is not in it');
     const [state, fragment] = [await stateOf(widget), await fragmentOf(widget)];

@@ -76,13 +76,16 @@ test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ 
   expect(await article.locator('map-squeeze').evaluate((figure) => Reflect.get(figure, 'omega'))).toBe(0.6);
 });
 
-test('exercise 7: the steps of both noises are bet on, and only the variance along the track is shown', async ({ page }) => {
+test('exercise 7: the steps of both noises are bet on, and then the curve of the variance along the track is shown', async ({ page }) => {
   const article = await openAt(page, 'reckoning');
+  const curve = article.getByRole('checkbox', { name: 'along the track' });
   for (const [index, step] of [15, 9].entries()) {
     const form = article.locator('.bet').nth(index);
     await form.getByRole('slider').press('ArrowRight');
+    await expect(curve).toBeChecked({ checked: false });
     expect(await textRevealedBy(form)).toBe(`Your bet: 11. The figure’s answer, ▲: ${step}.`);
   }
+  await expect(curve).toBeChecked();
   await expect(article.getByText('predicted along-track variance', { exact: true })).toBeVisible();
 });
 

@@ -4,7 +4,7 @@ import { language } from '../messages/registry.ts';
 import { FigureController } from './controller.ts';
 
 /** Texts that change with the settings. */
-const CHANGING_TEXTS = ':is(p, dl, li, .told):not(.told > *, .slider *, details *, .about, .on-paper)';
+const CHANGING_TEXTS = ':is(p, dl, li, .result):not(.result > *, .slider *, details *, .about, .on-paper)';
 
 /** Keeps the largest height of each text at the present width of the figure and in the present language. */
 export class TextHeights extends FigureController {

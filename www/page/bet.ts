@@ -5,9 +5,12 @@ import type { Figure } from '../page.ts';
 /** Returns the number at a path of keys separated by dots; null if there is none. */
 const numberAtPath = (stats: Record<string, any>, path: string): number | null => path.split('.').reduce((part: any, key) => part?.[key], stats) ?? null;
 
-/** Prepares a form with one slider. `enter` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in `stats`. */
+/**
+ * Prepares a form with one slider. `enter` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in `stats`,
+ * and `data-hides` the overlay that shows it, which is hidden while the user bets.
+ */
 export function prepareBet(form: HTMLFormElement, enter: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
-  const { try: values = '{}', answer = '', unit = '' } = form.dataset;
+  const { try: values = '{}', answer = '', unit = '', hides } = form.dataset;
   const slider = form.querySelector('input') as HTMLInputElement;
   const valueOutput = form.querySelector('.value') as HTMLElement;
   const submitButton = form.querySelector('button') as HTMLButtonElement;
@@ -19,6 +22,10 @@ export function prepareBet(form: HTMLFormElement, enter: (values: Record<string,
 
   slider.addEventListener('input', showValue);
   showValue();
+  if (hides) {
+    const { overlays, ...otherValues } = JSON.parse(values);
+    form.addEventListener('focusin', () => void enter({ ...otherValues, overlays: overlays.filter((name: string) => name !== hides) }), { once: true });
+  }
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
     await enter(JSON.parse(values));

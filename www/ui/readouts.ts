@@ -13,15 +13,15 @@ export const readoutStyles = css`
     margin: 0.1em 0 0.5em;
   }
 
-  .said .readouts {
+  .summary .readouts {
     margin: 0;
   }
 
   /* The message of the figure beside its caption. */
   @container (min-width: 30em) {
-    .said {
+    .summary {
       display: grid;
-      grid-template-columns: auto 1fr;
+      grid-template-columns: fit-content(12em) 1fr;
       column-gap: 1em;
       align-items: center;
     }

@@ -91,7 +91,7 @@ fn errors_of_malformed_pgm_files_name_line_field_and_value() {
             b"P5\n8192\n8192\n255\n",
             r#"line 3: the height is "8192"; allowed is a whole number from 1 to 4096"#,
         ),
-        (b"P5\n3 2\n", "line 3: the greatest value is missing; allowed is a whole number from 1 to 65535"),
+        (b"P5\n3 2\n", "line 3: the maximum value is missing; allowed is a whole number from 1 to 65535"),
         (
             b"P5\n3 2\n256\n12345678901",
             "line 3: the length of the raster in bytes is 11; allowed is 12 for 3 × 2 pixels",

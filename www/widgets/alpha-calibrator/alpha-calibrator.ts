@@ -242,7 +242,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         </div>
         ${this.renderer.afterFirstPicture(() => html`
         <div class="fitted" part="readouts">
-          <div class="buttons told">
+          <div class="buttons result">
             <p class="panel-title">${say.alphas.title(say.kinds[modelRuleOf(reading.fitted)])}</p>
             ${copyButton(this, this.#opener.otherResults)} ${startOverButton(this, this.#startOver)}
           </div>

@@ -206,7 +206,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   get #title() {
     const { morph } = this.state.elementState;
-    return morph === 0 ? floorTitle(this.reading) : morph === 1 ? words.banana.twist : words.banana.morph.title;
+    return morph === 0 ? floorTitle(this.reading) : morph === 1 ? words.banana.morph.arrived : words.banana.morph.title;
   }
 
   /** Returns a note for each outline that is on, but has no image under the morph. */

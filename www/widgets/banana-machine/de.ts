@@ -110,6 +110,7 @@ export const de: typeof import('./en.ts').en = {
     name: 'Vom Boden zu Exponentialkoordinaten',
     play: 'Morph abspielen',
     title: 'Unterwegs zu Exponentialkoordinaten',
+    arrived: 'Der Boden in Exponentialkoordinaten ξ',
     floor: 'Boden',
     twist: 'Exponentialkoordinaten',
     text: (share) => `${share} des Weges zu Exponentialkoordinaten`,

@@ -115,6 +115,7 @@ export const en = {
     name: 'From the floor to exponential coordinates',
     play: 'Play the morph',
     title: 'On the way to exponential coordinates',
+    arrived: 'The floor, morphed to exponential coordinates ξ',
     floor: 'floor',
     twist: 'exponential coordinates',
     text: (share) => `${share} of the way to exponential coordinates`,

@@ -48,7 +48,7 @@ export const de: typeof import('./en.ts').en = {
   stepAxis: 'Schritt',
   atStepMark: (step) => `Schritt ${step}`,
   predicted: (component) => `Vorhersage ${component}`,
-  ofMeasured: (step) => `mal die Messung (Schritt ${step})`,
+  ofMeasured: (error, step, robots) => `${error && `± ${error} `}mal die Messung (Schritt ${step}, ${robots} Roboter)`,
   ratioText: (recursion, step, ratios) =>
     `Vorhergesagte durch gemessene Varianz je Schritt; Rekursion: ${recursion}. Bei Schritt ${step}: ${ratios}.`,
   atStep: (ratio, step) => `${ratio} (Schritt ${step})`,

@@ -93,7 +93,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     return html`
       <div class="views">
         ${titledPicture(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
-        <div class="said">
+        <div class="summary">
           ${headline(reading, overlays)}
           <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(reading, overlays)}</p>
           ${radios(this, 'compounding', say.recursions)}

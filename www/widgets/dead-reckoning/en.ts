@@ -51,7 +51,7 @@ export const en = {
   atStepMark: (step) => `step ${step}`,
   /** Before the ratio, and after it. */
   predicted: (component) => `predicted ${component} variance`,
-  ofMeasured: (step) => `of the measured, at step ${step}`,
+  ofMeasured: (error, step, robots) => `${error && `± ${error} `}of the measured, at step ${step}, ${robotsOf(robots)}`,
   ratioText: (recursion, step, ratios) =>
     `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: ${ratios}.`,
   atStep: (ratio, step) => `${ratio} (step ${step})`,

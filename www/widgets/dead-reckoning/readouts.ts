@@ -5,7 +5,7 @@ import { sampleField } from '../../figure/controls.ts';
 import { legend } from '../../figure/overlays.ts';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { NO_VALUE, fixed, significantText } from '../../ui/format.ts';
+import { NO_VALUE, fixed, integer, significantText } from '../../ui/format.ts';
 import { plot, type Role } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { COMPONENTS, type Reading } from './reading.ts';
@@ -61,8 +61,9 @@ function curveStyle(name: keyof typeof CURVE_STYLES, highlight: string | null) {
 /** Returns the headline of the figure: the ratio at the selected step that is furthest from 1. */
 export function headline(reading: Reading, overlays: string[]) {
   const say = words.reckoning;
-  const { ratio, component } = worstComponentAt(reading, overlays);
-  return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), say.ofMeasured(reading.config.step)]], 0);
+  const { ratio, error, component } = worstComponentAt(reading, overlays);
+  const detail = say.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), reading.config.step, integer(reading.shown));
+  return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), detail]], 0);
 }
 
 /** Ranges of both logarithmic axes: fixed, so that a slider moves the curves and not the axes. */

@@ -77,12 +77,12 @@ export const styles = css`
       grid-template-rows: 1fr auto;
     }
 
-    .said .caption {
+    .summary .caption {
       font-size: 0.95em;
       line-height: 1.25;
     }
 
-    .said .choices {
+    .summary .choices {
       grid-column: 1 / -1;
     }
   }
@@ -109,13 +109,13 @@ export const styles = css`
       grid-template-columns: repeat(2, minmax(0, 1fr));
     }
 
-    .said {
+    .summary {
       grid-area: 2 / 1 / auto / -1;
-      grid-template-columns: auto 1fr auto;
+      grid-template-columns: fit-content(12em) 1fr auto;
       column-gap: 2em;
     }
 
-    .said .choices {
+    .summary .choices {
       grid-column: auto;
     }
   }

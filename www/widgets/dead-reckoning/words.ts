@@ -53,7 +53,7 @@ export function worstComponentAt({ config: { step }, curves }: Reading, overlays
   const ratios = curves.map(({ ratio }) => ratio[step - 1]);
   const shown = shownComponentsOf(overlays);
   const worst = indexOfGreatest(ratios.map((ratio, axis) => (shown.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
-  return { component: COMPONENTS[worst], ratio: ratios[worst] };
+  return { component: COMPONENTS[worst], ratio: ratios[worst], error: curves[worst].error[step - 1] };
 }
 
 export function announcementOf(reading: Reading, overlays: string[]) {

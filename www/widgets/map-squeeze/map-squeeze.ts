@@ -303,7 +303,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
           </div>
           ${this.renderer.afterFirstPicture(() => legend(this, hasUnknown ? { ...marks, unknown } : marks, {}, this.#wallHandles.legend()))}`)}
         ${this.renderer.afterFirstPicture(() => html`<div class="aside">
-          <div class="told">
+          <div class="result">
             <p class="headline">${headlineOf(stats)}</p>
             <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(reading)}</p>
           </div>

@@ -45,7 +45,7 @@ export const styles = css`
   }
 
   /* Height of the longest headline and sentence, so that nothing moves when they change. */
-  .told {
+  .result {
     display: flow-root;
     min-height: calc(12.2em - 16.5cqi);
   }
@@ -103,7 +103,7 @@ export const styles = css`
 
   /* The samplers fit in one row, and the headline has the same number of lines for every share. */
   @container (38em <= width < 56em) {
-    .told {
+    .result {
       min-height: 12em;
     }
 

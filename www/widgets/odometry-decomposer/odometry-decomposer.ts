@@ -85,7 +85,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
         </div>`, 'legs')}
         ${titledPicture(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`)}
         ${this.renderer.afterFirstPicture(() => html`
-        <div class="said">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
+        <div class="summary">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
         <p class="caption">${formatMarkup(say.worldCaption(fixed(driftDistance(reading), 2)))}</p>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`

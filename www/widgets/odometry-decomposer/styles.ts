@@ -50,7 +50,7 @@ export const styles = css`
       gap: 0.35em;
     }
 
-    .said .readouts {
+    .summary .readouts {
       max-width: 8.5em;
     }
 

@@ -43,7 +43,9 @@ export async function build({ local = false } = {}) {
   const figureProducts = WIDGETS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
   const isPublishedCurrent = isCurrent('build/core.sha256', coreHash, coreProducts);
   const compiledDigest = local && !isPublishedCurrent ? `${coreHash} local` : coreHash;
-  await settleAll([ensurePackages(), whenStale('build/core.sha256', compiledDigest, coreProducts, () => buildCores(['motion'], local))]);
+  // Packages first: without a network that fails at once, and compiling takes minutes.
+  await ensurePackages();
+  await whenStale('build/core.sha256', compiledDigest, coreProducts, () => buildCores(['motion'], local));
   if (!local) await whenStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGETS, false));
   const tags = compiledDigest === coreHash && isCurrent('build/figures.sha256', coreHash, figureProducts) ? WIDGETS : [];
   const pagesDigest = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledDigest + tags);

@@ -39,7 +39,7 @@ pub struct NegativeVariance(pub f64);
 /// the bound accepts no motion that deviates from the command.
 const MAX_ZERO_RESIDUAL: f64 = 1e-7;
 
-/// √6: the triangular density of variance b² lives on ±√6·b.
+/// √6: the triangular density of variance b² is positive within ±√6·b.
 const SQRT_6: f64 = 2.449_489_742_783_178;
 
 /// Distribution of a zero-mean noise.

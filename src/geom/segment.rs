@@ -111,11 +111,11 @@ impl Segment {
         ]
         .into_iter()
         .fold(f64::INFINITY, f64::min);
-        // The foot of the centre on the segment; a straight path has no centre and needs none.
+        // The foot of the perpendicular from the circle's centre. A straight path has no centre, and needs no foot.
         if local.curvature > 0.0 && length_squared > 0.0 {
             let t = (direction[1] / local.curvature - dot(from, direction)) / length_squared;
             if (0.0..=1.0).contains(&t) {
-                // Inside the circle the foot is no minimum. Rounding may put the foot of a tangent there, which is one.
+                // A foot inside the circle is no minimum, except that of a tangent, which rounding may put there.
                 min_squared_distance = min_squared_distance
                     .min(local.distance([from[0] + t * direction[0], from[1] + t * direction[1]]));
             }

@@ -102,7 +102,7 @@ pub struct Cost {
 #[error("the robot is wedged: {} draws were tried and too few accepted", .0.draws)]
 pub struct NoAcceptedSample(pub Cost);
 
-/// Number of rejected draws in a row after which the robot counts as wedged, about a tenth of a second. An acceptance
+/// Number of rejected draws in a row after which sampling fails. They take about a tenth of a second. An acceptance
 /// below one in ten thousand is useless to a filter; more draws would block a page.
 pub const MAX_DRAWS: usize = 10_000;
 

@@ -82,7 +82,7 @@ impl DistanceField {
             cell.fast_max(zero).fast_min(f64x4::splat(self.last_cell[axis])) + ROUND_TO_INTEGER
                 - ROUND_TO_INTEGER
         });
-        // Adding this number to a small whole number puts that number into the last bits of the sum.
+        // Adding this number to a small integer puts that integer into the last bits of the sum.
         let cell_indices = (row * self.columns as f64 + column + ROUND_TO_INTEGER).to_array();
         from_lanes(|i| {
             f64::from(
@@ -96,8 +96,8 @@ impl DistanceField {
 
     /// Returns the upper bound (m) on a distance with this lower bound; −∞ inside an occupied cell.
     pub fn upper_bound(&self, lower_bound: f64) -> f64 {
-        // With the middle of the cell at distance d from the wall, `lower_bound` is d − radius and the upper bound d + radius.
-        // In a block that was not divided d is known to d/8: at most (1 + 1/8)/(1 − 1/8) times as far.
+        // If the middle of the cell is at the distance d from the nearest wall, `lower_bound` is d − radius, and the upper bound
+        // d + radius. In an undivided block d is only known up to a factor of (1 + 1/8)/(1 − 1/8).
         let radius = 1.001 * self.radius;
         let upper_bound = (UNDIVIDED_DISTANCE + 1.0) / (UNDIVIDED_DISTANCE - 1.0)
             * (lower_bound + radius + self.uncertainty)
@@ -142,7 +142,7 @@ impl FieldBuilder {
         let [left, bottom, right, top] = bounds;
         let (width, height) = (right - left, top - bottom);
         let cell_count = (CELLS_PER_WALL * tree.count() as f64).clamp(MIN_CELLS, MAX_CELLS);
-        // A narrow map could otherwise get more cells than that in a single row.
+        // A narrow map could otherwise get more than `cell_count` cells in a single row.
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
         let [columns, rows] = [width, height].map(|length| (length / cell_side).ceil() as usize + 1);
         let radius = FRAC_1_SQRT_2 * cell_side;
@@ -173,7 +173,7 @@ impl FieldBuilder {
         }
     }
 
-    /// Fills a block or divides it.
+    /// Computes the lower bounds of the cells of a block, or divides the block into four.
     fn fill_block(&mut self, tree: &WallTree, occupied_grid: Option<&OccupancyGrid>, block: Block) {
         let Block { first: [left, bottom], size, candidate_range } = block;
         if left >= self.field.columns || bottom >= self.rows {

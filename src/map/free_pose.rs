@@ -82,7 +82,7 @@ impl<'a> SquareRaster<'a> {
     /// free. Of equally large ones it takes the first, row by row, by their upper right corners.
     fn middle_of_largest_free_square(&self) -> Option<[f64; 2]> {
         let (mut largest_side, mut middle) = (0, None);
-        // Row from which on each column has been free so far.
+        // For each column, the row from which on it has been free so far.
         let mut free_from_row = vec![0u32; self.columns];
         for row in 0..self.rows {
             for (column, first_free_row) in free_from_row.iter_mut().enumerate() {

@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 pub struct Interpretation {
     /// Meaning of the pixels.
     pub mode: Mode,
-    /// Dark pixels are free instead of occupied.
+    /// True if dark pixels are free instead of occupied.
     pub negate: bool,
     /// A cell is occupied where its occupancy, 0 (white) to 1 (black), exceeds this.
     pub occupied_thresh: f64,
@@ -31,7 +31,7 @@ impl Default for Interpretation {
 pub enum Mode {
     /// Dark pixels are occupied, light ones free, and those between the thresholds unknown.
     Trinary,
-    /// Mode scale: transparent pixels are unknown, dark ones occupied, and all others free. In `map_server`, pixels
+    /// Transparent pixels are unknown, dark ones occupied, and all others free. In `map_server`, pixels
     /// between the thresholds have intermediate values.
     Scale,
     /// Pixel values are occupancies from 0 to 100. A value of 100 is occupied, and larger values are unknown.
@@ -93,9 +93,9 @@ impl Interpretation {
     pub fn cell(&self, pixel: Pixel) -> Cell {
         let Pixel { shade, opacity } = pixel;
         let occupancy = if self.negate { shade } else { 1.0 - shade };
-        // Rounded to f32, as the shade is, so that a pixel at a threshold is not beyond it.
+        // Thresholds are rounded to f32, as the shade is, so that a pixel at a threshold is not beyond it.
         let (occupied_threshold, free_threshold) = (self.occupied_thresh as f32, self.free_thresh as f32);
-        // Computed only if needed: rounding is slow on processors without an instruction for it.
+        // The grey value is computed only if needed, because rounding is slow on processors without an instruction for it.
         let grey_value = || (shade * 255.0).round();
         match self.mode {
             Mode::Scale if opacity < 1.0 => Cell::Unknown,
@@ -159,7 +159,7 @@ impl OccupancyGrid {
     ) -> bool {
         let mut pixels = pixels.into_iter();
         let mut is_transparent = false;
-        // Cached: most pixels equal the one before them.
+        // The previous pixel is cached with its cell, because most pixels equal the one before them.
         let mut previous_pixel = None;
         // The first row of an image is its highest, the first of a grid its lowest.
         for row in self.cells.chunks_mut(self.width.max(1)).rev() {

@@ -235,7 +235,7 @@ pub trait Group {
 
 /// Declaration of a number of a [`Group`].
 pub struct Field {
-    /// Description of the number.
+    /// Key, description and unit of the number.
     pub declaration: Declaration,
     /// Allowed range.
     pub allowed: RangeInclusive<f64>,

@@ -181,7 +181,7 @@ impl AlphaCalibrator {
         self.fit_revision
     }
 
-    /// Returns the fit. For a log with too few legs it has no legs.
+    /// Returns the fit. It is empty if the log has too few legs.
     pub fn calibration(&self) -> &Calibration {
         self.fit.calibration.get_or_init(|| {
             let Settings { seed, .. } = self.fit.settings;

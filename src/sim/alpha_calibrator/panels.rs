@@ -71,7 +71,8 @@ fn panel(model: Model, calibration: &Calibration, component: usize, regressor: R
         .iter()
         .zip(leg_fits)
         .filter(|(observation, fit)| !observation.residuals[component].is_nan() && !fit.is_outlier)
-        // Turns that the robot did not make would be far beyond all others. A check counts these legs.
+        // Legs that seem to move sideways are left out. Their readings have turns that the robot did not make, far beyond all
+        // others. A check counts these legs.
         .filter(|(observation, _)| !observation.moves_sideways(model))
         .map(|(observation, fit)| {
             let coefficient = observation.coefficients[component][position_in_component];

@@ -191,7 +191,7 @@ impl Drive {
             [reference_coordinates[5], reference_coordinates[6]] = [self.length[0], self.bearing[0]];
         }
         let [chart, arc_sinc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());
-        // Includes the noise of the length, because the command may be 0.
+        // The scale includes the noise of the length, because the command may be 0.
         let length = libm::hypot(self.length[0], self.length[1]);
         (reference_coordinates, [1.0 / chart, 1.0 / (length * arc_sinc * arc_sinc)])
     }

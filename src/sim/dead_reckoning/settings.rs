@@ -121,7 +121,7 @@ pub struct Preset {
     pub command: VelocityCmd,
     /// Number of steps.
     pub steps: u32,
-    /// Selected step: the last one.
+    /// Number of the selected step, which is the last one.
     pub step: u32,
     /// Noise parameters of each step.
     pub alphas: [f64; 6],

@@ -12,7 +12,8 @@ use crate::js::js_structs;
 use crate::models::{ExecutedLegs, LegVariances, OdomDelta, OdometryRule};
 use nalgebra::Vector3;
 
-/// Velocity of the odometry frame in the world (m/s, m/s, rad/s). It drifts on a slow curve, as with slightly wrong wheel diameters.
+/// Velocity of the odometry frame in the world (m/s, m/s, rad/s). The frame drifts on a slow
+/// curve, as with slightly wrong wheel diameters.
 const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
 
 /// Maximum number of points of a curve. Each takes a microsecond.

@@ -94,9 +94,9 @@ encode_fields! {
 }
 
 /// Named part of a machine's results, with its hash.
-pub struct Part(pub &'static str, pub String);
+pub struct HashedPart(pub &'static str, pub String);
 
-impl Part {
+impl HashedPart {
     pub fn new(name: &'static str, results: impl Encode) -> Self {
         let mut bytes = Vec::new();
         results.encode(&mut bytes);

@@ -1,7 +1,7 @@
 //! Digested values of each machine, in the order of digest.js.
 
 use super::configuration::{Configuration, number_of, numbers_of, ramp};
-use super::encoding::Part;
+use super::encoding::HashedPart;
 use motion::calibrate::{Estimate, Recommendation, SystematicError};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -15,7 +15,7 @@ use motion::stats::LikelihoodGain;
 use nalgebra::Vector3;
 use serde_json::Value;
 
-pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
+pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
     let mut defaults = banana::Settings::default();
     if let Some(preset) = configuration.preset(&banana::PRESETS, |preset| preset.name) {
         defaults.command = preset.command;
@@ -48,10 +48,10 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
     let mut picture = |view| flattened(machine.paint(view, &configuration.grid(), &ramp(0)));
     let [plane, twist] = [View::Plane, View::Twist].map(&mut picture);
     vec![
-        Part::new("poses", machine.poses().flat_map(coordinates).collect::<Vec<_>>()),
-        Part::new("twists", machine.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),
-        Part::new("executed", machine.executed_motions().flatten().collect::<Vec<_>>()),
-        Part::new(
+        HashedPart::new("poses", machine.poses().flat_map(coordinates).collect::<Vec<_>>()),
+        HashedPart::new("twists", machine.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),
+        HashedPart::new("executed", machine.executed_motions().flatten().collect::<Vec<_>>()),
+        HashedPart::new(
             "statistics",
             (
                 machine.shown_count(),
@@ -60,14 +60,14 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<Part> {
                 stats,
             ),
         ),
-        Part::new("table", (columns, table.tangent.map(|moments| (moments.mean, moments.cov)))),
-        Part::new("contours", outlines),
-        Part::new("plane", plane),
-        Part::new("twist", twist),
+        HashedPart::new("table", (columns, table.tangent.map(|moments| (moments.mean, moments.cov)))),
+        HashedPart::new("contours", outlines),
+        HashedPart::new("plane", plane),
+        HashedPart::new("twist", twist),
     ]
 }
 
-pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
+pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
     let mut defaults = squeeze::Settings::default();
     if let Some((_, start)) = configuration.preset(&squeeze::PRESETS, |(name, _)| name) {
         defaults.start = *start;
@@ -97,18 +97,21 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<Part> {
         (stats.draws_per_accepted, stats.wall_tests_per_accepted, stats.gave_up),
     );
     vec![
-        Part::new("map", (plan.bounds(), flattened(walls.as_flattened()), grid)),
-        Part::new("poses", attempts.iter().flat_map(|attempt| coordinates(attempt.pose)).collect::<Vec<_>>()),
-        Part::new("verdicts", attempts.iter().map(Attempt::verdict_bits).collect::<Vec<_>>()),
-        Part::new(
+        HashedPart::new("map", (plan.bounds(), flattened(walls.as_flattened()), grid)),
+        HashedPart::new(
+            "poses",
+            attempts.iter().flat_map(|attempt| coordinates(attempt.pose)).collect::<Vec<_>>(),
+        ),
+        HashedPart::new("verdicts", attempts.iter().map(Attempt::verdict_bits).collect::<Vec<_>>()),
+        HashedPart::new(
             "statistics",
             (attempts.len(), machine.is_start_free(), machine.find_free_pose(), noise, statistics),
         ),
-        Part::new("picture", flattened(machine.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
+        HashedPart::new("picture", flattened(machine.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
     ]
 }
 
-pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
+pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
     let mut defaults = dead_reckoning::Settings::default();
     if let Some(preset) = configuration.preset(&dead_reckoning::PRESETS, |preset| preset.name) {
         (defaults.command, defaults.steps, defaults.alphas) = (preset.command, preset.steps, preset.alphas);
@@ -138,9 +141,9 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
         (stats.n, (stats.measured.mean, stats.measured.cov), predictions, <(_, _, _)>::from(misses));
     let outlines = machine.outlines(settings.step).expect("a step");
     vec![
-        Part::new("statistics", (machine.shown_count(), settings.heading_noise(), statistics)),
-        Part::new("steps", (ratios, predicted, measured, relative_errors)),
-        Part::new(
+        HashedPart::new("statistics", (machine.shown_count(), settings.heading_noise(), statistics)),
+        HashedPart::new("steps", (ratios, predicted, measured, relative_errors)),
+        HashedPart::new(
             "poses",
             (
                 flattened(machine.poses(settings.step)),
@@ -148,7 +151,7 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
                 flattened(machine.poses(1)),
             ),
         ),
-        Part::new(
+        HashedPart::new(
             "outlines",
             (
                 flattened(&outlines.ellipse),
@@ -160,7 +163,7 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<Part> {
     ]
 }
 
-pub fn alpha_calibrator(configuration: &Configuration) -> Vec<Part> {
+pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
     let settings = configuration.settings(alpha_calibrator::Settings::default());
     let machine = AlphaCalibrator::new(settings).expect("a valid setting");
     let calibration = machine.calibration();
@@ -208,14 +211,14 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<Part> {
     });
     let persistence = (estimate(&calibration.persistence.correlation), calibration.persistence.length);
     vec![
-        Part::new(
+        HashedPart::new(
             "alphas",
             (calibration.alphas.clone(), calibration.intervals.clone(), calibration.log_likelihood),
         ),
-        Part::new("systematic", systematic),
-        Part::new("noise", (noise, persistence)),
-        Part::new("diagnostics", (checks, windows, recommended)),
-        Part::new("truth", truth),
+        HashedPart::new("systematic", systematic),
+        HashedPart::new("noise", (noise, persistence)),
+        HashedPart::new("diagnostics", (checks, windows, recommended)),
+        HashedPart::new("truth", truth),
     ]
 }
 

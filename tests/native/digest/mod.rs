@@ -5,7 +5,7 @@ mod configuration;
 mod encoding;
 mod machines;
 
-use encoding::{Part, hex};
+use encoding::{HashedPart, hex};
 use sha2::{Digest, Sha256};
 
 const DIRECTORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/digest");
@@ -25,8 +25,9 @@ fn the_same_seed_gives_the_same_bits() {
         };
         let name = format!("{}/{} ", configuration.widget, configuration.name);
         let line = golden.lines().find_map(|line| line.strip_prefix(&name)).unwrap_or_default();
-        let is_known =
-            |Part(part, hash): &Part| line.split(' ').any(|known| known == format!("{part}:{hash}"));
+        let is_known = |HashedPart(part, hash): &HashedPart| {
+            line.split(' ').any(|known| known == format!("{part}:{hash}"))
+        };
         differences
             .extend(parts.iter().filter(|part| !is_known(part)).map(|part| format!("{name}{}", part.0)));
     }

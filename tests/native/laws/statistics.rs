@@ -29,8 +29,8 @@ fn frames() -> impl Strategy<Value = SE2> {
 /// Returns covariances L·Lᵀ with entries of common size, of full or lower rank.
 fn covariances() -> impl Strategy<Value = Matrix3<f64>> {
     vec(prop_oneof![3 => -1.0..1.0, 1 => Just(0.0)], 6).prop_map(|l| {
-        let root = Matrix3::new(l[0], 0.0, 0.0, l[1], l[2], 0.0, l[3], l[4], l[5]);
-        root * root.transpose()
+        let cov_root = Matrix3::new(l[0], 0.0, 0.0, l[1], l[2], 0.0, l[3], l[4], l[5]);
+        cov_root * cov_root.transpose()
     })
 }
 

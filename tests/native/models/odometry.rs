@@ -193,7 +193,7 @@ fn reverse_aware_noise_excludes_half_turns() {
             .chi_square(&cloud, |pose| aware_model.pose_density(pose, &backward_reading, &x).unwrap());
         assert!(value < limit, "{kind:?}: χ² = {value}, limit {limit}");
 
-        // `prob` computes variances from the hypothesis, also without half turns.
+        // `prob` computes the variances from the hypothetical legs, for this model too.
         let executed_legs =
             delta(backward_reading.rot1 + 0.02, backward_reading.trans - 0.05, backward_reading.rot2 - 0.03);
         let [r1, t, r2] = variances(&OdomDelta::from_poses(&x, &executed_legs.apply(&x)), effective_angle);

@@ -173,7 +173,7 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
             }
         }
     }
-    // That holds also if headings spread over a full turn, where exponential coordinates are undefined.
+    // The gain on the floor is also defined if headings spread over a full turn, where exponential coordinates are undefined.
     let wide_cloud = machine(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
     assert!(!wide_cloud.is_chart_defined());
     let Stats { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } = wide_cloud.stats();

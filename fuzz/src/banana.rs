@@ -71,7 +71,7 @@ fn call_method(machine: &mut BananaMachine, input: &mut Input) {
             let [x, y] = [0; 2].map(|_| input.number_within(QUANTITY_RANGE));
             let current_command = machine.settings().command;
             let reaching_command = command_reaching(x, y, &current_command);
-            // Its v may be infinite, because the circle of a nearly straight arc may be too long for a double.
+            // The speed may be infinite, because the circle of a nearly straight arc may be too long for a double.
             assert!(!reaching_command.v.is_nan() && reaching_command.omega.is_finite(), "{reaching_command:?} to {x}, {y}");
         }
     }

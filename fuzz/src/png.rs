@@ -10,7 +10,7 @@ pub fn run(bytes: &[u8]) {
         return;
     }
     check_reading(bytes);
-    // Without this, the reader would refuse most mutations because of a wrong checksum.
+    // The checksums are corrected, because the reader would otherwise refuse most mutations.
     check_reading(&with_checksums_corrected(bytes));
 }
 

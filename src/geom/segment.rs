@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 /// Straight line between two points, m. Its length may be 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
-    /// One end: x and y, m.
+    /// First end: x and y, m.
     pub from: [f64; 2],
-    /// The other end.
+    /// Second end: x and y, m.
     pub to: [f64; 2],
 }
 

@@ -76,7 +76,7 @@ impl DistanceField {
     #[inline(always)]
     pub fn lower_bounds(&self, points: &[f64x4; 2]) -> f64x4 {
         let zero = f64x4::splat(0.0);
-        // On the border of two cells both are correct, so that rounding may select either.
+        // The bounds of both cells are correct on their border, so that rounding may select either.
         let [column, row] = [0, 1].map(|axis| {
             let cell = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
             cell.fast_max(zero).fast_min(f64x4::splat(self.last_cell[axis])) + ROUND_TO_INTEGER

@@ -12,9 +12,9 @@ pub struct Interpretation {
     pub mode: Mode,
     /// True if dark pixels are free instead of occupied.
     pub negate: bool,
-    /// A cell is occupied where its occupancy, 0 (white) to 1 (black), exceeds this.
+    /// Occupancy, from 0 (white) to 1 (black), above which a cell is occupied.
     pub occupied_thresh: f64,
-    /// In mode trinary a cell is free where its occupancy is below this, and unknown between the two.
+    /// Occupancy below which a cell is free in mode trinary. Between both thresholds it is unknown.
     pub free_thresh: f64,
 }
 
@@ -42,11 +42,11 @@ pub enum Mode {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Cell {
-    /// No obstacle.
+    /// Space without an obstacle.
     Free,
     /// An obstacle.
     Occupied,
-    /// Not observed by the mapping robot.
+    /// Space that the mapping robot has not observed.
     Unknown,
 }
 

@@ -21,7 +21,7 @@ pub struct ExactMoments {
     pub cross_track_skew: f64,
 }
 
-/// One node of the quadrature: given the noise that turns the robot, the position is L·`unit` with a random length L.
+/// Node of the quadrature. Given the noise that turns the robot, the position is L·`unit` with a random length L.
 struct Ray {
     weight: f64,
     unit: [f64; 2],
@@ -153,7 +153,7 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
     mixture_skew(lateral_components, mean.xy().norm_squared() + cov[(0, 0)] + cov[(1, 1)])
 }
 
-/// One part of a mixture of symmetric distributions.
+/// Part of a mixture of symmetric distributions.
 struct Component {
     weight: f64,
     mean: f64,

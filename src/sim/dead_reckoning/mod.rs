@@ -64,11 +64,11 @@ pub struct Stats {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "kebab-case"))]
 pub struct ByRecursion<T> {
-    /// For the chapter's recursion.
+    /// Value for the chapter's recursion.
     pub chapter: T,
-    /// For the propagation of first order.
+    /// Value for the propagation of first order.
     pub first_order: T,
-    /// For the propagation of fourth order.
+    /// Value for the propagation of fourth order.
     pub fourth_order: T,
 }
 

@@ -94,10 +94,10 @@ fn poses(settings: &Settings) -> (SE2, SE2) {
 fn assert_table(machine: &ArcAnatomy, prob: f64) {
     let (start, next) = poses(machine.settings());
     let Table { lines: [mu, x, y, radius, controls @ ..], middle, normal } = machine.table();
-    let step = start.inverse() * next;
-    let has_no_displacement = [step.x(), step.y()] == [0.0; 2];
+    let relative_pose = start.inverse() * next;
+    let has_no_displacement = [relative_pose.x(), relative_pose.y()] == [0.0; 2];
     assert!([x, y, radius].iter().all(|line| !line.is_nan()), "{x} {y} {radius}");
-    assert!(!mu.is_nan() || has_no_displacement, "{mu} for {step:?}");
+    assert!(!mu.is_nan() || has_no_displacement, "{mu} for {relative_pose:?}");
     assert!(!machine.settings().printed || radius >= 0.0, "{radius}");
     laws::assert_finite("controls", &controls[..4]);
     laws::assert_same_numbers("p", &controls[4..], &[prob]);

@@ -216,7 +216,7 @@ impl FieldBuilder {
                 let [x, y] = self.centre([column, row], 1);
                 let max_offset = self.field.radius
                     + ((x - centre[0]) * (x - centre[0]) + (y - centre[1]) * (y - centre[1])).sqrt();
-                // A relative error of 1e-6 is larger than the rounding of an f32.
+                // The bound is reduced by a factor of 1e-6, which is more than the rounding to an f32.
                 let cell_bound = if is_in_blocked_cell {
                     f64::NEG_INFINITY
                 } else {

@@ -184,8 +184,9 @@ impl<'a> Reader<'a> {
         };
         let mut value = String::from("missing");
         if !token.is_empty() {
-            let quoted: String = token.iter().take(MAX_QUOTED_CHARACTERS).map(printable_char).collect();
-            value = format!("\"{quoted}{}\"", if token.len() > MAX_QUOTED_CHARACTERS { "…" } else { "" });
+            let quoted_token: String = token.iter().take(MAX_QUOTED_CHARACTERS).map(printable_char).collect();
+            value =
+                format!("\"{quoted_token}{}\"", if token.len() > MAX_QUOTED_CHARACTERS { "…" } else { "" });
         }
         PgmError { field, line: self.line, value, allowed }
     }

@@ -213,7 +213,7 @@ fn normal_mean_log(m: f64) -> f64 {
     }
     let poisson_mean = 0.5 * m * m;
     let (mut poisson_probability, mut digamma, mut sum) = (libm::exp(-poisson_mean), DIGAMMA_HALF, LN_2);
-    // Terms up to twelve standard deviations or more beyond the Poisson mean, which is at most 450.
+    // The sum ends twelve standard deviations or more beyond the Poisson mean, which is at most 450.
     for j in 0..720 {
         let j = f64::from(j);
         sum += poisson_probability * digamma;

@@ -254,7 +254,7 @@ impl SecondPass {
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.position, self.heading);
         let (x, y) = (poses.x - mean_x, poses.y - mean_y);
-        // The letters are those of `TrackMoments`.
+        // The names a, d, s and t are those of `TrackMoments`.
         let d = (y * cos - x * sin) & mask;
         let a = (x * cos + y * sin) & mask;
         let t = wrapped_difference(poses.half * 2.0 - self.first_pass.mean_turn) & mask;

@@ -55,7 +55,7 @@ export interface ArcInversion {
   vHat: number;
   /** Turn rate along the arc, rad/s. */
   omegaHat: number;
-  /** Rate of the final turn that the arc leaves, rad/s over the same time. */
+  /** Rate of the final turn after the arc, rad/s over the same duration. */
   gammaHat: number;
   /** Centre of the arc's circle, m; null for a straight arc. */
   center: { x: number; y: number } | null;
@@ -243,7 +243,7 @@ pub fn propagate(
     let twist = TangentNoiseModel::twist(&command);
     for step in 0..steps {
         sigma = noise_model.propagate(&sigma, &twist, order);
-        // The other two recursions add covariances, so that only this one can leave the range.
+        // The other two recursions add covariances. Only the fourth order can give a matrix that is not one.
         if order == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
             let message = format!(
                 "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"

@@ -18,15 +18,15 @@ proptest! {
     /// The remainder of a division is exact, and so is the subtraction of a full turn.
     #[test]
     fn wrapped_angles_are_remainders(angle in finite_doubles()) {
-        let wrapped = wrap_angle(angle);
-        prop_assert!(-PI < wrapped && wrapped <= PI);
+        let wrapped_angle = wrap_angle(angle);
+        prop_assert!(-PI < wrapped_angle && wrapped_angle <= PI);
         let remainder = angle % TAU;
         let turns = if remainder > PI { -1.0 } else if remainder <= -PI { 1.0 } else { 0.0 };
         let expected = if turns == 0.0 { remainder } else { remainder + turns * TAU };
-        prop_assert_eq!(wrapped.to_bits(), expected.to_bits(), "{} {}", wrapped, expected);
-        prop_assert_eq!(wrap_angle(wrapped).to_bits(), wrapped.to_bits());
+        prop_assert_eq!(wrapped_angle.to_bits(), expected.to_bits(), "{} {}", wrapped_angle, expected);
+        prop_assert_eq!(wrap_angle(wrapped_angle).to_bits(), wrapped_angle.to_bits());
         let wrapped_opposite = wrap_angle(-angle);
-        prop_assert!(wrapped_opposite == -wrapped || (wrapped_opposite == PI && wrapped == PI));
+        prop_assert!(wrapped_opposite == -wrapped_angle || (wrapped_opposite == PI && wrapped_angle == PI));
     }
 
     #[test]

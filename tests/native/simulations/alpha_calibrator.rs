@@ -130,7 +130,7 @@ fn the_error_bars_of_panels_hold_the_fitted_lines() {
     assert!(fraction(over2) < 0.0455 && fraction(over3) < 0.0027, "{over2} and {over3} of {bins}");
 }
 
-/// Table 5.6 takes a turn on the spot that ends a tenth of a millimetre behind for two turns by half a circle.
+/// A turn on the spot may end a tenth of a millimetre behind its start. Table 5.6 then counts it as two half turns.
 #[test]
 fn turns_that_the_robot_did_not_make_are_in_no_panel() {
     let mut machine = machine(Settings::default());

@@ -336,11 +336,11 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
             }
         }
     }
-    let crossing_of = |v, alphas| {
+    let crossing_time_of = |v, alphas| {
         let command = VelocityCmd { v, ..Settings::default().command };
         machine(Settings { command, alphas, ..settings_with_robots(1) }).straight_growth().crossing
     };
     for (v, alphas) in [(0.0, [0.02; 6]), (1.0, [0.0; 6]), (1.0, [0.02, 0.0, 0.0, 0.0, 0.0, 0.0])] {
-        assert_eq!(crossing_of(v, alphas), None, "{v} {alphas:?}");
+        assert_eq!(crossing_time_of(v, alphas), None, "{v} {alphas:?}");
     }
 }

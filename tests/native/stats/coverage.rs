@@ -72,7 +72,7 @@ fn standard_errors_of_small_clouds_cover_95_percent() {
     }
 }
 
-/// In this cloud a few distant robots cause most of the variance.
+/// In the cloud of this preset, a few distant robots cause most of the variance.
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn standard_errors_of_the_banana_preset_cover_95_percent() {

@@ -150,7 +150,7 @@ impl JsOdometryModel {
         Ok(Self(ConfiguredOdometry { model, reverse_aware }))
     }
 
-    /// Scoring function of Table 5.5, with the variances of the hypothesis. A noise of variance 0 has the factor 1 if
+    /// Scoring function of Table 5.5, with the variances of the hypothetical legs. A noise of variance 0 has the factor 1 if
     /// its residual is 0 up to rounding (1e-7), and 0 otherwise.
     pub fn prob(
         &self,

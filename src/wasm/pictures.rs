@@ -1,4 +1,4 @@
-//! Densities for JavaScript: arguments of pictures, and pixels as a view of the core's memory.
+//! Pictures of densities for JavaScript: reading of their arguments, and their pixels as a view of the core's memory.
 
 use super::fields::{check_range, read_integer};
 use crate::sim::picture::{RAMP_STEPS, Ramp};

@@ -212,8 +212,8 @@ impl BananaMachine {
         self.shown_count()
     }
 
-    /// Returns the number of samples that can be added within a few milliseconds. All samples are summed again with
-    /// each block, so that a block is as large as the cloud.
+    /// Returns the number of samples that can be added within a few milliseconds. Each block sums all
+    /// samples again. Therefore a block is as large as the cloud shown, and at least the first block.
     pub fn block_size(&self) -> usize {
         self.shown_count().max(FIRST_BLOCK_SAMPLES)
     }

@@ -39,7 +39,7 @@ fn the_printed_table_loses_p_for_centres_to_the_right() {
         // The estimated speed has the opposite sign of the command.
         speed.assert(-factors[0].estimate.abs(), 0.0);
         assert!(factors[0].estimate * settings.command.v < 0.0);
-        // Contours of equal score: with the unsigned radius of the printed table they stay near the start, with the signed one they do not.
+        // With the unsigned radius of the printed table, contours of equal score stay near the start. With the signed radius they do not.
         let max_distance = |settings: Settings| {
             let surface = ArcAnatomy::new(Settings { map: SurfaceKind::Prob, ..settings })
                 .expect("valid settings")

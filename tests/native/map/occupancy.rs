@@ -148,7 +148,10 @@ fn a_grid_of_too_many_walls_is_refused() {
     let error = FloorPlan::from_grid(single_cells.grid()).err();
     assert_eq!(error, Some(FloorPlanError::TooManySides(20_001)));
     let message = error.map(|error| error.to_string()).unwrap_or_default();
-    assert_eq!(message, "image has blocked cells with 20001 sides or more; allowed are at most 20000: remove specks or use larger cells");
+    assert_eq!(
+        message,
+        "image has blocked cells with 20001 sides or more; allowed are at most 20000: remove specks or use larger cells"
+    );
 }
 
 /// The error message names the origin, which is a field of the map.

@@ -58,7 +58,7 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
     assert!(log_prob_at(Vector3::new(0.0, 1e-3, 0.0)) < peak - 1e5);
 }
 
-/// Without noise of speed, of turn or of both, the density is a sheet of a micrometre or a microradian instead of undefined. Residuals
+/// Without noise of speed, of turn or of both, the density has a width of a micrometre or a microradian instead of 0. Residuals
 /// are rounded to 1e-16, a ten-billionth of that, and the relative change of the other variances is 4e-11.
 #[test]
 fn without_noise_in_the_arc_the_density_is_finite() {

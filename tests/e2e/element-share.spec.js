@@ -252,14 +252,15 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await expect(widget.getByText('Copied.')).toContainText('Your map is not in it');
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
-    // Cells that cannot be compressed.
-    const byteCount = (4000 * 2000) / 8;
     const random = generator(1);
-    await widget.evaluate((element, [occupied, unknown]) => {
-      Object.assign(element, { map: { columns: 4000, rows: 2000, resolution: 0.05, origin: [0, 0, 0], occupied, unknown } });
-    }, [Buffer.alloc(byteCount), Buffer.from(Array.from({ length: byteCount }, () => 256 * random()))].map((bytes) => bytes.toString('base64')));
-    await widget.getByRole('button', { name: 'Copy link' }).click();
-    await expect(widget.getByText('Copied.')).toContainText('Your map is too large for a link and is not in it');
+    for (const [columns, note] of /** @type {const} */ ([[400, 'It is long, because your map is in it'], [4000, 'Your map is too large for a link and is not in it']])) {
+      // Cells that cannot be compressed.
+      const byteCount = (columns * 2000) / 8;
+      const map = { columns, rows: 2000, resolution: 0.05, origin: [0, 0, 0], occupied: Buffer.alloc(byteCount).toString('base64'), unknown: Buffer.from(Array.from({ length: byteCount }, () => 256 * random())).toString('base64') };
+      await widget.evaluate((element, newMap) => void Object.assign(element, { map: newMap }), map);
+      await widget.getByRole('button', { name: 'Copy link' }).click();
+      await expect(widget.getByText('Copied.')).toContainText(note);
+    }
     const [state, fragment] = [await stateOf(widget), await fragmentOf(widget)];
     await page.goto('about:blank');
     const copy = await mount(page, 'map-squeeze', { attributes: 'seed="3"', fragment });

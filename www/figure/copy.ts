@@ -24,14 +24,14 @@ export class CopyMenu extends FigureController {
     this.host.requestUpdate();
   }
 
-  /** Returns a button that copies a text. The message is followed by a note, which names the parts of the state that the text lacks. */
+  /** Returns a button that copies a text. The message is followed by a note, such as on the parts of the state that the text lacks. */
   button(kind: string, label: string, textOf: () => string | Promise<string>, options: { title?: string, disabled?: boolean }, noteOf: () => string | undefined = () => '') {
     return button(label, async () => this.#copyText(kind, await textOf(), noteOf() ?? ''), options);
   }
 
   linkButton() {
     const say = words.copies;
-    return this.button('link', say.link, () => this.host.shareLink(), { title: say.linkTitle }, () => this.host.exportData.notInLink);
+    return this.button('link', say.link, () => this.host.shareLink(), { title: say.linkTitle }, () => this.host.exportData.linkNote);
   }
 
   /** Returns the button that copies the HTML, with its message. */
@@ -40,7 +40,7 @@ export class CopyMenu extends FigureController {
     return html`<fieldset class="copies" part="copies">
       <legend>${say.label}</legend>
       <div class="buttons">
-        ${this.button('code', say.code, () => this.host.embedCode(), { title: say.codeTitle }, () => this.host.exportData.notInCode)}
+        ${this.button('code', say.code, () => this.host.embedCode(), { title: say.codeTitle }, () => this.host.exportData.codeNote)}
       </div>
       ${this.answer('code')}
     </fieldset>`;

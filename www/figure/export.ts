@@ -18,9 +18,9 @@ export interface ExportData {
   row: (i: number) => number[];
   /** Number of samples. */
   count: number;
-  /** Sentences about state that a link cannot carry, and that attributes cannot. */
-  notInLink?: string;
-  notInCode?: string;
+  /** Sentences about a copied link and about copied attributes, such as on state that they lack. */
+  linkNote?: string;
+  codeNote?: string;
 }
 
 /** Pixels of a PNG image per CSS pixel, fine enough for print. */

@@ -10,9 +10,12 @@ import { FigureController } from './controller.ts';
 /** Maximum length of a packed state. Firefox opens addresses of up to 1 MiB, other browsers up to 2 MiB and more. */
 const MAX_LENGTH = 1_000_000;
 
+/** Length of a packed state that programs for messages and documents usually keep. */
+const MAX_USUAL_LENGTH = 8000;
+
 export class Link extends FigureController {
-  /** True if the latest packed state lacks the user's map, because the address would be too long with it. */
-  lacksMap = false;
+  /** Length of the latest packed state, with the user's map. */
+  #length = 0;
   /** Tokens of the latest read and write of the address. Results of earlier reads and writes are dropped. */
   #latestRead = {};
   #latestWrite = {};
@@ -24,6 +27,16 @@ export class Link extends FigureController {
     else if (pendingPart !== fragmentParts()[0] || !this.#isOwnPart(pendingPart)) return;
     else this.#scrollHere();
     pendingPart = '';
+  }
+
+  /** True if the latest address lacks the user's map, because it would be too long with it. */
+  get lacksMap() {
+    return this.#length > MAX_LENGTH;
+  }
+
+  /** True if programs other than browsers may cut off the latest address. */
+  get isLong() {
+    return this.#length > MAX_USUAL_LENGTH;
   }
 
   #addressChanged = () => {
@@ -87,7 +100,7 @@ export class Link extends FigureController {
   async #pack() {
     const state = this.host.getState() ?? {};
     const packedState = await packJson(state);
-    this.lacksMap = packedState.length > MAX_LENGTH;
+    this.#length = packedState.length;
     // The start pose belongs to the map.
     return this.lacksMap ? packJson({ ...state, map: undefined, start: undefined }) : packedState;
   }

@@ -219,8 +219,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         ...entryOf(legs.residuals, i, 3), ...entryOf(legs.standardized, i, 3), ...entryOf(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
       ],
       count: legs.count,
-      notInLink: missingNote,
-      notInCode: missingNote,
+      linkNote: missingNote,
+      codeNote: missingNote,
     };
   }
 

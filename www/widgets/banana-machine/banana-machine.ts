@@ -137,7 +137,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return {
       description: this.#description,
       settings: config,
-      notInCode: this.#pinned ? words.banana.pinNotInCode : '',
+      codeNote: this.#pinned ? words.banana.pinNotInCode : '',
       columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
       row: (i: number) => [poses, twists, executed].flatMap((triples) => [...triples.subarray(3 * i, 3 * i + 3)]),
       count,

@@ -118,8 +118,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
         ...Object.values(bits).map((bit) => Math.sign(verdicts[i] & bit)),
       ],
       count: verdicts.length,
-      notInLink: this.link.lacksMap ? words.squeeze.mapNotInLink : '',
-      notInCode: this.map ? words.squeeze.mapNotInCode : '',
+      linkNote: this.link.lacksMap ? words.squeeze.mapNotInLink : this.link.isLong ? words.squeeze.mapInLink : '',
+      codeNote: this.map ? words.squeeze.mapNotInCode : '',
     };
   }
 

@@ -367,7 +367,12 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
 
   /** Renders the first time a task later. If the core is ready by then, no placeholder is rendered before the content. */
   protected async scheduleUpdate() {
-    if (!this.hasUpdated) await new Promise((resolve) => setTimeout(resolve));
+    if (!this.hasUpdated) {
+      const reservedSpace = this.renderRoot.appendChild(document.createElement('div'));
+      reservedSpace.className = 'reserved';
+      await new Promise((resolve) => setTimeout(resolve));
+      reservedSpace.remove();
+    }
     return super.scheduleUpdate();
   }
 

@@ -12,7 +12,7 @@ use motion::sim::picture::RAMP_STEPS;
 use motion::sim::settings::QUANTITY_RANGE;
 use motion::sim::views::{EXTENT_RANGE, Grid};
 
-/// Maximum number of samples in a run, and of calls. They are enough to reach every branch, and small to allow many runs.
+/// Maximum number of samples in a run, and of calls. They are large enough to reach every branch, and small enough to allow many runs.
 const MAX_SAMPLES: usize = 12;
 const MAX_CALLS: usize = 4;
 

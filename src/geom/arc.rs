@@ -241,8 +241,8 @@ impl DrivenArc {
         let Arc { start, length, turn } = self.arc;
         let from = [start.x(), start.y()];
         if turn.abs() <= PI {
-            let piece = ArcPiece::new(from, self.end, length.abs(), turn, self.half_sinc);
-            return [Some(piece), None].into_iter().flatten();
+            let arc_piece = ArcPiece::new(from, self.end, length.abs(), turn, self.half_sinc);
+            return [Some(arc_piece), None].into_iter().flatten();
         }
         let half_fraction = 0.5 * (TAU / turn.abs()).min(1.0);
         let (length, turn) = (half_fraction * length, half_fraction * turn);

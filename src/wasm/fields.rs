@@ -156,7 +156,7 @@ pub fn read_initial_settings<S: Rules>(options: &JsValue) -> Result<S, JsValue> 
     if options.is_undefined() { Ok(S::default()) } else { read_settings(&S::default(), options) }
 }
 
-/// Returns the current settings with the values in `options`. The simulation checks ranges of doubles.
+/// Returns the current settings with the values in `options`. Ranges of doubles are checked later, by the simulation.
 pub fn read_settings<S: Rules>(current: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = Fields::new("options", "", options, S::KEYS)?;
     let (mut settings, mut given_keys) = (*current, Vec::new());

@@ -29,7 +29,7 @@ pub fn norm(a: Point) -> f64 {
     a[0].hypot(a[1])
 }
 
-pub fn point_to_line(p: Point, [a, b]: [Point; 2]) -> f64 {
+pub fn distance_to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
     let (d, r) = (difference(b, a), difference(p, a));
     let length = norm(d);
     if length == 0.0 {
@@ -46,16 +46,21 @@ pub fn point_to_line(p: Point, [a, b]: [Point; 2]) -> f64 {
     }
 }
 
-pub fn line_to_line(p: [Point; 2], q: [Point; 2]) -> f64 {
+pub fn distance_of_segments(p: [Point; 2], q: [Point; 2]) -> f64 {
     let are_on_both_sides = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {
         cross(difference(b, a), difference(c, a)) * cross(difference(b, a), difference(d, a)) < 0.0
     };
     if are_on_both_sides(p, q) && are_on_both_sides(q, p) {
         return 0.0;
     }
-    [point_to_line(p[0], q), point_to_line(p[1], q), point_to_line(q[0], p), point_to_line(q[1], p)]
-        .into_iter()
-        .fold(f64::INFINITY, f64::min)
+    [
+        distance_to_segment(p[0], q),
+        distance_to_segment(p[1], q),
+        distance_to_segment(q[0], p),
+        distance_to_segment(q[1], p),
+    ]
+    .into_iter()
+    .fold(f64::INFINITY, f64::min)
 }
 
 /// Returns a lower and an upper bound of the distance. A piece of the arc with length l and turn t deviates from its chord by at most l·t/8.
@@ -71,7 +76,9 @@ pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
         let max_deviation = (arc.length * size).abs() * (arc.turn * size).abs() / 8.0;
         let distances: Vec<(f64, f64)> = candidates
             .iter()
-            .map(|&f| (f, line_to_line([f, (f + size).min(1.0)].map(|f| position_along(arc, f)), ends)))
+            .map(|&f| {
+                (f, distance_of_segments([f, (f + size).min(1.0)].map(|f| position_along(arc, f)), ends))
+            })
             .collect();
         let min_distance =
             distances.iter().fold(f64::INFINITY, |smallest, (_, distance)| smallest.min(*distance));

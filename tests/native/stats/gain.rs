@@ -137,7 +137,7 @@ fn the_gain_equals_its_definition_over_all_poses() {
 
 // ---------------------------------------------------------------------------------------------- exact values
 
-/// The references integrate each noise up to 6 or 6.6 standard deviations, with steps that do not meet the jump between two branches. Both
+/// The references integrate each noise up to 6 or 6.6 standard deviations. Their steps do not end at the jump between two branches. Both
 /// change a gain by up to 1e-6. Where an outline crosses itself, a chord may belong to either loop, which changes an area by up to 1e-4.
 #[test]
 fn exact_gains_match_the_references() {

@@ -308,7 +308,7 @@ export const styles = css`
 
   @container (30em <= width < 56em) {
     .to-do {
-      min-height: 3.9em;
+      min-height: 5.2em;
     }
   }
 

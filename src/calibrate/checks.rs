@@ -271,69 +271,50 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
 /// Returns the distance by which the paths by odometry and by reference drift apart, over their length, if one is a copy of the other.
 /// The noise of the reference is equal in long and in short pieces, so the drift is the difference.
 fn copy_drift(sample: &Sample, systematic: &Systematic) -> Option<f64> {
-    let [long, short] = PIECE_LENGTHS.map(|length| PathDistances::new(sample, systematic, length));
+    let [(long, long_freedom, long_length), (short, short_freedom, short_length)] =
+        PIECE_LENGTHS.map(|piece_length| path_distance(sample, systematic, piece_length));
     // Both have the same noise, and the short pieces more alignments.
-    let growth_std = short.mean_square() * (short.freedom.recip() - long.freedom.recip()).sqrt();
-    let growth = long.mean_square() - short.mean_square() + 2.0 * growth_std;
-    let square = growth / (long.mean_length() - short.mean_length()) / long.mean_length();
+    let growth_std = short * (1.0 / short_freedom - 1.0 / long_freedom).sqrt();
+    let growth = long - short + 2.0 * growth_std;
+    let square = growth / (long_length - short_length) / long_length;
     (square < MAX_COPY_DRIFT * MAX_COPY_DRIFT).then(|| square.max(0.0).sqrt())
 }
 
-/// Distances between the paths by odometry and by reference, summed over pieces. Each piece is moved, rotated and scaled to be closest.
-#[derive(Default)]
-struct PathDistances {
-    square_sum: f64,
-    /// Number of points less two for each piece, which its alignment takes.
-    freedom: f64,
-    /// Lengths of the pieces, multiplied by their freedom.
-    length_sum: f64,
+/// Returns the mean squared distance between the paths by odometry and by reference in pieces of a length (m), its degrees of freedom,
+/// and the mean length of the pieces. The alignment of a piece takes the freedom of two points.
+fn path_distance(sample: &Sample, systematic: &Systematic, piece_length: f64) -> (f64, f64, f64) {
+    let (mut square_sum, mut freedom, mut length_sum) = (0.0, 0.0, 0.0);
+    let (mut points, mut expected, mut length) = (Vec::new(), SE2::identity(), 0.0);
+    let (mut legs, base) = (sample.legs.iter().peekable(), systematic.base());
+    while let Some(leg) = legs.next() {
+        let motion = systematic.expected(sample.options.model, leg);
+        expected = expected * motion;
+        length += distance(&motion);
+        points.push([expected, leg.reference[1] * base].map(|pose| Complex::new(pose.x(), pose.y())));
+        if length >= piece_length || legs.peek().is_none_or(|next| !next.follows) {
+            let piece_freedom = points.len() as f64 - 2.0;
+            if piece_freedom > 0.0 {
+                square_sum += aligned_square_sum(&points);
+                freedom += piece_freedom;
+                length_sum += piece_freedom * length;
+            }
+            (expected, length) = (SE2::identity(), 0.0);
+            points.clear();
+        }
+    }
+    (square_sum / freedom, freedom, length_sum / freedom)
 }
 
-impl PathDistances {
-    fn new(sample: &Sample, systematic: &Systematic, piece_length: f64) -> Self {
-        let (mut distances, base) = (Self::default(), systematic.base());
-        let (mut points, mut expected, mut length) = (Vec::new(), SE2::identity(), 0.0);
-        let mut legs = sample.legs.iter().peekable();
-        while let Some(leg) = legs.next() {
-            let motion = systematic.expected(sample.options.model, leg);
-            expected = expected * motion;
-            length += distance(&motion);
-            let measured = leg.reference[1] * base;
-            points.push([expected, measured].map(|pose| Complex::new(pose.x(), pose.y())));
-            if length >= piece_length || legs.peek().is_none_or(|next| !next.follows) {
-                distances.add(&points, length);
-                (expected, length) = (SE2::identity(), 0.0);
-                points.clear();
-            }
-        }
-        distances
+/// Returns the sum of the squared distances of pairs of points, after the shift, rotation and scaling of the first ones that minimize it.
+fn aligned_square_sum(points: &[[Complex<f64>; 2]]) -> f64 {
+    let means = [0, 1].map(|i| points.iter().map(|pair| pair[i]).sum::<Complex<f64>>() / points.len() as f64);
+    let (mut squares, mut product) = ([0.0; 2], Complex::new(0.0, 0.0));
+    for pair in points {
+        let [one, other] = [0, 1].map(|i| pair[i] - means[i]);
+        squares = [squares[0] + one.norm_sqr(), squares[1] + other.norm_sqr()];
+        product += one.conj() * other;
     }
-
-    fn add(&mut self, points: &[[Complex<f64>; 2]], length: f64) {
-        let count = points.len() as f64;
-        if count <= 2.0 {
-            return;
-        }
-        let means = [0, 1].map(|path| points.iter().map(|point| point[path]).sum::<Complex<f64>>() / count);
-        let (mut square_sums, mut product_sum) = ([0.0; 2], Complex::new(0.0, 0.0));
-        for point in points {
-            let [expected, measured] = [0, 1].map(|path| point[path] - means[path]);
-            square_sums[0] += expected.norm_sqr();
-            square_sums[1] += measured.norm_sqr();
-            product_sum += expected.conj() * measured;
-        }
-        self.square_sum += (square_sums[1] - product_sum.norm_sqr() / square_sums[0]).max(0.0);
-        self.freedom += count - 2.0;
-        self.length_sum += (count - 2.0) * length;
-    }
-
-    fn mean_square(&self) -> f64 {
-        self.square_sum / self.freedom
-    }
-
-    fn mean_length(&self) -> f64 {
-        self.length_sum / self.freedom
-    }
+    (squares[1] - product.norm_sqr() / squares[0]).max(0.0)
 }
 
 /// Returns the checks of the innovations: correlation of neighbours and tails.

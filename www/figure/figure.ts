@@ -21,7 +21,7 @@ import { Reflection } from './reflection.ts';
 import { Runtime } from './runtime.ts';
 import { Settings } from './settings.ts';
 import { Renderer } from './renderer.ts';
-import { State } from './state.ts';
+import { STATE_VERSION, State } from './state.ts';
 import { TextHeights } from './text-heights.ts';
 import { figureHtml } from './surface.ts';
 import { Visibility } from './visibility.ts';
@@ -170,7 +170,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
 
   /** Returns the whole state. */
   snapshot(): Values {
-    return { ...this.state.common, ...this.settings.pick(this.settings.current), ...this.cloud?.snapshot() };
+    return { widget: this.localName, version: STATE_VERSION, ...this.state.elementState, ...this.settings.pick(this.settings.current), ...this.cloud?.snapshot() };
   }
 
   /** Returns a partial state with values that follow from it for missing fields. */

@@ -14,8 +14,10 @@ const MAX_LENGTH = 1_000_000;
 const MAX_USUAL_LENGTH = 8000;
 
 export class Link extends FigureController {
-  /** Length of the latest packed state, with the user's map. */
-  #length = 0;
+  /** True if the latest address lacks the user's map, because it would be too long with it. */
+  lacksMap = false;
+  /** True if programs other than browsers may cut off the latest address with the user's map. */
+  isLong = false;
   /** Tokens of the latest read and write of the address. Results of earlier reads and writes are dropped. */
   #latestRead = {};
   #latestWrite = {};
@@ -27,16 +29,6 @@ export class Link extends FigureController {
     else if (pendingPart !== fragmentParts()[0] || !this.#isOwnPart(pendingPart)) return;
     else this.#scrollHere();
     pendingPart = '';
-  }
-
-  /** True if the latest address lacks the user's map, because it would be too long with it. */
-  get lacksMap() {
-    return this.#length > MAX_LENGTH;
-  }
-
-  /** True if programs other than browsers may cut off the latest address. */
-  get isLong() {
-    return this.#length > MAX_USUAL_LENGTH;
   }
 
   #addressChanged = () => {
@@ -100,7 +92,8 @@ export class Link extends FigureController {
   async #pack() {
     const state = this.host.getState() ?? {};
     const packedState = await packJson(state);
-    this.#length = packedState.length;
+    this.lacksMap = packedState.length > MAX_LENGTH;
+    this.isLong = packedState.length > MAX_USUAL_LENGTH;
     // The start pose belongs to the map.
     return this.lacksMap ? packJson({ ...state, map: undefined, start: undefined }) : packedState;
   }

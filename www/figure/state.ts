@@ -6,7 +6,7 @@ import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
 import type { Values } from './settings.ts';
 
-const STATE_VERSION = 1;
+export const STATE_VERSION = 1;
 
 export class State extends FigureController {
   /** Last valid state. */
@@ -21,10 +21,6 @@ export class State extends FigureController {
   /** Settings of the machine, with pending changes, and the state that it does not have. */
   get config(): Values {
     return { ...this.host.settings.requested, ...this.elementState };
-  }
-
-  get common(): Values {
-    return { widget: this.host.localName, version: STATE_VERSION, ...this.elementState };
   }
 
   keep() {

@@ -141,9 +141,9 @@ const SHIFTED_CHARACTERS = {
 /** Replacements of www/address.ts for bundles that are not the script named by the page. */
 const ADDRESSES = {
   /** Address of a classic script, which is known only while the script is evaluated. */
-  classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const classic = true;",
+  classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const isClassic = true;",
   /** Address of the script that a chunk belongs to. */
-  chunk: "export const address = (import.meta.url ?? '').replace(/chunks\\/[^/]*$/, 'external.js'); export const classic = false;",
+  chunk: "export const address = (import.meta.url ?? '').replace(/chunks\\/[^/]*$/, 'external.js'); export const isClassic = false;",
 };
 
 /** Declarations of the exports of the scripts with elements. */

@@ -106,7 +106,7 @@ export function widgets() {
 async function widgetOf(tag) {
   // They import libraries, which a bare clone does not have yet.
   const { COMMON_ATTRS, NUMBER_CONVERTER, WORD_LIST_CONVERTER } = await importTypeScript('www/figure/attributes.ts');
-  const { definition: { attributes, declared, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
+  const { definition: { attributes, declarations: declared, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/attributes.ts').Documentation[]} */
   const documentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await classComments();
@@ -127,9 +127,9 @@ async function widgetOf(tag) {
       const withoutRange = describe({ ...declaration, min: undefined }, shownDefault);
       return { name, type: typeOf(declaration), description: describe(declaration, shownDefault), opening: openingText, allowed: rangeText(declaration), withoutRange };
     }
-    const { words, covers, converter, property } = entry;
-    const nullable = covers || entry.nullable;
-    const openingText = elementFields[name]?.opening ?? (covers ? openingPreset(tag) : nullable ? undefined : words?.[0]);
+    const { words, coveredAttributes, converter, property } = entry;
+    const nullable = coveredAttributes || entry.nullable;
+    const openingText = elementFields[name]?.opening ?? (coveredAttributes ? openingPreset(tag) : nullable ? undefined : words?.[0]);
     const type = converter === NUMBER_CONVERTER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST_CONVERTER ? `(${unionType(words)})[]` : unionType(words);
     const text = Array.isArray(openingText) ? openingText.join(' ') : openingText;
     const description = describe({ ...entry, sentence: attributeSentences[name] }, text);

@@ -1,5 +1,5 @@
-/** Address of the script that defines the elements; a bundle knows it in another way. Empty where it is unknown. */
+/** Address of the script that defines the elements; empty if it is unknown. scripts/bundle.mjs replaces this file in some bundles. */
 export const address = import.meta.url;
 
-/** True for a classic script. */
-export const classic = false;
+/** True if that script is a classic script rather than a module. */
+export const isClassic = false;

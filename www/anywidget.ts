@@ -10,7 +10,7 @@ import './de.ts';
 import './widgets/index.ts';
 import { COMMON_ATTRS } from './figure/attributes.ts';
 import { includesFields } from './figure/checks.ts';
-import { GLOBAL_ATTRIBUTES, elementNamed, errorParagraph } from './named.ts';
+import { GLOBAL_ATTRIBUTES, createWidget, errorParagraph } from './named.ts';
 
 export interface Model {
   /** Returns the value of a trait; undefined if the model does not have it. */
@@ -25,7 +25,7 @@ export interface Model {
 function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) | undefined {
   let element: any;
   try {
-    element = elementNamed(model.get('widget'));
+    element = createWidget(model.get('widget'));
   } catch (error) {
     el.append(errorParagraph('This cell', error));
     return;
@@ -36,13 +36,13 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   element.style.color = 'var(--jp-content-font-color1, inherit)';
 
   let hasUnsavedChanges = false;
-  const put = (trait: string, value: unknown) => {
+  const setTrait = (trait: string, value: unknown) => {
     const currentValue = model.get(trait);
     if (currentValue === undefined || includesFields(currentValue, value)) return;
     hasUnsavedChanges = true;
     model.set(trait, value);
   };
-  const saveSoon = () => {
+  const saveChanges = () => {
     if (!hasUnsavedChanges) return;
     hasUnsavedChanges = false;
     withoutKernel(() => model.save_changes());
@@ -63,48 +63,48 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
       const traitValues = ownTraits.map(([trait, property]) => [trait, jsonValue(element[property])] as [string, unknown]);
       // Nulls come last, because a null (no preset, for example) follows from the other values, and other views apply values in this order.
       isWriting = true;
-      for (const isNull of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === isNull) put(trait, value);
+      for (const isNull of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === isNull) setTrait(trait, value);
       isWriting = false;
       // All values at one time, with the number of the last applied request, from which the kernel knows which requests are newer.
-      put('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(traitValues.filter(([trait]) => model.get(trait) !== undefined)) });
-      saveSoon();
+      setTrait('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(traitValues.filter(([trait]) => model.get(trait) !== undefined)) });
+      saveChanges();
     });
   };
 
   element.addEventListener('error', (event: ErrorEvent) => {
     if (model.get('error') === undefined) return;
     event.preventDefault();
-    put('error', event.message);
-    saveSoon();
+    setTrait('error', event.message);
+    saveChanges();
   });
   element.addEventListener('load', sendValues);
   element.addEventListener('change', () => {
-    put('error', '');
+    setTrait('error', '');
     sendValues();
   });
   element.addEventListener('stats', ({ detail }: CustomEvent) => {
     if (model.get('stats') === undefined) return;
-    put('stats', jsonValue(detail));
-    saveSoon();
+    setTrait('stats', jsonValue(detail));
+    saveChanges();
   });
 
   const stopListening = traits.map(([trait, property]) => {
-    const takeTrait = () => {
+    const applyTrait = () => {
       if (isWriting) return;
-      put('error', '');
+      setTrait('error', '');
       // Global attributes are texts. A missing attribute is the empty text.
       element[property] = model.get(trait) ?? (GLOBAL_ATTRIBUTES.includes(property) ? '' : null);
       sendValues();
     };
     const value = model.get(trait);
     if (value !== undefined && value !== null) element[property] = value;
-    model.on(`change:${trait}`, takeTrait);
-    return () => model.off(`change:${trait}`, takeTrait);
+    model.on(`change:${trait}`, applyTrait);
+    return () => model.off(`change:${trait}`, applyTrait);
   });
   el.append(element);
 
   return () => {
-    for (const end of stopListening) withoutKernel(end);
+    for (const stop of stopListening) withoutKernel(stop);
     element.remove();
   };
 }
@@ -125,7 +125,7 @@ function traitsOf(element: any): [trait: string, property: string][] {
   return Object.entries(entries).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];
     const pythonName = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
-    // With the underscore of a keyword, as in `from_`.
+    // In Python a name that is a keyword ends with an underscore, as in `from_`.
     const spellings = new Set([name, property, pythonName, `${pythonName}_`]);
     return [...spellings].map((trait) => [trait, property] as [string, string]);
   });

@@ -3,7 +3,7 @@
  * An import has no effects: it needs no DOM, and fetches and compiles nothing before `load()`.
  */
 
-import bundled from '../build/motion.wasm';
+import bundledCores from '../build/motion.wasm';
 import type { Motion } from './types.d.ts';
 
 export { startWorker } from '../build/motion.wasm';
@@ -11,15 +11,15 @@ export { startWorker } from '../build/motion.wasm';
 /** Module as bytes, as an address, or compiled. */
 export type Source = BufferSource | URL | string | WebAssembly.Module;
 
-/** Source that the first caller named. */
+/** Source that the first caller passed to `load` or `instantiate`. */
 let requestedSource: Source | undefined;
 /** Functions of a bundle that load a module, and the JavaScript that wasm-bindgen made for it (its glue). */
-type BundledCore = typeof bundled.motion;
+type BundledCore = typeof bundledCores.motion;
 
 /** Modules that are compiled or compiling, by their sources. The source of a bundled core is the core itself. */
 const modules: Map<Source | BundledCore, Promise<WebAssembly.Module>> = new Map();
 /** Tags of the widgets that external.js has found in the page. */
-export const knownTags: Set<string> = new Set();
+export const foundTags: Set<string> = new Set();
 let loadingCore: Promise<Motion> | undefined;
 
 /**
@@ -54,7 +54,7 @@ export async function instantiateFor(name: string): Promise<Motion> {
   }
   let motion;
   try {
-    // Elements are defined before the script that imports them can call `load(source)`.
+    // Waits, because the script that imports the elements can call `load(source)` only after they are defined.
     await null;
     const [module, { default: makeCore }] = await moduleAndGlue(name);
     motion = await makeCore(module);
@@ -79,12 +79,12 @@ export interface SharedCore {
 export async function sharedCore(name: string): Promise<SharedCore> {
   const [module] = await moduleAndGlue(name);
   const core = bundledCoreOf(name);
-  return { module, glue: Object.keys(bundled).find((key) => bundled[key] === core) ?? 'motion' };
+  return { module, glue: Object.keys(bundledCores).find((key) => bundledCores[key] === core) ?? 'motion' };
 }
 
 /** Returns a core from a module that another thread has compiled. */
 export async function instantiateShared({ module, glue }: SharedCore): Promise<Motion> {
-  const { default: makeCore } = await (bundled[glue] ?? bundled.motion).glue();
+  const { default: makeCore } = await (bundledCores[glue] ?? bundledCores.motion).glue();
   return makeCore(module);
 }
 
@@ -103,7 +103,7 @@ async function moduleAndGlue(name: string): Promise<[WebAssembly.Module, Awaited
   try {
     return await Promise.all([compiledModule(core), core.glue()]);
   } catch (error) {
-    if (sourceAtStart !== undefined || !bundled.embedded || core === bundled.embedded || isWasmForbidden()) throw error;
+    if (sourceAtStart !== undefined || !bundledCores.embedded || core === bundledCores.embedded || isWasmForbidden()) throw error;
     isUnreachable = true;
     const embeddedModule = await moduleAndGlue(name).catch(() => {
       isUnreachable = false;
@@ -116,9 +116,9 @@ async function moduleAndGlue(name: string): Promise<[WebAssembly.Module, Awaited
 
 /** Returns the bundled core of a widget. Pages with several kinds of widgets use the common core, which is smaller than several cores. */
 function bundledCoreOf(name: string) {
-  const ownCore = bundled[name];
-  const core = ownCore && requestedSource === undefined && (modules.has(ownCore) || knownTags.size < 2) ? ownCore : bundled.motion;
-  return bundled.embedded && requestedSource === undefined && (isUnreachable || !core.source()) ? bundled.embedded : core;
+  const ownCore = bundledCores[name];
+  const core = ownCore && requestedSource === undefined && (modules.has(ownCore) || foundTags.size < 2) ? ownCore : bundledCores.motion;
+  return bundledCores.embedded && requestedSource === undefined && (isUnreachable || !core.source()) ? bundledCores.embedded : core;
 }
 
 function compiledModule(core: BundledCore): Promise<WebAssembly.Module> {
@@ -137,20 +137,20 @@ function compiledModule(core: BundledCore): Promise<WebAssembly.Module> {
 
 /** Starts to compile the module of a bundle that contains it, while this thread still evaluates scripts. */
 export function precompile() {
-  // A bundle with an embedded core besides has the others in files.
-  if (!bundled.embedded && requestedSource === undefined) compiledModule(bundled.motion).catch(() => {});
+  // A bundle with an embedded core has the other cores in files.
+  if (!bundledCores.embedded && requestedSource === undefined) compiledModule(bundledCores.motion).catch(() => {});
 }
 
 /** Advice for the author of a site without the module. */
-const ADVICE =
+const MISSING_MODULE_ADVICE =
   "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out.";
 
 /** Maximum number of characters of an address in a message. A data URL may have millions. */
 const MAX_ADDRESS_LENGTH = 200;
 
-async function compile(given: Source | Promise<BufferSource> | undefined) {
-  // Bytes are compiled at once.
-  const source = (given instanceof Promise ? await given : given) as Source;
+async function compile(sourceOrPromise: Source | Promise<BufferSource> | undefined) {
+  // Bytes are not awaited, so that their compilation starts in this task.
+  const source = (sourceOrPromise instanceof Promise ? await sourceOrPromise : sourceOrPromise) as Source;
   if (source instanceof WebAssembly.Module) return source;
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
   if (source instanceof URL || typeof source === 'string') {
@@ -175,19 +175,19 @@ function isWasmForbidden() {
 async function compileStreamed(source: URL | string) {
   const moduleResponse = await fetch(source).catch((error) => {
     throw new Error(
-      `load: ${String(source).slice(0, MAX_ADDRESS_LENGTH)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src. ${ADVICE}`,
+      `load: ${String(source).slice(0, MAX_ADDRESS_LENGTH)} cannot be fetched (${error.message}); a Content-Security-Policy has to allow it by connect-src. ${MISSING_MODULE_ADVICE}`,
       { cause: error },
     );
   });
   const url = moduleResponse.url.slice(0, MAX_ADDRESS_LENGTH);
-  if (!moduleResponse.ok) throw new Error(`load: ${url} answers ${moduleResponse.status}. ${ADVICE}`);
+  if (!moduleResponse.ok) throw new Error(`load: ${url} answers ${moduleResponse.status}. ${MISSING_MODULE_ADVICE}`);
   const contentType = moduleResponse.headers.get('content-type') ?? 'something without a type';
   try {
     if (/^application\/wasm\s*$/i.test(contentType)) return await WebAssembly.compileStreaming(moduleResponse);
     return await WebAssembly.compile(await moduleResponse.arrayBuffer());
   } catch (error) {
     const reason = (error as Error).message;
-    throw new Error(`load: ${url} answers with ${contentType}, which is no WebAssembly module: ${reason}. ${ADVICE}`, { cause: error });
+    throw new Error(`load: ${url} answers with ${contentType}, which is no WebAssembly module: ${reason}. ${MISSING_MODULE_ADVICE}`, { cause: error });
   }
 }
 

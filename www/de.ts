@@ -1,4 +1,4 @@
-/** German words for the elements: load it beside the elements, before or after it. */
+/** German words of the elements. A page may load this script before or after that of the elements. */
 
 import { de } from './messages/de.ts';
 import { setMessages } from './messages/registry.ts';

@@ -5,11 +5,11 @@
  */
 
 import './de.ts';
-import { GLOBAL_ATTRIBUTES, elementNamed, errorParagraph } from './named.ts';
+import { GLOBAL_ATTRIBUTES, createWidget, errorParagraph } from './named.ts';
 
 /** Returns the widget that a query describes. Throws an error that names the parameter and what is allowed. */
-function widgetOf(query: URLSearchParams) {
-  const widget = elementNamed(query.get('widget'));
+function widgetFromQuery(query: URLSearchParams) {
+  const widget = createWidget(query.get('widget'));
   const tagName = widget.localName;
   const knownNames = [...(widget.constructor as any).observedAttributes, ...GLOBAL_ATTRIBUTES];
   for (const [key, value] of query) {
@@ -30,7 +30,7 @@ function postHeight() {
 }
 
 try {
-  document.body.append(widgetOf(new URLSearchParams(location.search)));
+  document.body.append(widgetFromQuery(new URLSearchParams(location.search)));
 } catch (error) {
   document.body.append(errorParagraph('This address', error));
 }

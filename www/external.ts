@@ -4,7 +4,7 @@
  */
 
 import { messageKeys, widgets } from '../build/widgets.js';
-import { knownTags } from './core.ts';
+import { foundTags } from './core.ts';
 import { preUpgradeCss } from './figure/reserved-height.ts';
 import { en } from './messages/en.ts';
 import { addEnglish } from './messages/registry.ts';
@@ -27,7 +27,7 @@ function defineWidgetsIn(root: ParentNode) {
     if (!(element instanceof Element)) continue;
     const { localName } = element;
     if (undefinedTags.delete(localName)) {
-      knownTags.add(localName);
+      foundTags.add(localName);
       widgets[localName]();
     }
     // The contents of a widget have no other widgets.

@@ -1,6 +1,6 @@
 /**
- * Registers the custom elements, all of them at once. In dist/ it comes twice: motion-widgets.js carries the
- * WebAssembly module inside, and motion-widgets.iife.js is that as a classic script.
+ * Defines all custom elements. In dist/, motion-widgets.js contains the WebAssembly module, and motion-widgets.iife.js is the same as a
+ * classic script.
  */
 import './widgets/index.ts';
 

@@ -8,16 +8,16 @@ const TAGS = Object.keys(settings);
 export const GLOBAL_ATTRIBUTES = ['dir', 'lang'];
 
 /** Creates a widget that is not in a page yet. Throws an error that lists the allowed names. */
-export function elementNamed(name: unknown): HTMLElement {
+export function createWidget(name: unknown): HTMLElement {
   const tag = TAGS.find((candidate) => candidate === name);
   if (tag) return document.createElement(tag);
   throw new Error(`widget is ${name === null || name === undefined ? 'missing' : JSON.stringify(name)}; allowed is ${TAGS.join(' or ')}`);
 }
 
 /** Returns a paragraph with the error instead of a figure. `who` names the page or cell that requested the figure. */
-export function errorParagraph(who: string, error: unknown) {
+export function errorParagraph(requester: string, error: unknown) {
   const sentence = document.createElement('p');
   sentence.setAttribute('role', 'alert');
-  sentence.textContent = `${who} shows no figure: ${(error as Error).message}.`;
+  sentence.textContent = `${requester} shows no figure: ${(error as Error).message}.`;
   return sentence;
 }

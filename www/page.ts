@@ -12,7 +12,7 @@ import { prepareSketch } from './page/sketch.ts';
 export type Figure = HTMLElement & Record<string, any>;
 
 /** Whole state that each figure opened with. */
-const openings: WeakMap<Element, Record<string, any>> = new WeakMap();
+const openingStates: WeakMap<Element, Record<string, any>> = new WeakMap();
 
 /** Returns the figure that an element of the page is about. */
 export const figureOf = (element: Element): Figure => element.closest('article')?.querySelector('.stand > :first-child') as Figure;
@@ -22,19 +22,19 @@ export const figureOf = (element: Element): Figure => element.closest('article')
  * of its state. A preset has to be the first value, because it replaces the others.
  */
 export async function enterState(figure: Figure, values: Record<string, unknown>) {
-  if (!openings.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
-  const openingState = openings.get(figure) ?? {};
+  if (!openingStates.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
+  const openingState = openingStates.get(figure) ?? {};
   // Shows the whole cloud at once, because the item refers to it.
-  const wholeCloud = 'shown' in openingState ? { shown: openingState.samples, playing: false } : {};
+  const completeCloud = 'shown' in openingState ? { shown: openingState.samples, playing: false } : {};
   const { widget, version } = openingState;
-  figure.setState({ ...openingState, ...wholeCloud });
+  figure.setState({ ...openingState, ...completeCloud });
   for (const [key, value] of Object.entries(values)) {
     if (key in figure) figure[key] = value;
     else figure.setState({ widget, version, [key]: value });
   }
 }
 
-async function tryOut(button: HTMLElement) {
+async function enterTriedState(button: HTMLElement) {
   const figure = figureOf(button);
   for (const triedButton of button.closest('article')?.querySelectorAll('[data-try]') ?? []) triedButton.removeAttribute('aria-current');
   await enterState(figure, JSON.parse(button.dataset.try ?? '{}'));
@@ -51,17 +51,17 @@ function highlightTerm({ type, target }: Event) {
 }
 
 /** Keeps each figure's picture in sight while the reader scrolls through the list of things to try, if the list is below the figure. */
-function followItems() {
+function keepPicturesInSight() {
   const observer = new ResizeObserver((entries) => {
     for (const { target, borderBoxSize: [{ blockSize }] } of entries) {
       (target.parentElement as HTMLElement).style.setProperty('--below', `${blockSize}px`);
     }
   });
-  for (const items of document.querySelectorAll('.try')) observer.observe(items);
+  for (const tryList of document.querySelectorAll('.try')) observer.observe(tryList);
 }
 
 /** Marks the section in sight in the contents list. */
-function followSections() {
+function markSectionInSight() {
   const links = new Map(
     [...document.querySelectorAll('nav a[href^="#"]')].map((link) => [document.querySelector(link.getAttribute('href') ?? ''), link]),
   );
@@ -76,13 +76,13 @@ function followSections() {
 
 document.addEventListener('load', ({ target }) => {
   const figure = target as Figure;
-  if (figure.getState && !openings.has(figure)) openings.set(figure, figure.getState());
+  if (figure.getState && !openingStates.has(figure)) openingStates.set(figure, figure.getState());
 }, { capture: true });
 document.addEventListener('click', ({ target }) => {
   const button = target instanceof Element ? target.closest('button[data-try]') : null;
-  if (button) void tryOut(button as HTMLElement);
+  if (button) void enterTriedState(button as HTMLElement);
 });
 for (const type of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(type, highlightTerm);
 for (const form of document.querySelectorAll('form')) (form.matches('.sketch') ? prepareSketch : prepareBet)(form, (values) => enterState(figureOf(form), values), figureOf(form));
-followSections();
-followItems();
+markSectionInSight();
+keepPicturesInSight();

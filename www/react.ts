@@ -1,4 +1,4 @@
-/** The elements as components for React 18 and 19: build/react.js, which follows from the declarations, has one of each. */
+/** Components for React 18 and 19. build/react.js, which is generated from the declarations, has one for each element. */
 
 import { createElement, forwardRef, useEffect, useImperativeHandle, useLayoutEffect, useRef, useState } from 'react';
 import 'motion-widgets';
@@ -6,7 +6,7 @@ import 'motion-widgets';
 export type Props = Record<string, any>;
 
 /** Names of the props of an element. */
-export interface Names {
+export interface PropNames {
   /** Attributes by their props. */
   attributes: Record<string, string>;
   /** Props of boolean attributes, which are present or absent. */
@@ -16,12 +16,12 @@ export interface Names {
 }
 
 /** Props of events. */
-const HANDLERS = { load: 'onLoad', error: 'onError', input: 'onInput', change: 'onChange', stats: 'onStats' };
-const EVENTS = Object.keys(HANDLERS) as (keyof typeof HANDLERS)[];
+const HANDLER_PROPS = { load: 'onLoad', error: 'onError', input: 'onInput', change: 'onChange', stats: 'onStats' };
+const EVENT_TYPES = Object.keys(HANDLER_PROPS) as (keyof typeof HANDLER_PROPS)[];
 
-const onServer = typeof document === 'undefined';
+const isOnServer = typeof document === 'undefined';
 /** Hook for layout effects. On a server there is no layout, and React 18 warns about `useLayoutEffect`. */
-const useLayout = onServer ? useEffect : useLayoutEffect;
+const useLayout = isOnServer ? useEffect : useLayoutEffect;
 
 /**
  * Writer of the props of a React component to its element. It writes a prop only if its value has changed since the last rendering:
@@ -30,11 +30,11 @@ const useLayout = onServer ? useEffect : useLayoutEffect;
  */
 class Figure {
   element: any;
-  names: Names;
+  names: PropNames;
   /** Props of the previous rendering. */
   props: Props | undefined;
 
-  constructor(names: Names) {
+  constructor(names: PropNames) {
     this.names = names;
   }
 
@@ -44,11 +44,11 @@ class Figure {
     return Array.isArray(value) ? value.join(' ') : value === true ? '' : String(value);
   }
 
-  say(element: any, props: Props) {
+  update(element: any, props: Props) {
     const { props: previousProps } = this;
     Object.assign(this, { element, props });
-    for (const type of EVENTS) element.addEventListener(type, this);
-    if (!previousProps && element.stats) this.catchUp(element, props);
+    for (const type of EVENT_TYPES) element.addEventListener(type, this);
+    if (!previousProps && element.stats) this.repeatMissedEvents(element, props);
     for (const [name, attribute] of Object.entries(this.names.attributes)) {
       const text = this.text(name, props);
       // Attributes sent by the server are kept at first: the user may have changed the figure since.
@@ -60,7 +60,7 @@ class Figure {
   }
 
   /** Repeats events and properties for an element that the server sent: it was running before React attached the listeners. */
-  catchUp(element: any, props: Props) {
+  repeatMissedEvents(element: any, props: Props) {
     element.dispatchEvent(new Event('load'));
     element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));
     for (const [name, attribute] of Object.entries(this.names.attributes)) {
@@ -71,30 +71,30 @@ class Figure {
   }
 
   handleEvent(event: Event) {
-    this.props?.[HANDLERS[(event.type as keyof typeof HANDLERS)]]?.(event);
+    this.props?.[HANDLER_PROPS[(event.type as keyof typeof HANDLER_PROPS)]]?.(event);
   }
 
-  leave() {
-    for (const type of EVENTS) this.element.removeEventListener(type, this);
+  removeListeners() {
+    for (const type of EVENT_TYPES) this.element.removeEventListener(type, this);
   }
 }
 
-function areDifferent(one: unknown, other: unknown) {
-  return one !== other && JSON.stringify(one) !== JSON.stringify(other);
+function areDifferent(first: unknown, second: unknown) {
+  return first !== second && JSON.stringify(first) !== JSON.stringify(second);
 }
 
-export function component(displayName: string, tag: string, names: Names) {
-  const ownProps = new Set([...Object.keys(names.attributes), ...names.properties, ...Object.values(HANDLERS)]);
+export function component(displayName: string, tag: string, names: PropNames) {
+  const ownProps = new Set([...Object.keys(names.attributes), ...names.properties, ...Object.values(HANDLER_PROPS)]);
   const render = (props: Props, ref: import('react').ForwardedRef<unknown>) => {
     const element = useRef(null);
     const [figure] = useState(() => new Figure(names));
     useImperativeHandle(ref, () => element.current, []);
-    useLayout(() => figure.say(element.current, props));
-    useLayout(() => () => figure.leave(), [figure]);
+    useLayout(() => figure.update(element.current, props));
+    useLayout(() => () => figure.removeListeners(), [figure]);
     // React 18 does not know className of elements that HTML does not know.
-    const { className, ...others } = Object.fromEntries(Object.entries(props).filter(([name]) => !ownProps.has(name)));
-    const texts = onServer ? Object.entries(names.attributes).map(([name, attribute]) => [attribute, figure.text(name, props)]) : [];
-    return createElement(tag, { ...others, ...Object.fromEntries(texts), class: className, ref: element, suppressHydrationWarning: true });
+    const { className, ...otherProps } = Object.fromEntries(Object.entries(props).filter(([name]) => !ownProps.has(name)));
+    const attributeTexts = isOnServer ? Object.entries(names.attributes).map(([name, attribute]) => [attribute, figure.text(name, props)]) : [];
+    return createElement(tag, { ...otherProps, ...Object.fromEntries(attributeTexts), class: className, ref: element, suppressHydrationWarning: true });
   };
   return Object.assign(forwardRef(render), { displayName });
 }

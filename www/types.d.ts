@@ -22,9 +22,9 @@ export interface FigureState {
 }
 
 /**
- * A map as plain data: a floor plan of walls from one point to another, or square cells row by row from the bottom. The cells
- * are base64 of one bit each, the first of eight highest: 1 if occupied, and likewise 1 if unknown. Lengths in m, yaw in rad.
- * The map of an element is frozen; a change replaces it.
+ * Map as plain data: a floor plan, whose walls are x, y pairs of both ends, or square cells, row by row from the bottom. Cells
+ * are packed as bits, most significant bit first, in base64: `occupied` and `unknown` have a bit for each cell. Lengths are in m,
+ * yaw is in rad. The map of an element is frozen; a change replaces it.
  */
 export type MapData =
   | Readonly<{ name?: string; bounds: readonly number[]; walls: readonly (readonly number[])[] }>
@@ -35,7 +35,7 @@ export interface CalibrationLog extends Pick<CalibrationOptions, 'odometry' | 'r
   name?: string;
 }
 
-// Shorter names.
+// Short names of generated types.
 export type SqueezeSettings = MapSqueezeSettings;
 export type Pose = Start;
 export type SamplerName = SqueezeSettings['sampler'];

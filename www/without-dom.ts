@@ -1,6 +1,6 @@
 /**
- * Substitutes for globals that libraries and elements ask for while they are imported. Where there is no DOM, as in Node, a page generator
- * may import the elements, and nothing is defined.
+ * Substitutes for globals of the DOM that Lit and the elements read while they are imported. Without a DOM, as in Node, a page generator may
+ * import the elements; none is defined then.
  */
 
 const { HTMLElement = class {}, customElements = { get: () => true }, document = { createTreeWalker() {} } } =

@@ -17,7 +17,7 @@ test('a refusal and long work are shown one above the other', async ({ page }) =
   await widget.evaluate((element) => {
     const { notice } = /** @type {any} */ (element);
     notice.show('odom.csv: no columns are named t, x, y, yaw; expected is a table with a header. '.repeat(3));
-    void notice.during(new Promise(() => {}), () => {});
+    void notice.showDuring(new Promise(() => {}), () => {});
   });
   const boxes = widget.locator('.notice > div');
   await expect(boxes).toHaveCount(2);

@@ -22,8 +22,8 @@ export interface Property {
   change: (value: any, config: Config) => Config;
   /** Name of a setting in the core, if different. */
   path?: string;
-  /** Names of the attributes that this one determines. They are only written while this attribute's value has no text. */
-  covers?: string[];
+  /** Names of the attributes that this one determines, as a preset does. They are written only while this attribute has no value. */
+  coveredAttributes?: string[];
   /** Allowed words, if the declarations of www/settings.js do not list them. */
   words?: readonly string[];
   /** Range of a number, if the declarations do not have it. */
@@ -61,7 +61,7 @@ const BOOLEAN: Converter = {
   print: String,
 };
 
-/** Words separated by spaces. */
+/** Conversion of a list of words, which are separated by spaces in the text. */
 export const WORD_LIST_CONVERTER: Converter = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
 /** Conversions of the types that fit into an attribute. Objects and arrays have none. */
@@ -79,7 +79,7 @@ export const COMMON_ATTRS: Record<string, { words?: readonly string[], nullable?
   'heading-level': { words: HEADING_LEVELS, nullable: true, property: 'headingLevel' },
 };
 
-export const propertiesOf = (declared: Declaration[]): Properties => Object.fromEntries(declared.map((setting) => [setting.key, propertyOf(setting)]));
+export const propertiesOf = (declarations: Declaration[]): Properties => Object.fromEntries(declarations.map((setting) => [setting.key, propertyOf(setting)]));
 
 /** Returns the properties that are also attributes. */
 export const selectAttributes = (properties: Properties) =>
@@ -91,51 +91,51 @@ export const fieldProperty = (key: string, converter?: Converter): Property => (
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type }: Declaration): Property {
   const plainProperty = fieldProperty(key, CONVERTERS[type]);
   // This setting is a level, which scales several settings of the machine.
-  if (of) return { ...plainProperty, get: (config) => levelOf(config[of], weights) };
+  if (of) return { ...plainProperty, get: (config) => commonFactorOf(config[of], weights) };
   if (!group) return plainProperty;
-  const member = index ?? field;
+  const memberKey = index ?? field;
   return {
     ...plainProperty,
     path: index !== undefined ? `${group}[${index}]` : field === key ? undefined : `${group}.${field}`,
-    get: (config) => config[group][member] ?? null,
-    change: (value, { [group]: whole }) => {
-      if (index === undefined) return { [group]: { ...whole, [member]: value } };
-      if (index < whole.length) return { [group]: whole.with(index, value) };
-      throw refusalError(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${whole.length}`);
+    get: (config) => config[group][memberKey] ?? null,
+    change: (value, { [group]: groupValue }) => {
+      if (index === undefined) return { [group]: { ...groupValue, [memberKey]: value } };
+      if (index < groupValue.length) return { [group]: groupValue.with(index, value) };
+      throw refusalError(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${groupValue.length}`);
     },
   };
 }
 
-/** Returns the common factor of the last numbers and their weights; null if there is none. */
-function levelOf(numbers: number[], weights: number[]): number | null {
+/** Returns the factor by which the last numbers are multiples of their weights; null if there is none. */
+function commonFactorOf(numbers: number[], weights: number[]): number | null {
   const lastNumbers = numbers.slice(-weights.length);
-  const level = lastNumbers[0] / weights[0];
-  return lastNumbers.every((number, i) => number === level * weights[i]) ? level : null;
+  const factor = lastNumbers[0] / weights[0];
+  return lastNumbers.every((number, i) => number === factor * weights[i]) ? factor : null;
 }
 
-/** Settings that presets leave as they are. */
+/** Settings that presets do not change. */
 const KEPT_BY_PRESETS = ['samples', 'seed'];
 
 /** Returns the configuration that a figure opens with: the defaults of its settings. */
-export function defaultConfig(declared: Declaration[]) {
+export function defaultConfig(declarations: Declaration[]) {
   let config: Config = {};
-  for (const setting of declared) {
+  for (const setting of declarations) {
     if (!setting.of) config = { ...config, ...propertyOf(setting).change(setting.type === 'group' ? {} : setting.default, config) };
   }
   return config;
 }
 
 /** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. Settings that it does not list get defaults. */
-export function presetPropertyOf(presets: readonly ({ name: string } & Record<string, any>)[], declared: Declaration[]): Attribute {
+export function presetPropertyOf(presets: readonly ({ name: string } & Record<string, any>)[], declarations: Declaration[]): Attribute {
   const presetNames = presets.map(({ name }) => name);
-  const properties = propertiesOf(declared);
-  const presetSettings = presets.map(({ name: _, ...given }) => {
-    const presetConfig = Object.entries(given).reduce((config, [key, value]) => ({ ...config, ...properties[key].change(value, config) }), defaultConfig(declared));
+  const properties = propertiesOf(declarations);
+  const presetSettings = presets.map(({ name: _, ...presetValues }) => {
+    const presetConfig = Object.entries(presetValues).reduce((config, [key, value]) => ({ ...config, ...properties[key].change(value, config) }), defaultConfig(declarations));
     return Object.fromEntries(Object.entries(presetConfig).filter(([key]) => !KEPT_BY_PRESETS.includes(key)));
   });
   return {
     converter: WORD_CONVERTER,
-    covers: Object.keys(selectAttributes(properties)).filter((key) => !KEPT_BY_PRESETS.includes(key)),
+    coveredAttributes: Object.keys(selectAttributes(properties)).filter((key) => !KEPT_BY_PRESETS.includes(key)),
     words: presetNames,
     get: (config) => presetNames[presetSettings.findIndex((settings) => includesFields(config, settings))] ?? null,
     change: (name) => presetSettings[presetNames.indexOf(checkedWord('preset', name, presetNames))],

@@ -11,7 +11,7 @@ export const hasPixels = ({ width, height }: HTMLCanvasElement) => Math.min(widt
 
 export class Canvases extends FigureController {
   /** Canvases that are observed; undefined until they are rendered. */
-  all: HTMLCanvasElement[] | undefined;
+  elements: HTMLCanvasElement[] | undefined;
   /** Cached widths in CSS pixels. Reading them in a frame would cause a reflow. */
   #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
   #observer = new ResizeObserver((entries) => this.#resize(entries));
@@ -22,30 +22,30 @@ export class Canvases extends FigureController {
 
   /** Finds and observes the canvases. */
   find() {
-    this.all = [...this.host.renderRoot.querySelectorAll('canvas')];
+    this.elements = [...this.host.renderRoot.querySelectorAll('canvas')];
     this.measure();
   }
 
   /** Releases the pixels of the canvases, which keep their size in the layout. */
   clear() {
     this.#observer.disconnect();
-    for (const canvas of this.all ?? []) canvas.width = canvas.height = 0;
-    this.all = undefined;
+    for (const canvas of this.elements ?? []) canvas.width = canvas.height = 0;
+    this.elements = undefined;
   }
 
   /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
   #followPixels(signal: AbortSignal) {
-    const ratioChanged = () => {
+    const onRatioChange = () => {
       this.measure();
       this.#followPixels(signal);
     };
-    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', ratioChanged, { once: true, signal });
+    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', onRatioChange, { once: true, signal });
   }
 
   /** Observes the sizes of the canvases. The observer also reports the present sizes. */
   measure() {
     this.#observer.disconnect();
-    for (const canvas of this.all ?? []) {
+    for (const canvas of this.elements ?? []) {
       try {
         this.#observer.observe(canvas, { box: 'device-pixel-content-box' });
       } catch {
@@ -56,7 +56,7 @@ export class Canvases extends FigureController {
 
   /** Sets the size of each canvas in device pixels. In print the pixels determine the layout, so that the observer would be called again. */
   #resize(entries: ResizeObserverEntry[]) {
-    if (this.host.renderer.printing) return;
+    if (this.host.renderer.isPrinting) return;
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = target as HTMLCanvasElement;
       const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
@@ -69,22 +69,22 @@ export class Canvases extends FigureController {
   }
 
   /** Caches the widths in the layout, and sets the sizes in pixels for print. */
-  update(printing: boolean) {
-    for (const canvas of this.all ?? []) {
+  update(isPrinting: boolean) {
+    for (const canvas of this.elements ?? []) {
       const { clientWidth, clientHeight } = canvas;
       this.#widths.set(canvas, clientWidth);
-      if (printing) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
+      if (isPrinting) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
     }
   }
 
   /** Returns the canvas of a picture. */
   canvasOf({ name }: { name: string }) {
-    return this.all?.find(({ className }) => className === name) as HTMLCanvasElement;
+    return this.elements?.find(({ className }) => className === name) as HTMLCanvasElement;
   }
 
   surfaceOf(canvas: HTMLCanvasElement): Surface {
     const { width, height } = canvas;
     const clientWidth = this.#widths.get(canvas) ?? canvas.clientWidth;
-    return { width, height, clientWidth, letters: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };
+    return { width, height, clientWidth, fontStyle: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };
   }
 }

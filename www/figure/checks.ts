@@ -1,7 +1,7 @@
 /** Checks of values from the page. Error messages have the form of the core's. */
 
-export function refusalError(field: string, value: unknown, allowed: string, Kind = RangeError): TypeError | RangeError {
-  return new Kind(`${field} is ${describe(value)}; allowed is ${allowed}`);
+export function refusalError(field: string, value: unknown, allowed: string, ErrorClass = RangeError): TypeError | RangeError {
+  return new ErrorClass(`${field} is ${describeValue(value)}; allowed is ${allowed}`);
 }
 
 /** Replaces the field at the start of an error's message (`path`, by default `name`) by `name`. */
@@ -10,7 +10,7 @@ export function withFieldRenamed(error: unknown, name: string, path: string = na
   return error;
 }
 
-function describe(value: unknown) {
+function describeValue(value: unknown) {
   if (typeof value === 'string') return JSON.stringify(shorten(value));
   if (typeof value === 'object' && value !== null) return Array.isArray(value) ? 'an array' : 'an object';
   return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
@@ -23,7 +23,7 @@ function shorten(text: string) {
 }
 
 /** Returns an object after a check of its keys; `checkFirst` runs before it. */
-export function asObject(field: string, value: unknown, keys: readonly string[], checkFirst?: (value: Record<string, unknown>) => void) {
+export function checkedObject(field: string, value: unknown, keys: readonly string[], checkFirst?: (value: Record<string, unknown>) => void) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
     throw refusalError(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
   }
@@ -42,14 +42,14 @@ export function checkedWord<Word extends string>(field: string, value: unknown, 
   throw refusalError(field, value, allowed.map((word) => JSON.stringify(word)).join(' or '), ErrorClass);
 }
 
-export function numberWithin(field: string, value: unknown, min: number, max: number, isWhole = false) {
+export function checkedNumber(field: string, value: unknown, min: number, max: number, isWhole = false) {
   const allowed = `${isWhole ? 'a whole number from ' : ''}${min} to ${max}`;
   if (typeof value !== 'number') throw refusalError(field, value, allowed, TypeError);
   if (!(value >= min && value <= max) || (isWhole && !Number.isInteger(value))) throw refusalError(field, value, allowed);
   return value;
 }
 
-export const wholeNumber = (field: string, value: unknown, min: number, max: number) => numberWithin(field, value, min, max, true);
+export const checkedInteger = (field: string, value: unknown, min: number, max: number) => checkedNumber(field, value, min, max, true);
 
 /** Returns the allowed names that the array contains, in the order of `allowed`. */
 export function checkedSubset(field: string, value: unknown, allowed: readonly string[]): string[] {
@@ -59,8 +59,8 @@ export function checkedSubset(field: string, value: unknown, allowed: readonly s
 }
 
 /** Returns true if `present` has all fields of `given` with the same values. Objects are compared deeply. */
-export function includesFields(present: any, given: any): boolean {
-  if (Object.is(present, given)) return true;
-  if (typeof present !== 'object' || typeof given !== 'object' || !present || !given || present.length !== given.length) return false;
-  return Object.keys(given).every((key) => Object.hasOwn(present, key) && includesFields(present[key], given[key]));
+export function includesFields(present: any, fields: any): boolean {
+  if (Object.is(present, fields)) return true;
+  if (typeof present !== 'object' || typeof fields !== 'object' || !present || !fields || present.length !== fields.length) return false;
+  return Object.keys(fields).every((key) => Object.hasOwn(present, key) && includesFields(present[key], fields[key]));
 }

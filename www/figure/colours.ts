@@ -1,4 +1,4 @@
-/** Colours of a figure, which follow the page around it, its own theme, or paper in print. */
+/** Colours of a figure: those of the page around it, those of its own theme, or light ones in print. */
 
 import { colourChannels, resolvePalette, type Palette } from '../ui/theme.ts';
 import { FigureController } from './controller.ts';
@@ -25,16 +25,16 @@ export class Colours extends FigureController {
     this.host.renderer.requestFrame();
   }
 
-  /** Uses the colours of the surroundings, or the figure's own colours if its theme differs from the scheme around it. Paper is light. */
+  /** Uses the colours of the page, or the figure's own colours if its theme differs from the page's. In print the theme is light. */
   resolve() {
     const style = this.#find('.surface')?.style;
     if (!style) return;
-    const { renderer: { printing }, theme } = this.host;
-    const { scheme, ...pageColours } = surroundings(this.#find('.scheme-probe'));
+    const { renderer: { isPrinting }, theme } = this.host;
+    const { scheme, ...pageColours } = readPageColours(this.#find('.scheme-probe'));
     // Forced colours override the theme.
     const isAuto = theme === 'auto' || matchMedia('(forced-colors: active)').matches;
-    style.colorScheme = printing ? 'light' : isAuto ? scheme : theme;
-    const isOwnTheme = printing || style.colorScheme !== scheme;
+    style.colorScheme = isPrinting ? 'light' : isAuto ? scheme : theme;
+    const isOwnTheme = isPrinting || style.colorScheme !== scheme;
     for (const [name, colour] of Object.entries(pageColours)) style.setProperty(`--${name}`, isOwnTheme ? '' : colour);
     style.setProperty('--back', isOwnTheme ? 'var(--paper)' : '');
     // Colours that the page sets for its background do not fit the figure's own.
@@ -51,7 +51,7 @@ export class Colours extends FigureController {
  * Colours around a figure. `shade` is the amount by which colours are darkened for this background. `strength` is the share of the text
  * colour in muted text. An empty `text` keeps the figure's own colour.
  */
-type Surroundings = { ground: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' };
+type PageColours = { ground: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' };
 
 /** Background assumed on a page that has light text, but neither a background nor a `color-scheme`. */
 const DARK_BACKGROUND = '#121212';
@@ -70,8 +70,8 @@ function ancestors(node: Node): Element[] {
   return elements;
 }
 
-/** Returns the surroundings. They are dark if the background is darker than legible text, or than medium grey if the text is not legible. */
-function surroundings(probe: Element): Surroundings {
+/** Reads the colours around a figure. The scheme is dark if the background is darker than legible text, or than medium grey if the text is not legible. */
+function readPageColours(probe: Element): PageColours {
   const { color, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
   const textColour = colourChannels(color);
   const isDarkByDefault = colorScheme === 'normal' && lightness(textColour) > 0.5;
@@ -88,9 +88,9 @@ function surroundings(probe: Element): Surroundings {
 }
 
 /** Returns the contrast by WCAG 2. */
-function contrast(one: number[], other: number[]) {
+function contrast(first: number[], second: number[]) {
   const linearChannel = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
-  const [low, high] = [one, other].map((colour) => lightness(colour.map((channel) => 255 * linearChannel(channel)))).sort((a, b) => a - b);
+  const [low, high] = [first, second].map((colour) => lightness(colour.map((channel) => 255 * linearChannel(channel)))).sort((a, b) => a - b);
   return (high + 0.05) / (low + 0.05);
 }
 

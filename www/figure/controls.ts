@@ -13,7 +13,7 @@ import type { Figure } from './figure.ts';
 
 /** Appearance of a numeric setting. */
 export interface SliderSpec {
-  /** Symbol of the book, in the markup of messages. */
+  /** Mathematical symbol, in the markup of messages: see formatMarkup. */
   symbol?: string;
   role: 'prior' | 'prediction' | 'truth';
   /** Minimum of the slider, within the allowed values. */
@@ -30,20 +30,20 @@ export interface SliderSpec {
 /** Range and type of the values that can be typed. */
 type AllowedNumbers = Pick<Declaration, 'type' | 'unit'> & { min: number, max: number };
 
-/** Fields of a slider's row. `maxEntered` is an upper limit below that of the declaration. */
-export type Row = Partial<SliderRow> & { maxEntered?: number };
+/** Overrides of a slider row. `maxEntered` is a maximum of typed values, below that of the declaration. */
+export type RowOverrides = Partial<SliderRow> & { maxEntered?: number };
 
 /** Returns the slider of a setting; `overrides` replaces fields of its slider row. */
-export function settingSlider(figure: Figure, key: string, overrides?: Row) {
+export function settingSlider(figure: Figure, key: string, overrides?: RowOverrides) {
   const { sliderSpecs, attributes } = figure.definition;
-  const { symbol, decimals, value, ...look } = sliderSpecs[key];
+  const { symbol, decimals, value, ...sliderLook } = sliderSpecs[key];
   const { name, effect } = wordsFor(figure, key);
   const declaration = declarationOf(figure, key);
   const { unit } = declaration;
   const config = figure.settings.requested;
   const setting = attributes[key];
   return editableSlider(figure, symbol ?? name, declaration, {
-    ...look,
+    ...sliderLook,
     id: key,
     symbol: symbol && formatMarkup(symbol),
     name: formatMarkup(name),
@@ -57,7 +57,7 @@ export function settingSlider(figure: Figure, key: string, overrides?: Row) {
 }
 
 /** Returns a slider whose value can also be typed, within an allowed range. */
-export function editableSlider(figure: Figure, symbol: string, { min, max: declaredMax, type, unit }: AllowedNumbers, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'forget'> & { maxEntered?: number }) {
+export function editableSlider(figure: Figure, symbol: string, { min, max: declaredMax, type, unit }: AllowedNumbers, row: Omit<SliderRow, 'keys' | 'type' | 'refusal' | 'clearRefusal'> & { maxEntered?: number }) {
   const max = row.maxEntered ?? declaredMax;
   const isInteger = type === 'whole';
   // At an end of the slider, a text says that values beyond it can be typed.
@@ -74,7 +74,7 @@ export function editableSlider(figure: Figure, symbol: string, { min, max: decla
       return row.show(enteredNumber);
     },
     refusal: figure.settings.refusalOf(row.id),
-    forget: () => figure.settings.forgetRefusal(),
+    clearRefusal: () => figure.settings.forgetRefusal(),
   });
 }
 
@@ -92,7 +92,7 @@ function parseEntered({ settings }: Figure, key: string, name: string, text: str
 
 /** Returns a picture's canvas, on which the pointer selects samples. `Canvases` sets its size. */
 export function canvas(figure: Figure, picture: import('../scene/picture.ts').Picture<any>, description: string) {
-  const selectAtPointer = (event: PointerEvent) => figure.cloud?.point(picture, event);
+  const selectAtPointer = (event: PointerEvent) => figure.cloud?.selectAtPointer(picture, event);
   return html`<canvas
     width="0"
     class=${picture.name}
@@ -114,23 +114,23 @@ export const radios = (figure: Figure, key: string, labels: Record<string, strin
 export const settingCheckbox = (figure: Figure, key: string, label: unknown) =>
   toggle({ label, checked: figure.settings.requested[key], change: (on) => figure.gesture.decide({ [key]: on }) });
 
-interface Disclosures {
+interface DisclosureOptions {
   controls: () => unknown;
   /** Tables and charts. */
   numbers: () => unknown;
   /** Part of the names of exported files. */
-  mark?: string | number;
+  fileNameMark?: string | number;
   /** Description of a CSV file that has no samples. */
   csvTitle?: string;
 }
 
-/** Returns the two disclosures below a figure, and the buttons that copy a link and present the figure. */
-export function disclosures(figure: Figure, { controls, numbers, mark = figure.reading.config.seed, csvTitle }: Disclosures) {
+/** Returns the two disclosures below a figure, the button that copies a link, and the button that starts the presentation. */
+export function disclosures(figure: Figure, { controls, numbers, fileNameMark = figure.reading.config.seed, csvTitle }: DisclosureOptions) {
   return html`<div class="folds">
     ${disclosure(words.moreControls, controls, 'more')}
-    ${disclosure(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, mark, csvTitle)} ${figure.copies.codeButton()}`, 'numbers')}
-    ${figure.copies.answer('link')}
-    <div class="begin">${figure.copies.linkButton()} ${figure.presenting.button()}</div>
+    ${disclosure(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, fileNameMark, csvTitle)} ${figure.copyMenu.codeButton()}`, 'numbers')}
+    ${figure.copyMenu.messageHtml('link')}
+    <div class="begin">${figure.copyMenu.linkButton()} ${figure.presenting.button()}</div>
   </div>
   <p class="on-paper">${noiseParameters(figure)}</p>`;
 }
@@ -224,7 +224,7 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
         max=${Math.max(1, shown)}
         placeholder=${shown === 0 ? '' : `1–${integer(shown)}`}
         ?disabled=${shown === 0}
-        .value=${refusalText ? noChange : live(cloud.index < 0 ? '' : String(cloud.index + 1))}
+        .value=${refusalText ? noChange : live(cloud.selectedIndex < 0 ? '' : String(cloud.selectedIndex + 1))}
         @input=${enterIndex}
         @blur=${() => settings.forgetRefusal()}
       />
@@ -241,7 +241,7 @@ function requestValue(figure: Figure, key: string, value: unknown) {
 
 /** Returns the declaration of a numeric setting. */
 const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumbers =>
-  figure.definition.declared.find((setting) => setting.key === key) as any;
+  figure.definition.declarations.find((setting) => setting.key === key) as any;
 
 /** Returns the name of a setting, and its effect, if it has one. */
 function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {

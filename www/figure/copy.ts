@@ -1,7 +1,7 @@
 /** Buttons that copy texts, such as a link to the figure or its HTML. */
 
 import { html, nothing } from 'lit';
-import { address, classic } from '../address.ts';
+import { address, isClassic } from '../address.ts';
 import { words } from '../messages/registry.ts';
 import { escapeXml } from '../scene/svg.ts';
 import { button } from '../ui/controls.ts';
@@ -9,17 +9,17 @@ import { FigureController } from './controller.ts';
 
 /** Buttons that copy a text. Each has a message, or shows the text if the clipboard cannot be used. */
 export class CopyMenu extends FigureController {
-  #lastCopy: { kind: string, text: string, done?: boolean, note: string } | undefined;
+  #lastCopy: { kind: string, text: string, isCopied?: boolean, note: string } | undefined;
 
   async #copyText(kind: string, text: string, note: string) {
     // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
     const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
-    this.#lastCopy = { kind, text, done: isCopied, note };
+    this.#lastCopy = { kind, text, isCopied, note };
     this.host.requestUpdate();
   }
 
   /** Clears the message. */
-  forget() {
+  clearMessage() {
     this.#lastCopy = undefined;
     this.host.requestUpdate();
   }
@@ -30,29 +30,29 @@ export class CopyMenu extends FigureController {
   }
 
   linkButton() {
-    const say = words.copies;
-    return this.button('link', say.link, () => this.host.shareLink(), { title: say.linkTitle }, () => this.host.exportData.linkNote);
+    const copyWords = words.copies;
+    return this.button('link', copyWords.link, () => this.host.shareLink(), { title: copyWords.linkTitle }, () => this.host.exportData.linkNote);
   }
 
   /** Returns the button that copies the HTML, with its message. */
   codeButton() {
-    const say = words.copies;
+    const copyWords = words.copies;
     return html`<fieldset class="copies" part="copies">
-      <legend>${say.label}</legend>
+      <legend>${copyWords.label}</legend>
       <div class="buttons">
-        ${this.button('code', say.code, () => this.host.embedCode(), { title: say.codeTitle }, () => this.host.exportData.codeNote)}
+        ${this.button('code', copyWords.code, () => this.host.embedCode(), { title: copyWords.codeTitle }, () => this.host.exportData.codeNote)}
       </div>
-      ${this.answer('code')}
+      ${this.messageHtml('code')}
     </fieldset>`;
   }
 
   /** Returns the message of a button, unless its text has changed since. */
-  answer(kind: string, text?: string) {
-    const say = words.copies;
+  messageHtml(kind: string, text?: string) {
+    const copyWords = words.copies;
     const copied = this.#lastCopy?.kind === kind && this.#lastCopy.text === (text ?? this.#lastCopy.text) ? this.#lastCopy : undefined;
-    return html`<output class="copied">${copied ? `${copied.done ? say.done : say.byHand} ${copied.note}` : nothing}</output>
-      ${copied && !copied.done
-        ? html`<textarea readonly rows="3" aria-label=${say.byHand} .value=${copied.text}></textarea>`
+    return html`<output class="copied">${copied ? `${copied.isCopied ? copyWords.done : copyWords.byHand} ${copied.note}` : nothing}</output>
+      ${copied && !copied.isCopied
+        ? html`<textarea readonly rows="3" aria-label=${copyWords.byHand} .value=${copied.text}></textarea>`
         : nothing}`;
   }
 }
@@ -66,7 +66,7 @@ export function embeddingHtml(figure: import('./figure.ts').Figure) {
   const stateAttributes = figure.machine ? figure.reflection.nonDefaultAttributes() : [];
   // Addresses of local files and inline scripts do not work on other pages.
   const isWebAddress = /^https?:/.test(address);
-  const scriptType = (isWebAddress && classic ? ['defer', ''] : ['type', 'module']) as [string, string];
+  const scriptType = (isWebAddress && isClassic ? ['defer', ''] : ['type', 'module']) as [string, string];
   const scriptTag = tagHtml('script', [scriptType, ['src', isWebAddress ? address : PUBLISHED_SCRIPT]]);
   return `${scriptTag}\n${tagHtml(figure.localName, [...pageAttributes.filter(([, text]) => text !== ''), ...stateAttributes])}\n`;
 }

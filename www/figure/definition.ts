@@ -2,16 +2,16 @@
 
 import { presets, settings, type Declaration } from '../settings.js';
 import { NUMBER_CONVERTER, WORD_LIST_CONVERTER, selectAttributes, fieldProperty, presetPropertyOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
-import { numberWithin, checkedSubset, wholeNumber, checkedWord } from './checks.ts';
+import { checkedNumber, checkedSubset, checkedInteger, checkedWord } from './checks.ts';
 import type { SliderSpec } from './controls.ts';
 import type { LineStyle } from '../scene/draw.ts';
 
-/** Field of the state that the machine does not have. */
+/** Field of the state that the element keeps, because the machine does not have it. */
 export interface ElementField extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {
   /** Default. */
   opening: unknown;
   /** True if a preset sets the field to its default. */
-  ofPreset?: true;
+  isResetByPreset?: true;
   /** True if the field is a property, but not an attribute. */
   isProperty?: true;
   /** Returns a value after a check; throws if it is invalid. An attribute is checked by its words or its range. */
@@ -22,18 +22,18 @@ export interface Definition {
   tag: string;
   /** Key of the widget's words in the catalogues. */
   messageKey: string;
-  declared: Declaration[];
+  declarations: Declaration[];
   properties: Properties;
   /** Properties that are also attributes. */
   attributes: Record<string, Attribute>;
-  /** State of the element that the machine does not have. */
+  /** Fields of the state that the element keeps, because the machine does not have them. */
   elementFields: Record<string, ElementField>;
   /** Appearance of the settings that have a slider. */
   sliderSpecs: Record<string, SliderSpec>;
   dependentDefaults?: (config: Config) => Config;
 }
 
-interface Options extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {
+interface DefinitionOptions extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {
   /** Styles of the lines and marks in the pictures. The keys are the words of the attribute `overlays`. */
   lines: Record<string, LineStyle>;
   /** Lines that are drawn by default. */
@@ -44,36 +44,36 @@ interface Options extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'depen
   elementFields?: Record<string, ElementField>;
 }
 
-/** State of an element with samples. */
-const cloudState: Record<string, ElementField> = {
+/** Fields of the state of every element with samples. */
+const cloudFields: Record<string, ElementField> = {
   marked: {
     opening: null,
     isProperty: true,
-    check: (field, marked, selectableCount) => (marked === null ? null : wholeNumber(field, marked, 0, selectableCount - 1)),
+    check: (field, marked, selectableCount) => (marked === null ? null : checkedInteger(field, marked, 0, selectableCount - 1)),
   },
 };
 
-export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, elementFields: widgetFields, ...parts }: Options): Definition {
-  const declared = settings[tag];
+export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, elementFields: widgetFields, ...otherOptions }: DefinitionOptions): Definition {
+  const declarations = settings[tag];
   const widgetPresets = presets[tag as keyof typeof presets];
   const elementFields: Record<string, ElementField> = {
-    ...(declared.some(({ key }) => key === 'samples') && cloudState),
+    ...(declarations.some(({ key }) => key === 'samples') && cloudFields),
     ...widgetFields,
     overlays: { converter: WORD_LIST_CONVERTER, words: Object.keys(lines), opening },
   };
   const properties: Properties = {
-    ...(widgetPresets.length > 0 && { preset: preset ?? presetPropertyOf(widgetPresets, declared) }),
-    ...propertiesOf(declared),
+    ...(widgetPresets.length > 0 && { preset: preset ?? presetPropertyOf(widgetPresets, declarations) }),
+    ...propertiesOf(declarations),
   };
   for (const [key, { converter, isProperty, words, min, max }] of Object.entries(elementFields)) {
     if (converter || isProperty) properties[key] = { ...fieldProperty(key, converter), words, min, max };
   }
-  return { ...parts, tag, declared, properties, attributes: selectAttributes(properties), elementFields };
+  return { ...otherOptions, tag, declarations, properties, attributes: selectAttributes(properties), elementFields };
 }
 
 /** Returns a value for a field of the state of the element after a check; throws a TypeError or RangeError if it is invalid. */
 export function validatedValue({ converter, words = [], min = -Infinity, max = Infinity, check }: ElementField, field: string, value: unknown, selectableCount: number) {
   if (check) return check(field, value, selectableCount);
-  if (converter === NUMBER_CONVERTER) return numberWithin(field, value, min, max);
+  if (converter === NUMBER_CONVERTER) return checkedNumber(field, value, min, max);
   return converter === WORD_LIST_CONVERTER ? checkedSubset(field, value, words) : checkedWord(field, value, words);
 }

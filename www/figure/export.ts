@@ -30,13 +30,13 @@ const PNG_RATIO = 2;
 const DEFAULT_SIZE = { width: 720, height: 432 };
 
 /** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. Returns the size in pixels and the view. */
-function drawScene({ scene, pictures: [first], exportPicture, canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
-  const picture = exportPicture ?? first;
-  const canvas = canvases.canvasOf(first);
+function drawScene({ scene, pictures: [firstPicture], exportPicture, canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
+  const picture = exportPicture ?? firstPicture;
+  const canvas = canvases.canvasOf(firstPicture);
   const canvasBox = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : DEFAULT_SIZE;
   const [clientWidth, height] = exportPicture ? cssSizeOf(exportPicture.size, canvas) : [canvasBox.width, canvasBox.height];
   const pxSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
-  const surface = { ...pxSize, clientWidth, letters: getComputedStyle(canvas), context: contextOf(pxSize) as CanvasRenderingContext2D };
+  const surface = { ...pxSize, clientWidth, fontStyle: getComputedStyle(canvas), context: contextOf(pxSize) as CanvasRenderingContext2D };
   picture.draw(surface, scene, colours.palette, { still: true, atOnce: true, exported: true });
   return { view: picture.view, ...pxSize };
 }
@@ -86,24 +86,24 @@ export function csvOf(element: Figure) {
 }
 
 /** Downloads a file. */
-export function save(name: string, blob: Blob) {
+export function downloadFile(name: string, blob: Blob) {
   const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
   link.click();
   // The address is released after a minute, when the download has started.
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-/** Returns the buttons that save the figure; `mark` distinguishes file names of states. */
-export function exportButtons(element: Figure, mark: string | number, csvTitle: string = words.exports.csvTitle) {
-  const say = words.exports;
-  const baseName = `${element.localName}-${mark}`;
-  const saveText = (ending: string, type: string, content: string) => save(`${baseName}.${ending}`, new Blob([content], { type }));
+/** Returns the buttons that save the figure. `fileNameMark` is part of the file names, so that files of different states differ in name. */
+export function exportButtons(element: Figure, fileNameMark: string | number, csvTitle: string = words.exports.csvTitle) {
+  const exportWords = words.exports;
+  const baseName = `${element.localName}-${fileNameMark}`;
+  const saveText = (ending: string, type: string, content: string) => downloadFile(`${baseName}.${ending}`, new Blob([content], { type }));
   return html`<fieldset class="exports" part="exports">
-    <legend>${say.label}</legend>
+    <legend>${exportWords.label}</legend>
     <div class="buttons">
-      ${button(say.png, () => element.toPNG().then((blob) => save(`${baseName}.png`, blob), (error) => element.runtime.report(error)), { title: say.pngTitle })}
-      ${button(say.svg, () => saveText('svg', 'image/svg+xml', element.toSVG()), { title: say.svgTitle })}
-      ${button(say.csv, () => saveText('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
+      ${button(exportWords.png, () => element.toPNG().then((blob) => downloadFile(`${baseName}.png`, blob), (error) => element.runtime.report(error)), { title: exportWords.pngTitle })}
+      ${button(exportWords.svg, () => saveText('svg', 'image/svg+xml', element.toSVG()), { title: exportWords.svgTitle })}
+      ${button(exportWords.csv, () => saveText('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
     </div>
   </fieldset>`;
 }

@@ -83,11 +83,11 @@ addEnglish(en);
 export abstract class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, Reading extends { config: Values, stats: object }> extends LitElement {
   static definition: import('./definition.ts').Definition;
 
-  /** Adds the styles that all figures have before those of a widget. */
-  static finalizeStyles(own: CSSResultGroup = []) {
-    // Lit asks the base class too, which has no definition.
+  /** Puts the styles of all figures before those of the widget. */
+  static finalizeStyles(widgetStyles: CSSResultGroup = []) {
+    // Lit also calls this method on the base class, which has no definition.
     const reservedStyles = this.definition ? reservedHeight(this.definition.tag) : [];
-    return super.finalizeStyles([theme, presentationStyles, noticeStyles, reservedStyles, ...layoutStyles, plotStyles, own]);
+    return super.finalizeStyles([theme, presentationStyles, noticeStyles, reservedStyles, ...layoutStyles, plotStyles, widgetStyles]);
   }
 
   /** Colours: light, dark, or auto for those of the surroundings. */
@@ -112,7 +112,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   link = new Link(this);
   announcer = new Announcer();
   notice = new Notice(this);
-  copies = new CopyMenu(this);
+  copyMenu = new CopyMenu(this);
   focusing = new Focus(this);
   presenting = new Presentation(this);
   textHeights = new TextHeights(this);
@@ -121,7 +121,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */
   player: { advance(elapsed: number): boolean, stop(): void } | undefined;
   /** Handlers for dragged files, if the figure accepts files. */
-  dropped: { enter?: () => void } & Record<'over' | 'leave' | 'drop', (event: DragEvent) => void> | undefined;
+  dropHandlers: { enter?: () => void } & Record<'over' | 'leave' | 'drop', (event: DragEvent) => void> | undefined;
   /** Pictures on the canvases. The first is exported, unless `exportPicture` has a picture for that. */
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
   /** Picture for export, with its own size. */
@@ -130,8 +130,8 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   reading: Reading = undefined as any;
   #highlight: string | null = null;
   /** Functions that resolve the promises of `settled`. */
-  #waiting: (() => void)[] = [];
-  #updating: boolean | undefined;
+  #settledResolvers: (() => void)[] = [];
+  #isUpdating: boolean | undefined;
 
   get definition() {
     return (this.constructor as typeof FigureElement).definition;
@@ -192,7 +192,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
     useLanguageOf(this);
     this.cloud?.unmark();
     this.reading = this.read(machine);
-    this.settings.stale = false;
+    this.settings.isStale = false;
     this.finishChange();
     this.dispatchEvent(new CustomEvent('stats', { detail: this.reading.stats, bubbles: true, composed: true }));
   }
@@ -200,7 +200,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   /** Stores the state, and announces the outcome of a change unless the cloud is still growing. */
   finishChange() {
     if (this.cloud?.isSettled ?? true) this.announcer.setOutcome(() => this.announcement(this.reading));
-    this.state.keep();
+    this.state.storeState();
   }
 
   /** Reading of the machine after all pending changes are applied. */
@@ -208,12 +208,12 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
     if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
     useLanguageOf(this);
     this.settings.applyPending();
-    if (this.settings.stale) this.refresh();
+    if (this.settings.isStale) this.refresh();
     return this.reading;
   }
 
   /** Returns the answer of the machine to a question, after all pending changes; null without a machine. */
-  ask<Answer>(question: (machine: Machine) => Answer): Answer | null {
+  queryMachine<Answer>(question: (machine: Machine) => Answer): Answer | null {
     return this.runtime.attempt(() => {
       this.settings.applyPending();
       return this.machine && question(this.machine);
@@ -227,7 +227,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
    * @public
    */
   get stats(): Machine['stats'] | null {
-    return this.ask((machine) => machine.stats);
+    return this.queryMachine((machine) => machine.stats);
   }
 
   /**
@@ -237,7 +237,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
    */
   get settled(): Promise<void> {
     return new Promise((resolve) => {
-      this.#waiting.push(resolve);
+      this.#settledResolvers.push(resolve);
       if (this.isConnected) void this.runtime.start();
       this.renderer.requestFrame();
     });
@@ -250,7 +250,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
 
   /** True if a promise of `settled` is pending. */
   get isAwaited() {
-    return this.#waiting.length > 0;
+    return this.#settledResolvers.length > 0;
   }
 
   /** Resolves `settled` if the figure is settled or cannot run. */
@@ -258,7 +258,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
     if (!this.isAwaited) return;
     const { machine, cloud, settings, runtime, renderer } = this;
     const isSettled = machine ? !this.isBusy && !settings.isWaiting && !renderer.isBehind && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
-    if (isSettled) for (const resolve of this.#waiting.splice(0)) resolve();
+    if (isSettled) for (const resolve of this.#settledResolvers.splice(0)) resolve();
   }
 
   /**
@@ -280,7 +280,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
    * @public
    */
   getState(): Values | null {
-    return structuredClone(this.ask(() => this.snapshot()) ?? this.state.kept ?? null);
+    return structuredClone(this.queryMachine(() => this.snapshot()) ?? this.state.lastValidState ?? null);
   }
 
   /**
@@ -290,7 +290,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
    * @public
    */
   setState(state: Partial<Values> & FigureState) {
-    this.reflection.whenReady(() => this.state.enter(state));
+    this.reflection.whenReady(() => this.state.applyState(state));
   }
 
   /**
@@ -348,20 +348,20 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
     return [...super.observedAttributes, ...Object.keys({ ...this.definition?.attributes, ...COMMON_ATTRS }).map((k) => k.toLowerCase())];
   }
 
-  attributeChangedCallback(name: string, old: string | null, text: string | null) {
-    super.attributeChangedCallback(name, old, text);
-    if (old === text) return;
+  attributeChangedCallback(name: string, oldText: string | null, text: string | null) {
+    super.attributeChangedCallback(name, oldText, text);
+    if (oldText === text) return;
     this.reflection.attributeChanged(name, text);
     if (!(name in COMMON_ATTRS)) return;
     this.requestUpdate();
-    this.presenting.follow();
+    this.presenting.matchAttribute();
     this.colours.update();
   }
 
   /** Postpones a request that comes during an update, which LitElement would lose. */
   requestUpdate(...change: Parameters<LitElement['requestUpdate']>) {
     // LitElement requests the first update before the fields exist.
-    if (#updating in this && this.#updating) this.updateComplete.then(() => this.requestUpdate());
+    if (#isUpdating in this && this.#isUpdating) this.updateComplete.then(() => this.requestUpdate());
     else super.requestUpdate(...change);
   }
 
@@ -381,7 +381,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
       super.update(changed);
       return this;
     };
-    this.#updating = true;
+    this.#isUpdating = true;
     try {
       // After a trap the previous content stays. After a failure the message is rendered.
       if (!this.runtime.attemptOrFail(renderContent)) renderContent();
@@ -390,7 +390,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
       this.shouldUpdate = () => false;
       this.renderRoot.textContent = words.failure(this.runtime.failure ?? '');
     } finally {
-      this.#updating = false;
+      this.#isUpdating = false;
     }
   }
 

@@ -7,7 +7,7 @@ import type { Figure } from './figure.ts';
 const FOCUSABLE = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
 function focusableIn(root: ParentNode): HTMLElement[] {
-  return ([...root.querySelectorAll(FOCUSABLE)] as HTMLElement[]).filter((stop) => stop.checkVisibility());
+  return ([...root.querySelectorAll(FOCUSABLE)] as HTMLElement[]).filter((element) => element.checkVisibility());
 }
 
 export class Focus extends FigureController {
@@ -23,8 +23,8 @@ export class Focus extends FigureController {
   }
 
   hostUpdated() {
-    const [heldControl, ...ancestors] = this.#focusPath;
-    if (!heldControl || (heldControl.isConnected && heldControl.checkVisibility() && !heldControl.matches(':disabled'))) return;
+    const [previousControl, ...ancestors] = this.#focusPath;
+    if (!previousControl || (previousControl.isConnected && previousControl.checkVisibility() && !previousControl.matches(':disabled'))) return;
     for (const ancestor of ancestors) {
       const [nextControl] = ancestor.isConnected ? focusableIn(ancestor) : [];
       if (!nextControl) continue;
@@ -38,7 +38,7 @@ export class Focus extends FigureController {
 export async function moveFocusInto(figure: Figure, origin: EventTarget | null) {
   await figure.runtime.start();
   // Waits for the controls, which are rendered after the first picture.
-  while (figure.renderer.opening) await new Promise(requestAnimationFrame);
+  while (figure.renderer.isOpening) await new Promise(requestAnimationFrame);
   await figure.updateComplete;
   // After the removal of the focused placeholder, the focus is on the body unless the user has moved it.
   if (!figure.machine || document.activeElement !== document.body) return;

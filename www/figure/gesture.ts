@@ -14,7 +14,7 @@ export class Gesture extends FigureController {
   previousReading: any;
 
   /** True while a pointer is down on the figure. Pictures with handles keep their scale meanwhile. */
-  get pressed() {
+  get isPressed() {
     return this.#pressListeners !== undefined;
   }
 
@@ -54,7 +54,7 @@ export class Gesture extends FigureController {
     host.runtime.attempt(() => host.settings.applyPending());
     host.announcer.announceNext();
     this.#finish();
-    if (host.settings.stale) host.renderer.requestFrame();
+    if (host.settings.isStale) host.renderer.requestFrame();
     else if (host.machine) {
       host.finishChange();
       host.requestUpdate();

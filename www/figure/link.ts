@@ -18,7 +18,7 @@ export class Link extends FigureController {
   lacksMap = false;
   /** True if programs other than browsers may cut off the latest address with the user's map. */
   isLong = false;
-  /** Tokens of the latest read and write of the address. Results of earlier reads and writes are dropped. */
+  /** Tokens of the latest read and the latest write of the address. Results of earlier ones are dropped. */
   #latestRead = {};
   #latestWrite = {};
 
@@ -50,7 +50,7 @@ export class Link extends FigureController {
 
   /** Reads the initial state from the address, before the first machine is created. */
   async prepare() {
-    if (!this.host.state.kept) await this.#applyAddress();
+    if (!this.host.state.lastValidState) await this.#applyAddress();
   }
 
   /** Applies the state in the page's address, if any, now or as soon as there is a machine. */
@@ -109,12 +109,12 @@ function keyOf(element: Element): string {
 }
 
 /** Returns the page's address with a figure's part added or replaced, or moved to the beginning if `first` is true. */
-function addressWith(key: string, text: string, first: boolean = false): string {
+function addressWith(key: string, text: string, isFirst: boolean = false): string {
   const part = `${key}=${text}`;
   const allParts = fragmentParts();
   const partIndex = allParts.findIndex((fragmentPart) => fragmentPart.startsWith(`${key}=`));
   const otherParts = allParts.filter((_, i) => i !== partIndex);
-  const nextParts = first ? [part, ...otherParts] : partIndex < 0 ? [...allParts, part] : allParts.with(partIndex, part);
+  const nextParts = isFirst ? [part, ...otherParts] : partIndex < 0 ? [...allParts, part] : allParts.with(partIndex, part);
   // The address is complete, because a base element would change a relative one.
   return `${location.href.replace(/#.*/, '')}#${nextParts.join('&')}`;
 }

@@ -1,4 +1,4 @@
-/** Notice over the lower edge of the figure or the window, which moves no content: a sentence, or long work with a button that stops it. */
+/** Notice over the lower edge of the figure or the window: a sentence, or the progress of long work with a button that stops it. It moves no content. */
 
 import { css, html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
@@ -69,7 +69,7 @@ export class Notice extends FigureController {
   }
 
   /** Shows work that takes long, until it ends. `stop` is called if the user stops it. */
-  async during(work: Promise<unknown>, stop: () => void) {
+  async showDuring(work: Promise<unknown>, stop: () => void) {
     const { host } = this;
     const workEnded = new AbortController();
     const showWork = () => {

@@ -5,8 +5,8 @@ import { words } from '../messages/registry.ts';
 import { formatMarkup, toggle } from '../ui/controls.ts';
 import type { LineStyle } from '../scene/draw.ts';
 
-/** Returns the legend of a figure's pictures, with names from the catalogue. `notes` explain missing lines. Entries of `more` have no toggle. */
-export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}, more: unknown = nothing) {
+/** Returns the legend of a figure's pictures, with names from the catalogue. `notes` explain missing lines. `extraEntries` have no toggle. */
+export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}, extraEntries: unknown = nothing) {
   const { overlays } = figure.state.elementState;
   const { overlays: names } = (words as any)[figure.definition.messageKey];
   const styleNames = Object.keys(styles);
@@ -22,7 +22,7 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
         change: (shown) => setShown(name, shown),
       })}
     </span>`)}
-    ${more}
+    ${extraEntries}
   </div>`;
 }
 

@@ -39,6 +39,6 @@ export function toBase64(bytes: Uint8Array & { toBase64?: () => string }) {
 
 /** Returns the bytes; throws a DOMException or SyntaxError for other text. */
 export function fromBase64(text: string) {
-  const { fromBase64: native } = Uint8Array as { fromBase64?: (text: string) => Uint8Array<ArrayBuffer> };
-  return native ? native.call(Uint8Array, text) : Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const { fromBase64: nativeFromBase64 } = Uint8Array as { fromBase64?: (text: string) => Uint8Array<ArrayBuffer> };
+  return nativeFromBase64 ? nativeFromBase64.call(Uint8Array, text) : Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
 }

@@ -13,14 +13,14 @@ const RESTORE_KEY = '0';
 
 export class Presentation extends FigureController {
   /** True while the controls are shown. */
-  #controls = false;
+  #hasControls = false;
   /** State at the beginning; undefined if the figure opened in a presentation. */
   #stateAtBegin: import('./settings.ts').Values | undefined;
   /** Stops listening to keys; undefined while the figure is not presented. */
-  #listening: AbortController | undefined;
+  #keyListeners: AbortController | undefined;
 
   hostConnected() {
-    this.follow();
+    this.matchAttribute();
     // The browser ends full screen by its own keys.
     this.host.addEventListener('fullscreenchange', this.#fullScreenChanged);
   }
@@ -30,9 +30,9 @@ export class Presentation extends FigureController {
   }
 
   /** Begins or ends the presentation to match the attribute. */
-  follow() {
+  matchAttribute() {
     const { host } = this;
-    if (!host.isConnected || host.presentation === (this.#listening !== undefined)) return;
+    if (!host.isConnected || host.presentation === (this.#keyListeners !== undefined)) return;
     if (host.presentation) void this.#beginPresentation();
     else void this.#endPresentation();
   }
@@ -40,16 +40,16 @@ export class Presentation extends FigureController {
   async #beginPresentation() {
     const { host } = this;
     this.#stateAtBegin = host.machine && host.snapshot();
-    host.copies.forget();
-    this.#listening = new AbortController();
-    addEventListener('keydown', this.#onKey, { signal: this.#listening.signal });
+    host.copyMenu.clearMessage();
+    this.#keyListeners = new AbortController();
+    addEventListener('keydown', this.#onKey, { signal: this.#keyListeners.signal });
     const focusedButton = host.renderRoot?.querySelector('.to-present:focus-visible');
     await host.updateComplete;
     // A click should leave no focus ring in the presentation.
     this.#focus(focusedButton ? '.presenting button' : '.presenting');
     // Browsers allow a full screen only after a key press or a click. Some phones have no full screen.
     if (navigator.userActivation.isActive) await host.requestFullscreen?.().catch(() => {});
-    if (!this.#listening) await this.#exitFullScreen();
+    if (!this.#keyListeners) await this.#exitFullScreen();
     else if (!host.matches(':fullscreen')) {
       // A popover in the top layer fills the window even if an ancestor has a transform.
       host.popover = 'manual';
@@ -58,10 +58,10 @@ export class Presentation extends FigureController {
   }
 
   async #endPresentation() {
-    if (!this.#listening) return;
-    this.#listening.abort();
-    this.#listening = undefined;
-    this.#controls = false;
+    if (!this.#keyListeners) return;
+    this.#keyListeners.abort();
+    this.#keyListeners = undefined;
+    this.#hasControls = false;
     await this.#exitFullScreen();
     await this.host.updateComplete;
     // Focusing the button scrolls the page back to the figure.
@@ -96,27 +96,27 @@ export class Presentation extends FigureController {
   }
 
   #toggle() {
-    this.#controls = !this.#controls;
+    this.#hasControls = !this.#hasControls;
     this.host.requestUpdate();
   }
 
   get className() {
-    return this.#controls ? 'with-controls' : '';
+    return this.#hasControls ? 'with-controls' : '';
   }
 
   button() {
-    const say = words.presentation;
-    return button(say.begin, () => (this.host.presentation = true), { title: say.title, name: 'to-present' });
+    const presentationWords = words.presentation;
+    return button(presentationWords.begin, () => (this.host.presentation = true), { title: presentationWords.title, name: 'to-present' });
   }
 
   render() {
-    if (!this.#listening) return nothing;
-    const say = words.presentation;
+    if (!this.#keyListeners) return nothing;
+    const presentationWords = words.presentation;
     const keyHint = (key: string, label: string) => html`<kbd>${key}</kbd> ${label}`;
-    return html`<div class="presenting" role="group" tabindex="-1" aria-label=${say.begin}>
-      ${button(keyHint(CONTROLS_KEY.toUpperCase(), say.controls), () => this.#toggle(), { pressed: this.#controls })}
-      ${button(keyHint(RESTORE_KEY, say.back), () => this.#restoreState(), { title: say.backTitle })}
-      ${button(keyHint('Esc', say.end), () => (this.host.presentation = false))}
+    return html`<div class="presenting" role="group" tabindex="-1" aria-label=${presentationWords.begin}>
+      ${button(keyHint(CONTROLS_KEY.toUpperCase(), presentationWords.controls), () => this.#toggle(), { pressed: this.#hasControls })}
+      ${button(keyHint(RESTORE_KEY, presentationWords.back), () => this.#restoreState(), { title: presentationWords.backTitle })}
+      ${button(keyHint('Esc', presentationWords.end), () => (this.host.presentation = false))}
     </div>`;
   }
 }

@@ -24,13 +24,13 @@ export class Reflection extends FigureController {
   #isWriting = false;
   /** Attribute that is being applied; its text is not overwritten. */
   #incomingName: string | undefined;
-  /** Texts as last written. */
+  /** Attribute texts as last written. */
   #writtenTexts: AttributeTexts | undefined;
 
   /** Applies properties that were set before the element was upgraded, or that a server wrote as text. */
   hostConnected() {
     const host = this.host as unknown as Record<string, unknown>;
-    if (!this.#hasConnected) this.#takeUpLists(host);
+    if (!this.#hasConnected) this.#applyListAttributes(host);
     this.#hasConnected = true;
     for (const name of Object.keys(host)) {
       for (let prototype = Object.getPrototypeOf(host); prototype !== HTMLElement.prototype; prototype = Object.getPrototypeOf(prototype)) {
@@ -44,7 +44,7 @@ export class Reflection extends FigureController {
   }
 
   /** Reads list properties from texts such as `alphas="0.1,0.2"` or `"[0.1, 0.2]"`. The property refuses and reports any other text. */
-  #takeUpLists(host: Record<string, unknown>) {
+  #applyListAttributes(host: Record<string, unknown>) {
     for (const name of Object.keys(this.#properties)) {
       const listText = name in this.#attributes || name in this.host.state.elementState ? null : this.host.getAttribute(name);
       if (listText === null || Object.hasOwn(host, name)) continue;
@@ -61,11 +61,11 @@ export class Reflection extends FigureController {
     }
     this.#pendingAttributes.clear();
     // Properties between two states are sorted by dependency. States keep their order in time.
-    let base = 0;
+    let stateOffset = 0;
     const pending = [...this.#pendingProperties].map(([name, { apply }]) =>
-      ({ apply, when: typeof name === 'string' ? base + this.#order.indexOf(name) : (base += this.#order.length) }));
+      ({ apply, order: typeof name === 'string' ? stateOffset + this.#order.indexOf(name) : (stateOffset += this.#order.length) }));
     this.#pendingProperties.clear();
-    pending.sort((one, other) => one.when - other.when);
+    pending.sort((a, b) => a.order - b.order);
     for (const { apply } of pending) this.host.runtime.attemptOrReport(apply);
   }
 
@@ -100,7 +100,7 @@ export class Reflection extends FigureController {
     const pending = this.pendingValue(name);
     if (pending !== undefined) return pending;
     if (name in state.elementState) return structuredClone(state.elementState[name]);
-    return machine ? this.host.ask(() => this.#properties[name].get(state.config)) : undefined;
+    return machine ? this.host.queryMachine(() => this.#properties[name].get(state.config)) : undefined;
   }
 
   /** Sets a property of the definition, as `setProperty` does. */
@@ -158,7 +158,7 @@ export class Reflection extends FigureController {
   /** Default configuration. Some defaults depend on the present settings. */
   get #defaultConfig(): Config {
     const { definition, settings, state } = this.host;
-    return { ...defaultConfig(definition.declared), ...state.openings, ...definition.dependentDefaults?.(settings.requested) };
+    return { ...defaultConfig(definition.declarations), ...state.defaults, ...definition.dependentDefaults?.(settings.requested) };
   }
 
   #textsOf(config: Config): AttributeTexts {
@@ -177,10 +177,10 @@ export class Reflection extends FigureController {
     this.#writtenTexts = texts;
     if (!writtenTexts) return;
     const changedNames = new Set([...texts.keys()].filter((name) => texts.get(name) !== writtenTexts.get(name)));
-    for (const [name, { covers }] of Object.entries(this.#attributes)) {
-      if (!covers || texts.get(name) !== null || !changedNames.has(name)) continue;
+    for (const [name, { coveredAttributes }] of Object.entries(this.#attributes)) {
+      if (!coveredAttributes || texts.get(name) !== null || !changedNames.has(name)) continue;
       const defaultTexts = this.#textsOf(this.#defaultConfig);
-      for (const covered of covers) if (texts.get(covered) !== defaultTexts.get(covered)) changedNames.add(covered);
+      for (const covered of coveredAttributes) if (texts.get(covered) !== defaultTexts.get(covered)) changedNames.add(covered);
     }
     this.#isWriting = true;
     for (const name of changedNames) {
@@ -198,11 +198,11 @@ export class Reflection extends FigureController {
     const defaultTexts = this.#textsOf(this.#defaultConfig);
     const coveredNames: Set<string> = new Set();
     const attributes: [string, string][] = [];
-    for (const [name, { covers }] of Object.entries(this.#attributes)) {
+    for (const [name, { coveredAttributes }] of Object.entries(this.#attributes)) {
       const text = texts.get(name) ?? null;
       if (text === null) continue;
       if (text !== defaultTexts.get(name) && !coveredNames.has(name)) attributes.push([name, text]);
-      covers?.forEach((coveredName) => coveredNames.add(coveredName));
+      coveredAttributes?.forEach((coveredName) => coveredNames.add(coveredName));
     }
     return attributes;
   }

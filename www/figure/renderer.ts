@@ -38,9 +38,9 @@ export class Renderer extends FigureController {
   #frameRequest: number | undefined;
   /** Time of the request or, during an animation, of the previous frame. */
   #previousTime = 0;
-  printing = false;
+  isPrinting = false;
   /** True during a callback of the size observer. Text is not rendered then, because it could change sizes again. */
-  #resizing: boolean | undefined;
+  #isResizing: boolean | undefined;
 
   hostConnected() {
     const { signal } = this.host.connection;
@@ -53,7 +53,7 @@ export class Renderer extends FigureController {
   }
 
   #languageChanged() {
-    this.host.settings.stale = true;
+    this.host.settings.isStale = true;
     this.host.requestUpdate();
     this.requestFrame();
   }
@@ -61,15 +61,15 @@ export class Renderer extends FigureController {
   hostUpdated() {
     const { host } = this;
     host.resolveSettled();
-    if (!host.canvases.all) host.colours.update();
-    if (!host.machine || host.canvases.all) return;
+    if (!host.canvases.elements) host.colours.update();
+    if (!host.machine || host.canvases.elements) return;
     host.canvases.find();
     this.requestFrame();
     if (matchMedia('print').matches) this.#print(true);
   }
 
   setVisible(isVisible: boolean) {
-    if (!isVisible && (this.opening || this.#textPendingSince !== undefined)) this.#renderText();
+    if (!isVisible && (this.isOpening || this.#textPendingSince !== undefined)) this.#renderText();
     this.isVisible = isVisible;
     this.#hasPicturesLeft = false;
     // No events report changes of colours while the figure is out of the viewport.
@@ -111,7 +111,7 @@ export class Renderer extends FigureController {
       // A script awaits all samples. Nobody sees the cloud grow.
       if (host.isAwaited) cloud?.finish();
       if (cloud && !cloud.refine()) this.#schedule();
-      else if (settings.stale) host.refresh();
+      else if (settings.isStale) host.refresh();
       host.resolveSettled();
     });
   }
@@ -122,19 +122,19 @@ export class Renderer extends FigureController {
   }
 
   /** True until a visible figure has drawn its first picture and rendered its text. */
-  get opening() {
+  get isOpening() {
     return this.host.machine !== undefined && !this.#hasRenderedText && this.isVisible && !document.hidden;
   }
 
   /** Returns the content, or nothing in the first frame, so that the first picture is drawn earlier. */
   afterFirstPicture(content: () => unknown) {
-    return this.opening ? nothing : content();
+    return this.isOpening ? nothing : content();
   }
 
   /** @param elapsed milliseconds since the frame before */
   #drawNow(elapsed: number) {
     // In a closed disclosure all sizes are 0.
-    if (!this.host.machine || !this.host.canvases.all?.some(hasPixels)) return;
+    if (!this.host.machine || !this.host.canvases.elements?.some(hasPixels)) return;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
       if (this.host.machine) this.host.runtime.confirmHealthy();
@@ -144,15 +144,15 @@ export class Renderer extends FigureController {
   #draw(elapsed: number) {
     const host = this.host;
     const { reading } = host;
-    const beganAt = performance.now();
+    const startTime = performance.now();
     host.settings.applyPending();
     // The machine is missing after a trap.
     if (!host.machine) return;
-    host.cloud?.advance(this.printing);
+    host.cloud?.advance(this.isPrinting);
     const { scene } = host;
     if (host.reading !== reading) this.#addPictures();
-    const { pressed, previousReading } = host.gesture;
-    const options = { elapsed, atOnce: this.printing || prefersReducedMotion(), previousReading, highlight: host.highlight, handles: this.printing };
+    const { isPressed, previousReading } = host.gesture;
+    const options = { elapsed, atOnce: this.isPrinting || prefersReducedMotion(), previousReading, highlight: host.highlight, handles: this.isPrinting };
     let isMoving = false;
     this.#hasPicturesLeft = false;
     for (const picture of this.#undrawn) {
@@ -162,17 +162,17 @@ export class Renderer extends FigureController {
       // A figure may have replaced its picture.
       if (!host.pictures.includes(picture) || !hasPixels(canvas)) continue;
       // A drag keeps the scale of pictures with handles, so that they stay under the pointer.
-      const still = pressed && canvas.parentElement!.querySelector('.handle') !== null;
+      const still = isPressed && canvas.parentElement!.querySelector('.handle') !== null;
       isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...options, still }) || isMoving;
-      this.#hasPicturesLeft = this.#undrawn.size > 0 && (!this.#resizing || this.opening) && performance.now() - beganAt > MAX_PICTURES_MS;
+      this.#hasPicturesLeft = this.#undrawn.size > 0 && (!this.#isResizing || this.isOpening) && performance.now() - startTime > MAX_PICTURES_MS;
     }
     host.placeHandles(scene);
     const now = performance.now();
     const pendingSince = this.#textPendingSince;
     // The first picture is drawn without text.
-    if (this.opening ? pendingSince : !this.#resizing && (now - beganAt < MAX_SAME_FRAME_MS || now - (pendingSince ?? now) > MAX_TEXT_DELAY_MS)) this.#renderText();
+    if (this.isOpening ? pendingSince : !this.#isResizing && (now - startTime < MAX_SAME_FRAME_MS || now - (pendingSince ?? now) > MAX_TEXT_DELAY_MS)) this.#renderText();
     else {
-      this.#textPendingSince ??= beganAt;
+      this.#textPendingSince ??= startTime;
       this.#schedule();
     }
     host.resolveSettled();
@@ -195,24 +195,24 @@ export class Renderer extends FigureController {
 
   /** Draws at once, because resizing has cleared the canvases: a drawing in the next frame would flicker. */
   drawResized() {
-    this.host.canvases.update(this.printing);
+    this.host.canvases.update(this.isPrinting);
     this.host.colours.resolve();
     this.#addPictures();
-    this.#resizing = true;
+    this.#isResizing = true;
     this.#drawNow(0);
-    this.#resizing = false;
+    this.#isResizing = false;
   }
 
   /** Draws for print, in light colours and with all samples, or for the screen again. */
-  #print(printing: boolean) {
-    this.printing = printing;
+  #print(isPrinting: boolean) {
+    this.isPrinting = isPrinting;
     const { machine, cloud } = this.host;
     if (!machine) {
       // Browsers run microtasks before they print. The start needs no more than these if another figure has loaded the module.
-      if (printing) void this.#startAndPrint();
+      if (isPrinting) void this.#startAndPrint();
       return;
     }
-    if (printing) cloud?.finish();
+    if (isPrinting) cloud?.finish();
     else this.host.canvases.measure();
     this.drawResized();
     this.#renderText();
@@ -222,6 +222,6 @@ export class Renderer extends FigureController {
   async #startAndPrint() {
     await this.host.runtime.start();
     await this.host.updateComplete;
-    if (this.host.machine) this.#print(this.printing);
+    if (this.host.machine) this.#print(this.isPrinting);
   }
 }

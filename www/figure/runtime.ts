@@ -108,10 +108,10 @@ export class Runtime extends FigureController {
     try {
       const [motion] = await Promise.all([instantiateFor(this.host.localName), this.host.link.prepare()]);
       if (!this.host.isConnected) return;
-      const machine = this.host.createMachine(motion, this.host.state.kept);
+      const machine = this.host.createMachine(motion, this.host.state.lastValidState);
       Object.assign(this, { motion, machine, failure: undefined });
       this.host.state.resume();
-      await this.#show();
+      await this.#showContent();
     } catch (error) {
       this.fail(error);
     } finally {
@@ -121,7 +121,7 @@ export class Runtime extends FigureController {
     if (this.failure === undefined) void this.start();
   }
 
-  async #show() {
+  async #showContent() {
     this.host.requestUpdate();
     await this.host.updateComplete;
     // Rendering may have trapped, and the element may be removed.
@@ -137,10 +137,10 @@ export class Runtime extends FigureController {
     this.#hasTrapped = false;
     this.host.canvases.clear();
     // An element that is removed during print gets no event at its end.
-    this.host.renderer.printing = false;
+    this.host.renderer.isPrinting = false;
     this.attempt(() => {
       this.host.settings.applyPending();
-      this.host.state.keep();
+      this.host.state.storeState();
     });
     this.machine?.free();
     this.machine = this.motion = undefined;

@@ -7,7 +7,7 @@ export type Values = Record<string, any>;
 
 export class Settings extends FigureController {
   /** True if the machine has changed since it was read. */
-  stale: boolean | undefined;
+  isStale: boolean | undefined;
   /** Cache of the settings in effect; undefined until the machine is asked. */
   #current: Values | undefined;
   /** Changes of the user that wait for the next frame. */
@@ -18,14 +18,14 @@ export class Settings extends FigureController {
   /** Drops pending changes and stops the player, for another machine. */
   reset() {
     this.host.player?.stop();
-    this.stale = true;
+    this.isStale = true;
     this.#current = undefined;
     this.#pending = {};
   }
 
   /** Returns the declared settings among other values. */
   pick(values: Values) {
-    const keys = this.host.definition.declared.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
+    const keys = this.host.definition.declarations.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
@@ -43,7 +43,7 @@ export class Settings extends FigureController {
 
   /** True if changes are pending, or not in the reading yet. */
   get isWaiting() {
-    return this.stale || Object.keys(this.#pending).length > 0;
+    return this.isStale || Object.keys(this.#pending).length > 0;
   }
 
   /**
@@ -55,12 +55,12 @@ export class Settings extends FigureController {
     runtime.attempt(() => {
       if (!this.host.machine) return;
       this.forgetRefusal();
-      const changedValues = () => (typeof change === 'function' ? change(this.requested) : change);
-      const givenValues = changedValues();
-      const overlapsPending = (key: string, other: string) => key in givenValues && other in this.#pending;
+      const computeChange = () => (typeof change === 'function' ? change(this.requested) : change);
+      const changeNow = computeChange();
+      const overlapsPending = (key: string, otherKey: string) => key in changeNow && otherKey in this.#pending;
       // A setting and the group that has it are applied one after the other.
-      if (definition.declared.some(({ key, of }) => of && (overlapsPending(key, of) || overlapsPending(of, key)))) this.applyPending();
-      for (const [key, value] of Object.entries(changedValues())) (key in state.elementState ? state.elementState : this.#pending)[key] = value;
+      if (definition.declarations.some(({ key, of }) => of && (overlapsPending(key, of) || overlapsPending(of, key)))) this.applyPending();
+      for (const [key, value] of Object.entries(computeChange())) (key in state.elementState ? state.elementState : this.#pending)[key] = value;
       gesture.step();
       renderer.requestFrame();
     });
@@ -104,6 +104,6 @@ export class Settings extends FigureController {
     const { machine, cloud } = this.host;
     if (!machine) return;
     this.#current = Object.freeze(cloud ? cloud.configure(values) : machine.configure(values));
-    this.stale = true;
+    this.isStale = true;
   }
 }

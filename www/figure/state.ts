@@ -1,6 +1,6 @@
 /** State of the figure as plain data. It is kept after a removal of the element and after a trap. */
 
-import { asObject, refusalError, checkedWord } from './checks.ts';
+import { checkedObject, refusalError, checkedWord } from './checks.ts';
 import { validatedValue } from './definition.ts';
 import { FigureController } from './controller.ts';
 import { freeOnError } from './runtime.ts';
@@ -10,48 +10,48 @@ export const STATE_VERSION = 1;
 
 export class State extends FigureController {
   /** Last valid state. */
-  kept: Values | undefined;
+  lastValidState: Values | undefined;
   #openingState: Values | undefined;
   #fields = this.host.definition.elementFields;
-  /** Defaults of the state that the machine does not have. */
-  openings: Values = Object.fromEntries(Object.entries(this.#fields).map(([name, { opening }]) => [name, opening]));
-  /** State that the machine does not have, by name. */
-  elementState = { ...this.openings };
+  /** Default of each field of `elementState`. */
+  defaults: Values = Object.fromEntries(Object.entries(this.#fields).map(([name, { opening }]) => [name, opening]));
+  /** Fields of the state that the element keeps, because the machine does not have them. */
+  elementState = { ...this.defaults };
 
-  /** Settings of the machine, with pending changes, and the state that it does not have. */
+  /** Settings of the machine, with pending changes, and the state of the element. */
   get config(): Values {
     return { ...this.host.settings.requested, ...this.elementState };
   }
 
-  keep() {
-    if (this.host.machine) this.kept = this.host.snapshot();
+  storeState() {
+    if (this.host.machine) this.lastValidState = this.host.snapshot();
   }
 
   /** Applies pending changes of the page to a new machine that has the last valid state. */
   resume() {
     const { host } = this;
     host.settings.reset();
-    if (this.kept) host.restore(host.machine, this.kept);
+    if (this.lastValidState) host.restore(host.machine, this.lastValidState);
     host.machineChanged();
     host.reflection.applyPending();
     // The machine is missing after a trap. The settings are not stale if a pending state was shown already.
-    if (host.machine && host.settings.stale) this.#showState(this.kept);
+    if (host.machine && host.settings.isStale) this.#showState(this.lastValidState);
   }
 
   /** Applies a state with its widget and version. Missing fields keep their values; an error changes nothing. */
-  enter(state: unknown) {
+  applyState(state: unknown) {
     const host = this.host;
     host.settings.applyPending();
     const currentState = host.snapshot();
-    const checkedState = asObject('state', state, Object.keys(currentState), ({ widget, version }) => {
+    const checkedState = checkedObject('state', state, Object.keys(currentState), ({ widget, version }) => {
       checkedWord('state.widget', widget, [host.localName]);
       if (version !== STATE_VERSION) throw refusalError('state.version', version, String(STATE_VERSION));
     });
     const wholeState: Values = { ...currentState, ...host.withDerivedFields(currentState, checkedState) };
-    const machine = freeOnError(host.createMachine(host.motion, wholeState), (made) => {
-      const selectableCount = wholeState.playing ? made.config.samples : wholeState.shown;
+    const machine = freeOnError(host.createMachine(host.motion, wholeState), (newMachine) => {
+      const selectableCount = wholeState.playing ? newMachine.config.samples : wholeState.shown;
       for (const [name, field] of Object.entries(this.#fields)) wholeState[name] = validatedValue(field, `state.${name}`, wholeState[name], selectableCount);
-      host.restore(made, wholeState);
+      host.restore(newMachine, wholeState);
     });
     for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];
     host.runtime.replace(machine);
@@ -67,7 +67,7 @@ export class State extends FigureController {
     host.player?.stop();
     host.settings.forgetRefusal();
     host.renderer.releaseViews(1);
-    for (const [name, { ofPreset, opening }] of Object.entries(this.#fields)) if (ofPreset) this.elementState[name] = opening;
+    for (const [name, { isResetByPreset, opening }] of Object.entries(this.#fields)) if (isResetByPreset) this.elementState[name] = opening;
     Object.assign(host, { preset });
     host.gesture.complete();
   }
@@ -76,8 +76,8 @@ export class State extends FigureController {
   goBack(state: Values | undefined = this.#openingState) {
     const { gesture, runtime } = this.host;
     runtime.attempt(() => {
-      this.host.copies.forget();
-      this.enter(state);
+      this.host.copyMenu.clearMessage();
+      this.applyState(state);
       gesture.complete();
     });
   }

@@ -30,14 +30,14 @@ function contentHtml(figure: Figure) {
   const { failure } = figure.runtime;
   if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
   if (!figure.machine) return figure.reading ? noChange : placeholderHtml(figure);
-  const { announcer, dropped, reading } = figure;
+  const { announcer, dropHandlers, reading } = figure;
   return html`<section
       class="machine"
       aria-label=${nameOf(figure)}
-      @dragenter=${dropped?.enter}
-      @dragover=${dropped?.over}
-      @dragleave=${dropped?.leave}
-      @drop=${dropped?.drop}
+      @dragenter=${dropHandlers?.enter}
+      @dragover=${dropHandlers?.over}
+      @dragleave=${dropHandlers?.leave}
+      @drop=${dropHandlers?.drop}
     >
       ${figure.content(reading)}
     </section>
@@ -58,7 +58,7 @@ export function nameOf(figure: Figure) {
   return title || (words as any)[figure.definition.messageKey].title;
 }
 
-/** Returns a slot of the page, with a text for an empty one. It is a heading if it has a level. */
+/** Returns a slot for content of the page, with a text that is shown if the slot is empty. It is a heading if it has a level. */
 function slotHtml(figure: Figure, name: string, fallback = '', level: string | null = null) {
   return html`<div
     class="${name}-slot"

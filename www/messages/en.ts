@@ -1,6 +1,6 @@
 /**
- * Words that all widgets share, in English. A message with values is a function of them; numbers come printed, except where their size
- * decides on the words. *Stars* make italics, subscript digits and _{braces} subscripts, where HTML is shown.
+ * Words that all widgets share, in English. A message with values is a function. Its values are formatted texts, or numbers if their size
+ * selects the words. In HTML, *stars* make italics, and subscript digits and _{braces} make subscripts.
  */
 
 export const plural = (count: number, word: string) => `${word}${count === 1 ? '' : 's'}`;

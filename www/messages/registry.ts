@@ -35,7 +35,7 @@ export let language = 'en';
 const wordsByLanguage: Map<string, { words: Messages, language: string }> = new Map();
 sharedCatalogues.listeners.add(() => wordsByLanguage.clear());
 
-/** Adds English words of the elements, which define the keys of all catalogues. A later call may fill a catalogue that is empty at first. */
+/** Adds English words of the elements, which define the keys of all catalogues. A later call may fill a group that was empty at first. */
 export function addEnglish(messages: { [key: string]: Message }) {
   sharedCatalogues.english = mergeMessages(sharedCatalogues.english, messages);
   // Checks messages of the page that were added before these keys were known.
@@ -64,7 +64,7 @@ export function addEnglish(messages: { [key: string]: Message }) {
  */
 export function setMessages(lang: string, messages: object) {
   const { english, catalogues } = sharedCatalogues;
-  if (!isTag(lang)) throw new RangeError(`messages: lang is ${JSON.stringify(lang)}; allowed is a BCP 47 tag, as "de" or "pt-BR".`);
+  if (!isLanguageTag(lang)) throw new RangeError(`messages: lang is ${JSON.stringify(lang)}; allowed is a BCP 47 tag, as "de" or "pt-BR".`);
   checkMessages(english, messages, lang);
   const key = lang.toLowerCase();
   catalogues[key] = mergeMessages(catalogues[key] ?? {}, messages);
@@ -72,15 +72,15 @@ export function setMessages(lang: string, messages: object) {
 }
 
 /** Throws a TypeError for messages that are not in the English catalogue. An empty catalogue is not filled yet, and accepts all. */
-function checkMessages(known: any, given: any, path: string) {
-  if (Object.keys(known).length === 0) return;
-  for (const [key, message] of Object.entries(given)) {
-    const expectedMessage = Object.hasOwn(known, key) ? known[key] : undefined;
-    const [is, allowed] = [describeMessage(message), describeMessage(expectedMessage)];
+function checkMessages(englishMessages: any, pageMessages: any, path: string) {
+  if (Object.keys(englishMessages).length === 0) return;
+  for (const [key, message] of Object.entries(pageMessages)) {
+    const expectedMessage = Object.hasOwn(englishMessages, key) ? englishMessages[key] : undefined;
+    const [kind, allowed] = [describeMessage(message), describeMessage(expectedMessage)];
     const isShorter = typeof message === 'function' && typeof expectedMessage === 'function' && message.length < expectedMessage.length;
-    if (is !== allowed && !isShorter) {
-      const allowedText = expectedMessage === undefined ? `one of ${Object.keys(known).join(', ')}` : allowed;
-      throw new TypeError(`messages: ${path}.${key} is ${is}; allowed is ${allowedText}.`);
+    if (kind !== allowed && !isShorter) {
+      const allowedText = expectedMessage === undefined ? `one of ${Object.keys(englishMessages).join(', ')}` : allowed;
+      throw new TypeError(`messages: ${path}.${key} is ${kind}; allowed is ${allowedText}.`);
     }
     if (typeof message === 'object') checkMessages(expectedMessage, message, `${path}.${key}`);
   }
@@ -107,15 +107,15 @@ export function useLanguageOf(element: Element) {
   if (!cachedWords) {
     const [primaryTag] = wantedLanguage.split('-');
     const foundLanguage = [wantedLanguage, primaryTag].find((tag) => Object.hasOwn(sharedCatalogues.catalogues, tag)) ?? 'en';
-    const language = primaryTag === foundLanguage && isTag(wantedLanguage) ? wantedLanguage : foundLanguage;
+    const language = primaryTag === foundLanguage && isLanguageTag(wantedLanguage) ? wantedLanguage : foundLanguage;
     const { english, catalogues } = sharedCatalogues;
-    const mergedWords = [catalogues.en, catalogues[foundLanguage]].reduce((base, over) => mergeMessages(base, over ?? {}), english);
+    const mergedWords = [catalogues.en, catalogues[foundLanguage]].reduce((base, overrides) => mergeMessages(base, overrides ?? {}), english);
     wordsByLanguage.set(wantedLanguage, (cachedWords = { language, words: mergedWords as Messages }));
   }
   ({ words, language } = cachedWords);
 }
 
-function isTag(text: unknown) {
+function isLanguageTag(text: unknown) {
   try {
     return typeof text === 'string' && Intl.getCanonicalLocales(text).length > 0;
   } catch {

@@ -9,33 +9,33 @@ const numberAtPath = (stats: Record<string, any>, path: string): number | null =
  * Prepares a form with one slider. `enter` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in `stats`,
  * and `data-hides` the overlay that shows it, which is hidden while the user bets.
  */
-export function prepareBet(form: HTMLFormElement, enter: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
-  const { try: values = '{}', answer = '', unit = '', hides } = form.dataset;
+export function prepareBet(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
+  const { try: values = '{}', answer: answerPath = '', unit = '', hides: hiddenOverlay } = form.dataset;
   const slider = form.querySelector('input') as HTMLInputElement;
   const valueOutput = form.querySelector('.value') as HTMLElement;
   const submitButton = form.querySelector('button') as HTMLButtonElement;
   const answerOutput = form.querySelector('[role=status]') as HTMLElement;
   const [min, max] = [Number(slider.min), Number(slider.max)];
-  const isShare = unit === '%';
-  const print = (value: number) => `${isShare ? value.toFixed(slider.valueAsNumber === value ? 0 : 1) + '\u00a0%' : value}`;
-  const showValue = () => (slider.ariaValueText = valueOutput.textContent = print(slider.valueAsNumber));
+  const isPercent = unit === '%';
+  const formatValue = (value: number) => `${isPercent ? value.toFixed(slider.valueAsNumber === value ? 0 : 1) + '\u00a0%' : value}`;
+  const showValue = () => (slider.ariaValueText = valueOutput.textContent = formatValue(slider.valueAsNumber));
 
   slider.addEventListener('input', showValue);
   showValue();
-  if (hides) {
+  if (hiddenOverlay) {
     const { overlays, ...otherValues } = JSON.parse(values);
-    form.addEventListener('focusin', () => void enter({ ...otherValues, overlays: overlays.filter((name: string) => name !== hides) }), { once: true });
+    form.addEventListener('focusin', () => void enterState({ ...otherValues, overlays: overlays.filter((name: string) => name !== hiddenOverlay) }), { once: true });
   }
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
-    await enter(JSON.parse(values));
+    await enterState(JSON.parse(values));
     await figure.settled;
-    const number = numberAtPath(figure.stats, answer);
-    const actualValue = number === null ? null : isShare ? 100 * number : number;
+    const number = numberAtPath(figure.stats, answerPath);
+    const actualValue = number === null ? null : isPercent ? 100 * number : number;
     form.style.setProperty('--bet', String((slider.valueAsNumber - min) / (max - min)));
     form.style.setProperty('--truth', String(((actualValue ?? max) - min) / (max - min)));
     form.classList.add('revealed');
-    answerOutput.textContent = `Your bet: ${print(slider.valueAsNumber)}. The figure’s answer, ▲:\u00a0${actualValue === null ? 'never' : print(actualValue)}.`;
+    answerOutput.textContent = `Your bet: ${formatValue(slider.valueAsNumber)}. The figure’s answer, ▲:\u00a0${actualValue === null ? 'never' : formatValue(actualValue)}.`;
     submitButton.textContent = 'Reveal again';
   });
 }

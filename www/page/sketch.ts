@@ -32,7 +32,7 @@ function commandedArc({ v, omega, dt }: { v: number, omega: number, dt: number }
 }
 
 /** Outlines that can be chosen instead of drawn, by name. */
-const SHAPES: Record<string, (command: { v: number, omega: number, dt: number }) => Point[]> = {
+const SHAPE_OUTLINES: Record<string, (command: { v: number, omega: number, dt: number }) => Point[]> = {
   point: (command) => ringAround(toPixel(commandedArc(command)[24]), 7, 7),
   band: (command) => {
     const bandEdge = (factor: number) => Array.from({ length: 13 }, (_, i) => toPixel(commandedArc({ ...command, v: command.v * factor }, (i - 6) / 18)[24]));
@@ -56,18 +56,18 @@ function shapeOf(points: Point[]): string {
 }
 
 /** Returns sentences on where the robots stop (`poses`: x, y, θ triples), and whether the expected shape is right. Drawings are not judged. */
-function outcomeOf(poses: Float64Array, expected: string) {
+function outcomeOf(poses: Float64Array, expectedShape: string) {
   const deviationAlong = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;
   const [positionStd, headingStd] = [Math.hypot(deviationAlong(0), deviationAlong(1)), deviationAlong(2)];
-  const verdictText = positionStd > MIN_SPREAD && expected === 'drawing' ? '' : expected === (positionStd > MIN_SPREAD ? 'band' : 'point') ? 'Right. ' : 'Not what you expected. ';
+  const verdictText = positionStd > MIN_SPREAD && expectedShape === 'drawing' ? '' : expectedShape === (positionStd > MIN_SPREAD ? 'band' : 'point') ? 'Right. ' : 'Not what you expected. ';
   if (positionStd > MIN_SPREAD) return `${verdictText}The robots spread over a curved band, by ${positionStd.toFixed(2)}\u00a0m (1σ), their headings by ${headingStd.toFixed(2)}\u00a0rad.`;
   if (headingStd > MIN_SPREAD) return `${verdictText}Every robot stops at the same point. Only the headings differ, by ${headingStd.toFixed(2)}\u00a0rad (1σ).`;
   return `${verdictText}Every robot stops at the same point, with the same heading. There is no cloud.`;
 }
 
 /** Prepares a form with a pad to draw on. `enter` puts the figure into the state of the chosen radio button `case`. */
-export function prepareSketch(form: HTMLFormElement, enter: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
-  const svgPart = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
+export function prepareSketch(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
+  const svgElement = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
   const pad = form.querySelector('svg') as SVGSVGElement;
   const statusOutput = form.querySelector('[role=status]') as HTMLElement;
   const button = form.querySelector('button') as HTMLButtonElement;
@@ -78,14 +78,14 @@ export function prepareSketch(form: HTMLFormElement, enter: (values: Record<stri
   const command = () => ({ v: 1, omega: caseValues().omega ?? 0, dt: 2 });
   const showDrawing = (points: Point[]) => {
     drawnPoints = points;
-    svgPart('drawn').setAttribute('d', pathOf(points, true));
+    svgElement('drawn').setAttribute('d', pathOf(points, true));
     button.disabled = points.length < 2;
   };
   const resetDrawing = () => {
     const arc = commandedArc(command()).map(toPixel);
-    svgPart('command').setAttribute('d', pathOf(arc));
-    for (const [name, at] of [['cx', 0], ['cy', 1]]) svgPart('end').setAttribute(String(name), String(arc[24][Number(at)]));
-    for (const name of ['robots', 'headings']) svgPart(name).setAttribute('d', '');
+    svgElement('command').setAttribute('d', pathOf(arc));
+    for (const [name, coordinateIndex] of [['cx', 0], ['cy', 1]]) svgElement('end').setAttribute(String(name), String(arc[24][Number(coordinateIndex)]));
+    for (const name of ['robots', 'headings']) svgElement(name).setAttribute('d', '');
     statusOutput.textContent = '';
     const shape = checkedInput('shape');
     if (shape) shape.checked = false;
@@ -108,19 +108,19 @@ export function prepareSketch(form: HTMLFormElement, enter: (values: Record<stri
   form.addEventListener('change', ({ target }) => {
     const { name, value } = target as HTMLInputElement;
     if (name === 'case') resetDrawing();
-    else showDrawing(SHAPES[value](command()));
+    else showDrawing(SHAPE_OUTLINES[value](command()));
   });
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
-    await enter(caseValues());
+    await enterState(caseValues());
     const poses = figure.poses as Float64Array;
     const drawnRobots = Array.from({ length: Math.min(MAX_DRAWN_ROBOTS, poses.length / 3) }, (_, i) => poses.subarray(3 * i, 3 * i + 3));
     const robotDots = drawnRobots.map(([x, y, theta]) => {
       const [px, py] = toPixel([x, y]);
       return { dot: `M${px} ${py}h0`, tick: `M${px} ${py}l${TICK_LENGTH * Math.cos(theta)} ${-TICK_LENGTH * Math.sin(theta)}` };
     });
-    svgPart('robots').setAttribute('d', robotDots.map(({ dot }) => dot).join(''));
-    svgPart('headings').setAttribute('d', robotDots.map(({ tick }) => tick).join(''));
+    svgElement('robots').setAttribute('d', robotDots.map(({ dot }) => dot).join(''));
+    svgElement('headings').setAttribute('d', robotDots.map(({ tick }) => tick).join(''));
     statusOutput.textContent = outcomeOf(poses, checkedInput('shape')?.value ?? shapeOf(drawnPoints));
   });
   resetDrawing();

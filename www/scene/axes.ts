@@ -1,7 +1,7 @@
 /** Axes of a picture with ticks, names and a key, and clipping to the plot area. */
 
 import { ticks } from 'd3-array';
-import { powerOfTen, tick } from '../ui/format.ts';
+import { formatPowerOfTen, tick } from '../ui/format.ts';
 import { fade, strokeLine, type Brush, type LineStroke } from './canvas.ts';
 
 /** Tick step below which the axis has a power of ten before its unit. Labels with more zeros would not fit next to the axis. */
@@ -17,7 +17,7 @@ const KEY_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
  * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a key. Names have units in
  * brackets. Entries of the key are in the order of their importance: the last ones are omitted if there is no space.
  */
-export function drawAxes(brush: Brush, names: { x: string, y: string }, key: KeyEntry[], grid: number = 0.5) {
+export function drawAxes(brush: Brush, names: { x: string, y: string }, key: KeyEntry[], gridOpacity: number = 0.5) {
   const { context, view, palette, font } = brush;
   const { left, right, top, bottom } = view.frame;
   const { xMin, xMax, yMin, yMax } = view.extent;
@@ -30,7 +30,7 @@ export function drawAxes(brush: Brush, names: { x: string, y: string }, key: Key
   const labelLimit = right - context.measureText(xName).width - 10;
   for (const value of xTicks.values) {
     const x = Math.round(view.toPixelX(value)) + 0.5;
-    drawRule(grid, [x, top], [x, bottom]);
+    drawRule(gridOpacity, [x, top], [x, bottom]);
     const text = xTicks.text(value);
     if (x + context.measureText(text).width / 2 < labelLimit) context.fillText(text, x, bottom + 6);
   }
@@ -38,7 +38,7 @@ export function drawAxes(brush: Brush, names: { x: string, y: string }, key: Key
   Object.assign(context, { textAlign: 'right', textBaseline: 'middle' });
   for (const value of yTicks.values) {
     const y = Math.round(view.toPixelY(value)) + 0.5;
-    drawRule(grid, [left, y], [right, y]);
+    drawRule(gridOpacity, [left, y], [right, y]);
     context.fillText(yTicks.text(value), left - 6, y);
   }
 
@@ -60,18 +60,18 @@ export interface KeyEntry {
 export const lineKey = ({ context }: Brush, name: string, style: LineStroke): KeyEntry => ({ name, draw: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
 
 /** Draws a key to the right of the name of an axis. */
-function drawKey({ context, view, palette, font }: Brush, before: string, entries: KeyEntry[]) {
+function drawKey({ context, view, palette, font }: Brush, axisName: string, entries: KeyEntry[]) {
   const fontSize = parseFloat(font);
   const [width, line] = [KEY_EM.sample * fontSize, KEY_EM.line * fontSize];
   let y = view.frame.top - 22;
-  const [nameEnd, last] = [2 + context.measureText(before).width, Math.floor(y / line)];
+  const [nameEnd, lastRow] = [2 + context.measureText(axisName).width, Math.floor(y / line)];
   context.font = font;
   let [x, row] = [nameEnd, 0];
   const placedEntries = [];
   for (const entry of entries) {
     const entryWidth = (KEY_EM.gap + KEY_EM.space) * fontSize + width + context.measureText(entry.name).width;
     // The first entry of a line has no gap before it.
-    if (x + entryWidth > view.width && row < last) [x, row] = [2 - KEY_EM.gap * fontSize, row + 1];
+    if (x + entryWidth > view.width && row < lastRow) [x, row] = [2 - KEY_EM.gap * fontSize, row + 1];
     if (x + entryWidth > view.width) break;
     placedEntries.push({ ...entry, from: x + KEY_EM.gap * fontSize, row });
     x += entryWidth;
@@ -79,7 +79,7 @@ function drawKey({ context, view, palette, font }: Brush, before: string, entrie
   // The last line is nearest to the picture.
   y -= row * line;
   context.font = `italic ${font}`;
-  context.fillText(before, 2, y);
+  context.fillText(axisName, 2, y);
   context.font = font;
   for (const { name, draw, from, row } of placedEntries) {
     context.fillStyle = palette.ink;
@@ -98,7 +98,7 @@ function axisTicks(from: number, to: number, count: number) {
   return {
     values,
     /** Factor before the unit of the axis. */
-    unit: exponent < 0 ? `${powerOfTen(exponent)} ` : '',
+    unit: exponent < 0 ? `${formatPowerOfTen(exponent)} ` : '',
     text: (value: number) => tick(value / 10 ** exponent, step / 10 ** exponent),
   };
 }

@@ -14,16 +14,16 @@ const TEXT_MARGIN = 4;
 const MIN_DISTANCE = 9;
 
 /** Candidate positions of a sentence: angles (rad) relative to the direction away from the centre, and lengths of the leader, pixels. */
-const TURNS = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
-const LENGTHS = [MIN_LEADER, 2 * MIN_LEADER, 3 * MIN_LEADER];
+const CANDIDATE_ANGLES = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
+const LEADER_LENGTHS = [MIN_LEADER, 2 * MIN_LEADER, 3 * MIN_LEADER];
 
 /** Costs of an angle of 1 rad and of the length of a leader, in the unit of overlap, pixels. */
 const TURN_COST = 1;
 const LENGTH_COST = 0.1;
 
 /** Candidate positions of a sentence around its point, the cheapest first. */
-const SLOTS = LENGTHS.flatMap((length) => TURNS.map((turn) => ({ turn, length, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length })))
-  .sort((one, other) => one.cost - other.cost);
+const CANDIDATES = LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length })))
+  .sort((a, b) => a.cost - b.cost);
 
 /** Sentence with line breaks, the point that it is about (in the view's world), and its colour (default: that of text). */
 export interface Callout {
@@ -36,42 +36,42 @@ export interface Callout {
  * Draws sentences about points on the outline of a shape with the centre `from`. A sentence is outside of the shape, where it covers the
  * lines (x, y pairs) and other texts least. The cost of a position is continuous in all points, so that a sentence seldom jumps.
  */
-export function drawCallouts({ context, view, palette, font, placed }: Brush, callouts: Callout[], { from, lines }: { from: [number, number], lines: Float64Array[] }) {
+export function drawCallouts({ context, view, palette, font, placedBoxes }: Brush, callouts: Callout[], { from, lines }: { from: [number, number], lines: Float64Array[] }) {
   context.font = font;
   const toPixels = ({ 0: x, 1: y }: ArrayLike<number>) => [view.toPixelX(x), view.toPixelY(y)];
   const [fromX, fromY] = toPixels(from);
-  const avoided = callouts.map(({ at }) => toPixels(at));
+  const avoidedPoints = callouts.map(({ at }) => toPixels(at));
   for (const line of lines) {
-    for (let i = 0; i + 3 < line.length; i += 2) avoided.push(...pointsBetween(toPixels(line.subarray(i)), toPixels(line.subarray(i + 2))));
+    for (let i = 0; i + 3 < line.length; i += 2) avoidedPoints.push(...pointsBetween(toPixels(line.subarray(i)), toPixels(line.subarray(i + 2))));
   }
   const { left, right, top, bottom } = view.frame;
   for (const { text, at, colour = palette.ink } of callouts) {
     const textLines = text.split('\n');
-    const across = Math.max(...textLines.map((row) => context.measureText(row).width)) / 2 + TEXT_MARGIN;
-    const down = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
+    const halfWidth = Math.max(...textLines.map((textLine) => context.measureText(textLine).width)) / 2 + TEXT_MARGIN;
+    const halfHeight = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
     const [x, y] = toPixels(at);
     const angle = Math.atan2(y - fromY, x - fromX);
-    let [bestBox, lowestCost]: [Box, number] = [{ x, y, across, down }, Infinity];
-    for (const { turn, length, cost } of SLOTS) {
+    let [bestBox, lowestCost]: [Box, number] = [{ x, y, halfWidth, halfHeight }, Infinity];
+    for (const { turn, length, cost } of CANDIDATES) {
       if (cost >= lowestCost) break;
-      const [idealX, idealY] = [x + (length + across) * Math.cos(angle + turn), y + (length + down) * Math.sin(angle + turn)];
+      const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(angle + turn), y + (length + halfHeight) * Math.sin(angle + turn)];
       const candidateBox = {
-        x: clamp(idealX, left + across, Math.max(left + across, right - across)),
-        y: clamp(idealY, top + down, Math.max(top + down, bottom - down)),
-        across, down,
+        x: clamp(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
+        y: clamp(idealY, top + halfHeight, Math.max(top + halfHeight, bottom - halfHeight)),
+        halfWidth, halfHeight,
       };
-      const totalCost = cost + overlapOf(candidateBox, avoided, placed);
+      const totalCost = cost + overlapOf(candidateBox, avoidedPoints, placedBoxes);
       if (totalCost < lowestCost) [bestBox, lowestCost] = [candidateBox, totalCost];
     }
-    const leaderStart = [clamp(x, bestBox.x - across, bestBox.x + across), clamp(y, bestBox.y - down, bestBox.y + down)];
-    placed.push(bestBox);
-    avoided.push(...pointsBetween(leaderStart, [x, y]));
+    const leaderStart = [clamp(x, bestBox.x - halfWidth, bestBox.x + halfWidth), clamp(y, bestBox.y - halfHeight, bestBox.y + halfHeight)];
+    placedBoxes.push(bestBox);
+    avoidedPoints.push(...pointsBetween(leaderStart, [x, y]));
 
     drawLeader(context, [leaderStart, [x, y]], colour);
     context.fillStyle = palette.paper;
-    fade(context, 0.85, () => context.fillRect(bestBox.x - across, bestBox.y - down, 2 * across, 2 * down));
+    fade(context, 0.85, () => context.fillRect(bestBox.x - halfWidth, bestBox.y - halfHeight, 2 * halfWidth, 2 * halfHeight));
     Object.assign(context, { fillStyle: colour, textAlign: 'center', textBaseline: 'middle' });
-    textLines.forEach((row, i) => context.fillText(row, bestBox.x, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT));
+    textLines.forEach((textLine, i) => context.fillText(textLine, bestBox.x, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT));
   }
 }
 
@@ -85,11 +85,11 @@ function pointsBetween([x, y]: number[], [toX, toY]: number[]) {
 }
 
 /** Returns the maximum depth by which points and other boxes reach into a box, pixels. The depth of boxes counts twice. */
-function overlapOf({ x, y, across, down }: Box, points: number[][], others: Box[]) {
+function overlapOf({ x, y, halfWidth, halfHeight }: Box, points: number[][], otherBoxes: Box[]) {
   const depthOf = (toX: number, toY: number, roomX = 0, roomY = 0) =>
-    Math.min(across + roomX + MIN_DISTANCE - Math.abs(toX - x), down + roomY + MIN_DISTANCE - Math.abs(toY - y));
+    Math.min(halfWidth + roomX + MIN_DISTANCE - Math.abs(toX - x), halfHeight + roomY + MIN_DISTANCE - Math.abs(toY - y));
   let maxDepth = 0;
   for (const [toX, toY] of points) maxDepth = Math.max(maxDepth, depthOf(toX, toY));
-  for (const other of others) maxDepth = Math.max(maxDepth, 2 * depthOf(other.x, other.y, other.across, other.down));
+  for (const otherBox of otherBoxes) maxDepth = Math.max(maxDepth, 2 * depthOf(otherBox.x, otherBox.y, otherBox.halfWidth, otherBox.halfHeight));
   return maxDepth;
 }

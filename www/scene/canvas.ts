@@ -7,12 +7,12 @@ export interface Surface {
   height: number;
   /** Width in CSS pixels. */
   clientWidth: number;
-  letters: { fontFamily: string, fontSize: string };
+  fontStyle: { fontFamily: string, fontSize: string };
   context: CanvasRenderingContext2D;
 }
 
 /** Box of a text in a picture: its middle, and half of its sides, pixels. */
-export type Box = { x: number, y: number, across: number, down: number };
+export type Box = { x: number, y: number, halfWidth: number, halfHeight: number };
 
 /**
  * Context, view and colours that a picture is drawn with. A pixel of the view is a CSS pixel if the font size is 13 px, and scales with the
@@ -27,7 +27,7 @@ export interface Brush {
   /** Font of the canvas's style. */
   font: string;
   /** Boxes of the texts drawn so far. Further texts avoid them. */
-  placed: Box[];
+  placedBoxes: Box[];
   /** True if the picture is drawn for a file. Such a picture contains its key of lines, because there is no legend beside it. */
   exported?: boolean;
   /** True if handles are drawn: on the screen they are elements over the picture. */
@@ -60,14 +60,14 @@ export function hiddenContext(canvas: OffscreenCanvas) {
 }
 
 /** Clears a canvas, sets the view to its size, and returns the brush for pictures. */
-export function brushOn({ width, height, clientWidth, letters: { fontFamily, fontSize }, context }: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
+export function brushOn({ width, height, clientWidth, fontStyle: { fontFamily, fontSize }, context }: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
   const ratio = ((width / Math.max(1, clientWidth)) * parseFloat(fontSize)) / FONT_SIZE;
   view.resize(width / ratio, height / ratio);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, view.width, view.height);
   // In right-to-left languages numbers and units stay in the order of the text.
   context.direction = 'ltr';
-  return { context, view, palette, ratio, font: `${FONT_SIZE}px ${fontFamily}`, placed: [] as Box[] };
+  return { context, view, palette, ratio, font: `${FONT_SIZE}px ${fontFamily}`, placedBoxes: [] as Box[] };
 }
 
 type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;

@@ -29,9 +29,9 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
   const { heading, ahead = 1 } = layout;
   if (heading !== null) {
     const tickLength = ahead * dotScale * (isSparse ? 13 : 9);
-    const addTicks = (begin: number) => dots.slice(begin, begin + TICKS_PER_STROKE).forEach((place, i) => headingTick(brush, place, triples[3 * (begin + i) + heading], tickLength));
+    const addTicks = (firstIndex: number) => dots.slice(firstIndex, firstIndex + TICKS_PER_STROKE).forEach((point, i) => headingTick(brush, point, triples[3 * (firstIndex + i) + heading], tickLength));
     fade(context, isSparse ? 0.6 : 0.32, () => {
-      for (let begin = 0; begin < dots.length; begin += TICKS_PER_STROKE) strokePath(context, { colour: palette.cloud, width: 1 }, () => addTicks(begin));
+      for (let firstIndex = 0; firstIndex < dots.length; firstIndex += TICKS_PER_STROKE) strokePath(context, { colour: palette.cloud, width: 1 }, () => addTicks(firstIndex));
     });
   }
   // Squares with the area of the discs are drawn six times as fast. If they are many and small, they look like discs.
@@ -111,18 +111,18 @@ const DIMMED_OPACITY = 0.3;
 
 /** Returns the line styles by name, in the colours of their roles. The highlighted line is thicker, and all others are faint. */
 export function lineStyles<Name extends string>({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, lines: Record<Name, LineStyle>) {
-  const isAnyLit = Object.keys(lines).some((name) => name === highlight);
+  const hasHighlight = Object.keys(lines).some((name) => name === highlight);
   const styleEntries = Object.entries(lines as Record<string, LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
-    const colour = isAnyLit && name !== highlight ? `rgb(${colourChannels(palette[role]).join(' ')} / ${DIMMED_OPACITY})` : palette[role];
+    const colour = hasHighlight && name !== highlight ? `rgb(${colourChannels(palette[role]).join(' ')} / ${DIMMED_OPACITY})` : palette[role];
     return [name, { colour, width: name === highlight ? HIGHLIGHT_WIDTH * width : width, dash }];
   });
   return Object.fromEntries(styleEntries) as Record<Name, { colour: string, width: number, dash: number[] }>;
 }
 
 /** Returns the key of an exported picture: the named lines with their words. On the page there is a legend beside the picture. */
-export function lineKeys<Name extends string>(brush: Brush, lines: Record<Name, LineStyle>, names: Name[], say: Record<Name, string>): KeyEntry[] {
+export function lineKeys<Name extends string>(brush: Brush, lines: Record<Name, LineStyle>, names: Name[], labels: Record<Name, string>): KeyEntry[] {
   const stylesByName = lineStyles(brush, lines);
-  return brush.exported ? names.map((name) => lineKey(brush, say[name].replaceAll('*', ''), stylesByName[name])) : [];
+  return brush.exported ? names.map((name) => lineKey(brush, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
 }
 
 /** Returns true if an outline has a length. If all robots are at one point, its length is only rounding. */
@@ -134,10 +134,10 @@ export const hasLength = (points: Float64Array) => points.some((value, i) => Mat
  */
 export function drawOutlines(brush: Brush, outlines: Outline[]) {
   const { context, palette } = brush;
-  const drawn = outlines.filter(({ points }) => hasLength(points));
+  const visibleOutlines = outlines.filter(({ points }) => hasLength(points));
   context.lineJoin = 'round';
-  fade(context, 0.7, () => strokeLines(brush, drawn.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5 }))));
-  strokeLines(brush, drawn);
+  fade(context, 0.7, () => strokeLines(brush, visibleOutlines.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5 }))));
+  strokeLines(brush, visibleOutlines);
 }
 
 /** Number of lines of the same style in one stroke. More are faster, but lines of one stroke do not darken each other where they cross. */
@@ -165,12 +165,12 @@ const EARLIER_OPACITY = 0.35;
  */
 export function drawEarlier(brush: Brush, outlines: Outline[], from: ArrayLike<number>[], text: string): Callout[] {
   const { context, view, palette } = brush;
-  const drawn = outlines.filter(({ points }) => hasLength(points));
-  fade(context, EARLIER_OPACITY, () => strokeLines(brush, drawn));
+  const visibleOutlines = outlines.filter(({ points }) => hasLength(points));
+  fade(context, EARLIER_OPACITY, () => strokeLines(brush, visibleOutlines));
   const { xMin, xMax, yMin, yMax } = view.extent;
-  const visiblePoints = drawn.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]))
+  const visiblePoints = visibleOutlines.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]))
     .filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
-  const calloutPoint = greatest(visiblePoints, ([x, y]) => Math.min(...from.map((place) => Math.hypot(view.scaleX * (x - place[0]), view.scaleY * (y - place[1])))));
+  const calloutPoint = greatest(visiblePoints, ([x, y]) => Math.min(...from.map((point) => Math.hypot(view.scaleX * (x - point[0]), view.scaleY * (y - point[1])))));
   return calloutPoint ? [{ text, at: calloutPoint, colour: palette.muted }] : [];
 }
 

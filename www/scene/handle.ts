@@ -59,31 +59,31 @@ const KEY_TURNS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
 export const turnsOfKey = ({ key, metaKey }: KeyboardEvent): number | undefined => (metaKey ? undefined : KEY_TURNS[key]);
 
 export class Handle {
-  #part;
+  #classNames;
   #callbacks;
   /** Pointer that drags the handle, and its element. */
-  #heldPointer: { id: number, by: Element } | undefined;
+  #heldPointer: { id: number, element: Element } | undefined;
   /** Vector (m) from the pointer to the target. It keeps a target that is grasped at its edge from jumping. */
   #gripOffset = [0, 0];
   /** Position of the middle in pixels of the view, before it is rounded on the screen. */
   #middlePixels = [0, 0];
 
-  /** Creates the handle. `part` has the CSS classes of its element. */
-  constructor(part: string, callbacks: HandleCallbacks) {
-    this.#part = part;
+  /** Creates the handle. `classNames` are the CSS classes of its element. */
+  constructor(classNames: string, callbacks: HandleCallbacks) {
+    this.#classNames = classNames;
     this.#callbacks = callbacks;
   }
 
   /** True while a pointer drags the handle. Browsers release the pointer of a removed element without an event. */
-  get held() {
-    return this.#heldPointer?.by.hasPointerCapture(this.#heldPointer.id) ?? false;
+  get isHeld() {
+    return this.#heldPointer?.element.hasPointerCapture(this.#heldPointer.id) ?? false;
   }
 
   element({ name, keys, title, range, now, text, stop, hint }: HandleLabels) {
     // The text about the limit is on the side that faces the middle of the picture.
     const limitTextSide = 2 * this.#middlePixels[0] > this.#callbacks.view().width ? 'right' : '';
     return html`<div
-      class="handle ${this.#part} ${limitTextSide} ${this.held ? 'held' : ''}"
+      class="handle ${this.#classNames} ${limitTextSide} ${this.isHeld ? 'held' : ''}"
       role="slider"
       tabindex="0"
       aria-label=${name}
@@ -105,7 +105,7 @@ export class Handle {
 
   /** Moves the middle of the element in `root` to a point in pixels of the view. `size` replaces the size of its style. */
   place(root: ParentNode, x: number, y: number, size?: number) {
-    const handle = root.querySelector(`.handle.${this.#part.replace(' ', '.')}`) as HTMLElement | null;
+    const handle = root.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
     this.#middlePixels = [x, y];
     if (size !== undefined) handle.style.width = handle.style.height = emOfPixels(size);
@@ -128,14 +128,14 @@ export class Handle {
     if (event.button !== 0) return;
     const handle = event.currentTarget as Element;
     handle.setPointerCapture(event.pointerId);
-    this.#heldPointer = { id: event.pointerId, by: handle };
+    this.#heldPointer = { id: event.pointerId, element: handle };
     const pointer = this.#pointer(event);
     const graspedPoint = this.#callbacks.at?.(pointer) ?? this.#toWorld(this.#middlePixels);
     this.#gripOffset = [graspedPoint[0] - pointer[0], graspedPoint[1] - pointer[1]];
   };
 
   #drag = (event: PointerEvent) => {
-    if (!this.held) return;
+    if (!this.isHeld) return;
     const [x, y] = this.#pointer(event);
     this.#callbacks.drag(x + this.#gripOffset[0], y + this.#gripOffset[1]);
   };

@@ -8,7 +8,7 @@ const SUBSCRIPT_SIZE = 0.78;
 const SUBSCRIPT_DROP = 3;
 
 /** Half the height of a label's background, pixels, and its opacity. */
-const BACKGROUND = { half: 9, alpha: 0.9 };
+const BACKGROUND = { halfHeight: 9, opacity: 0.9 };
 
 /** Candidate positions of a label: offsets in heights of its background. */
 const LABEL_SHIFTS = [0, 1, -1, 2, -2, 3, -3];
@@ -20,7 +20,7 @@ const LABEL_GAP = 12;
 /** Height that two rows of labels need above a picture, in addition to the name of its axis, pixels. */
 export const LABELS_ABOVE = 24 + ROW_HEIGHT;
 
-export interface Text {
+export interface LabelText {
   /** Symbol in italics. */
   symbol?: string;
   /** Subscript of the symbol. */
@@ -33,20 +33,20 @@ export interface Text {
  * Draws a label with a background at a point in pixels, inside the axes. If another text is there, the label moves up or down. `towards` is
  * the direction in which there is space, from −1 (left) to 1 (right).
  */
-export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text & { x: number, y: number, towards: number, colour: string }) {
-  const { context, view, palette, placed } = brush;
+export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: LabelText & { x: number, y: number, towards: number, colour: string }) {
+  const { context, view, palette, placedBoxes } = brush;
   const parts = measureParts(brush, text);
   if (parts.length === 0) return;
   const width = widthOf(parts);
   const { left, right, top, bottom } = view.frame;
   const labelLeft = clamp(x - (0.5 - 0.5 * towards) * width, left + 3, Math.max(left + 3, right - width - 3));
-  const [across, down] = [width / 2 + 2, BACKGROUND.half];
-  const candidates = LABEL_SHIFTS.map((shift) => clamp(y + 2 * down * shift, top + 10, bottom - 10));
-  const isFreeAt = (candidateY: number) => placed.every((other) => Math.abs(other.x - labelLeft - width / 2) >= other.across + across || Math.abs(other.y - candidateY) >= other.down + down);
+  const [halfWidth, halfHeight] = [width / 2 + 2, BACKGROUND.halfHeight];
+  const candidates = LABEL_SHIFTS.map((shift) => clamp(y + 2 * halfHeight * shift, top + 10, bottom - 10));
+  const isFreeAt = (candidateY: number) => placedBoxes.every((placedBox) => Math.abs(placedBox.x - labelLeft - width / 2) >= placedBox.halfWidth + halfWidth || Math.abs(placedBox.y - candidateY) >= placedBox.halfHeight + halfHeight);
   const labelY = candidates.find(isFreeAt) ?? candidates[0];
-  placed.push({ x: labelLeft + width / 2, y: labelY, across, down });
+  placedBoxes.push({ x: labelLeft + width / 2, y: labelY, halfWidth, halfHeight });
   context.fillStyle = palette.paper;
-  fade(context, BACKGROUND.alpha, () => context.fillRect(labelLeft - 2, labelY - down, 2 * across, 2 * down));
+  fade(context, BACKGROUND.opacity, () => context.fillRect(labelLeft - 2, labelY - halfHeight, 2 * halfWidth, 2 * halfHeight));
   writeParts(brush, parts, labelLeft, labelY, colour);
 }
 
@@ -54,36 +54,36 @@ export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Text
  * Draws labels above a picture, each with a leader to its anchor in pixels. They alternate between two rows, so that leaders of the upper row
  * pass between labels of the lower row. The view needs {@link LABELS_ABOVE} pixels at its top.
  */
-export function drawLabelsAbove(brush: Brush, labels: (Text & { x: number, y: number, colour: string })[]) {
+export function drawLabelsAbove(brush: Brush, labels: (LabelText & { x: number, y: number, colour: string })[]) {
   const { context, view, palette } = brush;
   const { left, right, top } = view.frame;
   const placedLabels = labels
     .map((label) => ({ ...label, parts: measureParts(brush, label) }))
     .map((label) => ({ ...label, width: widthOf(label.parts) }))
-    .sort((one, other) => one.x - other.x)
+    .sort((a, b) => a.x - b.x)
     .map((label, i) => ({ ...label, row: i % 2, from: label.x - label.width / 2 }));
   for (const row of [0, 1]) {
     const rowLabels = placedLabels.filter((label) => label.row === row);
     // Each label is moved to the right of the previous one. Then the last labels are moved to the left, into the picture.
-    let limit = left;
+    let edgeX = left;
     for (const label of rowLabels) {
-      label.from = Math.max(label.from, limit);
-      limit = label.from + label.width + LABEL_GAP;
+      label.from = Math.max(label.from, edgeX);
+      edgeX = label.from + label.width + LABEL_GAP;
     }
-    limit = right;
+    edgeX = right;
     for (const label of rowLabels.toReversed()) {
-      label.from = Math.min(label.from, limit - label.width);
-      limit = label.from - LABEL_GAP;
+      label.from = Math.min(label.from, edgeX - label.width);
+      edgeX = label.from - LABEL_GAP;
     }
   }
   placedLabels.forEach((label, i) => {
     const { from, width, row, x, y, colour, parts } = label;
-    const rowY = top - BACKGROUND.half - ROW_HEIGHT * row;
+    const rowY = top - BACKGROUND.halfHeight - ROW_HEIGHT * row;
     const [previousLabel, nextLabel] = [placedLabels[i - 1], placedLabels[i + 1]];
     const minLeaderX = row === 0 ? from : previousLabel.from + previousLabel.width + LABEL_GAP / 2;
     const maxLeaderX = row === 0 ? from + width : (nextLabel?.from ?? right) - LABEL_GAP / 2;
     const leaderX = clamp(x, minLeaderX, Math.max(minLeaderX, maxLeaderX));
-    const leaderStart = [clamp(leaderX, from, from + width), rowY + BACKGROUND.half];
+    const leaderStart = [clamp(leaderX, from, from + width), rowY + BACKGROUND.halfHeight];
     drawLeader(context, [leaderStart, [leaderX, top - (row === 0 ? 0 : ROW_HEIGHT)], [leaderX, top], [x, y]], palette.muted);
     writeParts(brush, parts, from, rowY, colour);
   });
@@ -96,7 +96,7 @@ export function drawLeader(context: CanvasRenderingContext2D, line: number[][], 
 }
 
 /** Returns the parts of a text with their widths. */
-function measureParts({ context, font }: Brush, { symbol = '', sub = '', text = '' }: Text) {
+function measureParts({ context, font }: Brush, { symbol = '', sub = '', text = '' }: LabelText) {
   const subscriptFont = font.replace(/[\d.]+px/, (size) => `${SUBSCRIPT_SIZE * parseFloat(size)}px`);
   const textParts = [
     { text: symbol, style: `italic ${font}`, drop: 0 },

@@ -42,20 +42,20 @@ export const LINES_PER_STROKE = 500;
 
 /** Strokes lines through points in pixels, with round ends unless they are dashed. */
 export function* strokeMany(context: Painter['context'], lines: Iterable<number[][]>, style: LineStroke): Generator<undefined, void> {
-  let strokeLines: number[][][] = [];
+  let batch: number[][][] = [];
   let pointCount = 0;
-  const strokeCollected = () => {
+  const strokeBatch = () => {
     context.lineCap = style.dash?.length ? 'butt' : 'round';
-    strokePath(context, style, () => strokeLines.forEach((points) => addLine(context, points)));
+    strokePath(context, style, () => batch.forEach((points) => addLine(context, points)));
     context.lineCap = 'butt';
-    [strokeLines, pointCount] = [[], 0];
+    [batch, pointCount] = [[], 0];
   };
   for (const line of lines) {
-    strokeLines.push(line);
+    batch.push(line);
     pointCount += line.length - 1;
     if (pointCount < LINES_PER_STROKE) continue;
-    strokeCollected();
+    strokeBatch();
     yield;
   }
-  strokeCollected();
+  strokeBatch();
 }

@@ -35,11 +35,11 @@ export class Picture<Scene, Name extends string = string> {
     const brush = brushOn(surface, view, palette);
     if (previousReading !== this.#previousReading && !exported) {
       this.#previousReading = previousReading;
-      view.widened = false;
+      view.hasZoomedOut = false;
     }
-    if (!still || !view.aimed) this.fit(scene);
+    if (!still || !view.hasTarget) this.fit(scene);
     const isViewMoving = view.ease(elapsed, atOnce);
-    const isUnfinished = this.paint({ ...brush, highlight, exported, handles, previousReading: view.widened && !exported ? previousReading : undefined }, scene);
+    const isUnfinished = this.paint({ ...brush, highlight, exported, handles, previousReading: view.hasZoomedOut && !exported ? previousReading : undefined }, scene);
     return isViewMoving || isUnfinished === true;
   }
 
@@ -48,10 +48,10 @@ export class Picture<Scene, Name extends string = string> {
     return -1;
   }
 
-  /** Converts a point and a radius from CSS pixels to the world of the view. */
-  around(x: number, y: number, reach: number): [x: number, y: number, radiusX: number, radiusY: number] {
+  /** Converts a point and a radius in CSS pixels to the world of the view. */
+  toWorldCircle(x: number, y: number, radius: number): [x: number, y: number, radiusX: number, radiusY: number] {
     const { view } = this;
-    return [view.toWorldX(x), view.toWorldY(y), reach / view.scaleX, reach / view.scaleY];
+    return [view.toWorldX(x), view.toWorldY(y), radius / view.scaleX, radius / view.scaleY];
   }
 }
 
@@ -60,5 +60,5 @@ const PICK_RADIUS = 14;
 
 /** Picture of samples that the pointer can select, with the same scale on both axes. */
 export class SamplesPicture<Scene> extends Picture<Scene> {
-  nearest: Picture<any>['nearest'] = (machine, x, y) => machine.nearest(...this.around(x, y, PICK_RADIUS).slice(0, 3));
+  nearest: Picture<any>['nearest'] = (machine, x, y) => machine.nearest(...this.toWorldCircle(x, y, PICK_RADIUS).slice(0, 3));
 }

@@ -9,8 +9,8 @@ import type { Brush } from './canvas.ts';
  * longer than drawing the rest of a picture.
  */
 export class Pixels {
-  #grid = new OffscreenCanvas(1, 1);
-  #inkedBox: ReturnType<typeof opaqueBox>;
+  #canvas = new OffscreenCanvas(1, 1);
+  #visibleBox: ReturnType<typeof opaqueBox>;
 
   /**
    * Replaces the pixels.
@@ -19,20 +19,20 @@ export class Pixels {
    */
   put(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number) {
     const rows = pixels.length / (4 * columns);
-    if (this.#grid.width !== columns) this.#grid.width = columns;
-    if (this.#grid.height !== rows) this.#grid.height = rows;
-    this.#inkedBox = opaqueBox(pixels, columns, rows);
+    if (this.#canvas.width !== columns) this.#canvas.width = columns;
+    if (this.#canvas.height !== rows) this.#canvas.height = rows;
+    this.#visibleBox = opaqueBox(pixels, columns, rows);
     // All pixels are copied, because scaling blends the edges of the visible part with their neighbours.
-    if (this.#inkedBox) hiddenContext(this.#grid).putImageData(new ImageData(pixels, columns, rows), 0, 0);
+    if (this.#visibleBox) hiddenContext(this.#canvas).putImageData(new ImageData(pixels, columns, rows), 0, 0);
   }
 
   draw({ context, view }: Brush) {
-    if (!this.#inkedBox) return;
-    const [x, y, width, height] = this.#inkedBox;
+    if (!this.#visibleBox) return;
+    const [x, y, width, height] = this.#visibleBox;
     const { left, right, top, bottom } = view.frame;
-    const [across, down] = [(right - left) / this.#grid.width, (bottom - top) / this.#grid.height];
+    const [scaleX, scaleY] = [(right - left) / this.#canvas.width, (bottom - top) / this.#canvas.height];
     context.imageSmoothingEnabled = true;
-    context.drawImage(this.#grid, x, y, width, height, left + across * x, top + down * y, across * width, down * height);
+    context.drawImage(this.#canvas, x, y, width, height, left + scaleX * x, top + scaleY * y, scaleX * width, scaleY * height);
   }
 }
 

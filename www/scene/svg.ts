@@ -29,20 +29,20 @@ export class SvgContext {
   imageSmoothingEnabled = true;
   #path = '';
   #dash: number[] = [];
-  #marks: string[] = [];
+  #elements: string[] = [];
   /** Number of groups that each `restore` closes. */
-  #open: number[] = [];
-  #clips = 0;
-  #name;
-  #ruler = new OffscreenCanvas(1, 1).getContext('2d') as OffscreenCanvasRenderingContext2D;
+  #openGroups: number[] = [];
+  #clipCount = 0;
+  #idPrefix;
+  #measuringContext = new OffscreenCanvas(1, 1).getContext('2d') as OffscreenCanvasRenderingContext2D;
 
   /** Creates the context with a prefix of ids, because several figures may be on one page. */
-  constructor(name: string) {
-    this.#name = name;
+  constructor(idPrefix: string) {
+    this.#idPrefix = idPrefix;
   }
 
   get markup() {
-    return this.#marks.join('\n');
+    return this.#elements.join('\n');
   }
 
   // Transforms and clearing are not needed: the unit is the CSS pixel, and the drawing is empty at first.
@@ -50,11 +50,11 @@ export class SvgContext {
   clearRect() {}
 
   save() {
-    this.#open.push(0);
+    this.#openGroups.push(0);
   }
 
   restore() {
-    this.#marks.push('</g>'.repeat(this.#open.pop() ?? 0));
+    this.#elements.push('</g>'.repeat(this.#openGroups.pop() ?? 0));
   }
 
   beginPath() {
@@ -98,9 +98,9 @@ export class SvgContext {
   };
 
   clip() {
-    const id = `${this.#name}-clip${++this.#clips}`;
-    this.#marks.push(`<clipPath id="${id}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${id})">`);
-    if (this.#open.length) this.#open[this.#open.length - 1]++;
+    const id = `${this.#idPrefix}-clip${++this.#clipCount}`;
+    this.#elements.push(`<clipPath id="${id}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${id})">`);
+    if (this.#openGroups.length) this.#openGroups[this.#openGroups.length - 1]++;
   }
 
   setLineDash(dash: number[]) {
@@ -108,49 +108,49 @@ export class SvgContext {
   }
 
   stroke() {
-    this.#marks.push(`<path d="${this.#path}" fill="none"${this.#line()}/>`);
+    this.#elements.push(`<path d="${this.#path}" fill="none"${this.#strokeAttributes()}/>`);
   }
 
   fill() {
-    this.#marks.push(`<path d="${this.#path}" fill="${this.fillStyle}"${this.#opacity()}/>`);
+    this.#elements.push(`<path d="${this.#path}" fill="${this.fillStyle}"${this.#opacityAttribute()}/>`);
   }
 
-  #opacity() {
+  #opacityAttribute() {
     return this.globalAlpha === 1 ? '' : ` opacity="${this.globalAlpha}"`;
   }
 
-  #line() {
+  #strokeAttributes() {
     const dash = this.#dash.length ? ` stroke-dasharray="${this.#dash}"` : '';
     const cap = this.lineCap === 'butt' ? '' : ` stroke-linecap="${this.lineCap}"`;
     const lineJoinAttribute = this.lineJoin === 'miter' ? '' : ` stroke-linejoin="${this.lineJoin}"`;
-    return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dash}${cap}${lineJoinAttribute}${this.#opacity()}`;
+    return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dash}${cap}${lineJoinAttribute}${this.#opacityAttribute()}`;
   }
 
   measureText(text: string) {
-    this.#ruler.font = this.font;
-    return this.#ruler.measureText(text);
+    this.#measuringContext.font = this.font;
+    return this.#measuringContext.measureText(text);
   }
 
-  fillText: CanvasText['fillText'] = (text, x, y) => this.#text(text, x, y, ` fill="${this.fillStyle}"${this.#opacity()}`);
+  fillText: CanvasText['fillText'] = (text, x, y) => this.#text(text, x, y, ` fill="${this.fillStyle}"${this.#opacityAttribute()}`);
 
-  strokeText: CanvasText['strokeText'] = (text, x, y) => this.#text(text, x, y, ` fill="none"${this.#line()}`);
+  strokeText: CanvasText['strokeText'] = (text, x, y) => this.#text(text, x, y, ` fill="none"${this.#strokeAttributes()}`);
 
-  #text(text: string, x: number, y: number, paint: string) {
+  #text(text: string, x: number, y: number, paintAttributes: string) {
     const dy = BASELINE_SHIFTS[this.textBaseline] ?? '0';
     const anchor = TEXT_ANCHORS[this.textAlign] ?? 'start';
     const textPosition = `x="${formatLength(x)}" y="${formatLength(y)}" dy="${dy}" text-anchor="${anchor}"`;
-    this.#marks.push(`<text ${textPosition} style="font:${escapeXml(this.font)}"${paint}>${escapeXml(text)}</text>`);
+    this.#elements.push(`<text ${textPosition} style="font:${escapeXml(this.font)}"${paintAttributes}>${escapeXml(text)}</text>`);
   }
 
   /** Draws an image in a rectangle x, y, width, height. Four numbers before these select a part of the image. */
-  drawImage(image: CanvasImageSource & { width: number, height: number }, ...place: number[]) {
-    const [x, y, width, height] = place.slice(-4).map(formatLength);
-    const [fromX, fromY, columns, rows] = place.length > 4 ? place : [0, 0, image.width, image.height];
+  drawImage(image: CanvasImageSource & { width: number, height: number }, ...rectangle: number[]) {
+    const [x, y, width, height] = rectangle.slice(-4).map(formatLength);
+    const [fromX, fromY, columns, rows] = rectangle.length > 4 ? rectangle : [0, 0, image.width, image.height];
     const canvas = document.createElement('canvas');
     canvas.width = columns;
     canvas.height = rows;
     (canvas.getContext('2d') as CanvasRenderingContext2D).drawImage(image, -fromX, -fromY);
     const imageBox = `x="${x}" y="${y}" width="${width}" height="${height}"`;
-    this.#marks.push(`<image ${imageBox} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#opacity()}/>`);
+    this.#elements.push(`<image ${imageBox} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#opacityAttribute()}/>`);
   }
 }

@@ -26,13 +26,13 @@ export class View {
   extent: Extent = { xMin: -1, yMin: -1, xMax: 1, yMax: 1 };
   #target: Extent | undefined;
   /** Part of the world that the view has to show, also after a change of the canvas size. */
-  #neededRoom: Extent | undefined;
+  #requiredExtent: Extent | undefined;
   /** Minimum fraction of the view that its content fills after the next fit. With 0 the view only zooms out. */
   #minFill = 0;
   /** True after the view has zoomed out. The picture resets it. */
-  widened = false;
+  hasZoomedOut = false;
   /** Limits of the extent. A larger extent is centred on them. */
-  within: Extent | undefined;
+  limits: Extent | undefined;
   /** True if a metre is as long in y as in x. */
   #hasEqualScales;
   /** True if the extent is exactly the needed part of the world, without a margin. After a change of size the view is then fitted anew. */
@@ -44,25 +44,25 @@ export class View {
   height = 1;
   /** Part of the canvas inside the axes, CSS pixels. */
   frame = { left: 0, top: 0, right: 1, bottom: 1 };
-  #inset;
+  #margins;
 
   constructor({ equal = true, snug = false, left = 42, right = 8, top = 24, bottom = 30 }: { equal?: boolean, snug?: boolean, left?: number, right?: number, top?: number, bottom?: number } = {}) {
     this.#hasEqualScales = equal;
     this.#isSnug = snug;
-    this.#inset = { left, right, top, bottom };
+    this.#margins = { left, right, top, bottom };
   }
 
   resize(width: number, height: number) {
     if (width === this.width && height === this.height) return;
     this.width = width;
     this.height = height;
-    const { left, right, top, bottom } = this.#inset;
+    const { left, right, top, bottom } = this.#margins;
     this.frame = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
-    if (this.#neededRoom) this.extent = this.#target = this.#coveringExtent(this.#neededRoom);
+    if (this.#requiredExtent) this.extent = this.#target = this.#coveringExtent(this.#requiredExtent);
   }
 
   /** True after the first fit. */
-  get aimed() {
+  get hasTarget() {
     return this.#target !== undefined;
   }
 
@@ -72,8 +72,8 @@ export class View {
   }
 
   /** Resets the view, so that the next fit takes effect without an animation. */
-  forget() {
-    this.#target = this.#neededRoom = undefined;
+  reset() {
+    this.#target = this.#requiredExtent = undefined;
   }
 
   /** Pixels per unit of x. With equal scales it is also that of y. */
@@ -131,10 +131,10 @@ export class View {
     this.#fittedSize = { width, height };
     this.#minFill = 0;
     if (keptTarget && isInside(needed, keptTarget) && this.#fillOf(keptTarget, needed) >= minFill) return;
-    this.widened = keptTarget !== undefined && minFill === 0;
+    this.hasZoomedOut = keptTarget !== undefined && minFill === 0;
     const padded = this.#isSnug ? needed : extentWithMargin(needed);
-    this.#neededRoom = keptTarget && this.widened ? extentAround([padded.xMin, padded.yMin, padded.xMax, padded.yMax], 2, keptTarget) : padded;
-    this.#target = this.#coveringExtent(this.#neededRoom);
+    this.#requiredExtent = keptTarget && this.hasZoomedOut ? extentAround([padded.xMin, padded.yMin, padded.xMax, padded.yMax], 2, keptTarget) : padded;
+    this.#target = this.#coveringExtent(this.#requiredExtent);
     if (!keptTarget) this.extent = this.#target;
   }
 
@@ -152,28 +152,28 @@ export class View {
   }
 
   /** Returns the fraction of an extent that the needed part of the world fills. */
-  #fillOf(shown: Extent, needed: Extent) {
-    const fractions = [(needed.xMax - needed.xMin) / (shown.xMax - shown.xMin), (needed.yMax - needed.yMin) / (shown.yMax - shown.yMin)];
+  #fillOf(currentExtent: Extent, needed: Extent) {
+    const fractions = [(needed.xMax - needed.xMin) / (currentExtent.xMax - currentExtent.xMin), (needed.yMax - needed.yMin) / (currentExtent.yMax - currentExtent.yMin)];
     return Math[this.#hasEqualScales ? 'max' : 'min'](...fractions);
   }
 
-  /** Returns an extent around `room`, moved into the limits. Its size is rounded unless the view is snug. Equal scales determine its aspect ratio. */
-  #coveringExtent(room: Extent) {
+  /** Returns an extent that contains `required`, moved into the limits. Its size is rounded unless the view is snug. With equal scales it has the aspect ratio of the plot area. */
+  #coveringExtent(required: Extent) {
     const { left, right, top, bottom } = this.frame;
-    const sizeFunction = this.#isSnug ? (needed: number) => needed : niceSize;
+    const roundSize = this.#isSnug ? (needed: number) => needed : niceSize;
     const aspectRatio = (bottom - top) / (right - left);
-    const [roomX, roomY] = [room.xMax - room.xMin, room.yMax - room.yMin];
-    const width = sizeFunction(this.#hasEqualScales ? Math.max(roomX, roomY / aspectRatio) : roomX);
-    const height = this.#hasEqualScales ? width * aspectRatio : sizeFunction(roomY);
-    const limits = this.within ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
-    const x = movedMiddle((room.xMin + room.xMax) / 2, width, limits.xMin, limits.xMax);
-    const y = movedMiddle((room.yMin + room.yMax) / 2, height, limits.yMin, limits.yMax);
+    const [roomX, roomY] = [required.xMax - required.xMin, required.yMax - required.yMin];
+    const width = roundSize(this.#hasEqualScales ? Math.max(roomX, roomY / aspectRatio) : roomX);
+    const height = this.#hasEqualScales ? width * aspectRatio : roundSize(roomY);
+    const limits = this.limits ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
+    const x = clampedMiddle((required.xMin + required.xMax) / 2, width, limits.xMin, limits.xMax);
+    const y = clampedMiddle((required.yMin + required.yMax) / 2, height, limits.yMin, limits.yMax);
     return { xMin: x - width / 2, xMax: x + width / 2, yMin: y - height / 2, yMax: y + height / 2 };
   }
 }
 
-/** Returns the middle of an interval that is moved between limits. If it is longer than their distance, it is centred on them. */
-function movedMiddle(middle: number, length: number, from: number, to: number) {
+/** Returns the middle of an interval after moving it between limits. An interval that is longer than their distance is centred on them. */
+function clampedMiddle(middle: number, length: number, from: number, to: number) {
   return to - from > length ? clamp(middle, from + length / 2, to - length / 2) : (from + to) / 2;
 }
 
@@ -194,9 +194,9 @@ function niceSize(size: number): number {
 
 const EMPTY_EXTENT: Readonly<Extent> = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };
 
-/** Returns the smallest extent that contains points and the extent `around`. x and y are the first two of each `stride` numbers. */
-export function extentAround(numbers: ArrayLike<number>, stride: number, around: Extent = EMPTY_EXTENT) {
-  const bounds = { ...around };
+/** Returns the smallest extent that contains points and `initialExtent`. x and y are the first two of each `stride` numbers. */
+export function extentAround(numbers: ArrayLike<number>, stride: number, initialExtent: Extent = EMPTY_EXTENT) {
+  const bounds = { ...initialExtent };
   for (let i = 0; i < numbers.length; i += stride) {
     bounds.xMin = Math.min(bounds.xMin, numbers[i]);
     bounds.xMax = Math.max(bounds.xMax, numbers[i]);
@@ -207,8 +207,8 @@ export function extentAround(numbers: ArrayLike<number>, stride: number, around:
 }
 
 /** Returns the smallest extent that contains points (x, y pairs), with a minimum width and height. */
-export function extentOf(points: number[], smallest: number) {
+export function extentOf(points: number[], minSize: number) {
   const { xMin, xMax, yMin, yMax } = extentAround(points, 2);
-  const [x, y] = [xMax - xMin, yMax - yMin].map((size) => Math.max(0, smallest - size) / 2);
+  const [x, y] = [xMax - xMin, yMax - yMin].map((size) => Math.max(0, minSize - size) / 2);
   return { xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y };
 }

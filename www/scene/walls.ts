@@ -14,7 +14,7 @@ export type Cells = Omit<Grid, 'unknown'> & { unknown?: Uint8Array };
 const WALL_WIDTH = 2.5;
 
 /** Distance, width and opacity of the lines that hatch unknown cells; lengths in CSS pixels. */
-const HATCHING = { apart: 7, width: 1, opacity: 0.4 };
+const HATCHING = { spacing: 7, width: 1, opacity: 0.4 };
 
 export class WallLayer {
   #plan;
@@ -59,7 +59,7 @@ export class WallLayer {
 /** Draws diagonal lines over the whole view. */
 function hatchView(context: Painter['context'], { width, height }: View, colour: string) {
   fade(context, HATCHING.opacity, () => strokePath(context, { colour, width: HATCHING.width }, () => {
-    for (let x = -height; x < width; x += HATCHING.apart) addLine(context, [[x, height], [x + height, 0]]);
+    for (let x = -height; x < width; x += HATCHING.spacing) addLine(context, [[x, height], [x + height, 0]]);
   }));
 }
 

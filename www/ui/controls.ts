@@ -257,11 +257,11 @@ export function toggle({ label, checked, change }: { label: unknown, checked: bo
 }
 
 /** Returns a button, with a class as its name. It is wide enough for its other label, so that nothing moves when the label changes. */
-export function button(label: unknown, press: () => void, { pressed, disabled = false, title, name, other }: { pressed?: boolean, disabled?: boolean, title?: string, name?: string, other?: string } = {}) {
+export function button(label: unknown, press: () => void, { pressed, disabled = false, title, name, otherLabel }: { pressed?: boolean, disabled?: boolean, title?: string, name?: string, otherLabel?: string } = {}) {
   return html`<button
     type="button"
     class=${name ?? nothing}
-    data-longest=${other ?? nothing}
+    data-longest=${otherLabel ?? nothing}
     part="button"
     ?disabled=${disabled}
     title=${title ?? nothing}
@@ -277,13 +277,13 @@ export function inputOf(event: Event) {
 }
 
 /** Returns radio buttons in a row under one name, in the order of the labels. */
-export function radioGroup<Name extends string>(label: string, group: string, labels: Record<Name, string>, current: Name, choose: (name: Name) => void) {
+export function radioGroup<Name extends string>(label: string, group: string, labels: Record<Name, string>, checkedName: Name, choose: (name: Name) => void) {
   const choiceNames = Object.keys(labels) as Name[];
   return html`<div class="choices" role="radiogroup" aria-label=${label}>
     <span aria-hidden="true">${label}</span>
     <div class="options">
       ${choiceNames.map((name) =>
-        radioButton({ group, label: labels[name], checked: name === current, choose: () => choose(name) }),
+        radioButton({ group, label: labels[name], checked: name === checkedName, choose: () => choose(name) }),
       )}
     </div>
   </div>`;

@@ -41,19 +41,19 @@ export function formatEditable(value: number, decimals: number): string {
  * Parses a number in the present language, or with a decimal point: "−0,301", "1.5 m/s", "2 000", "2,000"; NaN where it is none. In English
  * a comma may separate groups of three; elsewhere a point may, if a whole number is meant.
  */
-export function parseNumber(text: string, unit: string = '', whole: boolean = false): number {
+export function parseNumber(text: string, unit: string = '', isWhole: boolean = false): number {
   const compactText = text.replace(/\s/g, '').replace(MINUS, '-');
   const withoutUnit = unit && compactText.endsWith(unit) ? compactText.slice(0, -unit.length) : compactText;
   const decimalSign = decimalSeparator();
   // In English, commas separate complete groups of three digits. Where the comma is the decimal separator, points may.
-  const groupPattern = decimalSign === '.' ? /^-?[1-9]\d{0,2}(,\d{3})+$/ : whole && /^-?[1-9]\d{0,2}(\.\d{3})+$/;
+  const groupPattern = decimalSign === '.' ? /^-?[1-9]\d{0,2}(,\d{3})+$/ : isWhole && /^-?[1-9]\d{0,2}(\.\d{3})+$/;
   const ungroupedText = groupPattern && groupPattern.test(withoutUnit) ? withoutUnit.replace(/[,.]/g, '') : withoutUnit;
   return withoutUnit === '' ? NaN : Number(ungroupedText.replace(decimalSign, '.'));
 }
 
 /** Prints a limit: "1 000 000"; "1·10⁻⁶". */
 export function formatLimit(value: number): string {
-  return Number.isInteger(value) ? integer(value) : significantText(value, 1);
+  return Number.isInteger(value) ? integer(value) : formatSignificant(value, 1);
 }
 
 /** Magnitude below which a number counts as a rounded 0. */
@@ -65,21 +65,21 @@ const MAX_DECIMALS = 5;
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
 /** Prints a number with significant digits: "0.0070020"; below 0.0001 and from 100,000 on "1.2500·10⁻⁵". */
-export function significantText(value: number, digits: number): string {
+export function formatSignificant(value: number, digits: number): string {
   if (Math.abs(value) < MAX_ROUNDED_ZERO) return '0';
   if (!Number.isFinite(value)) return fixed(value, 0);
   const [mantissa, exponent] = value.toExponential(digits - 1).split('e').map(Number);
-  if (exponent < -4 || exponent >= 5) return `${fixed(mantissa, digits - 1)}·${powerOfTen(exponent)}`;
+  if (exponent < -4 || exponent >= 5) return `${fixed(mantissa, digits - 1)}·${formatPowerOfTen(exponent)}`;
   return fixed(Number(value.toPrecision(digits)), Math.max(0, digits - 1 - exponent));
 }
 
 /** Prints a power of ten: "10⁻⁵". */
-export function powerOfTen(exponent: number): string {
+export function formatPowerOfTen(exponent: number): string {
   return `10${String(exponent).replace('-', '⁻').replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)])}`;
 }
 
 /** Prints a positive number rounded to significant digits: "0.47", "12", "1 200". */
-export function roundedText(value: number, digits: number): string {
+export function formatRounded(value: number, digits: number): string {
   const roundedValue = Number(value.toPrecision(digits));
   const decimals = digits - 1 - Math.floor(Math.log10(roundedValue));
   return decimals > 0 ? fixed(roundedValue, decimals) : integer(roundedValue);
@@ -94,7 +94,7 @@ export function percent(share: number): string {
 }
 
 /** Prints a value with its standard error: "−0.412 ± 0.031"; "∞" and "—" have none. A small error has as many decimals as show its first digit. */
-export function withError(value: number, error: number, decimals: number): string {
+export function formatWithError(value: number, error: number, decimals: number): string {
   if (!Number.isFinite(value)) return fixed(value, 0);
   const neededDecimals = error > 0 ? Math.max(decimals, Math.min(MAX_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
   return `${fixed(value, neededDecimals)} ± ${fixed(error, neededDecimals)}`;

@@ -131,7 +131,7 @@ const figureLayout = css`
     padding-bottom: 0.8em;
   }
 
-  /* Tables and charts scroll over the pictures, which only controls keep visible, unless a handle of a picture has the focus. */
+  /* Open tables and charts cover the sticky pictures when the page scrolls, unless a handle of a picture has the focus. */
   .machine:not(:has(.views :focus-visible)) #numbers[open] {
     position: relative;
     z-index: 3;

@@ -4,15 +4,15 @@ import { ticks } from 'd3-array';
 import { css, html, nothing, svg, unsafeCSS } from 'lit';
 import { clamp } from './clamp.ts';
 import { formatMarkup } from './controls.ts';
-import { powerOfTen, tick } from './format.ts';
+import { formatPowerOfTen, tick } from './format.ts';
 import { track } from './slider.ts';
 
 const CHART_WIDTH = 380;
 const CHART_HEIGHT = 250;
-const LEFT = 46;
-const RIGHT = CHART_WIDTH - 12;
-const TOP = 22;
-const BOTTOM = CHART_HEIGHT - 34;
+const PLOT_LEFT = 46;
+const PLOT_RIGHT = CHART_WIDTH - 12;
+const PLOT_TOP = 22;
+const PLOT_BOTTOM = CHART_HEIGHT - 34;
 
 /** Maximum number of labels along an axis. More labels would touch each other. */
 const MAX_LABELS = { x: 6, y: 7 };
@@ -37,10 +37,10 @@ export const plotStyles = css`
   /* Plot area. A slider's thumb is half a thumb away from its ends. It looks like a grip on a line, because a dot would look like data. */
   .plotted input {
     position: absolute;
-    top: ${unsafeCSS((100 * TOP) / CHART_HEIGHT)}%;
-    left: calc(${unsafeCSS((100 * LEFT) / CHART_WIDTH)}% - 0.275em);
-    width: calc(${unsafeCSS((100 * (RIGHT - LEFT)) / CHART_WIDTH)}% + 0.55em);
-    height: ${unsafeCSS((100 * (BOTTOM - TOP)) / CHART_HEIGHT)}%;
+    top: ${unsafeCSS((100 * PLOT_TOP) / CHART_HEIGHT)}%;
+    left: calc(${unsafeCSS((100 * PLOT_LEFT) / CHART_WIDTH)}% - 0.275em);
+    width: calc(${unsafeCSS((100 * (PLOT_RIGHT - PLOT_LEFT)) / CHART_WIDTH)}% + 0.55em);
+    height: ${unsafeCSS((100 * (PLOT_BOTTOM - PLOT_TOP)) / CHART_HEIGHT)}%;
     --thumb: var(--prior);
     --thumb-width: 0.55em;
     --thumb-height: 1.9em;
@@ -174,23 +174,23 @@ export interface Plot {
 }
 
 export function plot({ label, x, y, curves, points = [], marks = [], slider, legend = curveKey(curves) }: Plot) {
-  const [toX, toY] = [pixelScale(x, LEFT, RIGHT), pixelScale(y, BOTTOM, TOP)];
+  const [toX, toY] = [pixelScale(x, PLOT_LEFT, PLOT_RIGHT), pixelScale(y, PLOT_BOTTOM, PLOT_TOP)];
   return html`<div class="plotted" dir="ltr">
     <svg class="plot" viewBox="0 0 ${CHART_WIDTH} ${CHART_HEIGHT}" role="img" aria-label=${label} part="chart">
-      ${axisLabels(x, MAX_LABELS.x).map(([value, text]) => gridLine(toX(value), toX(value), TOP, BOTTOM, { x: toX(value), y: BOTTOM + 18, anchor: 'middle', text }))}
-      ${axisLabels(y, MAX_LABELS.y).map(([value, text]) => gridLine(LEFT, RIGHT, toY(value), toY(value), { x: LEFT - 6, y: toY(value) + 4, anchor: 'end', text }))}
-      <text class="name" x=${RIGHT} y=${BOTTOM + 30} text-anchor="end">${x.name}</text>
+      ${axisLabels(x, MAX_LABELS.x).map(([value, text]) => gridLine(toX(value), toX(value), PLOT_TOP, PLOT_BOTTOM, { x: toX(value), y: PLOT_BOTTOM + 18, anchor: 'middle', text }))}
+      ${axisLabels(y, MAX_LABELS.y).map(([value, text]) => gridLine(PLOT_LEFT, PLOT_RIGHT, toY(value), toY(value), { x: PLOT_LEFT - 6, y: toY(value) + 4, anchor: 'end', text }))}
+      <text class="name" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${x.name}</text>
       <text class="name" x="0" y="12">${y.name}</text>
-      <svg x=${LEFT} y=${TOP} width=${RIGHT - LEFT} height=${BOTTOM - TOP} viewBox="${LEFT} ${TOP} ${RIGHT - LEFT} ${BOTTOM - TOP}">
+      <svg x=${PLOT_LEFT} y=${PLOT_TOP} width=${PLOT_RIGHT - PLOT_LEFT} height=${PLOT_BOTTOM - PLOT_TOP} viewBox="${PLOT_LEFT} ${PLOT_TOP} ${PLOT_RIGHT - PLOT_LEFT} ${PLOT_BOTTOM - PLOT_TOP}">
         ${curves.map((curve) => curve.error && svg`<path class="band ${highlightClass(curve)}" fill="var(--${curve.role})" d=${bandPath(curve, toX, toY)} />`)}
         ${curves.map((curve) => !curve.area && svg`<path class="curve ${highlightClass(curve)}" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${curvePath(curve, toX, toY)} />`)}
         ${marks.map((mark, row) => markSvg(mark, row, toX, toY))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
-          ({ role, x: at, y: value, error }) => svg`<path
+          ({ role, x: pointX, y: value, error }) => svg`<path
             class="curve"
             stroke="var(--${role})"
-            d="M${toX(at) - BAR_CAP},${toY(value - error)}h${2 * BAR_CAP}m${-BAR_CAP},0V${toY(value + error)}m${-BAR_CAP},0h${2 * BAR_CAP}"
-          /><circle cx=${toX(at)} cy=${toY(value)} r="3" fill="var(--${role})" />`,
+            d="M${toX(pointX) - BAR_CAP},${toY(value - error)}h${2 * BAR_CAP}m${-BAR_CAP},0V${toY(value + error)}m${-BAR_CAP},0h${2 * BAR_CAP}"
+          /><circle cx=${toX(pointX)} cy=${toY(value)} r="3" fill="var(--${role})" />`,
         )}
       </svg>
     </svg>
@@ -220,7 +220,7 @@ function curveKey(curves: Curve[]) {
   </ul>`;
 }
 
-/** Returns a function that converts values to pixels; NaN only for NaN. Values of 0 or less are far below a logarithmic axis. */
+/** Returns a function that converts values to pixels. It returns NaN only for NaN. On a logarithmic axis, values of 0 or less are far below the axis. */
 function pixelScale({ from, to, logarithmic }: Axis, first: number, last: number): (value: number) => number {
   const toLinear = logarithmic ? (value: number) => Math.log10(Math.max(value, 0)) : Number;
   const [start, end] = [toLinear(from), toLinear(to)];
@@ -232,7 +232,7 @@ function axisLabels({ from, to, logarithmic }: Axis, maxCount: number): [value: 
   const [first, last] = [Math.ceil(Math.log10(from) - 1e-9), Math.floor(Math.log10(to) + 1e-9)];
   const exponentStep = Math.max(1, Math.ceil((last - first + 1) / maxCount));
   const exponents = Array.from({ length: Math.floor((last - first) / exponentStep) + 1 }, (_, i) => first + i * exponentStep);
-  return exponents.map((exponent) => [10 ** exponent, powerOfTen(exponent)]);
+  return exponents.map((exponent) => [10 ** exponent, formatPowerOfTen(exponent)]);
 }
 
 /** Returns a curve as a path, with gaps. */
@@ -253,11 +253,11 @@ function markSvg({ x, y, text }: Mark, row: number, toX: (value: number) => numb
   if (x !== undefined) {
     const markX = toX(x);
     // Text next to the line, on the side that has space.
-    const [labelOffset, anchor] = 2 * markX > LEFT + RIGHT ? [-5, 'end'] : [5, 'start'];
-    return svg`<line class="mark" x1=${markX} x2=${markX} y1=${TOP} y2=${BOTTOM} />
-      <text class="marked" x=${markX + labelOffset} y=${TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;
+    const [labelOffset, anchor] = 2 * markX > PLOT_LEFT + PLOT_RIGHT ? [-5, 'end'] : [5, 'start'];
+    return svg`<line class="mark" x1=${markX} x2=${markX} y1=${PLOT_TOP} y2=${PLOT_BOTTOM} />
+      <text class="marked" x=${markX + labelOffset} y=${PLOT_TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;
   }
   const markY = toY(y ?? NaN);
-  return svg`<line class="mark" x1=${LEFT} x2=${RIGHT} y1=${markY} y2=${markY} />
-    <text class="marked" x=${RIGHT - 4} y=${markY - 5} text-anchor="end">${text}</text>`;
+  return svg`<line class="mark" x1=${PLOT_LEFT} x2=${PLOT_RIGHT} y1=${markY} y2=${markY} />
+    <text class="marked" x=${PLOT_RIGHT - 4} y=${markY - 5} text-anchor="end">${text}</text>`;
 }

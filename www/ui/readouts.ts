@@ -160,19 +160,19 @@ export function readoutList(rows: [name: string, value: string, detail?: string,
 
 interface FigureTable {
   caption?: unknown;
-  /** Names of the columns, that of the rows' names first. */
+  /** Headings of the columns. The first column has the names of the rows. */
   columns: unknown[];
-  /** Cells of the rows, the name of each first. A single cell after the name takes the place of all. */
+  /** Rows, each as its name and its cells. A single cell after the name spans all columns. */
   rows: unknown[][];
-  /** True if other numbers are being computed. */
+  /** True while newer numbers are being computed. */
   outdated?: boolean;
 }
 
 export function figureTable({ caption, columns, rows, outdated = false }: FigureTable) {
-  const rowCells = ([first, ...others]: unknown[]) =>
-    others.length === 0
-      ? html`<td colspan=${columns.length - 1}>${untranslated(first)}</td>`
-      : [first, ...others].map((cell) => html`<td>${untranslated(cell)}</td>`);
+  const rowCells = ([firstCell, ...otherCells]: unknown[]) =>
+    otherCells.length === 0
+      ? html`<td colspan=${columns.length - 1}>${untranslated(firstCell)}</td>`
+      : [firstCell, ...otherCells].map((cell) => html`<td>${untranslated(cell)}</td>`);
   return html`<table part="table" class=${outdated ? 'outdated' : nothing}>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>

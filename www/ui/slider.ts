@@ -6,7 +6,7 @@ import { live } from 'lit/directives/live.js';
 import { inputOf } from './controls.ts';
 
 /** Returns the styles of the track and thumb of a slider, whose pseudo-elements have other names in each browser. */
-const trackAndThumb = (track: string, thumb: string) => unsafeCSS(`
+const trackStyles = (track: string, thumb: string) => unsafeCSS(`
   input[type='range']::${track} {
     height: 2px;
     background: var(--track, var(--muted));
@@ -155,8 +155,8 @@ export const sliderStyles = css`
     touch-action: pan-y;
   }
 
-  ${trackAndThumb('-webkit-slider-runnable-track', '-webkit-slider-thumb')}
-  ${trackAndThumb('-moz-range-track', '-moz-range-thumb')}
+  ${trackStyles('-webkit-slider-runnable-track', '-webkit-slider-thumb')}
+  ${trackStyles('-moz-range-track', '-moz-range-thumb')}
 
   /* Chromium and WebKit put the top of the thumb on the top of the track. Firefox centres the thumb. */
   input[type='range']::-webkit-slider-thumb {
@@ -199,13 +199,13 @@ const NUMBER_START = /^[\d.,+\-\u2212]$/;
  */
 export function sliderRow(row: SliderRow) {
   const printedValue = row.show(row.value);
-  const longest = [row.show(row.min), row.show(row.max)].reduce((one, other) => (other.length > one.length ? other : one), printedValue);
+  const longestText = [row.show(row.min), row.show(row.max)].reduce((longer, candidate) => (candidate.length > longer.length ? candidate : longer), printedValue);
   return html`
-    <div class="slider ${row.off ? 'off' : ''} ${row.refusal ? 'refused' : ''}" part="slider" data-role=${row.role}>
-      ${row.pick ?? nothing}
+    <div class="slider ${row.hasNoEffect ? 'off' : ''} ${row.refusal ? 'refused' : ''}" part="slider" data-role=${row.role}>
+      ${row.pickControl ?? nothing}
       <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
       ${track({ ...row, ...stopPositions(row), name: undefined, text: printedValue, describedBy: `${row.id}-effect`, keydown: focusField })}
-      <span class="value notranslate" translate="no" dir="ltr" data-longest=${longest}>
+      <span class="value notranslate" translate="no" dir="ltr" data-longest=${longestText}>
         <span class="printed">${printedValue}</span>
         ${valueField(row, printedValue)}
       </span>
@@ -239,9 +239,9 @@ export interface SliderRow extends Range {
   effect: unknown;
   role: 'prior' | 'prediction' | 'truth';
   /** True if the value has no effect at present. */
-  off?: boolean;
+  hasNoEffect?: boolean;
   /** Control in front of the label. */
-  pick?: unknown;
+  pickControl?: unknown;
   /** Keyboard of a phone for typing the value. */
   keys: 'decimal' | 'numeric' | 'text';
   /** Applies a typed text. Returns the text to display, or undefined if it is refused. */
@@ -249,7 +249,7 @@ export interface SliderRow extends Range {
   /** Sentence about a refused text. */
   refusal?: string;
   /** Clears the sentence about a refused text. */
-  forget: () => void;
+  clearRefusal: () => void;
 }
 
 /** Returns the range of a slider over stops, whose positions are the indices of the stops. A value beyond the last stop has the position after it. */
@@ -260,7 +260,7 @@ function stopPositions({ stops, value, input }: SliderRow): Partial<Range> {
 }
 
 interface Track extends Range {
-  /** Name where the label is a symbol. */
+  /** Accessible name, for a slider without a label that screen readers can read. */
   name?: string;
   /** Value in words. */
   text: string;
@@ -324,8 +324,8 @@ const keepWhileTyping = directive(
   },
 );
 
-function valueField({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'forget'>, shown: string) {
-  /** Takes the typed text; returns true if it became the value. */
+function valueField({ id, keys, type, clearRefusal }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'clearRefusal'>, shown: string) {
+  /** Applies the typed text; returns true if it became the value. */
   const applyText = (input: HTMLInputElement): boolean => {
     // The default is the text at the time of focus.
     if (input.value === input.defaultValue) return true;
@@ -337,7 +337,7 @@ function valueField({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 
     const input = inputOf(event);
     if (event.key === 'Escape') input.value = input.defaultValue = shown;
     else if (event.key !== 'Enter') return;
-    // Prevents other effects of the key.
+    // A handled Escape does not end a presentation.
     event.preventDefault();
     if (applyText(input)) controlOfRow(input, 'input[type=range]').focus();
     else input.select();
@@ -358,7 +358,7 @@ function valueField({ id, keys, type, forget }: Pick<SliderRow, 'id' | 'keys' | 
       input.defaultValue = input.value;
       input.select();
     }}
-    @input=${forget}
+    @input=${clearRefusal}
     @keydown=${handleKey}
     @blur=${(event: Event) => applyText(inputOf(event))}
   />`;

@@ -1,7 +1,7 @@
 /** <alpha-calibrator>: α's fitted to a log, with confidence intervals and goodness of fit. */
 
 import { html } from 'lit';
-import { asObject } from '../../figure/checks.ts';
+import { checkedObject } from '../../figure/checks.ts';
 import { canvas, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
@@ -55,7 +55,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   pictures = [this.#pathPicture, this.#legPicture];
   exportPicture = new SummaryPicture(this);
   #opener = new LogOpener(this);
-  dropped = this.#opener;
+  dropHandlers = this.#opener;
   service = new LogService('alpha-calibrator');
   #predictedLeg: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();
@@ -132,7 +132,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   set log(log) {
     this.reflection.setProperty('log', log, (newLog) => {
-      if (newLog !== null) asObject('log', newLog, ['name', 'odometry', 'reference']);
+      if (newLog !== null) checkedObject('log', newLog, ['name', 'odometry', 'reference']);
       this.service.stop();
       const accept = () => {
         this.#pageLog = newLog;
@@ -165,11 +165,11 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       freeOnError(machine, () => check?.(machine));
       if (log !== this.log) {
         this.state.elementState.leg = null;
-        for (const { view } of this.pictures) view.forget();
+        for (const { view } of this.pictures) view.reset();
       }
       this.#givenLog = openedLog;
       this.runtime.replace(machine);
-      this.settings.stale = true;
+      this.settings.isStale = true;
       this.renderer.requestFrame();
     });
   }
@@ -179,7 +179,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     const { log, service } = this;
     if (!log || service.isBusy) return;
     try {
-      await this.notice.during(this.open(log, this.warnings), () => this.#giveUp());
+      await this.notice.showDuring(this.open(log, this.warnings), () => this.#giveUp());
     } catch (error) {
       if (!isStopped(error)) this.#giveUp();
       this.#report(error);

@@ -27,7 +27,7 @@ export function legControls(figure: Figure) {
         show: integer,
         effect: undefined,
         role: 'truth',
-        off: legs.count < 2,
+        hasNoEffect: legs.count < 2,
         input: (number) => figure.settings.request({ leg: number - 1 }),
         commit: () => figure.gesture.commit(),
       })}
@@ -59,7 +59,7 @@ export function predictionControls(figure: Figure) {
 
 export function legLengths(figure: Figure) {
   const off = figure.settings.requested.duration > 0;
-  return group(words.calibrator.leg.group, html`<div class="controls">${settingSlider(figure, 'distance', { off })} ${settingSlider(figure, 'angle', { off })}</div>`);
+  return group(words.calibrator.leg.group, html`<div class="controls">${settingSlider(figure, 'distance', { hasNoEffect: off })} ${settingSlider(figure, 'angle', { hasNoEffect: off })}</div>`);
 }
 
 export function referenceNoise(figure: Figure) {

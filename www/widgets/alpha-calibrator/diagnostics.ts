@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup, formatMarkup } from '../../ui/controls.ts';
-import { NO_VALUE, integer, fixed, percent, roundedText } from '../../ui/format.ts';
+import { NO_VALUE, integer, fixed, percent, formatRounded } from '../../ui/format.ts';
 import { plot, type Curve } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
@@ -47,7 +47,7 @@ function windowsTable({ reading: { stats: { diagnostics: { windows } } } }: Figu
 
 function noiseTable({ reading: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
   const { noise: say, settings, alphas: { interval: intervalName, between } } = words.calibrator;
-  const formatStd = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? roundedText(value, 2) : '∞');
+  const formatStd = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? formatRounded(value, 2) : '∞');
   const row = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, formatStd(value), between(formatStd(low), formatStd(high))];
   return figureTable({
     caption: say.caption,
@@ -56,7 +56,7 @@ function noiseTable({ reading: { stats: { referenceNoise: { positionStd, yawStd 
       row(`${settings.positionStd.name} (m)`, positionStd),
       row(`${settings.yawStd.name} (rad)`, yawStd),
       row(say.correlation, correlation),
-      [say.length, length > 0 ? `${roundedText(length, 2)} m` : NO_VALUE, NO_VALUE],
+      [say.length, length > 0 ? `${formatRounded(length, 2)} m` : NO_VALUE, NO_VALUE],
     ],
   });
 }

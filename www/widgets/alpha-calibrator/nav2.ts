@@ -1,7 +1,7 @@
 /** Exports of the Alpha Calibrator: lines for nav2_params.yaml, and all results as JSON. */
 
 import { html } from 'lit';
-import { save } from '../../figure/export.ts';
+import { downloadFile } from '../../figure/export.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 import { NAV2_RULES, nav2Lines } from './lines.ts';
@@ -28,11 +28,11 @@ export function copyButton(figure: Figure, obstacle: string) {
   const say = words.calibrator.nav2;
   if (!NAV2_RULES.includes(modelRuleOf(figure.reading.fitted))) return button(say.fit, () => figure.gesture.decide(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || say.fitTitle });
   const yaml = yamlOf(figure);
-  return figure.copies.button('nav2', say.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? say.label : say.none) });
+  return figure.copyMenu.button('nav2', say.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? say.label : say.none) });
 }
 
 /** Returns the message of the button, which stands where it moves neither the button nor the table. */
-export const copyMessage = (figure: Figure) => figure.copies.answer('nav2', yamlOf(figure));
+export const copyMessage = (figure: Figure) => figure.copyMenu.messageHtml('nav2', yamlOf(figure));
 
 /** Returns the lines, and the button that saves all results. `obstacle` disables it. */
 export function nav2Exports(figure: Figure, obstacle: string) {
@@ -41,6 +41,6 @@ export function nav2Exports(figure: Figure, obstacle: string) {
   const fileName = `${figure.localName}-${figure.reading.config.seed}.json`;
   return html`${yaml ? html`<textarea class="yaml" readonly rows=${yaml.split('\n').length} aria-label=${say.label} .value=${yaml}></textarea>` : html`<p>${say.none}</p>`}
     <div class="buttons">
-      ${button(say.json, () => save(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
+      ${button(say.json, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
     </div>`;
 }

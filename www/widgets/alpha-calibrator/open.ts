@@ -117,7 +117,7 @@ export class LogOpener extends FileOpener<Figure> {
   /** Shows that no log is being read, and lets the figure apply the changes that waited for the end of reading. */
   #setIdle() {
     this.share = undefined;
-    this.host.settings.stale = true;
+    this.host.settings.isStale = true;
     this.host.renderer.requestFrame();
     this.host.requestUpdate();
   }

@@ -3,7 +3,7 @@
 import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { NO_VALUE, powerOfTen, tick } from '../../ui/format.ts';
+import { NO_VALUE, formatPowerOfTen, tick } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { adviceOf, alphaOrBound, fixed } from './lines.ts';
 import { truthApplies, type Reading } from './reading.ts';
@@ -48,7 +48,7 @@ export function alphaTable(reading: Reading) {
       <tr class="axis" aria-hidden="true">
         <td></td>
         <td class="chart">
-          <div class="line"><div class="of"></div><div class="scale">${axis.decades.map((decade) => html`<span .style=${`left: ${(100 * axis.at(decade)) / WHISKER_ROW.width}%`}>${decade < 5e-4 ? powerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div></div>
+          <div class="line"><div class="of"></div><div class="scale">${axis.decades.map((decade) => html`<span .style=${`left: ${(100 * axis.at(decade)) / WHISKER_ROW.width}%`}>${decade < 5e-4 ? formatPowerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div></div>
         </td>
         <td colspan="2"></td>
       </tr>

@@ -1,6 +1,6 @@
 /** The Alpha Calibrator's settings: their attributes, their part of the state, and their sliders. */
 
-import { wholeNumber, checkedWord } from '../../figure/checks.ts';
+import { checkedInteger, checkedWord } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import type { AlphaCalibratorSettings } from '../../types.d.ts';
 
@@ -76,7 +76,7 @@ export const definition = definitionOf('alpha-calibrator', {
     inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
   },
   elementFields: {
-    leg: { opening: null, check: (field, leg) => (leg === null ? null : wholeNumber(field, leg, 0, MAX_LEG_INDEX)) },
+    leg: { opening: null, check: (field, leg) => (leg === null ? null : checkedInteger(field, leg, 0, MAX_LEG_INDEX)) },
     regressor: { opening: REGRESSORS[0], check: (field, regressor) => checkedWord(field, regressor, REGRESSORS) },
   },
 });

@@ -1,7 +1,7 @@
 /** Texts of the Alpha Calibrator in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { integer, fixed, percent, powerOfTen } from '../../ui/format.ts';
+import { integer, fixed, percent, formatPowerOfTen } from '../../ui/format.ts';
 import { en } from './en.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { correctFirst, failedOf, missingAlphas } from './lines.ts';
@@ -65,12 +65,12 @@ export function reasonOf({ stats: { recommended, diagnostics: { checks, windows 
 export const noiseNames = (model: Reading['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
 
 /** Returns a number of a file, such as 1.5e-7, with the decimal sign of the language and a power of ten. */
-export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${powerOfTen(Number(exponent))}`);
+export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
 
 /** Scales small numbers by a power of 1000, so that labels fit next to an axis. The unit is empty for the power 1. */
 export function powerOf1000(highest: number): { scaled: (value: number) => number, unit: string } {
   const exponent = Math.min(0, 3 * Math.floor(Math.log10(highest) / 3));
-  return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? powerOfTen(exponent) : '' };
+  return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? formatPowerOfTen(exponent) : '' };
 }
 
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */

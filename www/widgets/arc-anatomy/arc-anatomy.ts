@@ -89,7 +89,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
       ${disclosures(this, {
         controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
         numbers: () => html`${lineStepper(this)} ${tableLines(reading, this.state.elementState.line)} ${likelihoodReadouts(reading)} ${formsPlot(this.motion)}`,
-        mark: 'figure',
+        fileNameMark: 'figure',
         csvTitle: say.csvTitle,
       })}`)}
     `;

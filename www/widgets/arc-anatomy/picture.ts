@@ -10,7 +10,7 @@ import { Picture } from '../../scene/picture.ts';
 import { Pixels } from '../../scene/pixels.ts';
 import { View, extentAround } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
-import { fixed, significantText } from '../../ui/format.ts';
+import { fixed, formatSignificant } from '../../ui/format.ts';
 import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
 import { CONTOUR_STYLES, LINE_STYLES, type LineName } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
@@ -164,7 +164,7 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
     return;
   }
   drawArrow(context, colour, [fromX + visible * (x - fromX), fromY + visible * (y - fromY)], Math.atan2(y - fromY, x - fromX));
-  const distance = significantText(Math.hypot(center[0] - start.x, center[1] - start.y), 2);
+  const distance = formatSignificant(Math.hypot(center[0] - start.x, center[1] - start.y), 2);
   drawArcLabel(`${words.anatomy.centreAt(distance)}, ${angle}`, visible);
 }
 

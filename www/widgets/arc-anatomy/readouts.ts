@@ -4,7 +4,7 @@ import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { fixed, powerOfTen } from '../../ui/format.ts';
+import { fixed, formatPowerOfTen } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import { TABLE_LINES } from './settings.ts';
@@ -120,8 +120,8 @@ export function formsPlot({ ArcAnatomy }: Motion) {
         { name: say.chord, role: 'posterior', dash: '7 3', x: omega, y: chord },
       ],
       marks: [
-        { x: estimatedCrossover, text: `2·${powerOfTen(-8)}/Δt` },
-        { x: threshold, text: powerOfTen(Math.log10(threshold)) },
+        { x: estimatedCrossover, text: `2·${formatPowerOfTen(-8)}/Δt` },
+        { x: threshold, text: formatPowerOfTen(Math.log10(threshold)) },
       ],
     })}
     <figcaption>${formatMarkup(say.caption)}</figcaption>

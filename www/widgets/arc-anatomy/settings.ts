@@ -1,6 +1,6 @@
 /** Arc Anatomy's settings: their attributes, their part of the state, and their sliders. */
 
-import { wholeNumber } from '../../figure/checks.ts';
+import { checkedInteger } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 
@@ -44,8 +44,8 @@ export const definition = definitionOf('arc-anatomy', {
   opening: ['commanded', 'inverted', 'wedge', 'chord'],
   sliderSpecs: { ...COMMAND_SLIDERS, ...ALPHA_SLIDERS },
   elementFields: {
-    line: { opening: 0, ofPreset: true, check: (field, line) => wholeNumber(field, line, 0, TABLE_LINES) },
-    underway: { opening: UNDERWAY_AT_END, ofPreset: true, check: (field, share) => wholeNumber(field, share, 0, UNDERWAY_AT_END) },
+    line: { opening: 0, isResetByPreset: true, check: (field, line) => checkedInteger(field, line, 0, TABLE_LINES) },
+    underway: { opening: UNDERWAY_AT_END, isResetByPreset: true, check: (field, share) => checkedInteger(field, share, 0, UNDERWAY_AT_END) },
   },
 });
 

@@ -1,7 +1,7 @@
 /** Texts of Arc Anatomy in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { fixed, percent, powerOfTen, significantText } from '../../ui/format.ts';
+import { fixed, percent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import type { ArcAnatomy, Pose } from '../../types.d.ts';
@@ -16,7 +16,7 @@ const MIN_DECIMAL = 0.0005;
 
 function powerText(value: number) {
   const [mantissa, exponent] = value.toExponential(1).split('e').map(Number);
-  return `${fixed(mantissa, 1)}·${powerOfTen(exponent)}`;
+  return `${fixed(mantissa, 1)}·${formatPowerOfTen(exponent)}`;
 }
 
 /** Returns true if a number is printed as a power of ten. */
@@ -24,7 +24,7 @@ export const isTiny = (value: number) => value > 0 && value < MIN_DECIMAL;
 
 export const shareText = (share: number) => (isTiny(share) ? powerText(share) : percent(share));
 
-export const densityText = (density: number) => (isTiny(density) ? powerText(density) : significantText(density, 3));
+export const densityText = (density: number) => (isTiny(density) ? powerText(density) : formatSignificant(density, 3));
 
 const ESTIMATE_SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
 

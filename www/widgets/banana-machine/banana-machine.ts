@@ -1,7 +1,7 @@
 /** <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are nearly a Gaussian. */
 
 import { html } from 'lit';
-import { asObject } from '../../figure/checks.ts';
+import { checkedObject } from '../../figure/checks.ts';
 import { enterCloud } from '../../figure/cloud.ts';
 import { canvas, cloudControls, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
@@ -91,7 +91,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const { overlays, morph } = this.state.elementState;
     const shownOverlays = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
     // There are no callouts while a cloud grows or is dragged, because outlines move. During a morph their sentences would be wrong.
-    const isMoving = this.cloud.playing || (this.gesture.pressed && reading !== this.gesture.previousReading);
+    const isMoving = this.cloud.playing || (this.gesture.isPressed && reading !== this.gesture.previousReading);
     const otherOverlays = OVERLAYS.filter((name) => name !== 'command' && shownOverlays[name] && hasLength(reading.contours[name]));
     const callouts = isMoving || morph > 0 || otherOverlays.join() !== 'ellipse,exponential' ? [] : calloutsOf(reading);
     return {
@@ -147,11 +147,11 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   announcement = announcementOf;
 
   snapshot() {
-    return { ...super.snapshot(), alphas: this.settings.stale ? this.machine?.alphasOfModels : this.reading.alphasOfModels };
+    return { ...super.snapshot(), alphas: this.settings.isStale ? this.machine?.alphasOfModels : this.reading.alphasOfModels };
   }
 
   withDerivedFields(currentState: Values, changes: Values) {
-    const alphas = asObject('state.alphas', changes.alphas ?? {}, Object.keys(openingAlphas));
+    const alphas = checkedObject('state.alphas', changes.alphas ?? {}, Object.keys(openingAlphas));
     return { ...super.withDerivedFields(currentState, changes), alphas: { ...currentState.alphas, ...alphas } };
   }
 
@@ -173,7 +173,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
    * @public
    */
   get twists(): Float64Array | null {
-    return this.ask((machine) => machine.twists);
+    return this.queryMachine((machine) => machine.twists);
   }
 
   /**
@@ -183,12 +183,12 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
    * @public
    */
   get executed(): Float64Array | null {
-    return this.ask((machine) => machine.executed);
+    return this.queryMachine((machine) => machine.executed);
   }
 
   /** Selected robot, if it is among those shown. */
   get #inspection() {
-    const { machine, reading, cloud: { isMarked, index } } = this;
+    const { machine, reading, cloud: { isMarked, selectedIndex: index } } = this;
     return isMarked && machine ? this.#inspectedSample.get([reading.stats, index], () => machine.inspect(index)) : undefined;
   }
 
@@ -235,7 +235,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       ${this.renderer.afterFirstPicture(() => html`
       <div class="morphing">
         ${morphControl(this)}
-        ${button(this.#pinned ? say.unpin : say.pin, () => this.#pin(), { title: say.pinTitle, other: this.#pinned ? say.pin : say.unpin })}
+        ${button(this.#pinned ? say.unpin : say.pin, () => this.#pin(), { title: say.pinTitle, otherLabel: this.#pinned ? say.pin : say.unpin })}
       </div>
       ${legend(this, LINE_STYLES, this.#missingOutlineNotes(reading))}
       <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>

@@ -53,8 +53,8 @@ function alphaSlider(figure: Figure, key: string, number: number, name: string, 
   const chooseAlpha = () => figure.gesture.decide({ isolate: number, isolateChoice: number });
   return settingSlider(figure, key, {
     name,
-    off,
-    pick: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose: chooseAlpha }),
+    hasNoEffect: off,
+    pickControl: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose: chooseAlpha }),
     show: (value) => (off ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
     effect: html`<span class="path">${path}:</span> ${picture}.`,
     input: (value) => {

@@ -89,20 +89,20 @@ export class MorphView extends View {
     for (const end of this.ends) end.release(minFill);
   }
 
-  forget() {
-    for (const end of this.ends) end.forget();
+  reset() {
+    for (const end of this.ends) end.reset();
   }
 
-  get aimed() {
-    return this.ends[this.morph > 0 ? 1 : 0].aimed;
+  get hasTarget() {
+    return this.ends[this.morph > 0 ? 1 : 0].hasTarget;
   }
 
   /** Sets the target of the view at an end of the morph. */
   fitEnd(needed: Extent, end: 0 | 1) {
     const view = this.ends[end];
-    view.widened = false;
+    view.hasZoomedOut = false;
     view.fit(needed);
-    this.widened ||= view.widened;
+    this.hasZoomedOut ||= view.hasZoomedOut;
   }
 
   ease(elapsed: Parameters<View['ease']>[0], atOnce: Parameters<View['ease']>[1]) {

@@ -66,7 +66,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
 
   /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
   nearest(machine: BananaMachine, x: number, y: number) {
-    return machine.nearest(this.morph, ...this.around(x, y, PICK_RADIUS));
+    return machine.nearest(this.morph, ...this.toWorldCircle(x, y, PICK_RADIUS));
   }
 
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */

@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { NO_VALUE, integer, fixed, percent, significantText, withError } from '../../ui/format.ts';
+import { NO_VALUE, integer, fixed, percent, formatSignificant, formatWithError } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import type { Inspection, Moments, Table } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
@@ -23,7 +23,7 @@ export function readouts(reading: Reading, pinned?: Reading) {
   const pinnedValues = pinned && printedStatistics(pinned).map((value) => `${words.banana.pinned}: ${value}`);
   const coverages = [coverage.ellipse, coverage.exponential];
   return readoutList([
-    [say.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : say.areaDetail(Number.isNaN(areaRatioError) ? '' : significantText(areaRatioError, 1), percent(coverages[0]), percent(coverages[1])), pinnedValues?.[0]],
+    [say.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : say.areaDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), percent(coverages[0]), percent(coverages[1])), pinnedValues?.[0]],
     // A gain on the floor and one of poses are not comparable.
     [gain.unbounded ? say.gainOnFloor : say.gain, printedValues[1], gainText(gain), pinned?.gain.unbounded === gain.unbounded ? pinnedValues?.[1] : undefined],
     [say.skew, printedValues[2], Number.isNaN(exactSkew) ? NO_VALUE : say.exactly(fixed(exactSkew, 3)), pinnedValues?.[2]],
@@ -34,8 +34,8 @@ export function readouts(reading: Reading, pinned?: Reading) {
 function printedStatistics({ stats, gain }: Reading) {
   return [
     Number.isNaN(stats.areaRatio) ? NO_VALUE : `${fixed(stats.areaRatio, 2)} ×`,
-    withError(gain.value, gain.error, 3),
-    withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
+    formatWithError(gain.value, gain.error, 3),
+    formatWithError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
   ];
 }
 
@@ -93,7 +93,7 @@ const covarianceName = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i>
 
 export function workedExample({ table: { linearized, exact, measured }, stats }: Reading) {
   const computedColumns = [linearized, exact];
-  const [skew, ...error] = withError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
+  const [skew, ...error] = formatWithError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
   // Two lines, also without an error, so that the row keeps its height.
   const measuredSkew = html`${skew} <br />${error.join(' ') || '\u00a0'}`;
   const say = words.banana.table;
@@ -115,8 +115,8 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
     columns: [say.quantity, say.linearized, say.exact, say.measured],
     rows: exampleRows.map(([name, valueOf, withItsError]) => [
       name,
-      ...computedColumns.map((column) => significantText(valueOf(column), COMPUTED_DIGITS)),
-      withItsError ?? significantText(valueOf(measured), MEASURED_DIGITS),
+      ...computedColumns.map((column) => formatSignificant(valueOf(column), COMPUTED_DIGITS)),
+      withItsError ?? formatSignificant(valueOf(measured), MEASURED_DIGITS),
     ]),
   });
 }
@@ -132,8 +132,8 @@ export function twistTable({ table: { tangent }, stats: { exponential } }: Readi
     columns: [say.quantity, say.command, say.measured],
     rows: twistRows.map(([name, of]) => [
       formatMarkup(name),
-      tangent === null ? NO_VALUE : significantText(of(tangent), COMPUTED_DIGITS),
-      significantText(of(exponential), MEASURED_DIGITS),
+      tangent === null ? NO_VALUE : formatSignificant(of(tangent), COMPUTED_DIGITS),
+      formatSignificant(of(exponential), MEASURED_DIGITS),
     ]),
   });
 }

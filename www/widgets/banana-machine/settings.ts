@@ -1,7 +1,7 @@
 /** The Banana Machine's settings: their attributes, their part of the state, and their sliders. */
 
 import { NUMBER_CONVERTER } from '../../figure/attributes.ts';
-import { wholeNumber } from '../../figure/checks.ts';
+import { checkedInteger } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { openingAlphas } from '../../settings.js';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
@@ -38,11 +38,11 @@ export const definition = definitionOf('banana-machine', {
   sliderSpecs,
   elementFields: {
     /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
-    isolateChoice: { opening: 4, check: (field, number) => wholeNumber(field, number, 1, openingAlphas.velocity.length) },
+    isolateChoice: { opening: 4, check: (field, number) => checkedInteger(field, number, 1, openingAlphas.velocity.length) },
     /** Settings of the machine whose outlines are pinned; null for none. `BananaMachineElement.restore` checks them. */
     pinned: { opening: null, check: (_, pinned) => pinned },
     /** Morph, from the floor (0) to exponential coordinates (1). */
-    morph: { converter: NUMBER_CONVERTER, min: 0, max: 1, opening: 0, ofPreset: true },
+    morph: { converter: NUMBER_CONVERTER, min: 0, max: 1, opening: 0, isResetByPreset: true },
   },
   dependentDefaults: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),
 });

@@ -1,7 +1,7 @@
 /** Texts of the Banana Machine in the present language: sentences about degenerate clouds, and text equivalents of the pictures. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { integer, fixed, percent, withError } from '../../ui/format.ts';
+import { integer, fixed, percent, formatWithError } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { deviation, spreadKind, type Reading } from './reading.ts';
@@ -13,7 +13,7 @@ export function announcementOf({ config, stats, note }: Reading) {
   const { announcement, skew, noSkew } = words.banana;
   const outcomeText = Number.isNaN(stats.crossTrackSkew)
     ? noSkew
-    : skew(withError(stats.crossTrackSkew, stats.crossTrackSkewError, 2));
+    : skew(formatWithError(stats.crossTrackSkew, stats.crossTrackSkewError, 2));
   return announcement(integer(stats.n), commandText(config.command), note || outcomeText);
 }
 
@@ -74,7 +74,7 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   const say = words.banana.bend;
   // A line break must not separate a number from its error.
   const withoutBreaks = (number: string) => number.replaceAll(' ', '\u00a0');
-  const [measuredSkew, exactText] = [withoutBreaks(withError(skew, error, 3)), fixed(exactSkew, 3)];
+  const [measuredSkew, exactText] = [withoutBreaks(formatWithError(skew, error, 3)), fixed(exactSkew, 3)];
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measuredSkew);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const lean = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measuredSkew) : say.hardly(measuredSkew, exactText);
@@ -82,7 +82,7 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
     const lesserOf = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
     if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
     const gained = lesserOf(gain.value, gain.exact);
-    return gained > MIN_GAIN ? `${say.gains(withoutBreaks(withError(gain.value, gain.error, 3)), gained > VISIBLE_GAINS.pose)} ${lean}` : lean;
+    return gained > MIN_GAIN ? `${say.gains(withoutBreaks(formatWithError(gain.value, gain.error, 3)), gained > VISIBLE_GAINS.pose)} ${lean}` : lean;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measuredSkew, exactText);
   return exactSkew < 0 ? say.right(measuredSkew) : say.left(measuredSkew);

@@ -25,7 +25,7 @@ export function moreControls(figure: Figure) {
   const walkedText = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<div class="controls">
     ${group(words.command, html`${sliders(figure, COMMAND_SLIDERS)}
-      ${settingSlider(figure, 'step', { max: Math.max(2, steps), maxEntered: steps, off: steps === 1, effect: walkedText })}`)}
+      ${settingSlider(figure, 'step', { max: Math.max(2, steps), maxEntered: steps, hasNoEffect: steps === 1, effect: walkedText })}`)}
     ${group(words.noise, html`${Object.keys(NOISE_SLIDERS).map((key, i) => settingSlider(figure, key, { effect: alphas.effects[i] }))}
       ${radios(figure, 'per', per)}`)}
     ${cloudControls(figure, SAMPLE_COUNTS)}

@@ -82,7 +82,7 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
 
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {
-    const { machine, reading, cloud: { isMarked, index } } = this;
+    const { machine, reading, cloud: { isMarked, selectedIndex: index } } = this;
     return isMarked && machine ? this.#rollout.get([reading.stats, index], () => machine.rollout(index)) : undefined;
   }
 

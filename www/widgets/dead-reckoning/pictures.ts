@@ -6,7 +6,7 @@ import { drawCallouts, type Callout } from '../../scene/callout.ts';
 import { drawDots, drawEarlier, drawMark, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
-import { significantText } from '../../ui/format.ts';
+import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, type Brush } from '../../scene/canvas.ts';
 
@@ -118,7 +118,7 @@ const NOTICEABLE_RATIO = 1.05;
 
 /** Returns the text of the factors scale x : scale y and scale y : scale x. A factor that is too small to notice is the empty text. */
 export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
-  return [scaleX / scaleY, scaleY / scaleX].map((factor) => (factor > NOTICEABLE_RATIO ? significantText(factor, factor < 10 ? 2 : 1) : ''));
+  return [scaleX / scaleY, scaleY / scaleX].map((factor) => (factor > NOTICEABLE_RATIO ? formatSignificant(factor, factor < 10 ? 2 : 1) : ''));
 }
 
 /** Returns the names of the axes. The factor of a stretched axis is in the upper name, because it would hide ticks near the lower one. */

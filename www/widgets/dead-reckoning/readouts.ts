@@ -5,7 +5,7 @@ import { sampleField } from '../../figure/controls.ts';
 import { legend } from '../../figure/overlays.ts';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { NO_VALUE, fixed, integer, significantText } from '../../ui/format.ts';
+import { NO_VALUE, fixed, integer, formatSignificant } from '../../ui/format.ts';
 import { plot, type Role } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { COMPONENTS, type Reading } from './reading.ts';
@@ -73,7 +73,7 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
   const say = words.reckoning.straight;
   const [from, to] = GROWTH_AXES.durations;
   const [minVariance, maxVariance] = GROWTH_AXES.variances;
-  const crossingText = crossing === null ? '' : significantText(crossing, 3);
+  const crossingText = crossing === null ? '' : formatSignificant(crossing, 3);
   return html`<figure>
     <p class="panel-title">${say.title}</p>
     ${plot({

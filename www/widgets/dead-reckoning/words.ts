@@ -1,7 +1,7 @@
 /** Texts of Dead Reckoning in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { NO_VALUE, integer, fixed, withError } from '../../ui/format.ts';
+import { NO_VALUE, integer, fixed, formatWithError } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { COMPONENTS, type Reading } from './reading.ts';
@@ -18,7 +18,7 @@ function signedPercent(share: number, printed: string = fixed(100 * share, 1)) {
 }
 
 /** Returns the relative error of the predicted variance after the last step, as text. */
-export const endText = ({ end, error }: { end: number, error: number }) => signedPercent(end, withError(100 * end, 100 * error, 1));
+export const endText = ({ end, error }: { end: number, error: number }) => signedPercent(end, formatWithError(100 * end, 100 * error, 1));
 
 /** Returns how well the recursion predicts the components that are shown. */
 export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: Reading, overlays: string[]) {
@@ -65,7 +65,7 @@ export function ratioText({ config: { step, compounding }, curves }: Reading, ov
   const say = words.reckoning;
   const ratioTexts = shownComponentsOf(overlays).map((name) => {
     const { ratio, error } = curves[COMPONENTS.indexOf(name)];
-    return `${say.components[name]} ${withError(ratio[step - 1], error[step - 1], 2)}`;
+    return `${say.components[name]} ${formatWithError(ratio[step - 1], error[step - 1], 2)}`;
   });
   return say.ratioText(say.recursions[compounding], String(step), ratioTexts.join(', '));
 }

@@ -45,7 +45,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
   #meter = new CostMeter(this);
   #opener = new MapOpener(this);
-  dropped = this.#opener;
+  dropHandlers = this.#opener;
   #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
   #wallHandles = new WallHandles(this);
   /** Treatment of unknown cells for which the picture was made. */
@@ -93,8 +93,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   get scene() {
     const reading = this.currentReading;
-    this.#meter.measureWhenIdle(reading.config, !this.cloud.playing && !this.gesture.pressed);
-    const { index, isMarked } = this.cloud;
+    this.#meter.measureWhenIdle(reading.config, !this.cloud.playing && !this.gesture.isPressed);
+    const { selectedIndex: index, isMarked } = this.cloud;
     this.picture.close = this.state.elementState.view === 'close';
     return { ...reading, machine: this.machine, overlays: this.state.elementState.overlays, marked: isMarked ? this.#marked(index) : undefined };
   }
@@ -173,7 +173,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
    * @public
    */
   get verdicts(): Uint8Array | null {
-    return this.ask((machine) => machine.verdicts);
+    return this.queryMachine((machine) => machine.verdicts);
   }
 
   /** Moves the robot to a pose in the current map, as the user asked. */
@@ -263,7 +263,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
       apply(machine);
       const isGrid = this.#gridOf(machine) !== null;
       const startPose = start ?? (isGrid || !machine.startFree ? this.#findFreePose(machine) : undefined);
-      machine.configureFirst(startPose ? { start: startPose } : {}, this.cloud.asked);
+      machine.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
     });
     const newMap = mapData(machine, name, this.#gridOf(machine));
     this.runtime.replace(machine);
@@ -276,7 +276,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #adoptMap(map: MapData | null) {
     this.state.elementState.map = map;
     this.machineChanged();
-    this.settings.stale = true;
+    this.settings.isStale = true;
     this.cloud.mark(-1);
   }
 

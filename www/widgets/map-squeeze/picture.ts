@@ -97,7 +97,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   set close(close) {
     if (close === this.close) return;
     this.view = close ? this.#nearView : this.#wholeView;
-    this.view.forget();
+    this.view.reset();
   }
 
   fit({ commanded, config }: Scene) {
@@ -112,7 +112,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const arcBox = extentAround(commanded, 2);
     const pathCorners = [arcBox.xMin - PATH_MARGIN, arcBox.yMin - PATH_MARGIN, arcBox.xMax + PATH_MARGIN, arcBox.yMax + PATH_MARGIN];
     const neededExtent = extentAround([...pathCorners, x - endRoom, y - endRoom, x + endRoom, y + endRoom], 2);
-    this.#nearView.within = mappedExtent;
+    this.#nearView.limits = mappedExtent;
     this.#nearView.fit({
       xMin: Math.max(neededExtent.xMin, mappedExtent.xMin),
       yMin: Math.max(neededExtent.yMin, mappedExtent.yMin),

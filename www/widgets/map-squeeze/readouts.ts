@@ -3,7 +3,7 @@
 import { html, nothing } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
-import { integer, fixed, percent, roundedText } from '../../ui/format.ts';
+import { integer, fixed, percent, formatRounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { SAMPLES_PER_SECOND, type SampleCost, type CostMeter } from './cost.ts';
 import { SAMPLERS } from './settings.ts';
@@ -27,7 +27,7 @@ export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: 
 export function markedSample(figure: import('./map-squeeze.ts').MapSqueezeElement): import('lit').TemplateResult {
   const { cloud, reading: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;
-  const selectedText = cloud.isMarked ? verdictText(verdicts[cloud.index], config) : '';
+  const selectedText = cloud.isMarked ? verdictText(verdicts[cloud.selectedIndex], config) : '';
   return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, selected: selectedText });
 }
 
@@ -52,8 +52,8 @@ export function costTable({ costs, current }: CostMeter, steps: number) {
 }
 
 function costText({ draws, wallTests, micros }: SampleCost) {
-  const cpuShare = `${roundedText(100 * micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`;
-  return [fixed(draws, 2), fixed(wallTests, 2), roundedText(micros, 2), cpuShare];
+  const cpuShare = `${formatRounded(100 * micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`;
+  return [fixed(draws, 2), fixed(wallTests, 2), formatRounded(micros, 2), cpuShare];
 }
 
 /** Maximum fraction of the map's area that a close view with an overview shows. */

@@ -55,7 +55,7 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
 
   get scene() {
     const reading = this.currentReading;
-    const { index, isMarked } = this.cloud;
+    const { selectedIndex: index, isMarked } = this.cloud;
     return { ...reading, overlays: this.state.elementState.overlays, marked: isMarked ? reading.poses.subarray(3 * index) : undefined };
   }
 

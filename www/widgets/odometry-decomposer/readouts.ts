@@ -6,7 +6,7 @@
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { fixed, withError } from '../../ui/format.ts';
+import { fixed, formatWithError } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import type { Reading } from './reading.ts';
@@ -27,8 +27,8 @@ export function readouts({ stats }: Reading) {
   const independentText = say.independent(fixed(exactHeading, 3), fixed(independentHeading, 3));
   return readoutList([
     [say.lever, formatMetres(stats.lever)],
-    [say.crossTrack, `${withError(crossTrack, crossTrackError, 3)} m`, say.exactly(formatMetres(exactCrossTrack))],
-    [say.heading, `${withError(heading, headingError, 3)} rad`, exactHeading === independentHeading ? exactText : independentText],
+    [say.crossTrack, `${formatWithError(crossTrack, crossTrackError, 3)} m`, say.exactly(formatMetres(exactCrossTrack))],
+    [say.heading, `${formatWithError(heading, headingError, 3)} rad`, exactHeading === independentHeading ? exactText : independentText],
   ]);
 }
 

@@ -74,6 +74,6 @@ export class Player<Key extends string> extends FigureController {
   /** Returns the button that plays and pauses, with a label for the animation. With reduced motion there is only the slider. */
   button(key: Key, label: string) {
     const [currentLabel, otherLabel] = this.#key === key ? [words.pause, label] : [label, words.pause];
-    return prefersReducedMotion() ? nothing : button(currentLabel, () => this.#toggle(key), { other: otherLabel });
+    return prefersReducedMotion() ? nothing : button(currentLabel, () => this.#toggle(key), { otherLabel });
   }
 }

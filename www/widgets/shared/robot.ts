@@ -18,13 +18,13 @@ export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number
 
 /** Draws a robot that the user can drag and turn, with a radius in metres. Labels that are drawn later avoid it. */
 export function drawHeldRobot(brush: Brush, pose: Pose, radius: number, colour: string) {
-  const { context, view, palette, placed } = brush;
+  const { context, view, palette, placedBoxes: placed } = brush;
   const [centre, turn] = view.ray(pose, turnDistance(view, radius));
   const edgeStyle = { colour, width: 2.25 };
   const body = radiusInPixels(view, radius);
   drawDisc(context, centre, body, palette.paper, edgeStyle);
   strokeLine(context, [centre, turn], edgeStyle);
-  for (const [[x, y], size] of [[centre, body], [turn, TURN_HANDLE_RADIUS + 3]] as const) placed.push({ x, y, across: size, down: size });
+  for (const [[x, y], size] of [[centre, body], [turn, TURN_HANDLE_RADIUS + 3]] as const) placed.push({ x, y, halfWidth: size, halfHeight: size });
   drawHandle(brush, { x: turn[0], y: turn[1], radius: TURN_HANDLE_RADIUS, colour });
 }
 

@@ -1,6 +1,6 @@
 /** Maps as plain data, the form in which a state contains a map of the user. */
 
-import { asObject, refusalError, withFieldRenamed, wholeNumber } from '../../../figure/checks.ts';
+import { checkedObject, refusalError, withFieldRenamed, checkedInteger } from '../../../figure/checks.ts';
 import { fromBase64, toBase64 } from '../../../figure/packing.ts';
 import { limits } from '../../../settings.js';
 import type { Cells } from '../../../scene/walls.ts';
@@ -56,14 +56,14 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
     throw refusalError('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
   }
   const isGrid = GRID_ONLY_KEYS.some((key) => key in data);
-  const map = asObject('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
+  const map = checkedObject('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusalError('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
     renamingFields(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: flatWalls(map.walls) }));
     return;
   }
-  const columns = wholeNumber('map.columns', map.columns, 1, limits.cells);
-  const rows = wholeNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
+  const columns = checkedInteger('map.columns', map.columns, 1, limits.cells);
+  const rows = checkedInteger('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
   const cellCount = columns * rows;
   const occupiedBits = bitsOf('map.occupied', map.occupied, cellCount);
   const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : bitsOf('map.unknown', map.unknown, cellCount);

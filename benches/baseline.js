@@ -64,7 +64,7 @@ export class Baseline {
     const centre = [mean.x, mean.y, mean.l, mean.t];
     const scales = [...centre, ...whiteningOf(cartesian.cov, 1), ...whiteningOf(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
     const [perX, perY] = [columns / (view.xMax - view.xMin), rows / (view.yMax - view.yMin)];
-    const [inEllipse, inTilted, square, cube, maxCount] = countCells(
+    const [inEllipse, inExponential, square, cube, maxCount] = countCells(
       this.cloud, this.counts, scales, [(noiseFree.x - view.xMin) * perX, perX, (view.yMax - noiseFree.y) * perY, perY, columns, rows],
     );
     this.#paint(ramp, maxCount);
@@ -74,7 +74,7 @@ export class Baseline {
         cartesian,
         exponential,
         crossTrackSkew: (cube / n) / (square / n) ** 1.5,
-        coverage: { ellipse: inEllipse / n, exponential: inTilted / n },
+        coverage: { ellipse: inEllipse / n, exponential: inExponential / n },
       },
       pixels: new Uint8ClampedArray(this.pixels.buffer),
     };
@@ -158,7 +158,7 @@ function driveCloud(noise, cloud, command, deviations, origin) {
 function countCells(cloud, counts, scales, view) {
   const [cx, cy, cl, ct, e00, e10, e11, f00, f10, f11, sin, cos] = scales;
   const [left, perX, top, perY, columns, rows] = view;
-  let inEllipse = 0, inTilted = 0, square = 0, cube = 0, maxCount = 0;
+  let inEllipse = 0, inExponential = 0, square = 0, cube = 0, maxCount = 0;
   for (let j = 0; j < cloud.length; j += 4) {
     const x = cloud[j];
     const y = cloud[j + 1];
@@ -171,7 +171,7 @@ function countCells(cloud, counts, scales, view) {
     const dl = cloud[j + 2] - cl;
     const e = f00 * dl;
     const f = f10 * dl + f11 * (cloud[j + 3] - ct);
-    inTilted += +(e * e + f * f <= 1);
+    inExponential += +(e * e + f * f <= 1);
     const z = cos * dy - sin * dx;
     square += z * z;
     cube += z * z * z;
@@ -182,5 +182,5 @@ function countCells(cloud, counts, scales, view) {
       if (count > maxCount) maxCount = count;
     }
   }
-  return [inEllipse, inTilted, square, cube, maxCount];
+  return [inEllipse, inExponential, square, cube, maxCount];
 }

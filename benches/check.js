@@ -5,20 +5,20 @@
  */
 
 import { Baseline } from './baseline.js';
-import { ALPHAS, COLOUR_RAMP, VIEW, commandAt, densityPixels, statsAndContours } from './scene.js';
+import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, densityPixels, statsAndContours } from './scene.js';
 
 /** Largest accepted difference (m, rad or a fraction) between both implementations, which add in different orders. */
 const TOLERANCE = 1e-9;
 
 /** Returns the names and values of the statistics in which the core and the baseline differ. @param {import('../www/types.d.ts').Motion} motion @param {number} samples */
-export function differences(motion, samples) {
+export function differencesFromCore(motion, samples) {
   const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 11, command: commandAt(0) });
   const baseline = new Baseline(ALPHAS, unitNoiseOf(machine));
   /** @type {string[]} */
   const differenceTexts = [];
-  for (const event of [0, 30]) {
-    const { stats } = statsAndContours(machine, event);
-    const baselineResult = baseline.refresh(commandAt(event), VIEW, COLOUR_RAMP);
+  for (const step of [0, 30]) {
+    const { stats } = statsAndContours(machine, step);
+    const baselineResult = baseline.refresh(commandAt(step), PICTURE_VIEW, COLOUR_RAMP);
     for (const [name, value] of numbersByPath(baselineResult.stats)) {
       const coreValue = name.split('.').reduce((part, key) => part[key], /** @type {any} */ (stats));
       // NaN is a difference too.

@@ -1,6 +1,6 @@
 /**
- * Time of one step of a drag, at the initial sample counts and with a processor four times slower. There are three times: of the
- * frame that paints the picture (JavaScript, WebAssembly, style, layout and paint), until the text is updated, and between frames.
+ * Times of the steps of a drag, at the initial sample counts and with a processor four times slower. Three times are measured: that of the
+ * frame that paints the picture (JavaScript, WebAssembly, style, layout and paint), that until the text is updated, and that between frames.
  *
  * @module
  */
@@ -8,7 +8,7 @@
 /** Factor by which Chromium slows the processor. */
 export const SLOWDOWN = 4;
 
-/** Selector of visible sliders and of handles. Those of walls change the map and no setting. */
+/** Selector of sliders and handles. Handles of walls are excluded, because they change the map and no setting. */
 const DRAGGED_SELECTOR = '.slider input[type=range], .handle:not(.jamb, .side)';
 
 /**
@@ -16,8 +16,8 @@ const DRAGGED_SELECTOR = '.slider input[type=range], .handle:not(.jamb, .side)';
  * @property {string} widget
  * @property {string} control the slider or handle that is dragged
  * @property {number[]} picture from the start of the frame after a step until the browser has finished a frame with the new picture
- * @property {number[]} text from then on, until it has finished a frame with the new text
- * @property {number[]} steady from one frame to the next, while every frame has a step
+ * @property {number[]} text from the end of that frame until the browser has finished a frame with the new text
+ * @property {number[]} steady from one frame to the next, if every frame has a step
  *
  * @param {import('@playwright/test').Browser} browser
  * @param {string} address of page.html
@@ -65,7 +65,7 @@ async function timeDrag({ widget, selector, i, steps }) {
     clearRect.apply(this, box);
   };
   /** @returns {Promise<number>} time at which the page has finished the current frame: that of the first message after it */
-  const frameHandedOver = () =>
+  const untilFrameDone = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => resolve(performance.now());
@@ -76,12 +76,12 @@ async function timeDrag({ widget, selector, i, steps }) {
     new Promise((resolve) => {
       const observer = new MutationObserver(() => {
         observer.disconnect();
-        resolve(frameHandedOver());
+        resolve(untilFrameDone());
       });
       const attributeFilter = ['aria-label', 'aria-valuetext'];
       observer.observe(root, { subtree: true, characterData: true, childList: true, attributes: true, attributeFilter });
     });
-  const takeStep = (/** @type {number} */ step) => {
+  const sendStep = (/** @type {number} */ step) => {
     if (isSlider) {
       if (step % 2) target.stepUp();
       else target.stepDown();
@@ -102,17 +102,17 @@ async function timeDrag({ widget, selector, i, steps }) {
     const picture = new Promise((resolve) =>
       requestAnimationFrame(() => {
         frameStart = performance.now();
-        resolve(frameHandedOver());
+        resolve(untilFrameDone());
       }),
     );
     const textChange = nextTextChange();
-    takeStep(step);
+    sendStep(step);
     let pictureTime = /** @type {number} */ (await picture);
     // On a busy machine the picture may come a frame late.
     for (let frame = 1; pictureCount === picturesBefore || JSON.stringify(figure.machine.config) === configBefore; frame++) {
       if (frame === MAX_FRAMES) throw new Error(`A step of ${target.id || target.className} has no picture after ${MAX_FRAMES} frames.`);
       await new Promise(requestAnimationFrame);
-      pictureTime = await frameHandedOver();
+      pictureTime = await untilFrameDone();
     }
     const textTime = await textChange;
     if (step < 0) continue;
@@ -124,7 +124,7 @@ async function timeDrag({ widget, selector, i, steps }) {
     const now = /** @type {number} */ (await new Promise(requestAnimationFrame));
     if (step > 0) durations.steady.push(now - previousFrame);
     previousFrame = now;
-    takeStep(step);
+    sendStep(step);
   }
   CanvasRenderingContext2D.prototype.clearRect = clearRect;
   if (isSlider) {

@@ -1,5 +1,5 @@
 /**
- * Results of a run as Markdown.
+ * Report of the results of a run, as Markdown.
  *
  * @module
  */
@@ -38,21 +38,21 @@ export function report({ ranOn, quick, node, chromium, start, drags }) {
     ['From script start to first cloud', '≤', 100, 'ms', { Chromium: Object.values(start).at(-1) ?? [] }],
     [`Step of the slowest drag (${slowest.control}), processor ${SLOWDOWN} times slower`, '≤', FRAME_MS, 'ms', { Chromium: slowest.picture }],
   ];
-  const targetRows = targets.map(([what, order, bound, unit, { Node = [], Chromium = [] }]) => {
-    const reachedIn = [Node, Chromium].filter(({ length }) => length > 0).map((values) => (order === '≤' ? quantileOf(values) <= bound : quantileOf(values) >= bound));
+  const targetRows = targets.map(([targetName, comparison, limit, unit, { Node = [], Chromium = [] }]) => {
+    const reachedIn = [Node, Chromium].filter(({ length }) => length > 0).map((values) => (comparison === '≤' ? quantileOf(values) <= limit : quantileOf(values) >= limit));
     const verdict = reachedIn.every(Boolean) ? 'yes' : !reachedIn.some(Boolean) ? 'no' : `in ${reachedIn[0] ? 'Node' : 'Chromium'} alone`;
-    return { '': what, target: `${order} ${bound} ${unit}`, Node: cell(Node, unit), Chromium: cell(Chromium, unit), reached: verdict };
+    return { '': targetName, target: `${comparison} ${limit} ${unit}`, Node: cellText(Node, unit), Chromium: cellText(Chromium, unit), reached: verdict };
   });
   const refreshRows = Object.entries({ Node: node, Chromium: chromium }).flatMap(([where, { refresh }]) => refresh.map((row) => (
-    { where, samples: digits(row.samples), 'refresh, ms': cell(row.core), 'JavaScript, ms': cell(row.baseline), ratio: cell(ratios(row)) }
+    { where, samples: formatDigits(row.samples), 'refresh, ms': cellText(row.core), 'JavaScript, ms': cellText(row.baseline), ratio: cellText(ratios(row)) }
   )));
   return [
     `${Object.entries(ranOn).map(([name, value]) => `${name} ${value}`).join('; ')}. Medians, with quartiles in brackets.${quick ? ' A quick run: too few turns to be quoted.' : ''}`,
-    table(targetRows),
-    `One event of the slider:\n\n${table(refreshRows)}`,
-    `First cloud, from the start of the script:\n\n${table(Object.entries(start).map(([until, times]) => ({ until, ms: cell(times) })))}`,
-    `Step of a drag, processor ${SLOWDOWN} times slower, opening sizes:\n\n${table(drags.map(({ widget, control, picture, text, steady }) => (
-      { widget, dragged: control, 'frame with the picture, ms': cell(picture), 'text after it, ms': cell(text), 'between frames, a step in each, ms': cell(steady) }
+    markdownTable(targetRows),
+    `One event of the slider:\n\n${markdownTable(refreshRows)}`,
+    `First cloud, from the start of the script:\n\n${markdownTable(Object.entries(start).map(([until, times]) => ({ until, ms: cellText(times) })))}`,
+    `Step of a drag, processor ${SLOWDOWN} times slower, opening sizes:\n\n${markdownTable(drags.map(({ widget, control, picture, text, steady }) => (
+      { widget, dragged: control, 'frame with the picture, ms': cellText(picture), 'text after it, ms': cellText(text), 'between frames, a step in each, ms': cellText(steady) }
     )))}`,
   ].join('\n\n');
 }
@@ -63,16 +63,16 @@ function quantileOf(values, share = 0.5) {
 }
 
 /** @param {number[]} values @param {string} [unit] */
-function cell(values, unit = '') {
-  const [lower, middle, upper] = [0.25, 0.5, 0.75].map((share) => digits(quantileOf(values, share)));
+function cellText(values, unit = '') {
+  const [lower, middle, upper] = [0.25, 0.5, 0.75].map((share) => formatDigits(quantileOf(values, share)));
   return values.length > 0 ? `${`${middle} ${unit}`.trim()} [${lower} to ${upper}]` : '';
 }
 
 /** Rounds to three significant digits. @param {number} value */
-const digits = (value) => value.toLocaleString('en', { maximumSignificantDigits: 3 }).replaceAll(',', '\u202f');
+const formatDigits = (value) => value.toLocaleString('en', { maximumSignificantDigits: 3 }).replaceAll(',', '\u202f');
 
 /** Returns a table with a column for each key. @param {Record<string, string>[]} rows */
-function table(rows) {
+function markdownTable(rows) {
   const columnNames = Object.keys(rows[0]);
   const lines = [columnNames, columnNames.map(() => '---'), ...rows.map(Object.values)];
   return lines.map((cells) => `| ${cells.join(' | ')} |`).join('\n');

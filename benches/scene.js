@@ -1,5 +1,5 @@
 /**
- * Model, slider and picture of a refresh, the same for every contender.
+ * Model, slider and picture of a refresh, which are the same for the core and the baseline.
  *
  * @module
  */
@@ -11,9 +11,9 @@
 export const ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 /** View with 400 pixels per metre around the whole cloud. */
-export const VIEW = { xMin: -0.2, yMin: -0.6, xMax: 2.2, yMax: 1.2, columns: 960, rows: 720 };
+export const PICTURE_VIEW = { xMin: -0.2, yMin: -0.6, xMax: 2.2, yMax: 1.2, columns: 960, rows: 720 };
 
-/** @typedef {typeof VIEW} Picture */
+/** @typedef {typeof PICTURE_VIEW} Picture */
 
 /** Ramp of 256 colours (red, green, blue, opacity) from sparse to dense, as in the widget. */
 export const COLOUR_RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
@@ -35,7 +35,7 @@ export function commandAt(event) {
  * @param {Picture} [picture]
  * @returns {Uint8ClampedArray}
  */
-export function densityPixels(machine, { xMin, yMin, xMax, yMax, columns, rows } = VIEW) {
+export function densityPixels(machine, { xMin, yMin, xMax, yMax, columns, rows } = PICTURE_VIEW) {
   return machine.picture('plane', xMin, yMin, xMax, yMax, columns, rows, COLOUR_RAMP);
 }
 

@@ -1,5 +1,5 @@
 /**
- * Time from the start of the page's script to the first cloud on screen, in a page without history.
+ * Measurement of the time from the start of the page's script to the first cloud on screen, without caches.
  *
  * @module
  */

@@ -5,8 +5,8 @@
  */
 
 import { Baseline } from './baseline.js';
-import { differences, unitNoiseOf } from './check.js';
-import { ALPHAS, COLOUR_RAMP, VIEW, commandAt, densityPixels, statsAndContours } from './scene.js';
+import { differencesFromCore, unitNoiseOf } from './check.js';
+import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, densityPixels, statsAndContours } from './scene.js';
 import { raceContenders } from './timing.js';
 
 /** @typedef {import('../www/types.d.ts').Motion} Motion */
@@ -25,8 +25,8 @@ import { raceContenders } from './timing.js';
  * @returns {Promise<Timings>}
  */
 export async function measure(motion, { quick, log }) {
-  const differing = differences(motion, 4000);
-  if (differing.length > 0) throw new Error(`The baseline does not compute what the core does:\n${differing.join('\n')}`);
+  const differingStatistics = differencesFromCore(motion, 4000);
+  if (differingStatistics.length > 0) throw new Error(`The baseline does not compute what the core does:\n${differingStatistics.join('\n')}`);
   const seconds = quick ? 0.2 : 2;
   const refresh = [];
   for (const samples of [1e4, 1e5, 1e6]) {
@@ -36,7 +36,7 @@ export async function measure(motion, { quick, log }) {
       statsAndContours(machine, event);
       densityPixels(machine);
     };
-    const refreshBaseline = (/** @type {number} */ event) => void baselineMachine.refresh(commandAt(event), VIEW, COLOUR_RAMP);
+    const refreshBaseline = (/** @type {number} */ event) => void baselineMachine.refresh(commandAt(event), PICTURE_VIEW, COLOUR_RAMP);
     refresh.push({ samples, ...(await raceContenders({ core: refreshCore, baseline: refreshBaseline }, seconds)) });
     machine.free();
   }

@@ -1,6 +1,6 @@
 /**
- * Races: contenders take turns within one run, so that whatever slows the machine down slows all of them, and ratios are
- * taken turn by turn.
+ * Races of contenders, which take turns within one run. What slows the machine down then slows all of them, and ratios are computed for each
+ * turn.
  *
  * @module
  */
@@ -29,10 +29,10 @@ export async function raceContenders(contenders, seconds) {
     // The page can handle events in between.
     await new Promise((resolve) => setTimeout(resolve));
     for (const [name, handleEvent] of contenderList) {
-      const [start, first] = [performance.now(), event];
+      const [start, firstEvent] = [performance.now(), event];
       let elapsed = 0;
       for (; elapsed < MIN_TURN_DURATION; elapsed = performance.now() - start) handleEvent(event++);
-      if (turn >= 0) turnTimes[name].push(elapsed / (event - first));
+      if (turn >= 0) turnTimes[name].push(elapsed / (event - firstEvent));
     }
   }
   return turnTimes;

@@ -1,5 +1,5 @@
-// `npm run bench`: the targets of doc/benchmarks.md, measured in Node and in headless Chromium. It prints tables in Markdown and
-// writes the measurements to build/bench.json. `-- --quick` takes fewer turns.
+// `npm run bench`: measures the targets of doc/benchmarks.md in Node and in headless Chromium. It prints tables in Markdown, and writes the
+// measurements to build/bench.json. `-- --quick` measures fewer turns.
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { cpus } from 'node:os';
@@ -24,7 +24,7 @@ async function runBench(quick) {
   const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((path) => readFileSync(join(ROOT, path), 'utf8'));
   const options = { quick, log: { odometry, reference } };
   progress('Node');
-  // Both exist only after the build.
+  // These modules need dist/, which exists only after the build.
   const { measure } = await import('../benches/suite.js');
   const { load } = await import('../dist/core.js');
   const node = await measure(/** @type {import('../www/types.d.ts').Motion} */ (await load()), options);
@@ -67,7 +67,7 @@ async function resultsInChromium(executablePath, options) {
     progress('Drags');
     const drags = await timeDrags(browser, figuresPage, options.quick ? 10 : 40);
     progress('Refresh and calibration');
-    // A page without figures.
+    // This page has no figures.
     const page = await browser.newPage();
     await page.route(`${address}empty`, (route) => route.fulfill({ headers: ISOLATION_HEADERS, contentType: 'text/html', body: '' }));
     await page.goto(`${address}empty`);
@@ -85,7 +85,7 @@ async function resultsInChromium(executablePath, options) {
 
 await runAsScript(import.meta.url, async () => {
   const options = process.argv.slice(2);
-  const unknown = options.find((option) => option !== '--quick');
-  if (unknown !== undefined) throw new UserError(`"${unknown}" is not an option; \`npm run bench\` takes only --quick.`);
+  const unknownOption = options.find((option) => option !== '--quick');
+  if (unknownOption !== undefined) throw new UserError(`"${unknownOption}" is not an option; \`npm run bench\` takes only --quick.`);
   await runBench(options.includes('--quick'));
 });

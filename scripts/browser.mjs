@@ -1,4 +1,4 @@
-// The Chromium and matching chromedriver that the tests use, found on this machine or installed.
+// Finds Chromium and a chromedriver of the same version on this machine, or installs them, for the tests.
 
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -48,7 +48,7 @@ export async function ensureBrowser() {
 
 async function ensureChrome() {
   const { CHROME, CHROMEDRIVER } = process.env;
-  const presentBrowser = await usablePair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
+  const presentBrowser = await matchingPair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
   if (presentBrowser !== undefined) return presentBrowser;
   if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER);
   // Packages of these names on Ubuntu only point to a snap, which cannot be driven from here.
@@ -71,7 +71,7 @@ export function findChrome(names = CHROME_NAMES) {
  * @param {string | undefined} driver
  * @returns {Promise<Browser | undefined>} undefined unless both run and are of one major version
  */
-async function usablePair(chrome, driver) {
+async function matchingPair(chrome, driver) {
   if (chrome === undefined || driver === undefined) return undefined;
   const [version, driverVersion] = await Promise.all([versionOf(chrome), versionOf(driver)]);
   if (version === undefined || version.split('.')[0] !== driverVersion?.split('.')[0]) return undefined;
@@ -86,30 +86,30 @@ async function versionOf(program) {
 
 async function debianBrowser() {
   await aptInstall(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER);
-  return usablePair(findChrome(), findProgram('chromedriver'));
+  return matchingPair(findChrome(), findProgram('chromedriver'));
 }
 
-/** Google's builds for automated tests, which come with a chromedriver for each. Downloaded once. */
+/** Returns Google's Chrome for Testing, which has a matching chromedriver. Both are downloaded once. */
 async function chromeForTesting() {
   const directory = join(CACHE, 'browsers');
   const pathsFile = join(directory, 'paths.json');
   if (existsSync(pathsFile)) {
     const { chrome, driver } = JSON.parse(readFileSync(pathsFile, 'utf8'));
-    const presentBrowser = await usablePair(chrome, driver);
+    const presentBrowser = await matchingPair(chrome, driver);
     if (presentBrowser !== undefined) return presentBrowser;
   }
   progress('Downloading Chrome for Testing');
-  const chrome = await download(directory, 'chrome@stable');
+  const chrome = await downloadProgram(directory, 'chrome@stable');
   if (chrome === undefined) return undefined;
   if ((await versionOf(chrome)) === undefined) await installLibraries();
-  const driver = await download(directory, `chromedriver@${await versionOf(chrome)}`);
+  const driver = await downloadProgram(directory, `chromedriver@${await versionOf(chrome)}`);
   writeFileSync(pathsFile, JSON.stringify({ chrome, driver }));
-  return usablePair(chrome, driver);
+  return matchingPair(chrome, driver);
 }
 
-/** Downloads a program, and returns its path. @param {string} directory @param {string} what @returns {Promise<string | undefined>} */
-async function download(directory, what) {
-  const installCommand = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', what];
+/** Downloads a program, and returns its path. @param {string} directory @param {string} programAndVersion @returns {Promise<string | undefined>} */
+async function downloadProgram(directory, programAndVersion) {
+  const installCommand = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', programAndVersion];
   const { ok, stdout } = await run('npm', [...installCommand, '--path', directory, '--format', '{{path}}'], { seconds: 900 });
   return ok ? stdout.trim().split('\n').pop() : undefined;
 }

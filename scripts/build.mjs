@@ -4,7 +4,7 @@ import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
-import { binder } from './bindgen.mjs';
+import { bindProgram } from './bindgen.mjs';
 import { WIDGETS, bundle, filesOf } from './bundle.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { cratesOf } from './licences.mjs';
@@ -15,7 +15,7 @@ const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 
 const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types', 'typescript'].map((name) => `scripts/${name}.mjs`);
 
-/** Declarations of the module that scripts/bundle.mjs puts in the place of `motion.wasm`. */
+/** Type declarations of the module by which scripts/bundle.mjs replaces `motion.wasm`. */
 const BUNDLED_CORE_TYPES = `type Bytes = Uint8Array<ArrayBuffer>;
 type BundledCore = { glue(): Promise<typeof import('./motion.js')>; source(): Bytes | URL | Promise<Bytes> | undefined };
 declare const cores: { motion: BundledCore; [tag: string]: BundledCore | undefined };
@@ -38,45 +38,47 @@ const CORE_SOURCES = [
  *   and not shrunk, unless the modules to be published are there already
  */
 export async function build({ local = false } = {}) {
-  const coreHash = digest(CORE_SOURCES);
+  const coreHash = hashOfFiles(CORE_SOURCES);
   const coreProducts = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json'];
   const figureProducts = WIDGETS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
   const isPublishedCurrent = isCurrent('build/core.sha256', coreHash, coreProducts);
-  const compiledDigest = local && !isPublishedCurrent ? `${coreHash} local` : coreHash;
+  const compiledHash = local && !isPublishedCurrent ? `${coreHash} local` : coreHash;
   // Packages first: without a network that fails at once, and compiling takes minutes.
   await ensurePackages();
-  await whenStale('build/core.sha256', compiledDigest, coreProducts, () => buildCores(['motion'], local));
-  if (!local) await whenStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGETS, false));
-  const tags = compiledDigest === coreHash && isCurrent('build/figures.sha256', coreHash, figureProducts) ? WIDGETS : [];
-  const pagesDigest = digest(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledDigest + tags);
-  await whenStale('build/pages.sha256', pagesDigest, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags }));
-  await whenStale('build/example-log.sha256', digest(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOGS), writeExampleLog);
+  await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['motion'], local));
+  if (!local) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGETS, false));
+  const tagsWithCore = compiledHash === coreHash && isCurrent('build/figures.sha256', coreHash, figureProducts) ? WIDGETS : [];
+  const pagesHash = hashOfFiles(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledHash + tagsWithCore);
+  await buildIfStale('build/pages.sha256', pagesHash, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags: tagsWithCore }));
+  await buildIfStale('build/example-log.sha256', hashOfFiles(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOGS), writeExampleLog);
 }
 
 /** Returns a hash of names and contents. @param {string[]} paths of files and directories @param {string} [seed] */
-function digest(paths, seed = '') {
+function hashOfFiles(paths, seed = '') {
   const hash = createHash('sha256').update(seed);
   for (const path of paths.flatMap(filesOf)) hash.update(`\0${path}\0`).update(readFileSync(pathOf(path)));
   return hash.digest('hex');
 }
 
 /**
- * @param {string} stamp the file that holds the digest of the sources last built from
- * @param {string} sources
- * @param {string[]} products
- * @param {() => Promise<void>} work
+ * Builds products unless they are up to date.
+ *
+ * @param {string} stamp path of the file with the hash of the sources of the last build
+ * @param {string} sourceHash
+ * @param {string[]} products paths
+ * @param {() => Promise<void>} buildProducts
  */
-async function whenStale(stamp, sources, products, work) {
-  if (isCurrent(stamp, sources, products)) return;
+async function buildIfStale(stamp, sourceHash, products, buildProducts) {
+  if (isCurrent(stamp, sourceHash, products)) return;
   mkdirSync(pathOf('build'), { recursive: true });
   rmSync(pathOf(stamp), { force: true });
-  await work();
-  writeFileSync(pathOf(stamp), sources);
+  await buildProducts();
+  writeFileSync(pathOf(stamp), sourceHash);
 }
 
-/** Returns true if products were built from these sources. @param {string} stamp @param {string} sources @param {string[]} products */
-function isCurrent(stamp, sources, products) {
-  return [stamp, ...products].every((path) => existsSync(pathOf(path))) && readFileSync(pathOf(stamp), 'utf8') === sources;
+/** Returns true if products were built from sources with this hash. @param {string} stamp @param {string} sourceHash @param {string[]} products */
+function isCurrent(stamp, sourceHash, products) {
+  return [stamp, ...products].every((path) => existsSync(pathOf(path))) && readFileSync(pathOf(stamp), 'utf8') === sourceHash;
 }
 
 /**
@@ -88,7 +90,7 @@ function isCurrent(stamp, sources, products) {
 async function buildCores(names, local) {
   // Waits for Rust first: an error of other work would end the process before the message about missing Rust.
   const rust = await wasmRust();
-  const [binderProgram, packages] = [binder(), ensurePackages(local ? undefined : 'scripts')];
+  const [binderProgram, packages] = [bindProgram(), ensurePackages(local ? undefined : 'scripts')];
   progress(`Compiling the core to WebAssembly (${rust.description}): ${names.join(', ')}`);
   const finishedCores = [];
   for (const name of names) {
@@ -121,10 +123,10 @@ async function compileCore(rust, name, local) {
   const options = ['--quiet', '--locked', '--profile', profile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
   const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
   await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target, ...widgetOptions], { env: rust.env });
-  const askCargo = async (/** @type {string[]} */ ...question) => (await run(cargo, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
-  const metadata = JSON.parse(await askCargo('metadata', '--format-version', '1'));
+  const cargoOutput = async (/** @type {string[]} */ ...question) => (await run(cargo, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
+  const metadata = JSON.parse(await cargoOutput('metadata', '--format-version', '1'));
   if (name === 'motion') {
-    const crateTree = await askCargo('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
+    const crateTree = await cargoOutput('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
     writeFileSync(pathOf('build/crates.json'), JSON.stringify(cratesOf(crateTree, metadata)));
   }
   return join(metadata.target_directory, `wasm32-unknown-unknown/${profile}/motion.wasm`);
@@ -134,10 +136,10 @@ async function compileCore(rust, name, local) {
 async function finishCore(name, local) {
   copyFileSync(pathOf(`build/bound/${name}/motion_bg.wasm`), pathOf(`build/${name}.wasm`));
   if (!local) await shrinkModule(`build/${name}.wasm`);
-  await writeGlue(name, local ? boundNames(name) : await shortenNames(name));
+  await writeGlue(name, local ? readBoundNames(name) : await shortenNames(name));
 }
 
-/** @param {string} path of a module, which is changed */
+/** Makes a module smaller, in place. @param {string} path */
 async function shrinkModule(path) {
   await silencePanics(path);
   await optimize(path);
@@ -190,7 +192,7 @@ async function optimize(path, passes = OPTIMIZER_PASSES) {
  */
 
 /** Returns the names that wasm-bindgen has given to imports and exports. @param {string} name of the core @returns {Names} */
-function boundNames(name) {
+function readBoundNames(name) {
   const module = new WebAssembly.Module(readFileSync(pathOf(`build/${name}.wasm`)));
   return {
     imports: WebAssembly.Module.imports(module).map((entry) => [entry.module, entry.name, entry.name]),
@@ -221,12 +223,12 @@ async function writeGlue(name, glueNames) {
     // wasm-bindgen adds the members of a namespace one by one. Bundlers take that for side effects, and keep unused namespaces.
     [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
   ]);
-  const script = readFileSync(pathOf(`build/bound/${name}/motion_bg.js`), 'utf8');
+  const bindgenGlue = readFileSync(pathOf(`build/bound/${name}/motion_bg.js`), 'utf8');
   // The core of a widget has no namespaces.
-  const missingChange = name === 'motion' && glueChanges.find(([pattern]) => !script.match(pattern));
-  if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, as scripts/build.mjs takes it to have.`);
-  const changedGlue = glueChanges.reduce((text, [pattern, instead]) => text.replace(pattern, instead), script);
-  const names = [...script.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, exportName]) => exportName);
+  const missingChange = name === 'motion' && glueChanges.find(([pattern]) => !bindgenGlue.match(pattern));
+  if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, which scripts/build.mjs replaces.`);
+  const changedGlue = glueChanges.reduce((text, [pattern, replacement]) => text.replace(pattern, replacement), bindgenGlue);
+  const names = [...bindgenGlue.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, exportName]) => exportName);
   const { build: bundled } = await import('esbuild');
   const gluePlugin = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents: changedGlue })) };
   const { outputFiles } = await bundled({

@@ -16,7 +16,7 @@ import { importTypeScript } from './typescript.mjs';
 
 const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 
-/** Files that are copied unchanged; index.html becomes classroom.html as well. */
+/** Files of www/ that are copied to dist/. */
 const COPIED_FILES = /\.(html|css)$/;
 
 /** Tags of the elements. */
@@ -38,16 +38,16 @@ const LOG_FIGURES = ['alpha-calibrator'];
 const LOG_WORKER = 'chunks/log-worker.js';
 
 /** Path of dist/chunks/ from the scripts that share the bytes of the core. */
-const PLACE_OF_CHUNKS = { core: './chunks/', external: './' };
+const CHUNK_PATHS = { core: './chunks/', external: './' };
 
 /**
- * Returns the script of the function that starts the worker. Within dist/ the script is found by its place. A page of another origin
- * starts it by a script of its own.
+ * Returns the source of the function `startWorker`. Within dist/ it finds the worker's script by a relative path. A page of another origin
+ * starts the worker by a script of its own that imports the worker's script.
  *
- * @param {string} place of dist/, as the bundle sees it
- * @param {string} [otherwise] statement for a bundle that is part of another bundle
+ * @param {string} place path of dist/, relative to the bundle
+ * @param {string} [fallback] statement for a bundle that is part of another bundle
  */
-const startWorker = (place, otherwise = '') =>
+const startWorker = (place, fallback = '') =>
   'export function startWorker() {' +
   '  const here = import.meta.url;' +
   `  if (here?.includes('${CHUNK_PLACEHOLDER}')) {` +
@@ -55,21 +55,20 @@ const startWorker = (place, otherwise = '') =>
   '    const script = () => URL.createObjectURL(new Blob([`import ${JSON.stringify(url)}`], { type: "text/javascript" }));' +
   '    return new Worker(url.origin === location.origin ? url : script(), { type: "module" });' +
   '  }' +
-  `  ${otherwise} ` +
+  `  ${fallback} ` +
   '}';
 
-/** Scripts that a bundle gets where it imports the WebAssembly module: functions that return modules and their glue. */
+/** Sources of the modules by which each kind of bundle replaces its import of the WebAssembly module. They export the cores with their glue. */
 const MODULE_SCRIPTS = {
   /**
    * The bytes as text with a character for each byte: its code, modulo 256, is the byte. Brotli and gzip compress this text
-   * almost as well as the module itself (7 % more bytes are transferred), but neither base64 nor a module that is already
-   * compressed.
+   * almost as well as the module itself (7 % more bytes are transferred). Base64, or a module that is compressed already, would be larger.
    *
    * @param {Uint8Array} bytes
    * @param {RegExp} shifted characters to whose code 256 is added
    */
   bytes: (bytes, shifted) => {
-    const text = Buffer.from(bytes).toString('latin1').replaceAll(shifted, (one) => String.fromCharCode(one.charCodeAt(0) + 256));
+    const text = Buffer.from(bytes).toString('latin1').replaceAll(shifted, (character) => String.fromCharCode(character.charCodeAt(0) + 256));
     return (
       `const text = ${JSON.stringify(text)};` +
       // `Uint8Array.from` would take ten times as long, because it uses the string's iterator.
@@ -88,7 +87,7 @@ const MODULE_SCRIPTS = {
   },
   /** The core alone: its bytes are in a separate script, which external.js shares. */
   core: () => `import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source: async () => (await import('${BYTES_MODULE}')).default() } }; export function startWorker() {}`,
-  /** @param {boolean} isClassic */
+  /** The core with its bytes in the bundle. @param {boolean} isClassic */
   inlined: (isClassic) => `import source from '${BYTES_MODULE}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorker('./')}`,
   /**
    * Bundlers such as Vite and webpack copy the file of `new URL(…, import.meta.url)`, and replace its address. Bundlers such as
@@ -159,9 +158,9 @@ export declare function isFigureTag(tag: string): boolean;
  *
  * @param {object} [options]
  * @param {string[]} [options.tags] the figures that have a module of their own; the others share the whole core
- * @param {(path: string, script: string) => string} [options.changed] returns what replaces a script of www/
+ * @param {(path: string, script: string) => string} [options.transformScript] returns the script that replaces a script of www/
  */
-export async function bundle({ tags = WIDGETS, changed = (_, script) => script } = {}) {
+export async function bundle({ tags = WIDGETS, transformScript = (_, script) => script } = {}) {
   progress('Bundling the pages');
   await writeTypes();
   await writeComponents();
@@ -171,7 +170,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   const { build, transformSync } = await import('esbuild');
   /**
    * @param {Record<string, string>} entryPoints by the name of the product, from www/
-   * @param {keyof typeof PLACE_OF_CHUNKS | 'inlined' | 'worker'} form
+   * @param {keyof typeof CHUNK_PATHS | 'inlined' | 'worker'} form
    * @param {import('esbuild').BuildOptions} options
    */
   const bundleOf = (entryPoints, form, options) =>
@@ -201,28 +200,28 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
             };
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: moduleScripts[form](), loader: 'js' }));
             if (options.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
-            const chunkDirectory = form === 'core' || form === 'external' ? PLACE_OF_CHUNKS[form] : undefined;
+            const chunkDirectory = form === 'core' || form === 'external' ? CHUNK_PATHS[form] : undefined;
             onResolve({ filter: new RegExp(`^${BYTES_MODULE}$`) }, ({ path }) => (
               chunkDirectory ? { path: `${chunkDirectory}${basename(bytesModule.path)}`, external: true } : { path, namespace: 'core' }
             ));
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SCRIPTS.bytes(wasm, SHIFTED_CHARACTERS[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             // A page without workers runs the worker's script itself.
             if (form === 'external') onResolve({ filter: /\/logs\/worker\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER)}`, external: true }));
-            onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: shortDeclarations(), loader: 'js' }));
+            onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: minimalDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
               contents: options.format === 'iife' ? ADDRESSES.classic : options.splitting ? ADDRESSES.chunk : readFileSync(path, 'utf8'),
               loader: 'js',
             }));
             onLoad({ filter: /[/\\](?:js-yaml|d3-array)\.mjs$/ }, ({ path }) => ({
-              contents: withoutEffects(readFileSync(path, 'utf8')),
+              contents: withPureConstants(readFileSync(path, 'utf8')),
               loader: 'js',
             }));
             onLoad({ filter: /[/\\](?:zstddec-stream\.mjs|lit-html\.js)$/ }, ({ path }) => ({
-              contents: withReplaced(readFileSync(path, 'utf8'), /** @type {keyof typeof REPLACED_PASSAGES} */ (basename(path))),
+              contents: withReplacedPassages(readFileSync(path, 'utf8'), /** @type {keyof typeof REPLACED_PASSAGES} */ (basename(path))),
               loader: 'js',
             }));
             onLoad({ filter: /[/\\]www[/\\].+\.[jt]s$/ }, ({ path }) => ({
-              contents: changed(path, withoutIndentation(withShortStyles(readFileSync(path, 'utf8'), transformSync))),
+              contents: transformScript(path, withoutIndentation(withMinifiedStyles(readFileSync(path, 'utf8'), transformSync))),
               loader: path.endsWith('.ts') ? 'ts' : 'js',
             }));
           },
@@ -256,8 +255,8 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
     writeFileSync(path, contents);
   };
   for (const { path, contents, text } of results.flatMap(({ outputFiles }) => outputFiles)) {
-    const ownScript = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(path, '.map')) : contents;
-    write(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? withNonAsciiEscaped(text) : ownScript);
+    const outputContents = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(path, '.map')) : contents;
+    write(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? withNonAsciiEscaped(text) : outputContents);
   }
   const elementManifest = await manifest();
   const elements = elementManifest.modules.flatMap(({ declarations }) => declarations);
@@ -276,7 +275,7 @@ export async function bundle({ tags = WIDGETS, changed = (_, script) => script }
   write(pathOf('dist/motion.wasm'), wasm);
   for (const { path, contents } of [bytesModule, ...tags.map(moduleOf)]) write(pathOf(path), contents);
   const typings = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
-  for (const [name, path] of Object.entries(typings)) write(pathOf(`dist/${name}.d.ts`), localImports(readFileSync(pathOf(path), 'utf8')));
+  for (const [name, path] of Object.entries(typings)) write(pathOf(`dist/${name}.d.ts`), withLocalImports(readFileSync(pathOf(path), 'utf8')));
   write(pathOf('dist/external.d.ts'), ELEMENT_DECLARATIONS);
   for (const name of ['de', 'motion-widgets.css']) write(pathOf(`dist/${name}.d.ts`), 'export {};\n');
   chmodSync(pathOf('dist/cli.js'), 0o755);
@@ -302,7 +301,7 @@ const STYLES = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$]|$
  * @param {string} script
  * @param {typeof import('esbuild').transformSync} transform
  */
-function withShortStyles(script, transform) {
+function withMinifiedStyles(script, transform) {
   return script.replace(STYLES, (style) => {
     /** @type {string[]} */
     const expressions = [];
@@ -354,7 +353,7 @@ async function widgetLoaders() {
 }
 
 /** Returns the declarations of settings without their documentation, which no page shows. */
-function shortDeclarations() {
+function minimalDeclarations() {
   const omittedKeys = ['sentence', 'nullable'];
   const asJson = (/** @type {unknown} */ value) => JSON.stringify(value, (key, member) => (omittedKeys.includes(key) ? undefined : member));
   return Object.entries(declared)
@@ -368,7 +367,7 @@ function shortDeclarations() {
  *
  * @param {string} library with each constant at the start of a line
  */
-function withoutEffects(library) {
+function withPureConstants(library) {
   return library
     .replaceAll(/^((?:var|const) \w+ = )((?:new |`|\w+[.(]).*);$/gm, '$1/* @__PURE__ */ (() => $2)();')
     .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
@@ -394,11 +393,11 @@ const REPLACED_PASSAGES = {
   ],
 };
 
-/** Replaces some passages of a library. @param {string} library @param {keyof typeof REPLACED_PASSAGES} name of its file */
-function withReplaced(library, name) {
-  return REPLACED_PASSAGES[name].reduce((text, [is, instead]) => {
-    if (text.split(is).length !== 2) throw new Error(`${name} does not have ${is} once, as scripts/bundle.mjs takes it to have.`);
-    return text.replace(is, () => instead);
+/** Returns a library with its `REPLACED_PASSAGES` replaced. @param {string} library @param {keyof typeof REPLACED_PASSAGES} name of its file */
+function withReplacedPassages(library, name) {
+  return REPLACED_PASSAGES[name].reduce((text, [original, replacement]) => {
+    if (text.split(original).length !== 2) throw new Error(`${name} does not have ${original} once, but scripts/bundle.mjs replaces it.`);
+    return text.replace(original, () => replacement);
   }, library);
 }
 
@@ -407,15 +406,15 @@ function withReplaced(library, name) {
  *
  * @param {string} types
  */
-function localImports(types) {
+function withLocalImports(types) {
   return types.replaceAll(/'\.\.\/build\/(\w+)\.d\.ts'/g, "'./$1.js'").replaceAll("'../www/types.d.ts'", "'./core.js'");
 }
 
 /** Removes the text of the inlined module from a source map: a quarter of a million characters. @param {string} text */
 function withoutModule(text) {
   const map = JSON.parse(text);
-  const keptContent = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith(BYTES_MODULE) ? '' : content);
-  return JSON.stringify({ ...map, sourcesContent: map.sourcesContent.map(keptContent) });
+  const contentToKeep = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith(BYTES_MODULE) ? '' : content);
+  return JSON.stringify({ ...map, sourcesContent: map.sourcesContent.map(contentToKeep) });
 }
 
 /**
@@ -426,17 +425,17 @@ function withoutModule(text) {
  * @returns {string}
  */
 function inlinedPage(name) {
-  const read = (/** @type {string} */ path) => readFileSync(pathOf(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
+  const readDistFile = (/** @type {string} */ path) => readFileSync(pathOf(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
   const styleLink = /<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g;
   const scriptTag = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;
-  const page = read(name);
-  const outerLink = page.replace(styleLink, '').replace(scriptTag, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
-  if (outerLink) throw new UserError(`${name}: ${outerLink[0]} cannot be put into one file; expected is "./" and a file of www/.`);
+  const page = readDistFile(name);
+  const externalLink = page.replace(styleLink, '').replace(scriptTag, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
+  if (externalLink) throw new UserError(`${name}: ${externalLink[0]} cannot be put into one file; expected is "./" and a file of www/.`);
   const inlineScript = (/** @type {string} */ path) =>
-    `<script type="module">${read(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
+    `<script type="module">${readDistFile(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
   // Replaces links to other pages by their text: a copied file does not have them next to it.
   return page
     .replaceAll(/<a href="\.\/[^"]*">([^<]*)<\/a>/g, '$1')
-    .replace(styleLink, (_, path) => `<style>\n${read(path)}</style>`)
+    .replace(styleLink, (_, path) => `<style>\n${readDistFile(path)}</style>`)
     .replace(scriptTag, (_, path) => inlineScript(path === 'motion-widgets.js' ? 'motion-widgets.iife.js' : path));
 }

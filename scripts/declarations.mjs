@@ -23,8 +23,8 @@ import { importTypeScript } from './typescript.mjs';
  * @typedef {object} Widget
  * @property {string} tag
  * @property {string} machine name of its class in the core; the class of its element has the suffix Element
- * @property {Attribute[]} attributes each of which is also a property
- * @property {Field[]} properties without an attribute
+ * @property {Attribute[]} attributes attributes, each of which is also a property
+ * @property {Field[]} properties properties without an attribute
  * @property {Field[]} state fields of the state that only this widget has
  */
 
@@ -59,9 +59,9 @@ export function typeOf({ key, type, words, nullable }) {
  * Returns the description of a setting: its meaning, its allowed values and its default.
  *
  * @param {Declaration} declaration
- * @param {string} [opening]
+ * @param {string} [opening] the default as text
  */
-export function describe(declaration, opening) {
+export function descriptionOf(declaration, opening) {
   const { sentence, type } = declaration;
   const range = rangeText(declaration);
   const numberKind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (type)] ?? '';
@@ -99,14 +99,14 @@ export const oneLine = (text) => text.replaceAll('\n', ' ');
 
 /** @returns {Promise<Widget[]>} */
 export function widgets() {
-  return Promise.all(Object.keys(settings).map(widgetOf));
+  return Promise.all(Object.keys(settings).map(describeWidget));
 }
 
 /** Returns the declarations of a widget. @param {string} tag @returns {Promise<Widget>} */
-async function widgetOf(tag) {
-  // They import libraries, which a bare clone does not have yet.
+async function describeWidget(tag) {
+  // Static imports would fail in a bare clone, in which the libraries of these modules are not installed yet.
   const { COMMON_ATTRS, NUMBER_CONVERTER, WORD_LIST_CONVERTER } = await importTypeScript('www/figure/attributes.ts');
-  const { definition: { attributes, declarations: declared, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
+  const { definition: { attributes, declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/attributes.ts').Documentation[]} */
   const documentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await classComments();
@@ -115,31 +115,31 @@ async function widgetOf(tag) {
   const attributeSentences = Object.fromEntries(element.attributes.map((/** @type {any} */ { name, description }) => [name, description]));
   const propertyTable = Object.assign({}, ...documentations.map(({ properties }) => properties));
   const stateTable = Object.assign({}, ...documentations.map(({ state }) => state));
-  const settingOf = (/** @type {string} */ name) => declared.find((/** @type {Declaration} */ { key }) => key === name);
+  const settingOf = (/** @type {string} */ name) => declarations.find((/** @type {Declaration} */ { key }) => key === name);
 
   /** @returns {Attribute} */
-  const attributeOf = (/** @type {[string, any]} */ [name, entry]) => {
+  const describeAttribute = (/** @type {[string, any]} */ [name, entry]) => {
     const declaration = settingOf(name);
     if (declaration) {
       const defaultValue = declaration.default;
       const openingText = defaultValue === null ? undefined : String(defaultValue);
       const shownDefault = typeof defaultValue === 'number' ? numberText(defaultValue) : openingText;
-      const withoutRange = describe({ ...declaration, min: undefined }, shownDefault);
-      return { name, type: typeOf(declaration), description: describe(declaration, shownDefault), opening: openingText, allowed: rangeText(declaration), withoutRange };
+      const withoutRange = descriptionOf({ ...declaration, min: undefined }, shownDefault);
+      return { name, type: typeOf(declaration), description: descriptionOf(declaration, shownDefault), opening: openingText, allowed: rangeText(declaration), withoutRange };
     }
     const { words, coveredAttributes, converter, property } = entry;
     const nullable = coveredAttributes || entry.nullable;
-    const openingText = elementFields[name]?.opening ?? (coveredAttributes ? openingPreset(tag) : nullable ? undefined : words?.[0]);
+    const openingText = elementFields[name]?.opening ?? (coveredAttributes ? openingPresetOf(tag) : nullable ? undefined : words?.[0]);
     const type = converter === NUMBER_CONVERTER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST_CONVERTER ? `(${unionType(words)})[]` : unionType(words);
     const text = Array.isArray(openingText) ? openingText.join(' ') : openingText;
-    const description = describe({ ...entry, sentence: attributeSentences[name] }, text);
+    const description = descriptionOf({ ...entry, sentence: attributeSentences[name] }, text);
     return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: rangeText(entry), withoutRange: description };
   };
   const documentedItem = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
-  const attributeList = Object.entries({ ...attributes, ...COMMON_ATTRS }).map(attributeOf);
+  const attributeList = Object.entries({ ...attributes, ...COMMON_ATTRS }).map(describeAttribute);
   /** @type {Declaration[]} */
-  const wholeSettings = declared.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
+  const wholeSettings = declarations.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
   const groupFields = wholeSettings.filter(({ key }) => !(key in attributes)).map(fieldOf);
   const classFields = element.members
     .filter((/** @type {any} */ { kind, privacy, inheritedFrom }) => kind === 'field' && privacy === 'public' && !inheritedFrom)
@@ -156,18 +156,18 @@ async function widgetOf(tag) {
 
 /** @param {Declaration} declaration */
 function fieldOf(declaration) {
-  return { name: declaration.key, type: typeOf(declaration), description: describe(declaration) };
+  return { name: declaration.key, type: typeOf(declaration), description: descriptionOf(declaration) };
 }
 
 /** Returns the preset that the widget opens with, if there is one. @param {string} tag */
-function openingPreset(tag) {
+function openingPresetOf(tag) {
   const openingValues = Object.fromEntries(settings[tag].map(({ key, in: group, field, default: value }) => [field ? `${group}.${field}` : key, value]));
   /** @returns {boolean} */
-  const presetIsOpen = (/** @type {object} */ fields, group = '') =>
+  const isOpeningPreset = (/** @type {object} */ fields, group = '') =>
     Object.entries(fields).every(
-      ([key, value]) => key === 'name' || value === null || (typeof value === 'object' ? presetIsOpen(value, key) : value === (openingValues[`${group}.${key}`] ?? openingValues[key])),
+      ([key, value]) => key === 'name' || value === null || (typeof value === 'object' ? isOpeningPreset(value, key) : value === (openingValues[`${group}.${key}`] ?? openingValues[key])),
     );
-  return presetsOf(tag).find((preset) => presetIsOpen(preset))?.name;
+  return presetsOf(tag).find((preset) => isOpeningPreset(preset))?.name;
 }
 
 /** Returns the presets of a widget. @param {string} tag @returns {(Record<string, unknown> & { name: string })[]} */

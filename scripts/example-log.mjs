@@ -41,8 +41,8 @@ const SPEEDS = { v: 0.8, turn: 0.9 };
 /** Command and its duration in seconds. @typedef {{ seconds: number, v: number, omega: number }} Command */
 
 /** @returns {Generator<Command>} straight drives, arcs, turns on the spot and pauses, without end */
-function* commands() {
-  // Numbers that are spread evenly, and never the same.
+function* driveCommands() {
+  // Low-discrepancy sequence by the golden ratio: numbers between two limits that never repeat.
   const evenlySpread = (/** @type {number} */ i, /** @type {number} */ from, /** @type {number} */ to) => from + (to - from) * ((i * 0.6180339887) % 1);
   for (let i = 1; ; i++) {
     const turnSign = i % 3 === 0 ? -1 : 1;
@@ -55,13 +55,13 @@ function* commands() {
   }
 }
 
-/** Poses of the odometry, one a row. @param {Motion} motion @returns {Pose[]} */
+/** Returns the poses of the odometry, one for each row. @param {Motion} motion @returns {Pose[]} */
 function odometryPoses(motion) {
   const limitedChange = (/** @type {number} */ value, /** @type {number} */ goal, /** @type {number} */ maxChange) => value + Math.max(-maxChange, Math.min(maxChange, goal - value));
   let pose = { x: 0, y: 0, theta: 0 };
   const poses = [pose];
   let [v, omega, steps] = [0, 0, 0];
-  for (const command of commands()) {
+  for (const command of driveCommands()) {
     for (let stepsLeft = Math.round(command.seconds / STEP); stepsLeft > 0; stepsLeft--) {
       if (steps >= DURATION / STEP) return poses;
       v = limitedChange(v, command.v, MAX_ACCELERATIONS.v * STEP);
@@ -96,17 +96,17 @@ function legEndsOf(rows) {
  * Returns the true poses of the robot. The odometry model moves it leg by leg, and within a leg the error grows smoothly.
  *
  * @param {Motion} motion
- * @param {Pose[]} readPoses poses of the odometry, one a row
- * @param {number} seed of the first leg's noise; each leg has the next one
- * @returns {Pose[]} one a row, up to the end of the last complete leg
+ * @param {Pose[]} measuredPoses poses of the odometry, one for each row
+ * @param {number} seed seed of the first leg's noise; each leg has the next one
+ * @returns {Pose[]} one for each row, up to the end of the last complete leg
  */
-function truePoses(motion, readPoses, seed) {
+function truePoses(motion, measuredPoses, seed) {
   const { se2 } = motion;
-  const rows = readPoses.map(roundedPose);
+  const rows = measuredPoses.map(roundedPose);
   const scaledPose = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUE_MODEL.distanceScale * x, y: TRUE_MODEL.distanceScale * y, theta });
   const poseOf = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
   const model = new motion.OdometryModel({ alphas: TRUE_MODEL.alphas });
-  const trueDrive = [scaledPose(readPoses[0])];
+  const trueDrive = [scaledPose(measuredPoses[0])];
   const legEnds = legEndsOf(rows);
   for (const [leg, end] of legEnds.entries()) {
     if (leg === 0) continue;
@@ -119,7 +119,7 @@ function truePoses(motion, readPoses, seed) {
     for (let i = fromRow + 1; i <= end; i++) {
       const legShare = (i - fromRow) / (end - fromRow);
       const smoothShare = legShare * legShare * (3 - 2 * legShare);
-      trueDrive.push(se2.boxplus(se2.compose(trueStart, motionTo(scaledPose(readPoses[i]))), legError.map((component) => smoothShare * component)));
+      trueDrive.push(se2.boxplus(se2.compose(trueStart, motionTo(scaledPose(measuredPoses[i]))), legError.map((component) => smoothShare * component)));
     }
   }
   model.free();
@@ -128,17 +128,17 @@ function truePoses(motion, readPoses, seed) {
 
 /** Returns the tables of the example log, as CSV. @param {Motion} motion @param {number} [seed] */
 export function exampleLog(motion, seed = SEED) {
-  const readPoses = odometryPoses(motion);
-  const trueDrive = truePoses(motion, readPoses, seed);
+  const measuredPoses = odometryPoses(motion);
+  const trueDrive = truePoses(motion, measuredPoses, seed);
   const extraRows = Math.round(EXTRA_TIME / ROW_INTERVAL);
   const csvLine = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...roundedPose(pose)].join(',')}\n`;
   const csvTable = (/** @type {string[]} */ lines) => `t,x,y,yaw\n${lines.join('')}`;
   const [odometry, reference] = [/** @type {string[]} */ ([]), /** @type {string[]} */ ([])];
   const mount = { x: 0, y: 0, theta: TRUE_MODEL.mountYaw };
-  const last = trueDrive.length - 1;
-  for (let i = 0; i <= last; i++) odometry.push(csvLine(START + i * ROW_INTERVAL, readPoses[i]));
-  for (let i = -extraRows; i <= last + extraRows; i++) {
-    const pose = trueDrive[Math.max(0, Math.min(i, last))];
+  const lastRow = trueDrive.length - 1;
+  for (let i = 0; i <= lastRow; i++) odometry.push(csvLine(START + i * ROW_INTERVAL, measuredPoses[i]));
+  for (let i = -extraRows; i <= lastRow + extraRows; i++) {
+    const pose = trueDrive[Math.max(0, Math.min(i, lastRow))];
     reference.push(csvLine(START + i * ROW_INTERVAL + TRUE_MODEL.clockOffset, motion.se2.compose(pose, mount)));
   }
   return { odometry: csvTable(odometry), reference: csvTable(reference) };

@@ -42,16 +42,16 @@ export function packagesOf(outputs) {
 /** Returns each licence text once, below the packages that have it. @param {Package[]} packages */
 export function licences(packages) {
   /** @type {Map<string, string[]>} */
-  const packagesOfText = new Map();
+  const packagesByText = new Map();
   for (const { name, version, licence, directory } of packages) {
     const licenceFiles = readdirSync(directory).filter((file) => /^(licen[cs]e|copying)/i.test(file));
     // MIT is the shortest licence of several to choose from.
     const licenceFile = licenceFiles.find((file) => /mit/i.test(file)) ?? licenceFiles[0];
     if (licenceFile === undefined) throw new Error(`${name} ${version} (${licence}) comes without the text of its licence.`);
     const text = readFileSync(join(directory, licenceFile), 'utf8').replaceAll('\r', '').trim();
-    packagesOfText.set(text, [...(packagesOfText.get(text) ?? []), `${name} ${version} (${licence})`]);
+    packagesByText.set(text, [...(packagesByText.get(text) ?? []), `${name} ${version} (${licence})`]);
   }
-  const sections = [...packagesOfText].map(([text, names]) => [names.sort().join('\n'), text]);
-  const sectionTexts = sections.sort(([a], [b]) => (a < b ? -1 : 1)).map((part) => part.join('\n\n'));
+  const sections = [...packagesByText].map(([text, names]) => [names.sort().join('\n'), text]);
+  const sectionTexts = sections.sort(([a], [b]) => (a < b ? -1 : 1)).map((parts) => parts.join('\n\n'));
   return `${['The bundles of motion-widgets carry parts of these works.', STANDARD_LIBRARY, ...sectionTexts].join(`\n\n${'-'.repeat(72)}\n\n`)}\n`;
 }

@@ -35,9 +35,9 @@ export async function manifest() {
 /**
  * @param {import('./declarations.mjs').Widget} widget
  * @param {string} name of its element's class
- * @param {any} analyzed comments of the class, as the analyzer reads them
+ * @param {any} analyzedClass comments of the class, as the analyzer reads them
  */
-function elementOf({ tag, machine, attributes, properties }, name, analyzed) {
+function elementOf({ tag, machine, attributes, properties }, name, analyzedClass) {
   /** Replaces the general names of types in the common class by those of this machine. @param {string} type */
   const withMachineNames = (type) => ({ text: type.replace(/\bMachine\b/, machine).replace(/\bValues\b/, `${machine}State`) });
   const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withMachineNames(type.text) }), description: description && oneLine(description) });
@@ -54,7 +54,7 @@ function elementOf({ tag, machine, attributes, properties }, name, analyzed) {
     name,
     tagName: tag,
     customElement: true,
-    description: analyzed.description,
+    description: analyzedClass.description,
     attributes: attributes.map(({ name, property = name, type, description, opening }) => ({
       name,
       type: { text: type.replace(' | null', '') },
@@ -65,13 +65,13 @@ function elementOf({ tag, machine, attributes, properties }, name, analyzed) {
     members: [
       ...attributes.map(({ name, property = name, type, description }) => ({ kind: 'field', name: property, type: { text: type }, description, attribute: name, reflects: true })),
       ...properties.map(({ name, type, description, readonly }) => ({ kind: 'field', name, type: { text: type }, description, ...(readonly && { readonly }) })),
-      ...analyzed.members
+      ...analyzedClass.members
         .filter((/** @type {any} */ { name, privacy }) => privacy === 'public' && !properties.some((property) => property.name === name))
         .map(memberOf),
     ],
-    events: documentedItems(analyzed.events),
-    slots: documentedItems(analyzed.slots),
-    cssParts: documentedItems(analyzed.cssParts),
-    cssProperties: documentedItems(analyzed.cssProperties),
+    events: documentedItems(analyzedClass.events),
+    slots: documentedItems(analyzedClass.slots),
+    cssParts: documentedItems(analyzedClass.cssParts),
+    cssProperties: documentedItems(analyzedClass.cssProperties),
   };
 }

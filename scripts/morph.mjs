@@ -1,4 +1,4 @@
-// Picture of README: the morph of the Banana Machine. `node scripts/morph.mjs` retakes it.
+// `node scripts/morph.mjs`: records the animation in README, the morph of the Banana Machine.
 
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';

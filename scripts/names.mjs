@@ -10,7 +10,7 @@ const PYTHON_KEYWORDS = new Set(
 const WIDGET_NAMES = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log', 'open', 'stats', 'tabbable', 'tooltip']);
 
 /**
- * Returns the name of a property in Python: in snake case, and with an underscore behind a name that is taken, as PEP 8
+ * Returns the name of a property in Python: in snake case, and with an underscore after a keyword or a member of every widget, as PEP 8
  * recommends. www/anywidget.ts reads traits by this spelling too.
  *
  * @param {string} property
@@ -33,7 +33,7 @@ export function scriptName(name) {
   return name;
 }
 
-/** Asks the parser. @param {string} word */
+/** Returns true if the parser does not accept a word as a name. @param {string} word */
 function isReserved(word) {
   try {
     return !new Function(`'use strict'; async () => { const ${word} = 0; };`);

@@ -1,4 +1,4 @@
-// Runs other programs, and tells the user in one sentence what is missing. Node built-ins only: this runs in a bare clone.
+// Runs other programs, and reports in one sentence what is missing. This script imports only Node built-ins, because it runs in a bare clone.
 
 import { AsyncLocalStorage } from 'node:async_hooks';
 import { spawn } from 'node:child_process';
@@ -38,7 +38,7 @@ export async function withCollectedOutput(work) {
   }
 }
 
-/** @param {string} text */
+/** Prints the name of the step that begins. @param {string} text */
 export function progress(text) {
   print(`\n▸ ${text}\n`);
 }
@@ -78,10 +78,9 @@ export async function settleAll(works) {
 }
 
 /**
- * Runs a script's main function when its file is the one that node was asked to run. Whatever goes wrong ends with
- * one sentence and exit code 1.
+ * Runs a script's main function if node was started with that script. An error prints one sentence, and sets exit code 1.
  *
- * @param {string} url the caller's import.meta.url
+ * @param {string} url import.meta.url of the script
  * @param {() => Promise<unknown>} main
  */
 export async function runAsScript(url, main) {
@@ -116,7 +115,7 @@ function endAfterSignal() {
 }
 
 /** Arranges that a process group is ended when this process is. @param {number} group */
-export function endWithUs(group) {
+export function endGroupWithProcess(group) {
   processGroups.add(group);
   for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, endAfterSignal).on(signal, endAfterSignal);
 }
@@ -134,9 +133,9 @@ const MAX_SILENCE = 30_000;
 /**
  * @typedef {object} RunOptions
  * @property {Record<string, string>} [env] added to the present environment
- * @property {string} [cwd] the directory to run it in, instead of the repository's root
- * @property {number} [seconds] the time after which the program and all its children are killed
- * @property {boolean} [quiet] shows nothing
+ * @property {string} [cwd] working directory; default: the root of the repository
+ * @property {number} [seconds] time limit, after which the program and its children are killed
+ * @property {boolean} [quiet] true if the output is not printed
  */
 
 /**
@@ -168,7 +167,7 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
     /** @type {NodeJS.Timeout | undefined} */
     let limitTimer;
     if (seconds !== undefined && processGroup !== undefined) {
-      endWithUs(processGroup);
+      endGroupWithProcess(processGroup);
       limitTimer = setTimeout(() => {
         timedOut = true;
         endGroup(processGroup);
@@ -185,38 +184,40 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
       silenceTimer?.refresh();
       if (!quiet) print(text, process.stderr);
     });
-    const finishRun = (/** @type {boolean} */ ok) => {
+    const settleRun = (/** @type {boolean} */ ok) => {
       clearTimeout(limitTimer);
       clearInterval(silenceTimer);
       if (processGroup !== undefined) forgetGroup(processGroup);
       resolve({ ok, timedOut, stdout, output });
     };
-    child.on('error', () => finishRun(false));
-    child.on('close', (code) => finishRun(code === 0));
+    child.on('error', () => settleRun(false));
+    child.on('close', (code) => settleRun(code === 0));
   });
 }
 
 /**
  * Runs a program that has to succeed.
  *
- * @param {string} sentence thrown as `UserError` when it does not
+ * @param {string} message message of the `UserError` that is thrown if the program fails
  * @param {string} command
  * @param {string[]} args
  * @param {RunOptions} [options]
  */
-export async function mustRun(sentence, command, args, options) {
+export async function mustRun(message, command, args, options) {
   const result = await run(command, args, options);
   if (!result.ok) {
     if (options?.quiet) print(result.output, process.stderr);
-    throw new UserError(sentence);
+    throw new UserError(message);
   }
   return result;
 }
 
 /**
+ * Returns the full path of a program.
+ *
  * @param {string} name
- * @param {string[]} [moreDirectories] looked in after those of PATH
- * @returns {string | undefined} the full path of a program
+ * @param {string[]} [moreDirectories] directories that are searched after those of PATH
+ * @returns {string | undefined} undefined if it is not found
  */
 export function findProgram(name, moreDirectories = []) {
   return [...(process.env.PATH ?? '').split(delimiter), ...moreDirectories]
@@ -224,7 +225,7 @@ export function findProgram(name, moreDirectories = []) {
     .find(isProgram);
 }
 
-/** @param {string} path */
+/** Returns true if a file can be executed. @param {string} path */
 export function isProgram(path) {
   try {
     accessSync(path, constants.X_OK);

@@ -1,5 +1,5 @@
-// Sources of the Python package: python/src/motion_widgets gets the script, and a class for each element with a trait for
-// each declared setting.
+// Generates sources of the Python package in python/src/motion_widgets: the script, and a class for each element, with a trait for each
+// setting.
 
 import { copyFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -83,9 +83,9 @@ function traitOfSetting({ key, type, words = [], fields = [], min, max }, tag) {
     case 'boolean': return OPTIONAL_TRAITS.Bool;
     case 'word': return `Word(${words.map(quoted).join(', ')})`;
     case 'group': {
-      const nameOf = (/** @type {Declaration} */ part) => part.field ?? part.key;
-      const fieldsOfGroup = settings[tag].filter((part) => part.in === key && fields.includes(nameOf(part)));
-      return `Group(${fieldsOfGroup.map((part) => `${nameOf(part)}=${traitOfSetting(part, tag)}`).join(', ')})`;
+      const nameOf = (/** @type {Declaration} */ member) => member.field ?? member.key;
+      const fieldsOfGroup = settings[tag].filter((member) => member.in === key && fields.includes(nameOf(member)));
+      return `Group(${fieldsOfGroup.map((member) => `${nameOf(member)}=${traitOfSetting(member, tag)}`).join(', ')})`;
     }
   }
 }

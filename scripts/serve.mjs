@@ -6,21 +6,23 @@ import { build } from './build.mjs';
 import { ROOT, UserError, runAsScript } from './process.mjs';
 
 /**
+ * Serves the files of a directory on localhost.
+ *
  * @param {string} directory
  * @param {object} [options]
- * @param {number} [options.port] the one to take; without it the first free one from 4173 on
- * @param {string} [options.base] the path that the directory is served under, with a slash at both ends
- * @param {Record<string, string>} [options.headers] sent with every file
+ * @param {number} [options.port] default: the first free port from 4173 on
+ * @param {string} [options.base] path under which the directory is served, with a slash at both ends
+ * @param {Record<string, string>} [options.headers] headers of every response
  * @returns {Promise<{ address: string, close: () => void }>}
  */
-export async function serve(directory, { port, base = '/', headers = {} } = {}) {
-  // A bare clone lacks it until the packages are installed.
+export async function serve(directory, { port, base: basePath = '/', headers = {} } = {}) {
+  // A static import would fail in a bare clone, in which sirv is not installed yet.
   const { default: sirv } = await import('sirv');
   const files = sirv(directory, { dev: true, etag: true, setHeaders: (response) => response.setHeaders(new Map(Object.entries(headers))) });
   const server = createServer((request, response) => {
     const sendNotFound = () => void response.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
-    if (!request.url?.startsWith(base)) return sendNotFound();
-    request.url = request.url.slice(base.length - 1);
+    if (!request.url?.startsWith(basePath)) return sendNotFound();
+    request.url = request.url.slice(basePath.length - 1);
     files(request, response, sendNotFound);
   });
   let triedPort = port ?? 4173;
@@ -37,7 +39,7 @@ export async function serve(directory, { port, base = '/', headers = {} } = {}) 
     server.on('listening', () => {
       const address = server.address();
       if (address === null || typeof address === 'string') return;
-      resolve({ address: `http://localhost:${address.port}${base}`, close: () => server.close().closeAllConnections() });
+      resolve({ address: `http://localhost:${address.port}${basePath}`, close: () => server.close().closeAllConnections() });
     });
     server.listen(triedPort, 'localhost');
   });

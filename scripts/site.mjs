@@ -38,7 +38,7 @@ const relativeLink = (/** @type {string} */ page, /** @type {string} */ target) 
 const anchorOf = (/** @type {string} */ heading) => heading.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-');
 
 /** @param {string} page */
-const navigation = (page) => {
+const navigationHtml = (page) => {
   const links = Object.entries(TOP_LINKS).map(([to, name]) => `<a href="${relativeLink(page, to)}"${to === page ? ' aria-current="page"' : ''}>${name}</a>`);
   return `<nav class="site" aria-label="Site">${links.join('\n')}\n<a href="${homepage}">Source</a></nav>`;
 };
@@ -66,7 +66,7 @@ function renderedPage({ Marked }, document, documents) {
     const file = posix.join(posix.dirname(document), path);
     return (documents.includes(file) ? relativeLink(page, pageOf(file)) : SOURCES_URL + file) + (anchor ? `#${anchor}` : '');
   };
-  const shown = new Set();
+  const shownFigures = new Set();
   const text = readFileSync(join(ROOT, document), 'utf8');
   const html = new Marked({
     walkTokens: (token) => void (token.type === 'link' && (token.href = linkOf(token.href))),
@@ -82,8 +82,8 @@ function renderedPage({ Marked }, document, documents) {
         return address ? `<a href="${relativeLink(page, escapedHtml(address))}">${code}</a>` : code;
       },
       code({ text, lang }) {
-        const figures = lang === 'html' ? (text.match(FIGURE_RE) ?? []).filter((figure) => !figure.includes('[') && !shown.has(figure)) : [];
-        for (const figure of figures) shown.add(figure);
+        const figures = lang === 'html' ? (text.match(FIGURE_RE) ?? []).filter((figure) => !figure.includes('[') && !shownFigures.has(figure)) : [];
+        for (const figure of figures) shownFigures.add(figure);
         return `<pre><code>${escapedHtml(text)}</code></pre>\n${figures.join('\n')}\n`;
       },
     },
@@ -98,10 +98,10 @@ function renderedPage({ Marked }, document, documents) {
 <link rel="stylesheet" href="${relativeLink(page, '')}page.css">
 <link rel="stylesheet" href="${relativeLink(page, '')}motion-widgets.css">
 <link rel="stylesheet" href="${relativeLink(page, '')}site.css">
-${shown.size > 0 ? `<script type="module" src="${relativeLink(page, '')}external.js"></script>` : ''}
+${shownFigures.size > 0 ? `<script type="module" src="${relativeLink(page, '')}external.js"></script>` : ''}
 </head>
 <body>
-${navigation(page)}
+${navigationHtml(page)}
 <main class="document">
 ${html.replaceAll('<table>', '<table class="api">')}</main>
 </body>
@@ -137,7 +137,7 @@ await runAsScript(import.meta.url, async () => {
   cpSync(join(ROOT, 'scripts/site.css'), join(SITE, 'site.css'));
   for (const path of ['index.html', 'reference.html']) {
     const text = readFileSync(join(SITE, path), 'utf8').replace('src="./motion-widgets.js"', 'src="./external.js"');
-    writeFileSync(join(SITE, path), text.replace('</head>', '<link rel="stylesheet" href="./site.css" />\n</head>').replace(/<body[^>]*>/, `$&\n${navigation(path)}`));
+    writeFileSync(join(SITE, path), text.replace('</head>', '<link rel="stylesheet" href="./site.css" />\n</head>').replace(/<body[^>]*>/, `$&\n${navigationHtml(path)}`));
   }
   const marked = await import('marked');
   const documents = ['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))];

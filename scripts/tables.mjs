@@ -31,43 +31,43 @@ const TABLE_BUILDERS = {
  * @param {string} page HTML with comments like `<!-- table of events -->`
  * @param {Element[]} elements
  * @param {Widget[]} widgets
- * @returns {string} it with the tables
+ * @returns {string} the page with the tables
  */
 export function withTables(page, elements, widgets) {
   return page.replaceAll(/^ *<!-- table of (\w+) -->$/gm, (_, name) => TABLE_BUILDERS[name](elements, widgets));
 }
 
 /**
- * Returns a table of the items of all elements, followed by those of some.
+ * Returns a table of the items of all elements. An item that only some elements have names these elements.
  *
  * @param {Element[]} elements
  * @param {string} kind
  * @param {string} caption
- * @param {string[]} heads
- * @param {(element: Element) => Item[]} items
+ * @param {string[]} headings
+ * @param {(element: Element) => Item[]} itemsOf
  */
-function itemTable(elements, kind, caption, heads, items) {
-  const itemsByName = new Map(elements.flatMap(items).map((item) => [item.name, item]));
-  const elementsWith = (/** @type {string} */ name) => elements.filter((element) => items(element).some((item) => item.name === name));
+function itemTable(elements, kind, caption, headings, itemsOf) {
+  const itemsByName = new Map(elements.flatMap(itemsOf).map((item) => [item.name, item]));
+  const elementsWith = (/** @type {string} */ name) => elements.filter((element) => itemsOf(element).some((item) => item.name === name));
   const rows = [...itemsByName.values()].map(({ name, description }) => {
-    const bearers = elementsWith(name);
-    const only = bearers.length < elements.length ? ` Only ${bearers.map(({ tagName }) => codeHtml(`<${tagName}>`)).join(' and ')}.` : '';
-    return [codeHtml(name), proseHtml(description) + only];
+    const owners = elementsWith(name);
+    const ownersText = owners.length < elements.length ? ` Only ${owners.map(({ tagName }) => codeHtml(`<${tagName}>`)).join(' and ')}.` : '';
+    return [codeHtml(name), proseHtml(description) + ownersText];
   });
-  return tableHtml('both', kind, caption, heads, rows);
+  return tableHtml('both', kind, caption, headings, rows);
 }
 
 /**
- * @param {string} subject what the items belong to
+ * @param {string} owner tag of the element that has the items, or "both" for all elements
  * @param {string} kind
  * @param {string} caption
- * @param {string[]} heads
+ * @param {string[]} headings
  * @param {string[][]} rows of HTML
  */
-function tableHtml(subject, kind, caption, heads, rows) {
-  const headCells = heads.map((text) => `<th scope="col">${text}</th>`).join('');
+function tableHtml(owner, kind, caption, headings, rows) {
+  const headCells = headings.map((text) => `<th scope="col">${text}</th>`).join('');
   const bodyRows = rows.map(([name, ...cells]) => `            <tr><th scope="row">${name}</th>${cells.map((cell) => `<td>${cell}</td>`).join('')}</tr>`);
-  return `        <table class="api" data-of="${subject}" data-kind="${kind}">
+  return `        <table class="api" data-of="${owner}" data-kind="${kind}">
           <caption>${caption}</caption>
           <thead><tr>${headCells}</tr></thead>
           <tbody>

@@ -1,13 +1,12 @@
-// `npm test`: the checks of every change. `npm run test:all`: those and the nightly ones, which take longer. `npm test -- PART`
-// runs one part and gives the remaining arguments to its program. All parts run, even if one fails.
+// `npm test` runs the checks of every change. `npm run test:all` also runs the nightly ones, which take longer. `npm test -- PART` runs one
+// part, and passes the remaining arguments to its program. All parts run, even if one fails.
 //
-// Nightly tests are marked where they stand: `#[ignore = "nightly: …"]` in Rust, `@nightly` in the title of a test in JavaScript,
-// `*.nightly.test.js` for whole files.
+// Nightly tests have `#[ignore = "nightly: …"]` in Rust, and `@nightly` in their title in JavaScript. `*.nightly.test.js` has only nightly tests.
 
 import { existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
-import { testRunner } from './bindgen.mjs';
+import { testRunnerProgram } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { filesOf } from './bundle.mjs';
@@ -19,12 +18,12 @@ import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.m
 /** @typedef {() => Promise<{ ok: boolean, output: string, timedOut: boolean }>} Job */
 /**
  * @typedef {object} Part
- * @property {(more: string[]) => Promise<Job>} prepare waits for the tools that the part needs, and installs missing ones. `more` are
- *   arguments for its program
+ * @property {(programArgs: string[]) => Promise<Job>} prepare waits for the tools that the part needs, and installs missing ones. `programArgs` are
+ *   additional arguments for its program
  * @property {Record<keyof Tally, RegExp>} [counts] patterns of the numbers of tests in the output, if the part runs tests
  */
 
-/** Runs the nightly tests as well. */
+/** True if the nightly tests run as well. */
 const NIGHTLY = process.argv.includes('--all');
 
 /** Time limit of a part, s, so that a hanging test does not stop the run. */
@@ -34,25 +33,25 @@ const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 /** @type {('tests' | 'tests/package' | 'tests/engines')[]} workspaces of package.json that the tests need */
 const TEST_WORKSPACES = NIGHTLY ? ['tests', 'tests/package', 'tests/engines'] : ['tests'];
 
-/** The quick tier tests the whole core in all figures. The nightly one also builds the modules of single figures. */
+/** Builds dist/ and installs the packages of the tests. Daily tests use the common core in all figures; nightly ones also the core of each figure. */
 const ensureBuilt = once(() => settleAll([build({ local: !NIGHTLY }), ...TEST_WORKSPACES.map((name) => ensurePackages(name))]));
 
-/** Versions of the tools that the parts used. */
+/** Versions of the tools that the parts have used so far. */
 const toolVersions = new Set([`Node ${process.versions.node}`]);
 
-async function usedRust() {
+async function ensureRust() {
   const rust = await nativeRust();
   toolVersions.add(rust.description);
   return rust;
 }
 
-async function usedWasmRust() {
+async function ensureWasmRust() {
   const rust = await wasmRust();
   toolVersions.add(`for WebAssembly ${rust.description}`);
   return rust;
 }
 
-const testBrowser = once(async () => {
+const ensureTestBrowser = once(async () => {
   const foundBrowser = await ensureBrowser();
   toolVersions.add(`Chromium ${foundBrowser.version}`);
   return foundBrowser;
@@ -104,75 +103,75 @@ const COUNT_PATTERNS = {
 /** @type {Record<string, Part>} */
 const PARTS = {
   rustfmt: {
-    prepare: async (more) => lintJob(await usedRust(), 'fmt', ['--check', ...more, '--', ...filesOf('scripts/bind/src'), 'fuzz/main.rs']),
+    prepare: async (programArgs) => lintJob(await ensureRust(), 'fmt', ['--check', ...programArgs, '--', ...filesOf('scripts/bind/src'), 'fuzz/main.rs']),
   },
   oxlint: {
-    async prepare(more) {
+    async prepare(programArgs) {
       await ensurePackages('tests');
-      return npmJob('oxlint/bin/oxlint', ['--deny-warnings', ...more, '.']);
+      return npmJob('oxlint/bin/oxlint', ['--deny-warnings', ...programArgs, '.']);
     },
   },
   build: {
     prepare: async () => () => ensureBuilt().then(() => ({ ok: true, output: '', timedOut: false })),
   },
   tsc: {
-    async prepare(more) {
+    async prepare(programArgs) {
       await ensureBuilt();
       // The nightly tier also needs the packages of the engines and of tests/package.
-      return npmJob('typescript/bin/tsc', ['-p', NIGHTLY ? 'tests/types.json' : '.', ...more]);
+      return npmJob('typescript/bin/tsc', ['-p', NIGHTLY ? 'tests/types.json' : '.', ...programArgs]);
     },
   },
   clippy: {
-    prepare: async (more) => lintJob(await usedRust(), 'clippy', ['--locked', '--all-targets', ...more, ...LINT_RULES]),
+    prepare: async (programArgs) => lintJob(await ensureRust(), 'clippy', ['--locked', '--all-targets', ...programArgs, ...LINT_RULES]),
   },
   'clippy-wasm': {
-    async prepare(more) {
-      const rust = await usedWasmRust();
+    async prepare(programArgs) {
+      const rust = await ensureWasmRust();
       // Uses the profile of the tests, in which the macros are compiled already.
       const testOptions = ['--locked', '--profile', 'web', '--lib', '--test', 'web', ...rust.target];
-      return lintJob(rust, 'clippy', [...testOptions, ...more, ...LINT_RULES]);
+      return lintJob(rust, 'clippy', [...testOptions, ...programArgs, ...LINT_RULES]);
     },
   },
   docs: {
-    prepare: async (more) => cargoJob(await usedRust(), ['doc', '--locked', '--no-deps', ...more], { RUSTDOCFLAGS: '-D warnings' }),
+    prepare: async (programArgs) => cargoJob(await ensureRust(), ['doc', '--locked', '--no-deps', ...programArgs], { RUSTDOCFLAGS: '-D warnings' }),
   },
   rust: {
-    async prepare(more) {
+    async prepare(programArgs) {
       // Incremental compilation makes the first compilation 18 % slower in processor time.
       const env = existsSync(pathOf('target/debug')) ? undefined : { CARGO_INCREMENTAL: '0' };
-      return cargoJob(await usedRust(), ['test', '--locked', '--no-fail-fast', ...more, ...(NIGHTLY ? ['--', '--include-ignored'] : [])], env);
+      return cargoJob(await ensureRust(), ['test', '--locked', '--no-fail-fast', ...programArgs, ...(NIGHTLY ? ['--', '--include-ignored'] : [])], env);
     },
     counts: COUNT_PATTERNS.cargo,
   },
   wasm: {
-    async prepare(more) {
-      const rust = await usedWasmRust();
+    async prepare(programArgs) {
+      const rust = await ensureWasmRust();
       const testOptions = ['--locked', '--profile', 'web', '--test', 'web', ...rust.target];
-      return cargoJob(rust, ['test', ...testOptions, ...more], browserEnvironment(await testRunner(), await testBrowser()));
+      return cargoJob(rust, ['test', ...testOptions, ...programArgs], browserEnvironment(await testRunnerProgram(), await ensureTestBrowser()));
     },
     counts: COUNT_PATTERNS.cargo,
   },
   node: {
-    async prepare(more) {
-      const command = nodeTestCommand('tests/node', more);
+    async prepare(programArgs) {
+      const command = nodeTestCommand('tests/node', programArgs);
       await ensureBuilt();
       return programJob(command);
     },
     counts: COUNT_PATTERNS.node,
   },
   package: {
-    async prepare(more) {
-      const command = nodeTestCommand('tests/package', more);
+    async prepare(programArgs) {
+      const command = nodeTestCommand('tests/package', programArgs);
       await ensureBuilt();
-      return programJob(command, { CHROME: (await testBrowser()).chrome });
+      return programJob(command, { CHROME: (await ensureTestBrowser()).chrome });
     },
     counts: COUNT_PATTERNS.node,
   },
   browser: {
-    async prepare(more) {
+    async prepare(programArgs) {
       await ensureBuilt();
       const tierOptions = NIGHTLY ? [] : ['--grep-invert', '@nightly'];
-      return npmJob('@playwright/test/cli.js', ['test', ...tierOptions, ...more], { CHROME: (await testBrowser()).chrome });
+      return npmJob('@playwright/test/cli.js', ['test', ...tierOptions, ...programArgs], { CHROME: (await ensureTestBrowser()).chrome });
     },
     counts: COUNT_PATTERNS.playwright,
   },
@@ -206,7 +205,7 @@ async function runParts(args) {
   if (partName !== undefined) return summarize([await outcomeOf(partName, moreArguments)]);
 
   // Installation starts now, because some lanes need the tools late. A part that needs a missing one reports it.
-  for (const tool of [testBrowser, testRunner]) tool().catch(() => {});
+  for (const tool of [ensureTestBrowser, testRunnerProgram]) tool().catch(() => {});
   /** @type {Outcome[]} */
   const outcomes = [];
   await Promise.all(
@@ -219,23 +218,23 @@ async function runParts(args) {
 
 /**
  * @param {string} name of a part
- * @param {string[]} more
+ * @param {string[]} programArgs
  * @returns {Promise<Outcome>}
  */
-async function outcomeOf(name, more) {
+async function outcomeOf(name, programArgs) {
   const { prepare, counts } = PARTS[name];
-  let start = Date.now();
-  const seconds = () => (Date.now() - start) / 1000;
+  let startTime = Date.now();
+  const seconds = () => (Date.now() - startTime) / 1000;
   try {
-    const job = await prepare(more);
+    const job = await prepare(programArgs);
     progress(name);
-    start = Date.now();
+    startTime = Date.now();
     const { ok, output, timedOut } = await job();
     const totalOf = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, count]) => sum + Number(count), 0);
     const tally = counts && { passed: totalOf(counts.passed), failed: totalOf(counts.failed), skipped: totalOf(counts.skipped) };
-    const noTests = tally !== undefined && tally.passed + tally.failed === 0;
-    const note = timedOut ? `ended after ${TIME_LIMIT} s` : noTests ? 'no test ran' : undefined;
-    return { name, ok: ok && !noTests && !tally?.failed, seconds: seconds(), output, tally, note };
+    const ranNoTest = tally !== undefined && tally.passed + tally.failed === 0;
+    const note = timedOut ? `ended after ${TIME_LIMIT} s` : ranNoTest ? 'no test ran' : undefined;
+    return { name, ok: ok && !ranNoTest && !tally?.failed, seconds: seconds(), output, tally, note };
   } catch (error) {
     progress(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
     return { name, ok: false, seconds: seconds(), note: 'not run: see above' };
@@ -265,14 +264,14 @@ function browserEnvironment(runner, { chrome, driver }) {
  * Returns the command that runs the tests of a directory, or the named files of it.
  *
  * @param {string} directory
- * @param {string[]} more files or options
+ * @param {string[]} programArgs files or options
  */
-function nodeTestCommand(directory, more) {
+function nodeTestCommand(directory, programArgs) {
   const files = filesOf(directory).filter((path) => /\.test\.[jt]s$/.test(path) && (NIGHTLY || !path.endsWith('.nightly.test.js')));
-  const namedFiles = files.filter((path) => more.some((argument) => !argument.startsWith('-') && path.includes(argument)));
-  const unknownName = more.find((argument, i) => !argument.startsWith('-') && !more[i - 1]?.startsWith('-') && !files.some((path) => path.includes(argument)));
+  const namedFiles = files.filter((path) => programArgs.some((argument) => !argument.startsWith('-') && path.includes(argument)));
+  const unknownName = programArgs.find((argument, i) => !argument.startsWith('-') && !programArgs[i - 1]?.startsWith('-') && !files.some((path) => path.includes(argument)));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is in no name of a test file; ${directory} has ${files.map((path) => path.slice(directory.length + 1)).join(', ')}.`);
-  const nodeOptions = more.filter((argument) => !namedFiles.some((path) => path.includes(argument)));
+  const nodeOptions = programArgs.filter((argument) => !namedFiles.some((path) => path.includes(argument)));
   // Node runs every test of a parent that matches, and the parent of all is called "<root>".
   const tierOptions = NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
   // With its default number of processes a core stays idle.

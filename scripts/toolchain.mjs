@@ -1,6 +1,5 @@
-// Finds or installs the tools of the build and of the tests: npm packages, Rust, its WebAssembly target, lints. Each tool is
-// looked for once; several may be installed at the same time.
-// Node built-ins only: this runs in a bare clone.
+// Finds or installs the tools of the build and the tests: npm packages, Rust, its WebAssembly target and lints. Several may be installed at
+// the same time. This script imports only Node built-ins, because it runs in a bare clone.
 
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -125,20 +124,20 @@ async function installRustup() {
   const script = join(tmpdir(), `rustup-init-${process.pid}.sh`);
   const download = ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', '-o', script, 'https://sh.rustup.rs'];
   const options = ['-y', '--no-modify-path', '--profile', 'default', '--target', WASM_TARGET];
-  const installed =
+  const isInstalled =
     (await run('curl', download)).ok && (await run('sh', [script, ...options], { seconds: 600 })).ok;
   rmSync(script, { force: true });
-  return installed;
+  return isInstalled;
 }
 
 /**
- * Rust for WebAssembly. The standard library of the target comes from rustup; where that is out of reach it is
- * compiled from Debian's sources of it, by Debian's compiler.
+ * Finds or installs Rust for WebAssembly. The standard library of the target comes from rustup. If rustup's server cannot be reached, Debian's
+ * compiler builds that library from Debian's sources.
  */
 export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
-  const native = await nativeRust();
-  if (native.bin !== DEBIAN_BIN && (await rustup(() => hasTarget(native)))) {
-    return { ...native, target: ['--target', WASM_TARGET], description: `${native.description}, ${WASM_TARGET} of rustup` };
+  const nativeToolchain = await nativeRust();
+  if (nativeToolchain.bin !== DEBIAN_BIN && (await rustup(() => hasTarget(nativeToolchain)))) {
+    return { ...nativeToolchain, target: ['--target', WASM_TARGET], description: `${nativeToolchain.description}, ${WASM_TARGET} of rustup` };
   }
   const missingMessage =
     `Rust's ${WASM_TARGET} target is missing: run \`rustup target add ${WASM_TARGET}\`, ` +
@@ -159,7 +158,7 @@ export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
 });
 
 /**
- * Returns whether the standard library for WebAssembly is installed. If it is missing, asks rustup to install it.
+ * Returns true if the standard library for WebAssembly is installed. If it is missing, rustup is asked to install it first.
  *
  * @param {Rust} native
  * @returns {Promise<boolean>}
@@ -188,19 +187,19 @@ async function hasTarget({ bin, env }) {
 }
 
 /**
- * Returns whether rustup's server leaves a small request without an answer. Even by satellite, with three lost packets, an
- * answer takes 10 s; a line that is slower could not carry the 20 MB of the target.
+ * Returns true if rustup's server does not answer a small request within 15 s. Even a satellite link with three lost packets answers within
+ * 10 s; a slower one could not transfer the 20 MB of the target.
  *
  * @returns {Promise<boolean>} false without curl to ask by
  */
 async function isServerSilent() {
   const server = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';
-  // Any answer will do, also one with an unknown certificate.
+  // Any answer shows that the server is reachable, also one with an unknown certificate.
   const curlArguments = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${server}/dist/channel-rust-stable.toml.sha256`];
   return (await run('curl', curlArguments, { seconds: 15, quiet: true })).timedOut;
 }
 
-/** Debian's stable compiler, with the unstable features enabled that `-Zbuild-std` needs. */
+/** Returns the environment of Debian's stable compiler, with the unstable features that `-Zbuild-std` needs. */
 function debianEnvironment() {
   return {
     ...environmentWithPath(DEBIAN_BIN),
@@ -238,11 +237,11 @@ async function requireVersion(bin, env, remedy) {
 
 /** Ensures that rustfmt and clippy are installed for a cargo. @param {Rust} rust */
 export async function ensureLints({ bin, env }) {
-  const haveLints = async () => {
+  const hasLints = async () => {
     const versions = ['cargo-fmt', 'cargo-clippy'].map((name) => run(join(bin, name), ['--version'], { env, quiet: true }));
     return (await Promise.all(versions)).every(({ ok }) => ok);
   };
-  if (await haveLints()) return;
+  if (await hasLints()) return;
   const missingMessage = 'rustfmt or clippy is missing: run `rustup component add rustfmt clippy` and start again.';
   if (bin === DEBIAN_BIN) {
     await aptInstall(['rustfmt-web', 'rust-web-clippy'], missingMessage);
@@ -251,7 +250,7 @@ export async function ensureLints({ bin, env }) {
     if (program === undefined) throw new UserError(missingMessage);
     await rustup(() => mustRun(missingMessage, program, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
   }
-  if (!(await haveLints())) throw new UserError(missingMessage);
+  if (!(await hasLints())) throw new UserError(missingMessage);
 }
 
 /** Returns the part of a file that the group of a pattern matches. @param {string} file @param {RegExp} pattern */

@@ -4,7 +4,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../www/settings.js';
-import { classComments, describe, oneLine, pascalCase, typeOf, unionType, widgets } from './declarations.mjs';
+import { classComments, descriptionOf, oneLine, pascalCase, typeOf, unionType, widgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 
@@ -66,7 +66,7 @@ function settingTypes(tag) {
 
 /** @param {import('../www/settings.js').Declaration} declaration */
 function fieldOf(declaration) {
-  return { name: declaration.field ?? declaration.key, type: typeOf(declaration), description: describe(declaration) };
+  return { name: declaration.field ?? declaration.key, type: typeOf(declaration), description: descriptionOf(declaration) };
 }
 
 /** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} widgets */
@@ -75,8 +75,8 @@ async function figureType([{ attributes }]) {
   const { classes } = await classComments();
   /** @type {any[]} */
   const members = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
-  /** Replaces the type of any widget by a type parameter. @param {{ type: { text: string } }} [typed] */
-  const typeIn = (typed) => (typed?.type.text ?? 'void').replace(/\bMachine\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
+  /** Replaces the type of any widget by a type parameter. @param {{ type: { text: string } }} [typedItem] */
+  const typeIn = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bMachine\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
   const fields = members.map(({ kind, name, description, parameters = [], type, return: result, readonly }) => {
     const parameterTexts = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);
     return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeIn(kind === 'method' ? result : { type }), description: oneLine(description), readonly };

@@ -7,7 +7,7 @@
 import { spawn } from 'node:child_process';
 import { createServer } from 'node:net';
 import { join } from 'node:path';
-import { ROOT, endGroup, endWithUs, forgetGroup } from '../../scripts/process.mjs';
+import { ROOT, endGroup, endGroupWithProcess, forgetGroup } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 
 /** Seconds until a server has to answer. */
@@ -86,7 +86,7 @@ async function untilAnswered(url) {
 export function start(command, args, { env = {}, cwd = ROOT } = {}) {
   const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
   const group = child.pid;
-  if (group !== undefined) endWithUs(group);
+  if (group !== undefined) endGroupWithProcess(group);
   let output = '';
   for (const stream of [child.stdout, child.stderr]) stream.setEncoding('utf8').on('data', (text) => (output += text));
   /** @type {Promise<void>} */

@@ -2,12 +2,12 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { differences } from '../../benches/check.js';
+import { differencesFromCore } from '../../benches/check.js';
 import { freshModule } from './support.js';
 
 test('baseline has the statistics and the picture of the core', async () => {
   const motion = await (await freshModule()).load();
-  assert.deepEqual(differences(motion, 2000), []);
+  assert.deepEqual(differencesFromCore(motion, 2000), []);
 });
 
 test('comparison finds a core with another skew', async () => {
@@ -18,6 +18,6 @@ test('comparison finds a core with another skew', async () => {
       return { ...stats, crossTrackSkew: stats.crossTrackSkew * 1.1 };
     }
   }
-  const messages = differences(/** @type {any} */ ({ BananaMachine: MachineWithOtherSkew }), 2000);
+  const messages = differencesFromCore(/** @type {any} */ ({ BananaMachine: MachineWithOtherSkew }), 2000);
   assert.deepEqual([...new Set(messages.map((text) => text.split(':')[0]))], ['crossTrackSkew']);
 });

@@ -42,7 +42,7 @@ export const poseOf = (x, y, theta, scale = 1) => ({
 });
 
 /** @param {number} t @param {number} x @param {number} y @param {number} theta @param {number} [scale] */
-export const odometry = (t, x, y, theta, scale) => ({
+export const odometryMessage = (t, x, y, theta, scale) => ({
   header: { stamp: stampOf(t), frame_id: 'odom' },
   child_frame_id: 'base_link',
   pose: { pose: poseOf(x, y, theta, scale), covariance: new Float64Array(36) },
@@ -53,7 +53,7 @@ export const odometry = (t, x, y, theta, scale) => ({
 export const twistOf = (v, omega) => ({ linear: { x: v, y: 0, z: 0 }, angular: { x: 0, y: 0, z: omega } });
 
 /** @param {number} t @param {string} parent @param {string} child @param {number} x @param {number} y @param {number} theta */
-export const transform = (t, parent, child, x, y, theta) => {
+export const transformMessage = (t, parent, child, x, y, theta) => {
   const { position, orientation } = poseOf(x, y, theta);
   return { header: { stamp: stampOf(t), frame_id: parent }, child_frame_id: child, transform: { translation: position, rotation: orientation } };
 };
@@ -93,12 +93,12 @@ const COMPRESSION = {
  */
 export async function recordingOf(messages, { compression = 'none', index = true, chunks = index, chunkSize = 4096, encoding = 'cdr' } = {}) {
   /** @type {Uint8Array[]} */
-  const writtenParts = [];
+  const writtenChunks = [];
   let size = 0n;
   const writable = {
     position: () => size,
     write: async (/** @type {Uint8Array} */ bytes) => {
-      writtenParts.push(bytes.slice());
+      writtenChunks.push(bytes.slice());
       size += BigInt(bytes.length);
     },
   };
@@ -125,5 +125,5 @@ export async function recordingOf(messages, { compression = 'none', index = true
     await writer.addMessage({ channelId: channel.id, sequence: sequence++, logTime, publishTime: logTime, data: channel.writer.writeMessage(message) });
   }
   await writer.end();
-  return Buffer.concat(writtenParts);
+  return Buffer.concat(writtenChunks);
 }

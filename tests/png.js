@@ -18,20 +18,20 @@ export function pngOf({ width, height, opacity = false, sample }) {
   const channels = opacity ? [0, 1] : [0];
   const columns = Array.from({ length: width }, (_, column) => column);
   const rows = Array.from({ length: height }, (_, row) => [0, ...columns.flatMap((column) => channels.map((channel) => sample(column, row, channel)))]);
-  return Buffer.concat([SIGNATURE, header({ width, height, opacity }), chunk('IDAT', deflateSync(Buffer.from(rows.flat()))), chunk('IEND', [])]);
+  return Buffer.concat([SIGNATURE, headerChunk({ width, height, opacity }), pngChunk('IDAT', deflateSync(Buffer.from(rows.flat()))), pngChunk('IEND', [])]);
 }
 
 /** Returns the chunk with the size and the kind of the image. @param {Omit<Image, 'sample'>} image */
-export function header({ width, height, opacity = false }) {
+export function headerChunk({ width, height, opacity = false }) {
   const data = Buffer.alloc(13);
   data.writeUInt32BE(width, 0);
   data.writeUInt32BE(height, 4);
   data.set([8, opacity ? 4 : 0], 8);
-  return chunk('IHDR', data);
+  return pngChunk('IHDR', data);
 }
 
 /** Returns a chunk of a PNG file. @param {string} type @param {Uint8Array | number[]} data */
-function chunk(type, data) {
+function pngChunk(type, data) {
   const typeAndData = Buffer.concat([Buffer.from(type, 'latin1'), Buffer.from(data)]);
   const chunkBytes = Buffer.alloc(typeAndData.length + 8);
   chunkBytes.writeUInt32BE(data.length, 0);

@@ -1,16 +1,16 @@
 import { spawnSync } from 'node:child_process';
 import { expect, test as testWithWarnings } from '@playwright/test';
-import { recordingOf, transform } from '../mcap.js';
-import { caption, choose, chooseRecording, example, openCalibrator, recordingWith, rows, rowsOf, stats, tablesOf } from './calibrator-support.js';
-import { STILL, drop, stateOf, takeEvents, test, unfold, untilSettled } from './support.js';
+import { recordingOf, transformMessage } from '../mcap.js';
+import { captionOf, chooseTables, chooseRecording, exampleTable, openCalibrator, recordingWith, alphaRowsOf, rowsOf, statsOf, tablesOf } from './calibrator-support.js';
+import { REDUCED_MOTION, dropFiles, stateOf, takeEvents, test, openDisclosures, untilSettled } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
  * @typedef {import('./calibrator-support.js').AlphaCalibratorElement} AlphaCalibratorElement
  */
 
-test.use(STILL);
-testWithWarnings.use(STILL);
+test.use(REDUCED_MOTION);
+testWithWarnings.use(REDUCED_MOTION);
 
 test('a refusal and long work are shown one above the other', async ({ page }) => {
   const widget = await openCalibrator(page);
@@ -28,9 +28,9 @@ test('a refusal and long work are shown one above the other', async ({ page }) =
 test('two tables of a user replace the simulated log, and a button brings it back', async ({ page }) => {
   const widget = await openCalibrator(page);
   const tables = await tablesOf(widget);
-  await choose(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
+  await chooseTables(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
   await untilSettled(widget);
-  expect(await caption(widget).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
+  expect(await captionOf(widget).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
   // The summary stays visible next to the result.
@@ -40,34 +40,34 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   const hint = widget.getByText('its name is that of odometry, and truth.csv is not: was the odometry given as the reference?');
   await expect(hint).toHaveCount(0);
   await widget.getByLabel('odom.csv').selectOption('Reference');
-  await expect(caption(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
+  await expect(captionOf(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
   await expect(hint).toBeVisible();
   await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
-  await expect(caption(widget)).toHaveText(/of the simulated log/);
+  await expect(captionOf(widget)).toHaveText(/of the simulated log/);
   // A single file is not used until the other file is given too.
   const alert = widget.getByRole('alert');
-  await choose(widget, { 'odom.csv': tables.odometry });
+  await chooseTables(widget, { 'odom.csv': tables.odometry });
   await expect(alert).toHaveText(/^odom\.csv: it has the odometry only, .*; give the reference too\. Drop or choose the other file too,/);
-  // The α's on the screen are of another log, and are not copied until the user says that these are wanted.
+  // The α's on screen belong to another log. They are not copied until the user keeps these results.
   const otherResults = 'The results are still those of the simulated log, not of the files chosen last.';
   await expect(widget.locator('.drop-zone .muted')).toContainText(otherResults);
   await expect(widget.locator('.to-do')).toHaveText(otherResults);
-  await unfold(widget);
+  await openDisclosures(widget);
   const resultButtons = ['Fit for Nav2', 'Save all as JSON'].map((name) => widget.getByRole('button', { name }));
   for (const resultButton of resultButtons) await expect(resultButton).toBeDisabled();
   await widget.getByRole('button', { name: 'Keep these results' }).click();
   for (const resultButton of resultButtons) await expect(resultButton).toBeEnabled();
   await expect(alert).toHaveCount(0);
-  await choose(widget, { 'odom.csv': tables.odometry });
+  await chooseTables(widget, { 'odom.csv': tables.odometry });
   await expect(alert).toHaveCount(1);
-  await choose(widget, { 'truth.csv': tables.reference });
-  await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
+  await chooseTables(widget, { 'truth.csv': tables.reference });
+  await expect(captionOf(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
 });
 
 test('results are those of the command line, to the last bit, and a recording whose topics the user chooses gives them too', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
-  await expect(caption(widget)).toHaveText(/odometry\.csv, reference\.csv[.,]/);
+  await chooseTables(widget, { 'odometry.csv': exampleTable('odometry'), 'reference.csv': exampleTable('reference') });
+  await expect(captionOf(widget)).toHaveText(/odometry\.csv, reference\.csv[.,]/);
   await untilSettled(widget);
   const figureResults = await widget.evaluate((element) => {
     const { machine: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
@@ -84,16 +84,16 @@ test('results are those of the command line, to the last bit, and a recording wh
   await chooseRecording(widget, 'run.mcap', await recordingWith(['/mocap/pose', '/vicon/pose']));
   await expect(widget.getByRole('alert')).toHaveText(/^run\.mcap: it is not clear what the reference is: .*\/vicon\/pose \(PoseStamped\)\.$/);
   await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
-  await expect(caption(widget)).toHaveText(/of run\.mcap, \/odom, \/mocap\/pose[.,]/);
+  await expect(captionOf(widget)).toHaveText(/of run\.mcap, \/odom, \/mocap\/pose[.,]/);
   await untilSettled(widget);
-  const { alphas } = await stats(widget);
+  const { alphas } = await statsOf(widget);
   // The recording has quaternions, whose conversion rounds the headings.
   for (const [i, alpha] of cliResults.alphas.entries()) expect(Number(alphas[i]) / alpha).toBeCloseTo(1, 9);
 });
 
 test('with the velocity model the commands of a file are used, with other models its poses @nightly', async ({ page }) => {
   const widget = await openCalibrator(page, 'model="velocity"');
-  await unfold(widget);
+  await openDisclosures(widget);
   const odometryKeys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
   const selectModel = async (/** @type {string} */ name, /** @type {string} */ key) => {
     await widget.getByRole('radio', { name }).check();
@@ -106,10 +106,10 @@ test('with the velocity model the commands of a file are used, with other models
     const [nextTime, toX, toY, toYaw] = odometryRows[i + 1] ?? [t + 1, x, y, yaw];
     return [t, x, y, yaw, Math.hypot(toX - x, toY - y) / (nextTime - t), Math.atan2(Math.sin(toYaw - yaw), Math.cos(toYaw - yaw)) / (nextTime - t)].join(',');
   });
-  await choose(widget, { 'odom.csv': ['t,x,y,yaw,v,omega', ...commands].join('\n'), 'truth.csv': example('reference') });
+  await chooseTables(widget, { 'odom.csv': ['t,x,y,yaw,v,omega', ...commands].join('\n'), 'truth.csv': exampleTable('reference') });
   await expect.poll(odometryKeys).toContain('omega');
   await untilSettled(widget);
-  expect((await stats(widget)).alphas).toHaveLength(6);
+  expect((await statsOf(widget)).alphas).toHaveLength(6);
   await selectModel('Table 5.6', 'theta');
   await selectModel('velocity', 'omega');
   // The recording has the commands in a separate topic.
@@ -125,31 +125,31 @@ test('with the velocity model the commands of a file are used, with other models
 test('a user chooses among the transforms of a recording @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
-    rowsOf(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, parent, child, x, y, yaw)] } }));
+    rowsOf(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessage(t, parent, child, x, y, yaw)] } }));
   const messagesOfAll = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link'), ...messages('reference', 'mocap', 'robot')];
   await chooseRecording(widget, 'tf.mcap', await recordingOf(messagesOfAll.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 }));
-  await expect(caption(widget)).toHaveText(/of tf\.mcap, \/tf: .+, \/tf: mocap → robot[.,]/);
+  await expect(captionOf(widget)).toHaveText(/of tf\.mcap, \/tf: .+, \/tf: mocap → robot[.,]/);
   await expect(widget.getByLabel('Odometry', { exact: true }).locator(':checked')).toHaveText('/tf: odom → base_footprint');
   const reference = widget.getByLabel('Reference', { exact: true });
   await reference.selectOption('/tf: odom → base_footprint');
   await expect(widget.getByRole('alert')).toHaveText(/^tf\.mcap, topic \/tf: odom → base_footprint is the odometry itself; choose a reference /);
   await reference.selectOption('/tf: map → base_link');
-  await expect(caption(widget)).toHaveText(/of tf\.mcap, .*\/tf: map → base_link[.,]/);
+  await expect(captionOf(widget)).toHaveText(/of tf\.mcap, .*\/tf: map → base_link[.,]/);
 });
 
 test('files of several drives are read together, and a user assigns roles that their names do not tell @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const halvesOf = (/** @type {'odometry' | 'reference'} */ name) => {
-    const [header, ...lines] = example(name).trim().split('\n');
+  const halfTables = (/** @type {'odometry' | 'reference'} */ name) => {
+    const [header, ...lines] = exampleTable(name).trim().split('\n');
     const middle = Number(lines.at(-1)?.split(',')[0]) / 2;
     return [false, true].map((isLate) => [header, ...lines.filter((line) => Number(line.split(',')[0]) > middle === isLate)].join('\n'));
   };
-  const [[a, c], [b, d]] = [halvesOf('odometry'), halvesOf('reference')];
-  await choose(widget, { 'a.csv': a, 'b.csv': b, 'c.csv': c, 'd.csv': d });
+  const [[a, c], [b, d]] = [halfTables('odometry'), halfTables('reference')];
+  await chooseTables(widget, { 'a.csv': a, 'b.csv': b, 'c.csv': c, 'd.csv': d });
   await expect(widget.getByRole('alert')).toHaveText(/^a\.csv: its name does not say whether it is odometry or reference;/);
   await expect(widget.getByLabel('a.csv')).toBeFocused();
   for (const [name, role] of [['a', 'Odometry'], ['b', 'Reference'], ['c', 'Odometry'], ['d', 'Reference']]) await widget.getByLabel(`${name}.csv`).selectOption(role);
-  await expect(caption(widget)).toHaveText(/of a\.csv, c\.csv, b\.csv, d\.csv[.,]/);
+  await expect(captionOf(widget)).toHaveText(/of a\.csv, c\.csv, b\.csv, d\.csv[.,]/);
   await expect(widget.locator('.found caption')).toHaveText(['Drive 1', 'Drive 2']);
 });
 
@@ -157,23 +157,23 @@ test('names and units of columns that a table does not state are asked for, and 
   const widget = await openCalibrator(page);
   const rowsInMillimetres = rowsOf('odometry').map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
   const alert = widget.getByRole('alert');
-  await choose(widget, { 'notes.txt': 'hello', 'empty.csv': '' });
+  await chooseTables(widget, { 'notes.txt': 'hello', 'empty.csv': '' });
   await expect(alert).toHaveText(/^notes\.txt: it does not look like a log,/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: empty\.csv: there is nothing in it/]);
-  await choose(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'truth.csv': example('reference').replaceAll(/^\d+\.\d+/gm, (t) => `${Number(t) + (Number(t) > 50 ? 1 : 0)}`) });
+  await chooseTables(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'truth.csv': exampleTable('reference').replaceAll(/^\d+\.\d+/gm, (t) => `${Number(t) + (Number(t) > 50 ? 1 : 0)}`) });
   await expect(alert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv' }).getByLabel('time', { exact: true })).toBeFocused();
   await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');
   await expect(alert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: cm or mm or m\.$/);
   await widget.getByRole('radiogroup', { name: 'Unit of lengths in odom.csv' }).getByRole('radio', { name: 'millimetres (mm)' }).check();
-  await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
+  await expect(captionOf(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
   await expect(widget.locator('.to-do')).toContainText('Warning: the clock of a log seems to have been set');
 });
 
 test('the files of a dropped folder are one recording, and others are not used', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const camera = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));
-  const recordings = [await recordingWith(['/mocap/pose']), camera].map((bytes) => bytes.toString('base64'));
+  const cameraRecording = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));
+  const recordings = [await recordingWith(['/mocap/pose']), cameraRecording].map((bytes) => bytes.toString('base64'));
   await widget.locator('section.machine').evaluate(async (section, encodedRecordings) => {
     const [bytes, cameraBytes] = await Promise.all(encodedRecordings.map(async (base64) => (await fetch(`data:;base64,${base64}`)).arrayBuffer()));
     const metadata = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
@@ -185,36 +185,36 @@ test('the files of a dropped folder are one recording, and others are not used',
     const dataTransfer = { types: ['Files'], items: [{ kind: 'file', webkitGetAsEntry: () => entry, getAsFile: () => null }] };
     section.dispatchEvent(Object.defineProperty(new Event('drop'), 'dataTransfer', { value: dataTransfer }));
   }, recordings);
-  await expect(caption(widget)).toHaveText(/of run, \/odom, \/mocap\/pose[.,]/);
+  await expect(captionOf(widget)).toHaveText(/of run, \/odom, \/mocap\/pose[.,]/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: run_0\.db3-wal: it is a journal /, /^Not used: camera\.mcap: the topics are \/image /]);
 });
 
 test('a log without enough legs is refused, and the present log keeps its place and its name', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
-  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  await chooseTables(widget, { 'odometry.csv': exampleTable('odometry'), 'reference.csv': exampleTable('reference') });
+  await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
   await untilSettled(widget);
-  const captionBefore = await caption(widget).innerText();
-  const { alphas } = await stats(widget);
+  const captionBefore = await captionOf(widget).innerText();
+  const { alphas } = await statsOf(widget);
   const standingLog = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
-  await drop(widget.locator('.stage').first(), ['a.csv', 'b.csv'].map((name) => ({ name, buffer: standingLog })));
-  // The message is at one place only: where logs are dropped, as that is in sight.
+  await dropFiles(widget.locator('.stage').first(), ['a.csv', 'b.csv'].map((name) => ({ name, buffer: standingLog })));
+  // The message is shown in one place only: in the drop zone, which is visible.
   await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.');
   await untilSettled(widget);
-  expect(await caption(widget).innerText()).toBe(captionBefore);
-  expect((await stats(widget)).alphas).toEqual(alphas);
+  expect(await captionOf(widget).innerText()).toBe(captionBefore);
+  expect((await statsOf(widget)).alphas).toEqual(alphas);
   await expect(widget.locator('.drop-zone .present')).toContainText('odometry.csv, reference.csv');
   // The results are marked as old ones, until the figure shows what it opened with.
   await expect(widget.locator('.views')).toHaveCSS('filter', 'grayscale(1)');
   await widget.getByRole('button', { name: 'Start over' }).click();
-  await expect(caption(widget)).toHaveText(/of the simulated log/);
+  await expect(captionOf(widget)).toHaveText(/of the simulated log/);
   await expect(widget.getByRole('alert')).toHaveCount(0);
   await expect(widget.locator('.views')).toHaveCSS('filter', 'none');
 });
 
-/** Gives the figure two tables of a quarter of an hour, as if they were chosen. @param {Locator} widget */
-const chooseLong = (widget) => widget.evaluate((element) => {
+/** Chooses two tables of a quarter of an hour, as a user does. @param {Locator} widget */
+const chooseLongTables = (widget) => widget.evaluate((element) => {
   const input = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#log-files'));
   const row = (/** @type {number} */ i, /** @type {number} */ shake) => {
     const [t, angle] = [i / 100, i / 400];
@@ -240,8 +240,8 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   });
   // The worker starts while the user chooses files.
   await Promise.all([page.waitForEvent('worker'), page.waitForEvent('filechooser'), widget.getByText('choose files').click()]);
-  const startTime = await chooseLong(widget);
-  await expect(caption(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/, { timeout: 20_000 });
+  const startTime = await chooseLongTables(widget);
+  await expect(captionOf(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/, { timeout: 20_000 });
   expect(page.workers().map((worker) => new URL(worker.url()).pathname)).toEqual(['/chunks/log-worker.js']);
   const { longestTaskShare, layoutShifts } = await page.evaluate((since) => {
     const recentEntries = /** @type {(PerformanceEntry & { value?: number, hadRecentInput?: boolean })[]} */ (Reflect.get(window, 'entries')).filter((entry) => entry.startTime > since);
@@ -253,7 +253,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   // The Web Vitals call a layout unstable from 0.1 on.
   expect(layoutShifts.reduce((sum, shift) => sum + shift, 0)).toBeLessThan(0.1);
   // A changed setting starts another fit; the previous result is shown meanwhile.
-  const { alphas } = await stats(widget);
+  const { alphas } = await statsOf(widget);
   const resultsWhileFitting = await widget.evaluate((element) => {
     const figure = /** @type {any} */ (element);
     figure.distance = 0.5;
@@ -261,7 +261,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   });
   expect(resultsWhileFitting).toEqual({ distance: 0.5, alphas });
   await untilSettled(widget);
-  expect((await stats(widget)).alphas).not.toEqual(alphas);
+  expect((await statsOf(widget)).alphas).not.toEqual(alphas);
 });
 
 testWithWarnings('where the page’s policy forbids workers, a log is read all the same @nightly', async ({ page }) => {
@@ -273,47 +273,47 @@ testWithWarnings('where the page’s policy forbids workers, a log is read all t
   await page.goto('/bare.html');
   const widget = page.locator('alpha-calibrator');
   await expect(widget.locator('.folds')).toBeVisible();
-  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
-  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  await chooseTables(widget, { 'odometry.csv': exampleTable('odometry'), 'reference.csv': exampleTable('reference') });
+  await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
   expect(page.workers()).toEqual([]);
 });
 
 test('reading a log can be stopped, and everything is as it was', async ({ page }) => {
   const widget = await openCalibrator(page);
   const stateBefore = await stateOf(widget);
-  await chooseLong(widget);
+  await chooseLongTables(widget);
   await expect(widget.locator('.verdict')).toHaveCSS('opacity', '0.4');
   await widget.locator('.drop-zone').getByRole('button', { name: 'Stop' }).click();
   await expect(widget.getByRole('alert')).toHaveText('Stopped: everything is as it was.');
   await expect(widget.locator('.drop-zone progress')).toHaveCount(0);
   expect(await stateOf(widget)).toEqual(stateBefore);
-  await expect(caption(widget)).toHaveText(/of the simulated log/);
+  await expect(captionOf(widget)).toHaveText(/of the simulated log/);
   await expect.poll(() => page.workers().length).toBe(0);
 });
 
 test('a log that a page gives is fitted, and is in no state; one that is refused leaves the present one', async ({ page }) => {
   const widget = await openCalibrator(page);
   const stateBefore = await stateOf(widget);
-  const captionBefore = await caption(widget).innerText();
+  const captionBefore = await captionOf(widget).innerText();
   const leftEdge = () => widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.extent.xMin);
   const leftEdgeBefore = await leftEdge();
   const refusals = await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement} */ (element);
     const { legs } = figure.machine;
     const t = Array.from({ length: legs.count }, (_, leg) => leg);
-    const column = (/** @type {Float64Array} */ poses, /** @type {number} */ component) => t.map((leg) => poses[6 * leg + component]);
-    const poses = (/** @type {Float64Array} */ legPoses) => ({ t, x: column(legPoses, 0).map((x) => x + 0.01), y: column(legPoses, 1), theta: column(legPoses, 2) });
-    const log1 = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
+    const componentOf = (/** @type {Float64Array} */ poses, /** @type {number} */ component) => t.map((leg) => poses[6 * leg + component]);
+    const poses = (/** @type {Float64Array} */ legPoses) => ({ t, x: componentOf(legPoses, 0).map((x) => x + 0.01), y: componentOf(legPoses, 1), theta: componentOf(legPoses, 2) });
+    const pageLog = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
     const nextError = () => new Promise((resolve) => {
       figure.addEventListener('error', (event) => {
         event.preventDefault();
         resolve(/** @type {ErrorEvent} */ (event).message);
       }, { once: true });
     });
-    figure.log = log1;
+    figure.log = pageLog;
     await new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
     const errors = [];
-    for (const log of [{ ...log1, odometry: { ...log1.odometry, t: t.with(3, 1) } }, 5]) {
+    for (const log of [{ ...pageLog, odometry: { ...pageLog.odometry, t: t.with(3, 1) } }, 5]) {
       const refusal = nextError();
       Object.assign(figure, { log });
       errors.push(await refusal);
@@ -328,26 +328,26 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
   expect(await stateOf(widget)).toEqual(stateBefore);
   // The picture is fitted anew, although the extent before had room for the path.
   await expect.poll(leftEdge).not.toBe(leftEdgeBefore);
-  await choose(widget, { 'odometry.csv': example('odometry'), 'reference.csv': example('reference') });
-  await expect(caption(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
+  await chooseTables(widget, { 'odometry.csv': exampleTable('odometry'), 'reference.csv': exampleTable('reference') });
+  await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
   await widget.getByRole('button', { name: 'Start over' }).click();
-  await expect(caption(widget)).toHaveText(/of of the page[.,]/);
+  await expect(captionOf(widget)).toHaveText(/of of the page[.,]/);
   await widget.evaluate((element) => void Object.assign(element, { log: null }));
-  await expect(caption(widget)).toHaveText(captionBefore);
+  await expect(captionOf(widget)).toHaveText(captionBefore);
 });
 
 test('a log without legs says so @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
-    const standing = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
-    /** @type {AlphaCalibratorElement} */ (element).log = { odometry: standing, reference: standing };
+    const standingPoses = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
+    /** @type {AlphaCalibratorElement} */ (element).log = { odometry: standingPoses, reference: standingPoses };
   });
   await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.count)).toBe(0);
   await untilSettled(widget);
-  await unfold(widget);
-  await expect(caption(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs, or the logs do not overlap in time\./);
+  await openDisclosures(widget);
+  await expect(captionOf(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs, or the logs do not overlap in time\./);
   await expect(widget.locator('.to-do')).toHaveText(/^Record a longer drive/);
-  await expect(rows(widget).first()).toHaveText(/—/);
+  await expect(alphaRowsOf(widget).first()).toHaveText(/—/);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /fewer than eight legs\.$/);
   await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', 'No leg to show.');
   await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();

@@ -1,15 +1,15 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { caption, openCalibrator, rows, section, stats } from './calibrator-support.js';
-import { STILL, boxOf, frames, pixelCountOf, stateOf, test, unfold, untilSettled } from './support.js';
+import { captionOf, openCalibrator, alphaRowsOf, foldedGroup, statsOf } from './calibrator-support.js';
+import { REDUCED_MOTION, boxOf, waitForFrames, pixelCountOf, stateOf, test, openDisclosures, untilSettled } from './support.js';
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 test('opens with the simulated log, labelled as simulated, with its true α’s', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await expect(caption(widget)).toHaveText(/^✓ Trust\s+All 14 checks passed\. \d+ legs of the simulated log, \d outliers\.$/);
+  await expect(captionOf(widget)).toHaveText(/^✓ Trust\s+All 14 checks passed\. \d+ legs of the simulated log, \d outliers\.$/);
   await expect(widget.locator('.to-do')).toHaveText(/^Use the recommended α’s with legs of this length\. First multiply the odometry’s distances by 1\.0\d\d and turns by 0\.9\d\d: the α’s are those of the corrected robot\.$/);
-  await expect(rows(widget)).toHaveCount(4);
+  await expect(alphaRowsOf(widget)).toHaveCount(4);
   await expect(widget.locator('table.alphas .true')).toHaveCount(5);
   for (const role of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
     expect(await pixelCountOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(20);
@@ -20,28 +20,28 @@ test('opens with the simulated log, labelled as simulated, with its true α’s'
 
 test('the true α’s are shown where the fit is of their rule and legs, and nowhere else', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await unfold(widget);
+  await openDisclosures(widget);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
   await untilSettled(widget);
   await expect(widget.locator('table.alphas .true')).toHaveCount(0);
   await widget.getByRole('radio', { name: 'velocity' }).check();
   await untilSettled(widget);
-  await expect(rows(widget)).toHaveCount(6);
+  await expect(alphaRowsOf(widget)).toHaveCount(6);
   expect(await stateOf(widget)).toMatchObject({ model: 'velocity', rule: 'thrun' });
   await widget.getByRole('radio', { name: 'omnidirectional' }).check();
   await untilSettled(widget);
-  await expect(rows(widget)).toHaveCount(5);
+  await expect(alphaRowsOf(widget)).toHaveCount(5);
   expect(await stateOf(widget)).toMatchObject({ model: 'omnidirectional', rule: 'omni' });
 });
 
 test('the meaning of each α stands beside it, apart from the numbers, also on a phone, in German and in a wide font', async ({ page }) => {
   const widget = await openCalibrator(page, 'lang="de"');
-  await expect(rows(widget).locator('.of')).toHaveText(['Drehrauschen durch Drehen', 'Drehrauschen durch Fahren', 'Streckenrauschen durch Fahren', 'Streckenrauschen durch Drehen']);
+  await expect(alphaRowsOf(widget).locator('.of')).toHaveText(['Drehrauschen durch Drehen', 'Drehrauschen durch Fahren', 'Streckenrauschen durch Fahren', 'Streckenrauschen durch Drehen']);
   for (const [width, spacing] of [[375, 0], [920, 0], [920, 0.1], [1280, 0], [1280, 0.1]]) {
     await page.setViewportSize({ width, height: 900 });
     await page.evaluate((em) => void (document.body.style.letterSpacing = `${em}em`), spacing);
-    await frames(page);
-    const areApart = await rows(widget).evaluateAll((rowElements) => rowElements.map((row) => {
+    await waitForFrames(page);
+    const boxesAreApart = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => {
       const boxOf = (/** @type {string} */ selector) => {
         const text = new Range();
         text.selectNodeContents(/** @type {Element} */ (row.querySelector(selector)));
@@ -50,9 +50,9 @@ test('the meaning of each α stands beside it, apart from the numbers, also on a
       const [name, ...numbers] = ['.of', '.fitted-value', '.between', '.recommended'].map(boxOf);
       return numbers.every(({ left, top }) => name.right <= left || name.bottom <= top + 2);
     }));
-    expect(areApart, `${width} px, ${spacing} em`).toEqual([true, true, true, true]);
+    expect(boxesAreApart, `${width} px, ${spacing} em`).toEqual([true, true, true, true]);
     // Rows of 32 px have the name in one line.
-    if (spacing === 0 && width !== 920) for (const row of await rows(widget).all()) expect((await boxOf(row)).height, `${width} px`).toBeLessThan(34);
+    if (spacing === 0 && width !== 920) for (const row of await alphaRowsOf(widget).all()) expect((await boxOf(row)).height, `${width} px`).toBeLessThan(34);
     expect(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${spacing} em`).toBeLessThanOrEqual(width);
   }
   // Labels of the axis do not overlap where the axis is narrowest.
@@ -65,44 +65,44 @@ test('the meaning of each α stands beside it, apart from the numbers, also on a
 
 test('outliers are ringed, and decide the fit where they are not set aside', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await unfold(widget);
-  const statsBefore = await stats(widget);
+  await openDisclosures(widget);
+  const statsBefore = await statsOf(widget);
   const ringPixels = await pixelCountOf(widget.locator('canvas.plane'), 'ink');
   await widget.getByRole('checkbox', { name: 'outlier', exact: true }).uncheck();
   expect(await pixelCountOf(widget.locator('canvas.plane'), 'ink')).toBeLessThan(ringPixels - 40);
   await widget.getByRole('radio', { name: 'fit as noise' }).check();
   await untilSettled(widget);
-  const statsAfter = await stats(widget);
+  const statsAfter = await statsOf(widget);
   // Numbers from the text of the page.
-  const growth = [1, 2].map((alpha) => Math.round(Number(statsAfter.alphas[alpha]) / Number(statsBefore.alphas[alpha])));
+  const alphaGrowth = [1, 2].map((alpha) => Math.round(Number(statsAfter.alphas[alpha]) / Number(statsBefore.alphas[alpha])));
   const outlierCheck = statsBefore.diagnostics.checks.find(({ name }) => name === 'outliers-few');
-  expect([10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), ...growth]).toEqual([60, 9, 15]);
+  expect([10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), ...alphaGrowth]).toEqual([60, 9, 15]);
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toMatch(/One in sixty is an outlier[^]* becomes nine times and .* fifteen times as large, and two checks fail/);
-  await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(2 of 14 failed\)\. \d+ legs of the simulated log\.$/);
+  await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(2 of 14 failed\)\. \d+ legs of the simulated log\.$/);
 });
 
 test('a systematic error that is not corrected is named in the advice', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await unfold(widget);
-  const statsBefore = await stats(widget);
+  await openDisclosures(widget);
+  const statsBefore = await statsOf(widget);
   await widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck();
   await untilSettled(widget);
-  const statsAfter = await stats(widget);
+  const statsAfter = await statsOf(widget);
   expect(statsAfter.systematicErrors.mountYaw.corrected).toBe(false);
   expect(statsAfter.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
   // Numbers from the text of the page.
   const [from, to] = [statsBefore, statsAfter].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${from} to ${to}&nbsp;rad`);
-  await expect(caption(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 14 failed\)\.\s+\d+ legs /);
+  await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 14 failed\)\.\s+\d+ legs /);
   await expect(widget.locator('.to-do')).toHaveText(/^Not corrected: mount yaw \(rad\) 0\.070 ± 0\.00\d \(see More controls\)\. Errors of neighbouring legs /);
   await expect(widget.getByRole('row', { name: /mount yaw/ })).toContainText('not corrected');
 });
 
 test('every check has its value, the values that pass, and what to do where it failed', async ({ page }) => {
   const widget = await openCalibrator(page, 'outliers="keep" lang="de"');
-  await unfold(widget);
-  const { diagnostics: { checks } } = await stats(widget);
-  const checkRows = section(widget, 'Prüfungen').locator('tbody tr');
+  await openDisclosures(widget);
+  const { diagnostics: { checks } } = await statsOf(widget);
+  const checkRows = foldedGroup(widget, 'Prüfungen').locator('tbody tr');
   await expect(checkRows).toHaveCount(checks.length);
   expect(checks.filter(({ passed }) => !passed).length).toBeGreaterThan(1);
   for (const [i, { passed }] of checks.entries()) await expect(checkRows.nth(i)).toContainText(passed ? '✓ bestanden' : '✕ nicht bestanden');
@@ -119,15 +119,15 @@ test('a leg is chosen in the picture, by its slider, and from one large residual
   await button.click();
   expect(await stateOf(widget)).toMatchObject({ leg: worst[1] });
   // The thumb moves with the next picture.
-  await frames(page);
+  await waitForFrames(page);
   await widget.locator('#leg').press('ArrowRight');
   expect(await stateOf(widget)).toMatchObject({ leg: worst[1] + 1 });
   const canvas = widget.locator('canvas.plane');
   const midpoint = await widget.evaluate((element) => {
     const { pictures: [{ view }], machine } = /** @type {any} */ (element);
     const { reference } = machine.legs;
-    const middle = [0, 1].map((axis) => (reference[6 * 40 + axis] + reference[6 * 40 + 3 + axis]) / 2);
-    return { x: view.toPixelX(middle[0]), y: view.toPixelY(middle[1]), leg: machine.nearest(middle[0], middle[1], 1) };
+    const legMiddle = [0, 1].map((axis) => (reference[6 * 40 + axis] + reference[6 * 40 + 3 + axis]) / 2);
+    return { x: view.toPixelX(legMiddle[0]), y: view.toPixelY(legMiddle[1]), leg: machine.nearest(legMiddle[0], legMiddle[1], 1) };
   });
   await canvas.click({ position: { x: midpoint.x, y: midpoint.y } });
   expect(await stateOf(widget)).toMatchObject({ leg: midpoint.leg });
@@ -136,15 +136,15 @@ test('a leg is chosen in the picture, by its slider, and from one large residual
 
 test('an export as a picture has the key, the α’s with their intervals, and the verdict @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await unfold(widget);
+  await openDisclosures(widget);
   await widget.getByRole('checkbox', { name: 'mount yaw (rad)' }).uncheck();
   await untilSettled(widget);
-  const alphaTexts = await rows(widget).evaluateAll((rowElements) => rowElements.map((row) => {
+  const alphaTexts = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => {
     const [alphaName, value, between, recommended] = ['.of', '.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim());
     return `${alphaName}: ${value}, ${between}, recommended ${recommended}`;
   }));
-  const captionText = ((await caption(widget).textContent()) ?? '').replace(/^\s*✓?!?\s*/, '').replace(/\s+/g, ' ').trim();
-  const exported = await widget.evaluate(async (element) => {
+  const captionText = ((await captionOf(widget).textContent()) ?? '').replace(/^\s*✓?!?\s*/, '').replace(/\s+/g, ' ').trim();
+  const exportedFiles = await widget.evaluate(async (element) => {
     const figure = /** @type {any} */ (element);
     const { documentElement: root } = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml');
     const elementsIn = (/** @type {string} */ selector) => [...root.querySelectorAll(selector)];
@@ -156,24 +156,24 @@ test('an export as a picture has the key, the α’s with their intervals, and t
       described: root.querySelector('desc')?.textContent ?? '',
     };
   });
-  const exportedText = exported.texts.join(' ');
+  const exportedText = exportedFiles.texts.join(' ');
   alphaTexts.forEach((text, i) => {
     expect(exportedText).toContain(`α${'₁₂₃₄'[i]} ${text}`);
-    expect(exported.described).toContain(text);
+    expect(exportedFiles.described).toContain(text);
   });
   expect(exportedText.replaceAll(/(Trust|Caution)\./g, '$1')).toContain(captionText);
-  for (const name of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001', 'odometry', 'outlier']) expect(exported.texts).toContain(name);
+  for (const name of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001', 'odometry', 'outlier']) expect(exportedFiles.texts).toContain(name);
   expect(exportedText).toMatch(/Systematic errors not corrected \(absorbed by the α’s\): mount yaw \(rad\) −?0\.\d{3} ± 0\.\d{3}\./);
-  expect(exported.size[0] / exported.size[1]).toBeCloseTo(720 / 560, 1);
-  exported.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * exported.size[i])).toBeLessThanOrEqual(1));
+  expect(exportedFiles.size[0] / exportedFiles.size[1]).toBeCloseTo(720 / 560, 1);
+  exportedFiles.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * exportedFiles.size[i])).toBeLessThanOrEqual(1));
 });
 
 test('the lines for Nav2 have the numbers of the table, and are copied by the button beside the α’s', async ({ page, context }) => {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
-  await unfold(widget);
+  await openDisclosures(widget);
   const yaml = await widget.locator('textarea.yaml').inputValue();
-  const tableCells = await rows(widget).evaluateAll((rowElements) => rowElements.map((row) => ['.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim() ?? '')));
+  const tableCells = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => ['.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim() ?? '')));
   expect(tableCells).toHaveLength(4);
   tableCells.forEach(([fitted, between, recommended], i) => expect(yaml).toContain(`    alpha${i + 1}: ${recommended}  # fitted ${fitted}, 95 % ${between.replace(' – ', ' to ')}\n`));
   await page.setViewportSize({ width: 360, height: 400 });
@@ -191,8 +191,8 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
 
 test('legs of a time, and how well the reference is known, are set by their sliders', async ({ page }) => {
   const widget = await openCalibrator(page, 'rule="nav2"');
-  await unfold(widget);
-  const statsBefore = await stats(widget);
+  await openDisclosures(widget);
+  const statsBefore = await statsOf(widget);
   const durationSlider = widget.locator('.slider:has(#duration)');
   await expect(durationSlider.locator('.typed')).toHaveValue('—');
   await durationSlider.locator('.typed').fill('0.8');
@@ -204,14 +204,14 @@ test('legs of a time, and how well the reference is known, are set by their slid
   await expect(widget.locator('textarea.yaml')).not.toHaveValue(/update_min/);
   await durationSlider.locator('#duration').fill('0');
   await untilSettled(widget);
-  expect((await stats(widget)).alphas).toEqual(statsBefore.alphas);
+  expect((await statsOf(widget)).alphas).toEqual(statsBefore.alphas);
   // Stated noise of the reference lowers the estimated noise of the wheels.
   await expect(widget.locator('.slider:has(#positionStd) .typed')).toHaveValue('estimated');
   await widget.getByRole('slider', { name: /reference position σ/ }).fill('0.004');
   await widget.getByRole('slider', { name: /reference yaw σ/ }).fill('0.003');
   await untilSettled(widget);
   expect(await stateOf(widget)).toMatchObject({ positionStd: 0.004, yawStd: 0.003, duration: 0 });
-  expect(Number((await stats(widget)).alphas[3])).toBeLessThan(0.9 * Number(statsBefore.alphas[3]));
+  expect(Number((await statsOf(widget)).alphas[3])).toBeLessThan(0.9 * Number(statsBefore.alphas[3]));
 });
 
 test('for an α that a log does not determine, the table says why, and what to add', async ({ page }) => {
@@ -224,6 +224,6 @@ test('for an α that a log does not determine, the table says why, and what to a
     Object.assign(element, { log: { odometry: { t, x: xWithNoise(0), y: zeros, theta: zeros }, reference: { t, x: xWithNoise(0.002), y: zeros, theta: zeros } } });
   });
   await untilSettled(widget);
-  await expect(rows(widget).nth(0)).toHaveText(/not determined: too little rotation in this log; add ~50 in-place rotations/);
-  await expect(rows(widget).nth(2)).not.toHaveText(/not determined/);
+  await expect(alphaRowsOf(widget).nth(0)).toHaveText(/not determined: too little rotation in this log; add ~50 in-place rotations/);
+  await expect(alphaRowsOf(widget).nth(2)).not.toHaveText(/not determined/);
 });

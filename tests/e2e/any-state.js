@@ -4,13 +4,13 @@
  * @module
  */
 
-import { generator } from '../random.js';
+import { randomGenerator } from '../random.js';
 
 export const SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
 
 /** Returns a random state of each element, by its tag name. The states have all fields. @param {number} seed */
 export function randomStates(seed) {
-  const random = generator(seed);
+  const random = randomGenerator(seed);
   const realNumber = (/** @type {number} */ min, /** @type {number} */ max) => min + (max - min) * random();
   const wholeNumber = (/** @type {number} */ min, /** @type {number} */ max) => Math.floor(realNumber(min, max + 1));
   const oneOf = (/** @type {unknown[]} */ choices) => choices[wholeNumber(0, choices.length - 1)];

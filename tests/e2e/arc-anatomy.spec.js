@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, centreOf, frames, mount, numberIn, pictureOf, pixelCountOf, playSlider, readout, test, unfold } from './support.js';
+import { REDUCED_MOTION, centreOf, waitForFrames, mount, numberIn, pictureOf, pixelCountOf, playSlider, readoutValue, test, openDisclosures } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -7,14 +7,14 @@ import { STILL, centreOf, frames, mount, numberIn, pictureOf, pixelCountOf, play
  */
 /** @typedef {HTMLElement & { machine: ArcAnatomy, getState(): any, toCSV(): string, toSVG(): string }} ArcAnatomyElement */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
 const openArcAnatomy = (page, attributes) => mount(page, 'arc-anatomy', { attributes });
 
 /** @param {Locator} widget */
 async function resultsOf(widget) {
-  await frames(widget.page());
+  await waitForFrames(widget.page());
   return widget.evaluate((element) => {
     const { config, stats, table } = /** @type {ArcAnatomyElement} */ (element).machine;
     return { config, stats, table };
@@ -41,9 +41,9 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
     expect(numberIn(((await rows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo(deviations, 1);
     await expect(rows.nth(i).locator('.keeps')).toHaveText(`factor: ${(100 * share).toFixed(1)}\u202f% of its peak`);
   }
-  await unfold(widget);
-  expect(numberIn(await readout(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
-  expect(numberIn(await readout(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
+  await openDisclosures(widget);
+  expect(numberIn(await readoutValue(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
+  expect(numberIn(await readoutValue(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
   // The pointer must not be on an entry of the legend, which would highlight its line.
   await page.mouse.move(0, 0);
   for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelCountOf(canvasOf(widget), role), role).toBeGreaterThan(role === 'accent' ? 10 : 20);
@@ -55,7 +55,7 @@ test('the robot is dragged and turned by its handles, under the pointer', async 
   await page.mouse.move(from.x + 4, from.y + 3);
   await page.mouse.down();
   await page.mouse.move(from.x - 56, from.y + 33, { steps: 5 });
-  await frames(page);
+  await waitForFrames(page);
   const bodyCentre = await centreOf(bodyHandle(widget));
   expect(Math.abs(bodyCentre.x - from.x + 60)).toBeLessThan(1);
   expect(Math.abs(bodyCentre.y - from.y - 30)).toBeLessThan(1);
@@ -109,7 +109,7 @@ test('a centre out of sight is pointed to, with its distance @nightly', async ({
   const svg = () => widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG());
   expect(await svg()).not.toContain('>centre ');
   await widget.evaluate((element) => void Object.assign(element, { omega: 0.025, nextY: 0.012 }));
-  await frames(page);
+  await waitForFrames(page);
   const texts = [...(await svg()).matchAll(/<text[^>]* y="([\d.]+)"[^>]*>(centre [^<]*)</g)];
   expect([...new Set(texts.map(([, , text]) => text))].sort()).toEqual(['centre 40 m, ωΔt = 0.03', 'centre 50 m, ω̂Δt = 0.02']);
   // Two labels on one side stand below each other.
@@ -129,7 +129,7 @@ test('the whole wedge of the last turn is in a narrow picture', async ({ page })
 
 test('as printed, a right turn loses p and the verdict says why, and a left turn does not', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  await unfold(widget);
+  await openDisclosures(widget);
   const printedCheckbox = widget.getByRole('checkbox', { name: 'radius without sign, as printed' });
   await widget.getByRole('button', { name: 'Right turn' }).click();
   const pictureBefore = await pictureOf(canvasOf(widget));
@@ -143,7 +143,7 @@ test('as printed, a right turn loses p and the verdict says why, and a left turn
 
 test('each line of the table highlights its construction, and tells its value', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  await unfold(widget);
+  await openDisclosures(widget);
   const [previousButton, nextButton] = ['Previous line', 'Next line'].map((name) => widget.getByTitle(name));
   const sentence = widget.locator('.stepper p');
   await expect(previousButton).toBeDisabled();
@@ -167,7 +167,7 @@ test('each line of the table highlights its construction, and tells its value', 
 
 test('heat maps of p and of the density are drawn below the arcs, with the contours of both', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  await unfold(widget);
+  await openDisclosures(widget);
   const pictures = [await pictureOf(canvasOf(widget))];
   for (const name of ['p', 'density']) {
     await widget.getByRole('radio', { name, exact: true }).check();
@@ -186,7 +186,7 @@ test('entries of the legend are the toggles of the lines', async ({ page }) => {
     await widget.getByRole('checkbox', { name }).click();
     await page.mouse.move(0, 0);
     await widget.getByRole('checkbox', { name }).blur();
-    await frames(page);
+    await waitForFrames(page);
   };
   await toggle('constant twist');
   expect(await pixelCountOf(canvasOf(widget), 'posterior')).toBeGreaterThan(20);
@@ -223,7 +223,7 @@ test('the factors are exported as CSV', async ({ page }) => {
 
 test('exercise 1 is plotted: three forms, the crossover and the chapter’s threshold', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  await unfold(widget);
+  await openDisclosures(widget);
   const plot = widget.locator('.plot');
   await expect(plot.locator('path.curve')).toHaveCount(3);
   await expect(plot.locator('.marked')).toHaveText(['2·10⁻⁸/Δt', '10⁻⁶']);
@@ -232,8 +232,8 @@ test('exercise 1 is plotted: three forms, the crossover and the chapter’s thre
 test('without noise it says so, and draws no map @nightly', async ({ page }) => {
   const widget = await openArcAnatomy(page, 'map="density" alpha5="0" alpha6="0"');
   await expect(verdictOf(widget)).toHaveText('The last turn γ̂ has zero variance but a non-zero residual, so p = 0.');
-  await unfold(widget);
-  await expect(readout(widget, 'density')).toHaveText('none: a variance is 0');
+  await openDisclosures(widget);
+  await expect(readoutValue(widget, 'density')).toHaveText('none: a variance is 0');
   await expect(widget.locator('.lines li')).toHaveCount(9);
 });
 

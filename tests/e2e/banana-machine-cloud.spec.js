@@ -1,10 +1,10 @@
 import { expect } from '@playwright/test';
-import { STILL, bananaReadings, boxOf, centreOf, frames, numberIn, openBanana, openUnfoldedBanana, pauseEarly, pictureOf, pixelCountOf, posesOf, readout, readoutDetail, setSliders, test } from './support.js';
+import { REDUCED_MOTION, bananaReadings, boxOf, centreOf, waitForFrames, numberIn, openBanana, openBananaWithDisclosures, pauseEarly, pictureOf, pixelCountOf, posesOf, readoutValue, readoutDetail, setSliders, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 const OPENING_ALPHAS = [0.002, 0.002, 0.1, 0.1, 0.002, 0.002];
 
@@ -17,40 +17,40 @@ const captionOf = (widget) => widget.locator('p[part=caption]');
 /** Returns the three numbers that are printed for the marked robot. @param {Locator} widget */
 async function printedNumbersOfMarked(widget) {
   const text = (await widget.locator('.marked output').textContent()) ?? '';
-  const printed = [...text.matchAll(/= (\S+)/g)].map(([, number]) => numberIn(number));
-  expect(printed).toHaveLength(3);
-  return printed;
+  const printedNumbers = [...text.matchAll(/= (\S+)/g)].map(([, number]) => numberIn(number));
+  expect(printedNumbers).toHaveLength(3);
+  return printedNumbers;
 }
 
 test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   await pauseEarly(page, 'banana-machine');
   const widget = await openBanana(page);
-  const play = widget.locator('.cloud').getByRole('button', { name: 'Draw samples' });
-  await expect(play).toBeVisible();
+  const playButton = widget.locator('.cloud').getByRole('button', { name: 'Draw samples' });
+  await expect(playButton).toBeVisible();
   const [pausedReadings, firstPoses] = [await bananaReadings(widget), await posesOf(widget)];
   expect(pausedReadings.shown).toBeGreaterThan(0);
   expect(pausedReadings.shown).toBeLessThan(pausedReadings.config.samples);
-  await frames(page);
+  await waitForFrames(page);
   expect((await bananaReadings(widget)).shown).toBe(pausedReadings.shown);
 
-  await play.click();
+  await playButton.click();
   await widget.getByRole('button', { name: 'Pin' }).click();
   await expect.poll(async () => (await bananaReadings(widget)).shown, { timeout: 20_000 }).toBe(pausedReadings.config.samples);
   // Numbers pinned while the cloud grows are those of the whole cloud.
-  await expect(readout(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
-  await expect(play).toBeVisible();
+  await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
+  await expect(playButton).toBeVisible();
   // The robots of the paused cloud are the first robots of the complete one.
   expect((await posesOf(widget)).slice(0, firstPoses.length)).toEqual(firstPoses);
 });
 
 test('opens with the whole cloud of the opening command, and shows the numbers of the machine', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page);
+  const widget = await openBananaWithDisclosures(page);
   const { config, shown: robots, stats, table } = await bananaReadings(widget);
   expect(config).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
   expect(robots).toBe(config.samples);
   expect(Math.abs(table.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
-  const readoutText = async (/** @type {string | RegExp} */ name) => (await readout(widget, name).textContent()) ?? '';
+  const readoutText = async (/** @type {string | RegExp} */ name) => (await readoutValue(widget, name).textContent()) ?? '';
   const [skew, skewError] = (await readoutText('cross-track skew')).split(' ± ').map(numberIn);
   expect(skew).toBeCloseTo(stats.crossTrackSkew, 3);
   expect(skewError).toBeCloseTo(stats.crossTrackSkewError, 3);
@@ -62,8 +62,8 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   expect(gain).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
   expect(await readoutText('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
-  const shares = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
-  await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${shares.join(', outline ')}`);
+  const shareTexts = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
+  await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${shareTexts.join(', outline ')}`);
   await expect(readoutDetail(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
   const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
   const cells = (await row.getByRole('cell').allTextContents()).map(numberIn);
@@ -79,11 +79,11 @@ test('Clear empties the cloud, Step adds a batch of the same robots', async ({ p
   const [wholeCloud, poses] = [await bananaReadings(widget), await posesOf(widget)];
   await widget.getByRole('button', { name: 'Clear' }).click();
   expect((await bananaReadings(widget)).shown).toBe(0);
-  await expect(readout(widget, 'cross-track skew')).toHaveText('—');
+  await expect(readoutValue(widget, 'cross-track skew')).toHaveText('—');
   await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
 
-  const batch = Math.ceil(wholeCloud.config.samples / GROWTH_STEPS);
-  for (const shown of [batch, 2 * batch]) {
+  const batchSize = Math.ceil(wholeCloud.config.samples / GROWTH_STEPS);
+  for (const shown of [batchSize, 2 * batchSize]) {
     await widget.getByRole('button', { name: 'Step' }).click();
     expect((await bananaReadings(widget)).shown).toBe(shown);
     expect(await posesOf(widget)).toEqual(poses.slice(0, 3 * shown));
@@ -91,9 +91,9 @@ test('Clear empties the cloud, Step adds a batch of the same robots', async ({ p
 });
 
 test('each overlay has a toggle', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page, 'preset="gentle"');
+  const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
   const plane = widget.locator('canvas.plane');
-  const twist = widget.locator('canvas.twist');
+  const twistCanvas = widget.locator('canvas.twist');
   const firstPicture = await pictureOf(plane);
   for (const [label, role] of [
     ['commanded arc', 'prior'],
@@ -108,9 +108,9 @@ test('each overlay has a toggle', async ({ page }) => {
     await box.setChecked(!isShown);
     // Pointing at an entry highlights its line.
     await page.mouse.move(0, 0);
-    const change = (await pixelCountOf(plane, role)) - pixelsBefore;
-    expect(isShown ? -change : change, label).toBeGreaterThan(30);
-    if (role === 'posterior') expect(await pixelCountOf(twist, role)).toBe(0);
+    const pixelChange = (await pixelCountOf(plane, role)) - pixelsBefore;
+    expect(isShown ? -pixelChange : pixelChange, label).toBeGreaterThan(30);
+    if (role === 'posterior') expect(await pixelCountOf(twistCanvas, role)).toBe(0);
     await box.setChecked(isShown);
     await page.mouse.move(0, 0);
   }
@@ -118,18 +118,18 @@ test('each overlay has a toggle', async ({ page }) => {
 });
 
 test('a robot pointed at in one view is marked in both, with what it executed', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page, 'preset="gentle"');
+  const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
   const plane = widget.locator('canvas.plane');
-  const twist = widget.locator('canvas.twist');
+  const twistCanvas = widget.locator('canvas.twist');
   const field = widget.getByRole('spinbutton', { name: 'Robot' });
-  const markPixels = async () => [await pixelCountOf(plane, 'accent'), await pixelCountOf(twist, 'accent')];
+  const markPixels = async () => [await pixelCountOf(plane, 'accent'), await pixelCountOf(twistCanvas, 'accent')];
   expect(await markPixels()).toEqual([0, 0]);
 
   const checkedIndex = async () => {
     const index = Number(await field.inputValue()) - 1;
     const { vHat, omegaHat, gammaHat } = await widget.evaluate((element, i) => /** @type {BananaMachineElement} */ (element).machine.inspect(i), index);
-    const printed = await printedNumbersOfMarked(widget);
-    for (const [i, value] of [vHat, omegaHat, gammaHat].entries()) expect(printed[i]).toBeCloseTo(value, 3);
+    const printedNumbers = await printedNumbersOfMarked(widget);
+    for (const [i, value] of [vHat, omegaHat, gammaHat].entries()) expect(printedNumbers[i]).toBeCloseTo(value, 3);
     return index;
   };
 
@@ -138,8 +138,8 @@ test('a robot pointed at in one view is marked in both, with what it executed', 
   for (const count of await markPixels()) expect(count).toBeGreaterThan(20);
   const indexInPlane = await checkedIndex();
 
-  await twist.scrollIntoViewIfNeeded();
-  const { x, y, width, height } = await boxOf(twist);
+  await twistCanvas.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await boxOf(twistCanvas);
   await page.mouse.move(x + width * 0.45, y + height * 0.45);
   for (const count of await markPixels()) expect(count).toBeGreaterThan(20);
   expect(await checkedIndex()).not.toBe(indexInPlane);
@@ -149,7 +149,7 @@ test('a robot pointed at in one view is marked in both, with what it executed', 
 });
 
 test('the sentence says what holds exactly for the model, and what the robots show', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page, 'preset="gentle"');
+  const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
   const pressPreset = (/** @type {string} */ name) => widget.getByRole('button', { name, exact: true }).click();
   await expect(captionOf(widget)).toHaveText(/^The cloud is bent, with its tail to the right of the mean heading: skew −0\.4\d\d\s±\s0\.01\d, where any Gaussian in \(x, y\) has 0\.$/);
   await widget.locator('#omega').fill('-0.5');
@@ -157,12 +157,12 @@ test('the sentence says what holds exactly for the model, and what the robots sh
 
   // This cloud is symmetric: the skew is exactly 0 for any number of robots, and the ellipse has twice the area.
   await pressPreset('Banana');
-  await frames(page);
+  await waitForFrames(page);
   const { table } = await bananaReadings(widget);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
   // The caption contains the number of the readout.
-  const [ratio] = (await readout(widget, 'area covered').innerText()).split(' ');
+  const [ratio] = (await readoutValue(widget, 'area covered').innerText()).split(' ');
   await expect(captionOf(widget)).toHaveText(
     new RegExp(`^The cloud is bent: its ellipse covers ${ratio} times the area of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
   );
@@ -176,7 +176,7 @@ test('the sentence says what holds exactly for the model, and what the robots sh
 });
 
 test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nightly', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page);
+  const widget = await openBananaWithDisclosures(page);
   await widget.getByRole('button', { name: 'Pivot' }).click();
   const { table, config } = await bananaReadings(widget);
   const [, a2] = config.alphas;
@@ -195,13 +195,13 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nig
 });
 
 test('a cloud that turns a full circle has no exponential coordinates, and says so @nightly', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page);
+  const widget = await openBananaWithDisclosures(page);
   await setSliders(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('there are no statistics in ξ');
-  await expect(readout(widget, 'predicts')).toHaveText('—');
+  await expect(readoutValue(widget, 'predicts')).toHaveText('—');
   await expect(readoutDetail(widget, 'area covered')).toHaveText(/inside: ellipse [\d.]+\u202f%, outline —$/);
-  for (const name of ['area covered', 'gain in fit', 'exact area']) await expect(readout(widget, name)).toHaveText('—');
-  await expect(readout(widget, 'cross-track skew')).not.toHaveText('—');
+  for (const name of ['area covered', 'gain in fit', 'exact area']) await expect(readoutValue(widget, name)).toHaveText('—');
+  await expect(readoutValue(widget, 'cross-track skew')).not.toHaveText('—');
   const measuredCell = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();
   await expect(measuredCell).toHaveText('—');
   await setSliders(widget, { omega: 0.5, dt: 1 });
@@ -210,11 +210,11 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
 });
 
 test('the odometry model shows the noise of a marked robot’s legs, and has an option for reverse', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page, 'preset="gentle"');
+  const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
   await expect(widget.getByLabel('Reverse without half-turn noise')).toHaveCount(0);
   await widget.getByLabel('odometry').check();
   await widget.getByRole('spinbutton', { name: 'Robot' }).fill('5');
-  await frames(page);
+  await waitForFrames(page);
   const expectedNoises = await widget.evaluate((element) => {
     const { machine } = /** @type {BananaMachineElement} */ (element);
     const { legs } = machine.inspect(4);
@@ -222,8 +222,8 @@ test('the odometry model shows the noise of a marked robot’s legs, and has an 
     const { rot1, trans, rot2 } = machine.reading;
     return [rot1 - legs.rot1, trans - legs.trans, rot2 - legs.rot2];
   });
-  const printed = await printedNumbersOfMarked(widget);
-  expectedNoises.forEach((noise, i) => expect(printed[i]).toBeCloseTo(noise, 3));
+  const printedNumbers = await printedNumbersOfMarked(widget);
+  expectedNoises.forEach((noise, i) => expect(printedNumbers[i]).toBeCloseTo(noise, 3));
 
   await widget.locator('#v').fill('-1');
   await expect(captionOf(widget)).toContainText('two half turns');
@@ -232,7 +232,7 @@ test('the odometry model shows the noise of a marked robot’s legs, and has an 
 });
 
 test('captions and notes depend on the model and its noise', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page);
+  const widget = await openBananaWithDisclosures(page);
   const caption = widget.locator('.figures figure p');
   await expect(caption).toContainText('nearly a Gaussian');
   await setSliders(widget, { alpha5: 0, alpha6: 0 });
@@ -248,13 +248,13 @@ test('captions and notes depend on the model and its noise', async ({ page }) =>
 });
 
 test('the marked robot and Step follow the size of the cloud @nightly', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page);
+  const widget = await openBananaWithDisclosures(page);
   const field = widget.getByRole('spinbutton', { name: 'Robot' });
   const step = widget.getByRole('button', { name: 'Step' });
   await expect(step).toBeDisabled();
   await expect(field).toHaveAttribute('placeholder', '1–50\u202f000');
   await field.fill('1500');
-  await frames(page);
+  await waitForFrames(page);
   await expect(widget.locator('.marked output')).toContainText('m/s');
   await setSliders(widget, { samples: 3 });
   await expect(field).toHaveValue('');

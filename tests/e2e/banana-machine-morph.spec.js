@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
-import { FRESH, STILL, bananaReadings, boxOf, centreOf, openBanana, pictureOf, playSlider, property, readout, showPage, stateOf, test, untilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, bananaReadings, boxOf, centreOf, openBanana, pictureOf, playSlider, propertyOf, readoutValue, showPage, stateOf, test, untilReady } from './support.js';
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 const calloutCountOf = (/** @type {import('@playwright/test').Locator} */ widget) => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
 
@@ -49,9 +49,9 @@ test('the end of the arc is moved where the morph shows it @nightly', async ({ p
   expect(command.omega * command.dt).toBeCloseTo(0.02, 9);
   expect(command.v * command.dt).toBeCloseTo(2.02, 9);
   await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
-  const [x, y] = /** @type {number[]} */ (await property(widget, 'seenEnd'));
+  const [x, y] = /** @type {number[]} */ (await propertyOf(widget, 'seenEnd'));
   await handle.press('ArrowUp');
-  const [seenX, seenY] = /** @type {number[]} */ (await property(widget, 'seenEnd'));
+  const [seenX, seenY] = /** @type {number[]} */ (await propertyOf(widget, 'seenEnd'));
   expect(seenX).toBeCloseTo(x, 9);
   expect(seenY).toBeCloseTo(y + 0.02, 9);
   ({ command } = (await bananaReadings(widget)).config);
@@ -62,7 +62,7 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   const widget = await openBanana(page);
   const pin = widget.getByRole('button', { name: 'Pin' });
   const area = widget.locator('.readouts div').filter({ hasText: 'area covered' });
-  const areaBefore = await readout(widget, 'area covered').innerText();
+  const areaBefore = await readoutValue(widget, 'area covered').innerText();
   await pin.click();
   await expect(pin).toHaveText('Unpin');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
@@ -82,11 +82,11 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   await pin.click();
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(pin).toHaveText('Pin');
-  const restore = (/** @type {object} */ savedState) => widget.evaluate((element, newState) => void (/** @type {any} */ (element).setState(newState)), savedState);
-  await restore(state);
+  const restoreState = (/** @type {object} */ savedState) => widget.evaluate((element, newState) => void (/** @type {any} */ (element).setState(newState)), savedState);
+  await restoreState(state);
   await expect(area).toContainText(`pinned: ${areaBefore}`);
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureWithPin);
-  await expect(restore({ ...state, pinned: { ...state.pinned, samples: 0 } })).rejects.toThrow('state.pinned.samples is 0; allowed is');
+  await expect(restoreState({ ...state, pinned: { ...state.pinned, samples: 0 } })).rejects.toThrow('state.pinned.samples is 0; allowed is');
   await expect(area).toContainText(`pinned: ${areaBefore}`);
   // A gain on the floor is not compared with one of poses.
   await widget.getByRole('button', { name: 'Worked example' }).click();
@@ -156,7 +156,7 @@ test('a narrow figure has one picture, which shows both ends', async ({ page }) 
 test.describe('at first sight', () => {
   test.use({ introduced: false });
 
-  test('robots drive once a session, until a key or the pointer is pressed', FRESH, async ({ page }) => {
+  test('robots drive once a session, until a key or the pointer is pressed', NEW_PAGE_TAG, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     const drivingRobots = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
     await showPage(page, '<banana-machine></banana-machine>');
@@ -169,7 +169,7 @@ test.describe('at first sight', () => {
     expect(await drivingRobots()).toBeUndefined();
   });
 
-  test('robots do not drive for a figure that a page has set @nightly', FRESH, async ({ page }) => {
+  test('robots do not drive for a figure that a page has set @nightly', NEW_PAGE_TAG, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
     const widget = await openBanana(page, 'preset="gentle"');
     expect(await widget.evaluate((element) => /** @type {any} */ (element).cloud.driving)).toBeUndefined();

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
-import { STILL, bananaReadings, centreOf, dragSlider, frames, openBanana, openUnfoldedBanana, pictureOf, readout, setSliders, test, untilSettled } from './support.js';
+import { REDUCED_MOTION, bananaReadings, centreOf, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, pictureOf, readoutValue, setSliders, test, untilSettled } from './support.js';
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** Attribute for a bend, where every α has an effect. */
 const GENTLE_PRESET = 'preset="gentle"';
@@ -25,7 +25,7 @@ test('a drag keeps the scale under the handle, and that view zooms out after it'
   await page.mouse.down();
   for (const [dx, dy] of [[-40, 60], [-90, 120]]) {
     await page.mouse.move(from.x + dx, from.y + dy, { steps: 8 });
-    await frames(page);
+    await waitForFrames(page);
     const { x, y } = await centreOf(handle);
     expect(Math.hypot(x - from.x - dx, y - from.y - dy)).toBeLessThan(2);
     expect(await viewExtent()).toEqual(extentBefore);
@@ -33,7 +33,7 @@ test('a drag keeps the scale under the handle, and that view zooms out after it'
   }
   await page.mouse.up();
   await expect.poll(viewExtent).not.toEqual(extentBefore);
-  await frames(page);
+  await waitForFrames(page);
   const extentAfter = await viewExtent();
   expect(extentAfter.xMin).toBeLessThanOrEqual(extentBefore.xMin);
   expect(extentAfter.yMin).toBeLessThanOrEqual(extentBefore.yMin);
@@ -41,7 +41,7 @@ test('a drag keeps the scale under the handle, and that view zooms out after it'
   expect(extentAfter.yMax).toBeGreaterThanOrEqual(extentBefore.yMax);
   // A small cloud does not zoom in, but a preset fits the view anew.
   await dragSlider(widget.locator('#dt'), 0.05);
-  await frames(page);
+  await waitForFrames(page);
   expect(await viewExtent()).toEqual(extentAfter);
   await widget.getByRole('button', { name: 'Banana' }).click();
   await expect.poll(viewExtent).toEqual(extentBefore);
@@ -97,10 +97,10 @@ test('the ring says where the sliders end, to the eye and to the ear', async ({ 
 });
 
 test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page, GENTLE_PRESET);
-  const marker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
-  await marker.focus();
-  await marker.press('ArrowRight');
+  const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
+  const omegaMarker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
+  await omegaMarker.focus();
+  await omegaMarker.press('ArrowRight');
   expect((await bananaReadings(widget)).config.command.omega).toBeCloseTo(0.51, 12);
   const chart = widget.locator('svg.plot');
   await chart.scrollIntoViewIfNeeded();
@@ -108,15 +108,15 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
   await page.mouse.click(x + 80, y);
   const { config, table } = await bananaReadings(widget);
   expect(config.command.omega).toBeGreaterThan(0.51);
-  await expect(marker).toHaveAttribute('aria-valuetext', new RegExp(`skew −${Math.abs(table.exact.crossTrackSkew).toFixed(3)}`));
+  await expect(omegaMarker).toHaveAttribute('aria-valuetext', new RegExp(`skew −${Math.abs(table.exact.crossTrackSkew).toFixed(3)}`));
 });
 
 test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   // All samples are in the first block, so that no later one changes the statistics.
-  const widget = await openUnfoldedBanana(page, `${GENTLE_PRESET} samples="20000"`);
+  const widget = await openBananaWithDisclosures(page, `${GENTLE_PRESET} samples="20000"`);
   const readingsBefore = await bananaReadings(widget);
   const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
-  const skew = await readout(widget, 'cross-track skew').textContent();
+  const skew = await readoutValue(widget, 'cross-track skew').textContent();
   await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
   await untilSettled(widget);
   const readingsAfter = await bananaReadings(widget);
@@ -125,25 +125,25 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   expect(readingsAfter.config).toEqual({ ...readingsBefore.config, alphas: readingsBefore.config.alphas.with(3, alpha) });
   expect(readingsAfter.shown).toBe(readingsBefore.shown);
   expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
-  expect(await readout(widget, 'cross-track skew').textContent()).not.toBe(skew);
+  expect(await readoutValue(widget, 'cross-track skew').textContent()).not.toBe(skew);
   // Several inputs between two frames cause one change of the statistics.
   const changeCount = await widget.evaluate(async (element) => {
-    let count = 0;
-    element.addEventListener('stats', () => count++);
+    let statsEventCount = 0;
+    element.addEventListener('stats', () => statsEventCount++);
     const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#alpha1'));
     for (const value of ['0.06', '0.07', '0.08', '0.09']) {
       slider.value = value;
       slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
     }
     await /** @type {{ settled: Promise<void> }} */ (/** @type {unknown} */ (element)).settled;
-    return count;
+    return statsEventCount;
   });
   expect(changeCount).toBe(1);
   expect((await bananaReadings(widget)).config.alphas[0]).toBe(0.09);
 });
 
 test('Isolate leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
-  const widget = await openUnfoldedBanana(page, GENTLE_PRESET);
+  const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
   const readingsBefore = await bananaReadings(widget);
   await widget.getByLabel('Isolate one').check();
   expect((await bananaReadings(widget)).config).toEqual({ ...readingsBefore.config, isolate: 4 });
@@ -161,11 +161,11 @@ test('Isolate leaves one α in effect, shows the others as off, and lets go agai
 
 test('no slider moves under the finger when there is something to note', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  const widget = await openUnfoldedBanana(page, GENTLE_PRESET);
+  const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
   const slider = widget.locator('#omega');
   const note = widget.locator('.note');
   const sliderTop = async () => {
-    await frames(page);
+    await waitForFrames(page);
     return slider.evaluate((element) => element.getBoundingClientRect().top + scrollY);
   };
   const topBefore = await sliderTop();
@@ -197,13 +197,13 @@ test('no slider moves while the noise that bends the cloud is dragged, or outlin
 
 test('a slider stays in its place when a text above it becomes shorter', async ({ page }) => {
   await page.setViewportSize({ width: 700, height: 900 });
-  const widget = await openUnfoldedBanana(page);
+  const widget = await openBananaWithDisclosures(page);
   const readoutsHeight = () => widget.locator('.readouts').first().evaluate((element) => element.getBoundingClientRect().height);
-  await frames(page);
+  await waitForFrames(page);
   const heightBefore = await readoutsHeight();
   await widget.locator('#v').fill('0');
   await expect(widget.locator('.readouts').first()).toContainText('—');
-  await frames(page);
+  await waitForFrames(page);
   expect(await readoutsHeight()).toBe(heightBefore);
   await page.setViewportSize({ width: 740, height: 900 });
   await expect.poll(readoutsHeight).toBeLessThan(heightBefore);

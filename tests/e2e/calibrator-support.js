@@ -5,7 +5,7 @@
  */
 
 import { readFileSync } from 'node:fs';
-import { odometry, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
+import { odometryMessage, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
 import { mount, untilSettled } from './support.js';
 
 /**
@@ -24,10 +24,10 @@ export async function openCalibrator(page, attributes) {
   return widget;
 }
 
-export const caption = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
-export const rows = (/** @type {Locator} */ widget) => widget.locator('table.alphas tbody tr:not([aria-hidden])');
-export const section = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
-export const stats = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.stats);
+export const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
+export const alphaRowsOf = (/** @type {Locator} */ widget) => widget.locator('table.alphas tbody tr:not([aria-hidden])');
+export const foldedGroup = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
+export const statsOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.stats);
 
 /** Returns two tables of the simulated drive, as a user's files have them. @param {Locator} widget */
 export const tablesOf = (widget) =>
@@ -43,15 +43,15 @@ export const chooseRecording = (widget, name, buffer) =>
   widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
 
 /** Chooses tables, as a user does. @param {Locator} widget @param {Record<string, string>} files */
-export async function choose(widget, files) {
+export async function chooseTables(widget, files) {
   await widget.locator('#log-files').setInputFiles(Object.entries(files).map(([name, text]) => ({ name, mimeType: 'text/csv', buffer: Buffer.from(text) })));
 }
 
 /** Returns a table of the example log. @param {'odometry' | 'reference'} name */
-export const example = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
+export const exampleTable = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
 
 /** Returns t, x, y and yaw of each row of a table of the example log. @param {'odometry' | 'reference'} name */
-export const rowsOf = (name) => example(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+export const rowsOf = (name) => exampleTable(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
 
 /**
  * Returns the example log as a recording.
@@ -63,7 +63,7 @@ export async function recordingWith(topics, hasCommands = false) {
   const reference = topics.flatMap((topic) => rowsOf('reference').map(([t, x, y, yaw]) => ({
     topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
   })));
-  const odometryMessages = rowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, x, y, yaw) }));
+  const odometryMessages = rowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessage(t, x, y, yaw) }));
   const commands = hasCommands ? odometryMessages.map(({ t }) => ({ topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', t, message: twistOf(0.3, 0) })) : [];
   return recordingOf([...odometryMessages, ...commands, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
 }

@@ -3,7 +3,7 @@
 import { fileURLToPath } from 'node:url';
 import { expect, test as testWithWarnings } from '@playwright/test';
 import { serve } from '../../scripts/serve.mjs';
-import { frames, test, unfold, untilReady } from './support.js';
+import { waitForFrames, test, openDisclosures, untilReady } from './support.js';
 
 const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
 const STRICT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'";
@@ -43,9 +43,9 @@ test('a figure asks for nothing that a strict policy forbids', async ({ page, fi
   const violations = await openUnder(page, STRICT_POLICY, `embed.html?widget=${figure}`);
   const widget = page.locator(figure);
   await untilReady(widget);
-  await unfold(widget);
+  await openDisclosures(widget);
   await widget.getByRole('slider').first().press('ArrowRight');
-  await frames(page);
+  await waitForFrames(page);
   expect(await violations()).toEqual([]);
 });
 
@@ -57,7 +57,7 @@ test('a figure has a Trusted Types policy of its own beside that of the page\'s 
   await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ text) => text }));
   const violations = await openUnder(page, policyTrusting('lit-html motion-widgets'), `embed.html?widget=${figure}`);
   await untilReady(page.locator(figure));
-  await unfold(page.locator(figure));
+  await openDisclosures(page.locator(figure));
   expect(await violations()).toEqual([]);
 });
 

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STILL, dragSlider, frames, mount, pictureOf, pixelCountOf, readout, readoutDetail, test, unfold, untilSettled } from './support.js';
+import { REDUCED_MOTION, dragSlider, waitForFrames, mount, pictureOf, pixelCountOf, readoutValue, readoutDetail, test, openDisclosures, untilSettled } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -7,7 +7,7 @@ import { STILL, dragSlider, frames, mount, pictureOf, pixelCountOf, readout, rea
  */
 /** @typedef {HTMLElement & { machine: DeadReckoning }} DeadReckoningElement */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** Opens a page with the figure, and waits for all of its robots. @param {Page} page @param {string} [attributes] */
 async function openReckoning(page, attributes) {
@@ -28,7 +28,7 @@ const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.pl
  * @param {number} [recursion] index of its column
  */
 async function missedSteps(widget, recursion = 0) {
-  await unfold(widget);
+  await openDisclosures(widget);
   return Promise.all([0, 2, 4].map((row) => widget.locator('.folds tbody tr').nth(row).locator('td').nth(recursion).textContent()));
 }
 
@@ -40,7 +40,7 @@ test('opens with the chapter’s 6 % along the track, and says that the lateral 
   await expect(captionOf(widget)).toHaveText(
     'At the end the predicted along-track variance is off by −6.1\u202f%. Before, the lateral one is 0.00 (step 1), 0.44 (step 2), 0.77 (step 5) of the measured one.',
   );
-  await expect(readout(widget, 'predicted along-track variance')).toHaveText('0.94');
+  await expect(readoutValue(widget, 'predicted along-track variance')).toHaveText('0.94');
   await expect(readoutDetail(widget, 'predicted along-track variance')).toHaveText('± 0.01 of the measured, at step 20, 50\u202f000 robots');
   expect(await missedSteps(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
   await expect(widget.getByRole('row', { name: 'along, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
@@ -54,22 +54,22 @@ test('the line of the chart walks along the path, from the keyboard too, and dri
   const widget = await openReckoning(page);
   const slider = widget.getByRole('slider', { name: 'selected step', exact: true });
   const measuredBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured);
-  const twoPictures = () => Promise.all(['plane', 'twist'].map((name) => pictureOf(widget.locator(`canvas.${name}`))));
-  const [planeAtEnd, twistAtEnd] = await twoPictures();
+  const picturesOf = () => Promise.all(['plane', 'twist'].map((name) => pictureOf(widget.locator(`canvas.${name}`))));
+  const [planeAtEnd, twistAtEnd] = await picturesOf();
   await slider.press('ArrowLeft');
-  await frames(page);
+  await waitForFrames(page);
   expect((await configOf(widget)).step).toBe(19);
-  const [plane, twist] = await twoPictures();
+  const [plane, twistPicture] = await picturesOf();
   expect(plane).not.toBe(planeAtEnd);
-  expect(twist).not.toBe(twistAtEnd);
+  expect(twistPicture).not.toBe(twistAtEnd);
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured)).toEqual(measuredBefore);
   await expect(slider).toHaveAttribute('aria-valuetext', 'step 19');
   await slider.press('Home');
-  await frames(page);
+  await waitForFrames(page);
   await expect(widget.locator('canvas.twist')).toHaveAttribute('aria-label', /measured 0.0316 m and 0.0035 m, predicted 0.0316 m and 0.0000 m/);
   await expect(plotOf(widget)).toContainText('step 1');
   await dragSlider(slider, 0.5);
-  await frames(page);
+  await waitForFrames(page);
   expect((await configOf(widget)).step).toBe(10);
 });
 
@@ -77,7 +77,7 @@ test('with J_r, and to fourth order, every component is right', async ({ page })
   const widget = await openReckoning(page);
   for (const [i, name] of ['with Jᵣ, the turn during a step', 'fourth order'].entries()) {
     await widget.getByRole('radio', { name }).check();
-    await frames(page);
+    await waitForFrames(page);
     expect(await missedSteps(widget, i + 1)).toEqual(['never', 'never', 'never']);
     await expect(captionOf(widget)).toHaveText('Within 5 % of what 50\u202f000 robots do, in every component at every step.');
   }
@@ -88,13 +88,13 @@ test('entries of the legends hide curves and outlines', async ({ page }) => {
   const widget = await openReckoning(page, 'overlays="lateral tolerance measured exponential"');
   await expect(widget.locator('[part=caption]')).toHaveText(/^At the end the predicted lateral variance is off by [−+][\d.]+\s%\. Before, it is /);
   await expect(plotOf(widget).locator('path.curve')).toHaveCount(2);
-  const twist = await pictureOf(widget.locator('canvas.twist'));
+  const twistPicture = await pictureOf(widget.locator('canvas.twist'));
   await widget.getByRole('checkbox', { name: 'measured' }).uncheck();
   await widget.getByRole('checkbox', { name: 'lateral' }).uncheck();
   await expect(widget).toHaveAttribute('overlays', 'tolerance exponential');
   await expect(plotOf(widget).locator('path.curve')).toHaveCount(0);
-  await frames(page);
-  expect(await pictureOf(widget.locator('canvas.twist'))).not.toBe(twist);
+  await waitForFrames(page);
+  expect(await pictureOf(widget.locator('canvas.twist'))).not.toBe(twistPicture);
 });
 
 test('presets are paths, and tell which one it is', async ({ page }) => {
@@ -118,15 +118,15 @@ test('presets are paths, and tell which one it is', async ({ page }) => {
 
 test('more steps are shorter ones of the same path, seen from the same place', async ({ page }) => {
   const widget = await openReckoning(page, 'step="10" samples="1000"');
-  const endOf = (/** @type {Locator} */ figure) => figure.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).machine.commanded.slice(-2)]);
-  const [x, y] = await endOf(widget);
+  const commandedEndOf = (/** @type {Locator} */ figure) => figure.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).machine.commanded.slice(-2)]);
+  const [x, y] = await commandedEndOf(widget);
   await dragSlider(widget.locator('#steps'), 0.5);
   await untilSettled(widget);
   const { steps, step, command } = await configOf(widget);
   expect(steps).toBeGreaterThan(80);
   expect(Math.abs(steps * command.dt - 4)).toBeLessThan(1e-12);
   expect(Math.abs(step / steps - 0.5)).toBeLessThan(0.02);
-  const [endX, endY] = await endOf(widget);
+  const [endX, endY] = await commandedEndOf(widget);
   expect(Math.hypot(endX - x, endY - y)).toBeLessThan(1e-12);
 });
 
@@ -135,11 +135,11 @@ test('with too few robots nothing is known, and without robots the caption says 
   await expect(captionOf(widget)).toHaveText('Too few robots to tell 5 %: the bands are wider than that.');
   expect(await missedSteps(widget)).toEqual(['too few', 'too few', 'too few']);
   await widget.getByRole('button', { name: 'Clear' }).click();
-  await frames(page);
+  await waitForFrames(page);
   await expect(captionOf(widget)).toHaveText('No robots yet.');
   expect(await missedSteps(widget)).toEqual(['—', '—', '—']);
   await widget.getByRole('button', { name: 'Step', exact: true }).click();
-  await frames(page);
+  await waitForFrames(page);
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.shown)).toBe(7);
 });
 
@@ -158,11 +158,11 @@ test('no noise has no ratio, and a fourth order without a covariance neither @ni
 
 test('a robot that is chosen by its number shows its path', async ({ page }) => {
   const widget = await openReckoning(page, 'step="20"');
-  await unfold(widget);
+  await openDisclosures(widget);
   const canvas = widget.locator('canvas.plane');
   const pixelsBefore = await pixelCountOf(canvas, 'accent');
   await widget.getByRole('spinbutton', { name: 'Robot' }).fill('40000');
-  await frames(page);
+  await waitForFrames(page);
   expect(await pixelCountOf(canvas, 'accent')).toBeGreaterThan(pixelsBefore + 100);
   const end = await widget.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).machine.rollout(39_999)].slice(-3));
   await expect(widget.locator('.marked output')).toContainText(`x ${end[0].toFixed(3)} m`);
@@ -187,7 +187,7 @@ test('CSV has a row a step', async ({ page }) => {
 
 test('variances of a straight drive cross where the formula says', async ({ page }) => {
   const widget = await openReckoning(page);
-  await unfold(widget);
+  await openDisclosures(widget);
   const plot = widget.locator('.folded svg.plot');
   await expect(plot).toHaveAttribute('aria-label', /Equal to first order after 2.00 s\.$/);
   await widget.evaluate((element) => Object.assign(element, { headingNoise: 0 }));

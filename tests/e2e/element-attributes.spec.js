@@ -2,11 +2,11 @@ import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { SEEDS, randomStates } from './any-state.js';
 import { ALL_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
-import { STILL, assign, frames, mount, property, showPage, takeEvents, test, testEach, unfold, untilReady } from './support.js';
+import { REDUCED_MOTION, setProperty, waitForFrames, mount, propertyOf, showPage, takeEvents, test, testEach, openDisclosures, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 test('attributes of every kind say how the figure opens', async ({ page }) => {
   await showPage(
@@ -30,7 +30,7 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
     seed: 11,
   });
   expect(config.alphas[3]).toBe(0.125);
-  expect(await property(banana, 'overlays')).toEqual(['command', 'linearized']);
+  expect(await propertyOf(banana, 'overlays')).toEqual(['command', 'linearized']);
   expect(await squeeze.evaluate((element) => Reflect.get(element, 'machine').config)).toMatchObject({
     start: { x: 3.25, y: 2.6, theta: Math.PI / 2 },
     alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05],
@@ -41,7 +41,7 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
     samples: 77,
     seed: 5,
   });
-  expect(await property(squeeze, 'view')).toBe('close');
+  expect(await propertyOf(squeeze, 'view')).toBe('close');
   expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(TWO_NAMES.map((name) => ['load', name]));
 });
 
@@ -49,32 +49,32 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   await showPage(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
   const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
   await untilReady(banana);
-  await unfold(banana);
+  await openDisclosures(banana);
   const attributesOf = (/** @type {import('@playwright/test').Locator} */ widget) =>
     widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
   expect(await attributesOf(banana)).toEqual({ preset: 'hard', seed: '3' });
   // Reflected values of the preset "hard", which no longer applies.
   const alphas = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
   await banana.locator('#v').fill('0.5');
-  await frames(page);
+  await waitForFrames(page);
   expect(await attributesOf(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphas });
   await banana.getByRole('button', { name: 'Pivot' }).click();
-  await frames(page);
+  await waitForFrames(page);
   expect(await attributesOf(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphas });
   await banana.getByLabel('Isolate one').check();
   await banana.getByRole('checkbox', { name: 'linearized' }).check();
-  await frames(page);
+  await waitForFrames(page);
   expect(await attributesOf(banana)).toMatchObject({ isolate: '4', overlays: 'command ellipse exponential linearized' });
   await banana.getByLabel('Isolate one').uncheck();
-  await frames(page);
+  await waitForFrames(page);
   expect(await attributesOf(banana)).not.toHaveProperty('isolate');
 
   await squeeze.scrollIntoViewIfNeeded();
   await untilReady(squeeze);
-  await unfold(squeeze);
+  await openDisclosures(squeeze);
   await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
   await squeeze.getByLabel('Check samples against the map').uncheck();
-  await frames(page);
+  await waitForFrames(page);
   expect(await attributesOf(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
 });
 
@@ -82,14 +82,14 @@ test('boolean attributes may be empty or "true", and lists may have any space @n
   await showPage(page, '<banana-machine overlays=" linearized\n  command "></banana-machine><map-squeeze conditioned="true"></map-squeeze>');
   const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
   await untilReady(banana);
-  expect(await property(banana, 'overlays')).toEqual(['command', 'linearized']);
+  expect(await propertyOf(banana, 'overlays')).toEqual(['command', 'linearized']);
   await banana.evaluate((element) => element.setAttribute('overlays', ''));
-  expect(await property(banana, 'overlays')).toEqual([]);
+  expect(await propertyOf(banana, 'overlays')).toEqual([]);
   await squeeze.scrollIntoViewIfNeeded();
   await untilReady(squeeze);
   for (const [text, value] of /** @type {const} */ ([['false', false], ['true', true], ['false', false], ['', true]])) {
     await squeeze.evaluate((element, value) => element.setAttribute('conditioned', value), text);
-    expect(await property(squeeze, 'conditioned')).toBe(value);
+    expect(await propertyOf(squeeze, 'conditioned')).toBe(value);
   }
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
@@ -97,18 +97,18 @@ test('boolean attributes may be empty or "true", and lists may have any space @n
 test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   const { slider, values: [first, second] } = FIGURE_FACTS[figure];
-  const defaultValue = await property(widget, slider);
+  const defaultValue = await propertyOf(widget, slider);
   await widget.locator(`#${slider}`).fill(String(first));
   await expect(widget).toHaveAttribute(slider, String(first));
-  expect(await property(widget, slider)).toBe(first);
+  expect(await propertyOf(widget, slider)).toBe(first);
   await widget.evaluate((element, [key, value]) => element.setAttribute(key, value), [slider, String(second)]);
-  expect(await property(widget, slider)).toBe(second);
+  expect(await propertyOf(widget, slider)).toBe(second);
   await expect(widget.locator(`#${slider}`)).toHaveValue(String(second));
   await widget.evaluate((element, key) => element.setAttribute(key, 'fast'), slider);
   expect((await takeEvents(page, ['error'])).map(({ message }) => message).join()).toMatch(/ is "fast"; allowed is a (whole )?number/);
-  expect(await property(widget, slider)).toBe(second);
+  expect(await propertyOf(widget, slider)).toBe(second);
   await widget.evaluate((element, key) => element.removeAttribute(key), slider);
-  expect(await property(widget, slider)).toBe(defaultValue);
+  expect(await propertyOf(widget, slider)).toBe(defaultValue);
 });
 
 test('attributes that are refused are reported in the words of the core, and the last good value stays', async ({ page }) => {
@@ -120,14 +120,14 @@ test('attributes that are refused are reported in the words of the core, and the
     'samples is 0; allowed is a whole number from 1 to 10000000',
     'overlays[1] is "stars"; allowed is "command" or "ellipse" or "exponential" or "linearized" or "additive"',
   ]);
-  const propertyValues = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => property(widget, name)));
+  const propertyValues = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => propertyOf(widget, name)));
   expect(await propertyValues()).toEqual([1, 0.7, 'velocity', 50000]);
   // A blank attribute is neither a number nor zero.
   await widget.evaluate((element) => element.setAttribute('omega', ' '));
   expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
-  expect(await property(widget, 'omega')).toBe(0.7);
+  expect(await propertyOf(widget, 'omega')).toBe(0.7);
   await widget.evaluate((element) => element.setAttribute('dt', '3'));
-  expect(await property(widget, 'dt')).toBe(3);
+  expect(await propertyOf(widget, 'dt')).toBe(3);
   await widget.getByRole('button', { name: 'Pivot' }).click();
   expect(await propertyValues()).toEqual([0.06, 1.5, 'velocity', 50000]);
 });
@@ -161,20 +161,20 @@ testEach('code to embed opens the settings of a state, with its attributes in an
       const template = document.createElement('div');
       template.innerHTML = /** @type {AnyElement} */ (element).embedCode().split('\n')[1];
       const [embedded] = template.children;
-      const reordered = document.createElement(element.localName);
-      for (const { name, value } of [...embedded.attributes].reverse()) reordered.setAttribute(name, value);
-      const boxes = [embedded, reordered].map((copy) => {
+      const reorderedCopy = document.createElement(element.localName);
+      for (const { name, value } of [...embedded.attributes].reverse()) reorderedCopy.setAttribute(name, value);
+      const boxes = [embedded, reorderedCopy].map((copy) => {
         const box = document.createElement('div');
         box.style.cssText = 'position: fixed; inset: 0';
         box.append(copy);
         return box;
       });
-      const loaded = [embedded, reordered].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
+      const loadPromises = [embedded, reorderedCopy].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
       element.before(...boxes);
-      await Promise.all(loaded);
+      await Promise.all(loadPromises);
       // A log is fitted in the frames after the state.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
-      const configs = [element, embedded, reordered].map((figure) => /** @type {AnyElement} */ (figure).machine.config);
+      const configs = [element, embedded, reorderedCopy].map((figure) => /** @type {AnyElement} */ (figure).machine.config);
       for (const box of boxes) box.remove();
       return configs;
     }, /** @type {any} */ (state));
@@ -210,7 +210,7 @@ test('properties that were set before the element was defined are taken up, in a
     ]);
     const figures = cases.flatMap(([tag, values]) => [Object.entries(values), Object.entries(values).reverse()].map((entries) =>
       Object.assign(document.createElement(tag), Object.fromEntries(entries))));
-    const loaded = figures.map((figure) => new Promise((resolve) => figure.addEventListener('load', resolve)));
+    const loadPromises = figures.map((figure) => new Promise((resolve) => figure.addEventListener('load', resolve)));
     await import(/** @type {any} */ ('/motion-widgets.js'));
     document.body.append(...figures.map((figure) => {
       const box = document.createElement('div');
@@ -218,17 +218,17 @@ test('properties that were set before the element was defined are taken up, in a
       box.append(figure);
       return box;
     }));
-    await Promise.all(loaded);
+    await Promise.all(loadPromises);
     const names = cases.flatMap(([, , checkedNames]) => [checkedNames, checkedNames]);
     return figures.map((figure, i) => names[i].map((name) => Reflect.get(figure, name)));
   });
-  const repeated = (/** @type {unknown[]} */ values) => [values, values];
+  const twice = (/** @type {unknown[]} */ values) => [values, values];
   expect(propertyValues).toEqual([
-    ...repeated([3, [0.1, 0.1, 0.1, 0.1, 0, 0], ['ellipse'], 'dark']),
-    ...repeated([0.7, 1, 1.4, [0.1, 0.3, 0.1, 0.1]]),
-    ...repeated([60_000, 70_000]),
-    ...repeated([30, 40]),
-    ...repeated([3, { x: 3, y: 1, theta: 0 }]),
+    ...twice([3, [0.1, 0.1, 0.1, 0.1, 0, 0], ['ellipse'], 'dark']),
+    ...twice([0.7, 1, 1.4, [0.1, 0.3, 0.1, 0.1]]),
+    ...twice([60_000, 70_000]),
+    ...twice([30, 40]),
+    ...twice([3, { x: 3, y: 1, theta: 0 }]),
   ]);
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
@@ -270,7 +270,7 @@ test('properties take effect at once and reflect; those out of range are reporte
   await showPage(page, '<banana-machine></banana-machine><map-squeeze></map-squeeze>');
   const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
   await untilReady(banana);
-  expect(await assign(banana, 'omega', 1.1)).toBe('');
+  expect(await setProperty(banana, 'omega', 1.1)).toBe('');
   expect(await banana.getAttribute('omega')).toBe('1.1');
   const turn = await banana.evaluate((element) => /** @type {AnyElement} */ (element).stats?.exponential.mean[2]);
   const { dt } = await banana.evaluate((element) => /** @type {AnyElement} */ (element).getState().command);
@@ -283,12 +283,12 @@ test('properties take effect at once and reflect; those out of range are reporte
     [squeeze, 'map', { bounds: [0, 0, 1], walls: [] }, 'RangeError: map.bounds has length 3; allowed is an array of 4 numbers'],
   ])) {
     const stateBefore = await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()));
-    expect(await assign(widget, name, value)).toBe(message);
+    expect(await setProperty(widget, name, value)).toBe(message);
     expect(await widget.evaluate((element) => JSON.stringify(/** @type {AnyElement} */ (element).getState()))).toBe(stateBefore);
   }
-  expect(await assign(banana, 'model', 'odometry')).toBe('');
-  expect(await property(banana, 'alpha5')).toBe(null);
-  expect(await assign(banana, 'alpha5', 0.1)).toContain('alpha5 is 0.1; allowed is none');
+  expect(await setProperty(banana, 'model', 'odometry')).toBe('');
+  expect(await propertyOf(banana, 'alpha5')).toBe(null);
+  expect(await setProperty(banana, 'alpha5', 0.1)).toContain('alpha5 is 0.1; allowed is none');
 });
 
 test('properties that are refused fire an error event that does not bubble, and warn in the console if nobody listens', async ({ page }) => {

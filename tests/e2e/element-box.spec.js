@@ -1,9 +1,9 @@
 import { expect } from '@playwright/test';
-import { FRESH, STILL, boxOf, frames, mount, showPage, test, untilReady, untilSettled } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, boxOf, waitForFrames, mount, showPage, test, untilReady, untilSettled } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** Preferred width of a figure in CSS pixels: see `preferredWidth`. */
 const PREFERRED_WIDTH = 44 * 16;
@@ -27,7 +27,7 @@ const BOXES_BY_NAME = {
   'positioned absolutely': '<div style="position: relative; height: 9000px"><X style="position: absolute"></X></div>',
 };
 
-test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', FRESH, async ({ page, figure }) => {
+test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', NEW_PAGE_TAG, async ({ page, figure }) => {
   const cases = Object.entries(BOXES_BY_NAME).map(([box, html]) => {
     const example = html === 'X' ? '<X></X>' : html;
     return `<section data-box="${box}" style="display: flow-root">${example.replace('<X', `<${figure}`).replace('</X>', `</${figure}>`)}</section>`;
@@ -35,7 +35,7 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
   const head = '<link rel="stylesheet" href="/motion-widgets.css"><style>body { margin: 0; font: 16px/1.5 sans-serif }</style>';
   const wrongWidths = async (/** @type {number} */ width) => {
     await page.setViewportSize({ width, height: 900 });
-    await frames(page);
+    await waitForFrames(page);
     const widths = await page.locator(figure).evaluateAll((figureElements) =>
       figureElements.map((element) => [/** @type {HTMLElement} */ (element.closest('section')).dataset.box ?? '', element.getBoundingClientRect().width]));
     expect(widths).toHaveLength(cases.length);
@@ -52,10 +52,10 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
 const boxesOf = (page, name, em) =>
   page.locator(name).evaluate(
     (element, size) => {
-      const origin = element.getBoundingClientRect();
+      const elementBox = element.getBoundingClientRect();
       return [...(element.shadowRoot?.querySelectorAll('.surface *') ?? [])].map((child) => {
         const { left, top, width, height } = child.getBoundingClientRect();
-        const numbers = [left - origin.left, top - origin.top, width, height].map((pixels) => pixels / size);
+        const numbers = [left - elementBox.left, top - elementBox.top, width, height].map((pixels) => pixels / size);
         return { part: `${child.localName}.${child.getAttribute('class')}`, numbers };
       });
     },
@@ -71,15 +71,15 @@ test('a figure is in proportion to the letters around it, whatever the font size
     });
     await untilReady(page.locator(figure));
     await expect(page.locator(figure).locator('.folds')).toBeVisible();
-    await frames(page);
+    await waitForFrames(page);
     layouts.push({ root, em, boxes: await boxesOf(page, figure, Number(em)) });
   }
   const [first, ...others] = layouts;
   for (const { root, em, boxes } of others) {
     expect(boxes.map(({ part }) => part)).toEqual(first.boxes.map(({ part }) => part));
     // Browsers round the widths of letters to pixels, so that boxes differ by up to a quarter of the font size.
-    const differing = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - first.boxes[i].numbers[k]) > 0.25));
-    expect(differing, `${em} px, root ${root}`).toEqual([]);
+    const differingBoxes = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - first.boxes[i].numbers[k]) > 0.25));
+    expect(differingBoxes, `${em} px, root ${root}`).toEqual([]);
   }
 });
 
@@ -92,7 +92,7 @@ test('the picture of a figure stays in sight on a phone, below the header of the
   await untilReady(widget);
   const picture = widget.locator('[part=picture]').first();
   await widget.locator('.slider input[type=range]').nth(1).evaluate((element) => element.scrollIntoView({ block: 'start' }));
-  await frames(page);
+  await waitForFrames(page);
   const { y, height } = await boxOf(picture);
   // The title of the Banana Machine judges the ellipse, and stays above the picture.
   const highest = figure === 'banana-machine' ? await boxOf(widget.locator('.panel-title').first()) : { y };
@@ -108,7 +108,7 @@ for (const name of ['map-squeeze', 'dead-reckoning']) {
     await untilReady(widget);
     for (const slider of await widget.locator('.slider input[type=range]').all()) {
       await slider.evaluate((element) => element.scrollIntoView({ block: 'start' }));
-      await frames(page);
+      await waitForFrames(page);
       expect(await slider.evaluate((element) => {
         const { left, top, width, height } = element.getBoundingClientRect();
         return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + width / 2, top + height / 2) === element;
@@ -126,7 +126,7 @@ test('tables of a figure scroll over the picture that stays in sight, unless a h
   await widget.getByText('Numbers and data').click();
   const table = widget.locator('#numbers table').first();
   await table.evaluate((element) => element.scrollIntoView({ block: 'start' }));
-  await frames(page);
+  await waitForFrames(page);
   const isTableOnTop = () => table.evaluate((element) => {
     const { left, top } = element.getBoundingClientRect();
     return element.contains(/** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + 5, Math.max(top, 0) + 5));
@@ -135,7 +135,7 @@ test('tables of a figure scroll over the picture that stays in sight, unless a h
   await widget.locator('#numbers button').last().focus();
   const handle = widget.getByRole('slider', { name: 'selected step', exact: true });
   await handle.press('ArrowLeft');
-  await frames(page);
+  await waitForFrames(page);
   expect(await handle.evaluate((element) => {
     const { left, top, width, height } = element.getBoundingClientRect();
     return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + width / 2, top + height / 2)?.closest('#numbers') === null;

@@ -1,11 +1,11 @@
 import { expect } from '@playwright/test';
 import { FIGURE_FACTS } from './figures.js';
-import { STILL, assign, boxOf, centreOf, dragSlider, frames, mount, showPage, stateOf, takeEvents, test, testEach, unfold, untilReady, untilSettled } from './support.js';
+import { REDUCED_MOTION, setProperty, boxOf, centreOf, dragSlider, waitForFrames, mount, showPage, stateOf, takeEvents, test, testEach, openDisclosures, untilReady, untilSettled } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 /** @typedef {import('./figures.js').Name} Name */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** @param {{ name: string }[]} events */
 const namesOf = (events) => events.map(({ name }) => name);
@@ -15,32 +15,32 @@ test('a drag fires input at each step and one change at its end, composed, with 
   await page.evaluate(() => {
     const root = /** @type {Element} */ (document.querySelector('#host')).attachShadow({ mode: 'open' });
     root.innerHTML = '<banana-machine></banana-machine>';
-    const recorded = /** @type {unknown[]} */ ([]);
-    Object.assign(window, { all: recorded });
+    const recordedEvents = /** @type {unknown[]} */ ([]);
+    Object.assign(window, { all: recordedEvents });
     for (const name of ['input', 'change', 'load', 'stats']) {
       document.addEventListener(name, (event) => {
         const [origin] = event.composedPath();
-        recorded.push([name, /** @type {Element} */ (origin).localName, Reflect.get(origin, 'v'), event.bubbles, event.composed]);
+        recordedEvents.push([name, /** @type {Element} */ (origin).localName, Reflect.get(origin, 'v'), event.bubbles, event.composed]);
       });
     }
   });
   const widget = page.locator('banana-machine');
   await untilReady(widget);
   const takeRecorded = () => page.evaluate(() => /** @type {unknown[][]} */ (Reflect.get(window, 'all')).splice(0));
-  const opening = await takeRecorded();
-  expect(opening.map(([name]) => name).sort()).toEqual(['load', 'stats']);
+  const openingEvents = await takeRecorded();
+  expect(openingEvents.map(([name]) => name).sort()).toEqual(['load', 'stats']);
   await dragSlider(widget.locator('#v'), 0.75);
-  await frames(page);
-  const recorded = await takeRecorded();
+  await waitForFrames(page);
+  const recordedEvents = await takeRecorded();
   // One listener gets all events, each from the element itself and not from native controls inside it.
-  for (const [, origin, , bubbles, composed] of [...opening, ...recorded]) expect([origin, bubbles, composed]).toEqual(['banana-machine', true, true]);
-  const gestureEvents = recorded.filter(([name]) => name !== 'stats');
+  for (const [, origin, , bubbles, composed] of [...openingEvents, ...recordedEvents]) expect([origin, bubbles, composed]).toEqual(['banana-machine', true, true]);
+  const gestureEvents = recordedEvents.filter(([name]) => name !== 'stats');
   expect(gestureEvents.length).toBeGreaterThan(3);
   expect(gestureEvents.map(([name]) => name)).toEqual([...Array(gestureEvents.length - 1).fill('input'), 'change']);
   const values = gestureEvents.map(([, , v]) => v);
   expect(values.at(-1)).toBe(Number(await widget.locator('#v').inputValue()));
   expect(new Set(values).size).toBeGreaterThan(2);
-  expect(recorded.some(([name]) => name === 'stats')).toBe(true);
+  expect(recordedEvents.some(([name]) => name === 'stats')).toBe(true);
 });
 
 /** Actions of a user other than dragging, with all folds open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
@@ -126,22 +126,22 @@ const USER_ACTIONS = {
 
 testEach('a frame after an input event calls the core at most six times, and a release only for views that zoom in', async (page, name) => {
   const widget = await mount(page, name);
-  await unfold(widget);
+  await openDisclosures(widget);
   await untilSettled(widget);
   await widget.evaluate((element) => {
-    const calls = /** @type {string[][]} */ ([[]]);
-    Object.assign(element, { calls });
+    const callsByFrame = /** @type {string[][]} */ ([[]]);
+    Object.assign(element, { callsByFrame });
     const { prototype } = /** @type {import('./support.js').AnyElement} */ (element).machine.constructor;
     for (const [key, { get, value }] of Object.entries(Object.getOwnPropertyDescriptors(prototype))) {
       const countingCalls = (/** @type {Function} */ member) => /** @this {unknown} */ function (/** @type {any[]} */ ...given) {
-        /** @type {string[]} */ (calls.at(-1)).push(key);
+        /** @type {string[]} */ (callsByFrame.at(-1)).push(key);
         return member.apply(this, given);
       };
       if (get) Object.defineProperty(prototype, key, { get: countingCalls(get) });
       else if (!['constructor', '__destroy_into_raw'].includes(key)) Object.defineProperty(prototype, key, { value: countingCalls(value) });
     }
     const startNextFrame = () => {
-      calls.push([]);
+      callsByFrame.push([]);
       requestAnimationFrame(startNextFrame);
     };
     startNextFrame();
@@ -149,7 +149,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
   // Returns the methods of the machine that were called, as one list for each frame.
   const callsPerFrame = async () => {
     await untilSettled(widget);
-    return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'calls')).splice(0, Infinity, []));
+    return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'callsByFrame')).splice(0, Infinity, []));
   };
   const slider = widget.locator(`#${FIGURE_FACTS[name].slider}`);
   await slider.scrollIntoViewIfNeeded();
@@ -164,7 +164,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
   await page.mouse.move(x + (share < 0.5 ? share + 0.1 : share - 0.1) * width, y + height / 2, { steps: 3 });
   const allCounts = await callsPerFrame();
   // Map Squeeze measures the costs of its samplers until the first input.
-  const counts = allCounts.slice(allCounts.findIndex((calls) => calls.some((key) => key.startsWith('configure'))));
+  const counts = allCounts.slice(allCounts.findIndex((frameCalls) => frameCalls.some((key) => key.startsWith('configure'))));
   expect(Math.max(...counts.map(({ length }) => length)), `${name}: ${JSON.stringify(counts)}`).toBeLessThanOrEqual(6);
   expect(counts.flat(), name).toEqual(expect.arrayContaining([expect.stringMatching(/^configure/), 'read']));
   await page.mouse.up();
@@ -174,7 +174,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
 
 testEach('each control of a figure fires one input and one change', async (page, name) => {
   const widget = await mount(page, name);
-  await unfold(widget);
+  await openDisclosures(widget);
   await takeEvents(page);
   for (const [actionName, runAction] of USER_ACTIONS[name]) {
     await runAction(widget);
@@ -208,7 +208,7 @@ test('changes by the page fire stats alone, also out of sight', async ({ page, f
   const stateBefore = await stateOf(widget);
   const [key, value] = FIGURE_FACTS[figure].other;
   for (const newValue of [value, null]) {
-    expect(await assign(widget, key, newValue)).toBe('');
+    expect(await setProperty(widget, key, newValue)).toBe('');
     expect(namesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(newValue)).toEqual(['stats']);
   }
   expect(await stateOf(widget)).toEqual(stateBefore);
@@ -233,7 +233,7 @@ test('events report changes alone, whatever is drawn and asked', async ({ page, 
     figure.getState();
   });
   expect(await takeEvents(page, ['input', 'change', 'stats'])).toEqual([]);
-  expect(await assign(widget, ...FIGURE_FACTS[figure].other)).toBe('');
+  expect(await setProperty(widget, ...FIGURE_FACTS[figure].other)).toBe('');
   expect(await takeEvents(page, ['stats'])).toHaveLength(1);
 });
 
@@ -244,7 +244,7 @@ test('an arrow key or a space that a control used goes no further; any other key
   };
   for (const [name, selectors] of Object.entries(selectorsByFigure)) {
     const widget = await mount(page, name);
-    await unfold(widget);
+    await openDisclosures(widget);
     await page.evaluate(() => {
       const keys = /** @type {string[]} */ ([]);
       Object.assign(window, { keys });

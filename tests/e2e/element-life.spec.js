@@ -1,12 +1,12 @@
 import { chromium, expect } from '@playwright/test';
 import { CHROME_ARGUMENTS, FULL_CHROME, findChrome } from '../../scripts/browser.mjs';
 import { ALL_NAMES, CLOUD_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
-import { FRESH, STILL, assign, boxOf, centreOf, frames, mount, pictureOf, property, showPage, stateOf, takeEvents, test, unfold, untilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, setProperty, boxOf, centreOf, waitForFrames, mount, pictureOf, propertyOf, showPage, stateOf, takeEvents, test, openDisclosures, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Page} Page */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** Counts requested frames and compiled modules from the start of a page. @param {Page} page */
 async function countFramesAndModules(page) {
@@ -36,7 +36,7 @@ const waitForSixFrames = (page) =>
     for (let i = 0; i < 6; i++) await new Promise(Reflect.get(window, 'quietFrame'));
   });
 
-test('figures far from the window fetch and compute nothing, and one module serves all', FRESH, async ({ page }) => {
+test('figures far from the window fetch and compute nothing, and one module serves all', NEW_PAGE_TAG, async ({ page }) => {
   /** @type {string[]} */
   const fetchedPaths = [];
   page.on('request', (request) => fetchedPaths.push(new URL(request.url()).pathname));
@@ -71,7 +71,7 @@ test('figures within six hundred pixels of the window start, and others do not',
   await showPage(page, sections.join(''));
   const widgets = page.locator('map-squeeze');
   await untilReady(widgets.nth(0));
-  expect(await property(widgets.nth(1), 'machine')).toBe(undefined);
+  expect(await propertyOf(widgets.nth(1), 'machine')).toBe(undefined);
 });
 
 test('a cloud that is out of sight asks for no frames, and goes on growing where it was @nightly', async ({ page, cloud }) => {
@@ -81,7 +81,7 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
   const widget = page.locator(cloud);
   await untilReady(widget);
   const shownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown);
-  const samples = Number(await property(widget, 'samples'));
+  const samples = Number(await propertyOf(widget, 'samples'));
   await widget.evaluate(async (element) => {
     const statsChanged = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
@@ -90,7 +90,7 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
     // Waits for an observer of this test. The observer of the figure reports in the same frame.
     await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));
   });
-  expect(await property(widget, 'playing')).toBe(true);
+  expect(await propertyOf(widget, 'playing')).toBe(true);
   await waitForSixFrames(page);
   const countsBefore = [(await countsOf(page)).frames, await shownCount()];
   expect(countsBefore[1]).toBeLessThan(samples);
@@ -104,12 +104,12 @@ test('settled waits for the figure and all of its samples, in sight and far from
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   for (const height of [0, 6000]) {
     await showPage(page, `<div style="height: ${height}px"></div><${cloud}></${cloud}>`);
-    const [shown, samples, playing] = await page.locator(cloud).evaluate(async (element) => {
+    const [shownCount, samples, playing] = await page.locator(cloud).evaluate(async (element) => {
       const figure = /** @type {any} */ (element);
       await figure.settled;
       return [figure.machine.shown, figure.samples, figure.playing];
     });
-    expect([shown, playing]).toEqual([samples, false]);
+    expect([shownCount, playing]).toEqual([samples, false]);
   }
 });
 
@@ -119,13 +119,13 @@ test('settled waits for the text that follows a picture on a slow device', async
   await session.send('Emulation.setCPUThrottlingRate', { rate: 6 });
   const shownSpeeds = await widget.evaluate(async (element) => {
     const figure = /** @type {any} */ (element);
-    const shown = [];
+    const shownCounts = [];
     for (const v of [0.5, 1.5, 0.6]) {
       figure.v = v;
       await figure.settled;
-      shown.push(figure.shadowRoot.getElementById('v').valueAsNumber);
+      shownCounts.push(figure.shadowRoot.getElementById('v').valueAsNumber);
     }
-    return shown;
+    return shownCounts;
   });
   expect(shownSpeeds).toEqual([0.5, 1.5, 0.6]);
 });
@@ -135,8 +135,8 @@ test('a cloud that is half grown stays so over a move and over a removal @nightl
   const widget = page.locator(cloud);
   await untilReady(widget);
   // With this seed every robot is inside the view, so that the view does not zoom out.
-  await assign(widget, 'seed', 11);
-  await unfold(widget);
+  await setProperty(widget, 'seed', 11);
+  await openDisclosures(widget);
   const pressButton = (/** @type {string} */ button) => widget.locator('.cloud').getByRole('button', { name: button, exact: true }).click();
   await pressButton('Clear');
   for (let i = 0; i < 5; i++) await pressButton('Step');
@@ -150,7 +150,7 @@ test('a cloud that is half grown stays so over a move and over a removal @nightl
     return machine === /** @type {AnyElement} */ (element).machine;
   });
   expect(isSameMachine).toBe(true);
-  await frames(page);
+  await waitForFrames(page);
   expect(await stateOf(widget)).toEqual(stateBefore);
   await widget.evaluate(async (element) => {
     element.remove();
@@ -169,13 +169,13 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   const { fold } = FIGURE_FACTS[figure];
   const folds = widget.locator('details');
   await expect.poll(() => folds.count()).toBeGreaterThan(1);
-  await unfold(widget);
+  await openDisclosures(widget);
   const openFolds = () => folds.evaluateAll((foldElements) => foldElements.map((details) => /** @type {HTMLDetailsElement} */ (details).open));
   const openFoldsBefore = await openFolds();
   const field = folds.nth(fold.at).locator(fold.field);
   await field.fill(fold.value);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
-  await frames(page);
+  await waitForFrames(page);
   expect(await openFolds()).toEqual(openFoldsBefore);
   const height = (await boxOf(widget)).height;
   const heights = await widget.evaluate(async (element) => {
@@ -219,17 +219,17 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 30, y + 20, { steps: 3 });
-  await frames(page);
+  await waitForFrames(page);
   await expect(handle).toHaveClass(/held/);
   const stateAfterDrag = await stateOf(widget);
   expect(stateAfterDrag).not.toEqual(stateBefore);
   await takeEvents(page);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
-  await frames(page);
+  await waitForFrames(page);
   await expect(handle).not.toHaveClass(/held/);
   expect((await takeEvents(page)).map(({ name }) => name)).toEqual(['change']);
   await page.mouse.move(700, 300);
-  await frames(page);
+  await waitForFrames(page);
   expect(await stateOf(widget)).toEqual(stateAfterDrag);
   await page.mouse.up();
 });
@@ -262,7 +262,7 @@ test('a figure that comes back is drawn on the screen again, even if it was remo
   await expect.poll(() => canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).width / element.clientWidth)).toBeCloseTo(1, 1);
 });
 
-test('a figure that was removed and comes back has no more observers, and does not draw its walls anew when it is seen again', FRESH, async ({ page }) => {
+test('a figure that was removed and comes back has no more observers, and does not draw its walls anew when it is seen again', NEW_PAGE_TAG, async ({ page }) => {
   await page.addInitScript(() => {
     const counts = { observers: 0, paths: 0 };
     Object.assign(window, { counts });
@@ -291,7 +291,7 @@ test('a figure that was removed and comes back has no more observers, and does n
   expect(Math.min(countsBefore.observers, countsBefore.paths)).toBeGreaterThan(0);
   for (const y of [3500, 0]) {
     await page.evaluate((top) => scrollTo(0, top), y);
-    await frames(page);
+    await waitForFrames(page);
   }
   expect(await counts()).toEqual(countsBefore);
   await widget.evaluate(async (element) => {
@@ -312,9 +312,9 @@ test('a figure that was not displayed shows what was set meanwhile @nightly', as
   const pictureBefore = await pictureOf(canvas);
   const setDisplay = (/** @type {string} */ value) => page.locator('#box').evaluate((box, to) => void (/** @type {HTMLElement} */ (box).style.display = to), value);
   await setDisplay('none');
-  await frames(page);
-  await assign(widget, ...FIGURE_FACTS[figure].other);
-  await frames(page);
+  await waitForFrames(page);
+  await setProperty(widget, ...FIGURE_FACTS[figure].other);
+  await waitForFrames(page);
   await setDisplay('block');
   await expect.poll(() => pictureOf(canvas)).not.toBe(pictureBefore);
   await expect(widget).toHaveAttribute(FIGURE_FACTS[figure].other[0].replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`), String(FIGURE_FACTS[figure].other[1]));
@@ -332,21 +332,21 @@ test('a page that comes back from the back-forward cache is alive @nightly', asy
   }
   const banana = page.locator('banana-machine');
   await banana.scrollIntoViewIfNeeded();
-  await assign(banana, 'omega', 1.25);
+  await setProperty(banana, 'omega', 1.25);
   const pictureAndStates = async () => [await pictureOf(banana.locator('canvas.plane')), ...(await Promise.all(ALL_NAMES.map((name) => stateOf(page.locator(name)))))];
   const shownBefore = await pictureAndStates();
   await page.evaluate(() => addEventListener('pageshow', ({ persisted }) => void Object.assign(window, { persisted })));
   await page.goto('/embed.html?widget=map-squeeze');
   await page.goBack({ waitUntil: 'commit' });
   await expect.poll(() => page.evaluate(() => Reflect.get(window, 'persisted'))).toBe(true);
-  await frames(page);
+  await waitForFrames(page);
   expect(await pictureAndStates()).toEqual(shownBefore);
   await banana.locator('#v').fill('0.4');
   await expect.poll(async () => (await pictureAndStates())[0]).not.toBe(shownBefore[0]);
   await browser.close();
 });
 
-test('figures that were removed leave no memory, no observers and no nodes @nightly', FRESH, async ({ page }) => {
+test('figures that were removed leave no memory, no observers and no nodes @nightly', NEW_PAGE_TAG, async ({ page }) => {
   test.setTimeout(200_000);
   await showPage(page, '<banana-machine></banana-machine>');
   await untilReady(page.locator('banana-machine'));
@@ -359,9 +359,9 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
       for (const name of ALL_NAMES) {
         await page.evaluate(async ([tag, few]) => {
           const figure = Object.assign(document.createElement(tag), few);
-          const loaded = new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
+          const loadEvent = new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
           document.body.append(figure);
-          await loaded;
+          await loadEvent;
           await new Promise(requestAnimationFrame);
           figure.remove();
         }, /** @type {const} */ ([name, CLOUD_NAMES.includes(name) ? { samples: 200 } : {}]));

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, mount, property, stateOf, test, unfold } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mount, propertyOf, stateOf, test, openDisclosures } from './support.js';
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 test('a preset sets every setting but samples and seed, and is marked while all hold', async ({ page }) => {
   const widget = await mount(page, 'map-squeeze', { attributes: 'samples="50" seed="4"' });
@@ -12,19 +12,19 @@ test('a preset sets every setting but samples and seed, and is marked while all 
   await expect(button).toHaveAttribute('aria-pressed', 'false');
   await button.click();
   await expect(button).toHaveAttribute('aria-pressed', 'true');
-  expect(await Promise.all(['clearance', 'samples', 'seed'].map((key) => property(widget, key)))).toEqual([0.13, 50, 4]);
+  expect(await Promise.all(['clearance', 'samples', 'seed'].map((key) => propertyOf(widget, key)))).toEqual([0.13, 50, 4]);
 });
 
 test('Start over brings back the settings, the seed and the lines as the figure opened', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { attributes: 'preset="hard" samples="2000" seed="5" overlays="ellipse"' });
   const openingState = await stateOf(widget);
-  await unfold(widget);
+  await openDisclosures(widget);
   await widget.locator('#alpha4').fill('0.15');
   await widget.getByRole('button', { name: 'Pivot' }).click();
   await widget.getByRole('button', { name: 'New seed' }).click();
   await widget.getByRole('checkbox', { name: 'Gaussian in ξ' }).check();
   await widget.getByRole('button', { name: 'Clear' }).click();
-  await frames(page);
+  await waitForFrames(page);
   expect(await stateOf(widget)).not.toEqual(openingState);
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect.poll(() => stateOf(widget)).toEqual(openingState);
@@ -32,13 +32,13 @@ test('Start over brings back the settings, the seed and the lines as the figure 
 
 test('a seed is typed, and one that is none is refused by a sentence', async ({ page, cloud }) => {
   const widget = await mount(page, cloud);
-  await unfold(widget);
+  await openDisclosures(widget);
   const field = widget.getByRole('textbox', { name: 'seed', exact: true });
   await field.fill('42');
-  await expect.poll(() => property(widget, 'seed')).toBe(42);
+  await expect.poll(() => propertyOf(widget, 'seed')).toBe(42);
   await field.fill('4.5');
   await expect(widget.locator('.seed [role=alert]')).toContainText('seed must be a whole number between 0 and');
-  expect(await property(widget, 'seed')).toBe(42);
+  expect(await propertyOf(widget, 'seed')).toBe(42);
   await field.blur();
   await expect(field).toHaveValue('42');
 });

@@ -1,9 +1,9 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, property, showPage, test, untilReady } from './support.js';
+import { REDUCED_MOTION, waitForFrames, propertyOf, showPage, test, untilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /**
  * Opens a page with a figure far below the window, between a link and a button. Observers are disabled, so that they do not start it.
@@ -27,7 +27,7 @@ async function showFarBelow(page, name) {
   );
   const widget = page.locator(name);
   await widget.locator('.reserved').waitFor({ state: 'attached' });
-  expect(await property(widget, 'machine')).toBe(undefined);
+  expect(await propertyOf(widget, 'machine')).toBe(undefined);
   return widget;
 }
 
@@ -61,6 +61,6 @@ test('a figure that starts after the user has moved the focus leaves it there @n
   await page.keyboard.press('Tab');
   allowModule();
   await untilReady(widget);
-  await frames(page);
+  await waitForFrames(page);
   await expect(page.locator('#after')).toBeFocused();
 });

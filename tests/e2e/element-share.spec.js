@@ -1,13 +1,13 @@
 import { expect } from '@playwright/test';
-import { generator } from '../random.js';
+import { randomGenerator } from '../random.js';
 import { expectAccessible } from './axe.js';
 import { FIGURE_FACTS } from './figures.js';
-import { FRESH, STILL, frames, mount, property, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, waitForFrames, mount, propertyOf, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** @param {Locator} widget */
 const linkOf = (widget) => widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink());
@@ -20,7 +20,7 @@ const THREE_FIGURES = `<banana-machine share></banana-machine>
   <banana-machine share id="second one"></banana-machine>
   <banana-machine></banana-machine>`;
 
-test('two widgets and an anchor share the fragment, and the link shows what was there', FRESH, async ({ page, context }) => {
+test('two widgets and an anchor share the fragment, and the link shows what was there', NEW_PAGE_TAG, async ({ page, context }) => {
   await showPage(page, THREE_FIGURES, { fragment: '#what-to-try&theme=a%20b' });
   // The browser finds the anchor although the fragment has further parts.
   await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(1000);
@@ -29,7 +29,7 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   await untilReady(first);
   const hash = () => page.evaluate(() => location.hash);
   expect(await hash()).toBe('#what-to-try&theme=a%20b');
-  const entries = await page.evaluate(() => history.length);
+  const historyLength = await page.evaluate(() => history.length);
 
   await first.getByRole('button', { name: 'Hard arc' }).click();
   await expect.poll(hash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+$/);
@@ -41,9 +41,9 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   await untilReady(third);
   const hashBefore = await hash();
   await third.getByRole('button', { name: 'Straight' }).click();
-  await frames(page);
+  await waitForFrames(page);
   expect(await hash()).toBe(hashBefore);
-  expect(await page.evaluate(() => history.length)).toBe(entries);
+  expect(await page.evaluate(() => history.length)).toBe(historyLength);
 
   const link = await linkOf(first);
   expect(new URL(link).hash).toBe(hashBefore);
@@ -61,7 +61,7 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   expect(await takeEvents(newPage, ['error', 'input', 'change'])).toEqual([]);
 });
 
-test('figures in shadow roots, closed ones too, have parts of their own in the fragment @nightly', FRESH, async ({ page }) => {
+test('figures in shadow roots, closed ones too, have parts of their own in the fragment @nightly', NEW_PAGE_TAG, async ({ page }) => {
   await page.addInitScript(() => {
     for (const [name, mode] of [['open-host', 'open'], ['closed-host', 'closed']]) {
       customElements.define(name, class extends HTMLElement {
@@ -69,26 +69,26 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
       });
     }
   });
-  const hosts = '<open-host></open-host><open-host></open-host><closed-host id="c"></closed-host><banana-machine></banana-machine>';
-  await showPage(page, hosts);
+  const hostsHtml = '<open-host></open-host><open-host></open-host><closed-host id="c"></closed-host><banana-machine></banana-machine>';
+  await showPage(page, hostsHtml);
   await page.locator('body > banana-machine').scrollIntoViewIfNeeded();
   await untilReady(page.locator('body > banana-machine'));
-  const keys = await page.evaluate(async () => {
+  const linkKeys = await page.evaluate(async () => {
     const shadowFigures = [...document.querySelectorAll('open-host, closed-host')].map((host) => Reflect.get(host, 'figure'));
     const figures = /** @type {AnyElement[]} */ ([...shadowFigures, document.querySelector('body > banana-machine')]);
     return Promise.all(figures.map(async (figure) => new URL(await figure.shareLink()).hash.slice(1).split('=')[0]));
   });
-  expect(keys).toEqual([
+  expect(linkKeys).toEqual([
     'open-host.1/banana-machine.1', 'open-host.2/banana-machine.1', 'closed-host:c/banana-machine.1', 'banana-machine.1',
   ]);
 });
 
-test('a link leads to the figure that it was copied from, once; a reload leads nowhere', FRESH, async ({ page, context }) => {
+test('a link leads to the figure that it was copied from, once; a reload leads nowhere', NEW_PAGE_TAG, async ({ page, context }) => {
   const gap = '<p style="margin: 2000px 0">Between</p>';
   const body = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
   await showPage(page, body);
   const figureOf = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
-  const tops = (/** @type {import('@playwright/test').Page} */ openPage) =>
+  const figureTops = (/** @type {import('@playwright/test').Page} */ openPage) =>
     openPage.locator('banana-machine').evaluateAll((figureElements) => figureElements.map((figure) => Math.round(figure.getBoundingClientRect().top)));
   /** @type {string[]} */
   const links = [];
@@ -106,7 +106,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
     const newPage = await context.newPage();
     await showPage(newPage, body, { fragment });
     await untilReady(figureOf(newPage, i));
-    await expect.poll(async () => (await tops(newPage))[i]).toBeCloseTo(0);
+    await expect.poll(async () => (await figureTops(newPage))[i]).toBeCloseTo(0);
     // Elements that are added or moved later do not scroll the page.
     const scrollAfterMove = await newPage.evaluate(async () => {
       scrollTo(0, 100);
@@ -121,15 +121,15 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   // A link that is followed on the page.
   await page.evaluate(() => scrollTo(0, 0));
   await page.evaluate((hash) => (location.hash = hash), links[0]);
-  await expect.poll(async () => (await tops(page))[0]).toBeCloseTo(0);
+  await expect.poll(async () => (await figureTops(page))[0]).toBeCloseTo(0);
   await page.evaluate(() => scrollTo(0, 700));
   await page.reload();
   await expect(page.locator('banana-machine:defined')).toHaveCount(2);
-  await frames(page);
+  await waitForFrames(page);
   expect(await page.evaluate(() => scrollY)).toBe(700);
 });
 
-test('the page does not scroll to an anchor that is missing, or after the user has scrolled @nightly', FRESH, async ({ page }) => {
+test('the page does not scroll to an anchor that is missing, or after the user has scrolled @nightly', NEW_PAGE_TAG, async ({ page }) => {
   await showPage(page, '<banana-machine></banana-machine><p id="low" style="margin: 3000px 0">Low</p>', { fragment: '#nowhere&theme=a' });
   await untilReady(page.locator('banana-machine'));
   expect(await page.evaluate(() => scrollY)).toBe(0);
@@ -168,12 +168,12 @@ test('a page with a base of its own keeps its address @nightly', async ({ page }
   expect(await address()).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
 });
 
-test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', FRESH, async ({ page, context, figure }) => {
+test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', NEW_PAGE_TAG, async ({ page, context, figure }) => {
   const { slider, values, button } = FIGURE_FACTS[figure];
   const widget = await mount(page, figure, { fragment: '#elsewhere' });
   await widget.evaluate((element, [key, value]) => void Reflect.set(element, key, value), /** @type {const} */ ([slider, values[0]]));
   await widget.getByRole('button', { name: button, exact: true }).click();
-  await frames(page);
+  await waitForFrames(page);
   expect(await page.evaluate(() => location.hash)).toBe('#elsewhere');
   const link = await linkOf(widget);
   expect(link.split('#')[0]).toBe(page.url().split('#')[0]);
@@ -183,11 +183,11 @@ test('a figure without share leaves the address alone, and opens its part of a l
   const openedState = await stateOf(newPage.locator(figure));
   expect(openedState).toEqual(await stateOf(widget));
   // From then on the address follows the figure, and "back" leaves the page.
-  const entries = await newPage.evaluate(() => history.length);
+  const historyLength = await newPage.evaluate(() => history.length);
   await newPage.locator(figure).locator(`#${slider}`).fill(String(values[1]));
   await expect.poll(async () => (await newPage.evaluate(() => location.hash)) === (await fragmentOf(newPage.locator(figure)))).toBe(true);
   expect(newPage.url()).not.toBe(link);
-  expect(await newPage.evaluate(() => history.length)).toBe(entries);
+  expect(await newPage.evaluate(() => history.length)).toBe(historyLength);
   const changedState = await stateOf(newPage.locator(figure));
   await newPage.reload();
   await untilReady(newPage.locator(figure));
@@ -210,7 +210,7 @@ test('a figure with share keeps its state in the address, and follows it', async
   await expect.poll(() => stateOf(widget)).toEqual(state);
   // An anchor without a state changes nothing.
   await page.evaluate(() => (location.hash = '#end'));
-  await frames(page);
+  await waitForFrames(page);
   expect(await page.evaluate(() => document.querySelector(':target')?.id)).toBe('end');
   expect(await stateOf(widget)).toEqual(state);
   expect(await takeEvents(page, ['error'])).toEqual([]);
@@ -225,7 +225,7 @@ test.describe('the menu', () => {
 test('copies a link, and the code to embed with the address of the script', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Pivot' }).click();
-  await frames(page);
+  await waitForFrames(page);
   const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
   await widget.getByRole('button', { name: 'Copy link' }).click();
   await expect(widget.getByText('Copied.')).toBeVisible();
@@ -247,12 +247,12 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await widget.getByRole('button', { name: 'Copy embed code' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
     await widget.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
-    await frames(page);
+    await waitForFrames(page);
     await widget.getByRole('button', { name: 'Copy embed code' }).click();
     await expect(widget.getByText('Copied.')).toContainText('Your map is not in it');
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
-    const random = generator(1);
+    const random = randomGenerator(1);
     for (const [columns, note] of /** @type {const} */ ([[400, 'It is long, because your map is in it'], [4000, 'Your map is too large for a link and is not in it']])) {
       // Cells that cannot be compressed.
       const byteCount = (columns * 2000) / 8;
@@ -264,7 +264,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
     const [state, fragment] = [await stateOf(widget), await fragmentOf(widget)];
     await page.goto('about:blank');
     const copy = await mount(page, 'map-squeeze', { attributes: 'seed="3"', fragment });
-    expect(await stateOf(copy)).toEqual({ ...state, map: null, start: await property(await mount(page, 'map-squeeze'), 'start') });
+    expect(await stateOf(copy)).toEqual({ ...state, map: null, start: await propertyOf(await mount(page, 'map-squeeze'), 'start') });
   });
 });
 
@@ -277,7 +277,7 @@ test('the menu shows what the clipboard does not take @nightly', async ({ page }
   await expectAccessible(page, undefined, 'map-squeeze');
 });
 
-test('the code to embed names the script that defined the element', FRESH, async ({ page }) => {
+test('the code to embed names the script that defined the element', NEW_PAGE_TAG, async ({ page }) => {
   const widget = await mount(page, 'map-squeeze', { script: '<script defer src="/motion-widgets.iife.js"></script>' });
   const code = await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode());
   expect(code).toContain(`<script defer src="${new URL(page.url()).origin}/motion-widgets.iife.js"></script>`);
@@ -302,7 +302,7 @@ test('a frame shows the figure of its address, and sends its height', async ({ p
   await showPage(page, `<iframe src="/embed.html?widget=${figure}&${slider}=${value}" width="700" height="900"></iframe>`, { script: '' });
   const widget = page.frameLocator('iframe').locator(figure);
   await expect(widget.locator('.folds')).toBeVisible();
-  expect(await property(widget, slider)).toBe(value);
+  expect(await propertyOf(widget, slider)).toBe(value);
   await expect.poll(async () => {
     const [height, reportedHeight] = [await widget.evaluate(() => document.body.getBoundingClientRect().height), await page.evaluate(() => Reflect.get(window, 'heights').at(-1))];
     return Math.abs(height - reportedHeight);

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
-import { STILL, assign, boxOf, mount, property, showPage, takeEvents, test, untilReady } from './support.js';
+import { REDUCED_MOTION, setProperty, boxOf, mount, propertyOf, showPage, takeEvents, test, untilReady } from './support.js';
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 test('a figure has the title above and the caption below that the page gives it', async ({ page, figure }) => {
   await showPage(page, `<${figure} heading-level="3"><span slot="title">Figure 9.3 One command</span><p slot="caption">As <b>measured</b>.</p></${figure}>`);
@@ -28,9 +28,9 @@ test('a figure has the title above and the caption below that the page gives it'
 test('a heading has one of six levels @nightly', async ({ page }) => {
   const widget = await mount(page, 'map-squeeze', { attributes: 'heading-level="9"' });
   expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['heading-level is "9"; allowed is "1" or "2" or "3" or "4" or "5" or "6"']);
-  expect(await assign(widget, 'headingLevel', 7)).toContain('RangeError: headingLevel is "7"');
-  expect(await assign(widget, 'headingLevel', 2)).toBe('');
-  expect([await property(widget, 'headingLevel'), await widget.getAttribute('heading-level')]).toEqual(['2', '2']);
-  expect(await assign(widget, 'headingLevel', null)).toBe('');
+  expect(await setProperty(widget, 'headingLevel', 7)).toContain('RangeError: headingLevel is "7"');
+  expect(await setProperty(widget, 'headingLevel', 2)).toBe('');
+  expect([await propertyOf(widget, 'headingLevel'), await widget.getAttribute('heading-level')]).toEqual(['2', '2']);
+  expect(await setProperty(widget, 'headingLevel', null)).toBe('');
   expect(await widget.getAttribute('heading-level')).toBe(null);
 });

@@ -1,10 +1,10 @@
 import { expect } from '@playwright/test';
 import { SEEDS, randomStates } from './any-state.js';
-import { STILL, frames, mount, showPage, stateOf, takeEvents, test, testEach, unfold, untilReady } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mount, showPage, stateOf, takeEvents, test, testEach, openDisclosures, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 testEach('random states go in and come out, and a second element in the same state is equal', async (page, name, isFull) => {
   await showPage(page, `<${name} id="one"></${name}><div style="position: fixed; inset: 0 0 auto"><${name} id="two"></${name}></div>`);
@@ -22,7 +22,7 @@ testEach('random states go in and come out, and a second element in the same sta
     expect(first.state, `seed ${seed}`).toEqual(state);
     expect(second).toEqual(first);
   }
-  await frames(page);
+  await waitForFrames(page);
   expect(await takeEvents(page, ['error', 'input', 'change'])).toEqual([]);
 });
 
@@ -57,7 +57,7 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
 
 test('a part of a state leaves the rest, and both models keep their noise', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
-  await unfold(widget);
+  await openDisclosures(widget);
   await widget.locator('#alpha1').fill('0.15');
   await widget.getByLabel('odometry').check();
   // The slider that bends the cloud is another one in each model.
@@ -87,7 +87,7 @@ test('a property set right after a state holds, however long the state takes @ni
     figure.setState({ widget: 'banana-machine', version: 1, samples: 3e6, shown: 3e6, playing: false, morph: 0 });
     figure.morph = 0.5;
   });
-  await frames(page);
+  await waitForFrames(page);
   await expect.poll(() => stateOf(widget)).toMatchObject({ samples: 3e6, morph: 0.5 });
 });
 
@@ -100,7 +100,7 @@ test('a state that comes while a slider plays is what is shown from then on @nig
   await widget.locator('.playable.phase').getByRole('button').click();
   await expect.poll(async () => /** @type {any} */ (await stateOf(widget)).phase).toBe(1);
   await expect(widget.locator('.playable.phase').getByRole('button')).toHaveText('Play the motion');
-  await frames(page);
+  await waitForFrames(page);
   expect(/** @type {any} */ (await stateOf(widget)).phase).toBe(1);
 });
 
@@ -108,8 +108,8 @@ test('a state in part keeps the share of samples that are shown, and the mark th
   const widget = await mount(page, cloud, { attributes: 'samples="300"' });
   const states = await widget.evaluate((element) => {
     const figure = /** @type {AnyElement} */ (element);
-    const parts = [{ shown: 100, marked: 50 }, { seed: 5 }, { shown: 50 }, { samples: 30 }, { samples: 300 }, { shown: 100, playing: true }];
-    return parts.map((part) => {
+    const partialStates = [{ shown: 100, marked: 50 }, { seed: 5 }, { shown: 50 }, { samples: 30 }, { samples: 300 }, { shown: 100, playing: true }];
+    return partialStates.map((part) => {
       figure.setState({ widget: element.localName, version: 1, ...part });
       const { shown, playing, marked } = /** @type {any} */ (figure.getState());
       return [shown, playing, marked];

@@ -1,11 +1,11 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, mount, pixelCountOf, showPage, test, unfold, untilReady } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mount, pixelCountOf, showPage, test, openDisclosures, untilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
-/** Background and text colours of themes of books and documentation sites, as computed by a browser: the extremes among eighteen. */
+/** Background and text colours of themes of books and documentation sites, as computed by a browser: the most extreme of eighteen themes. */
 const THEME_COLORS = {
   'mdBook, light': ['#ffffff', '#000000'],
   'mdBook, rust': ['#e1e1db', '#262625'],
@@ -29,7 +29,7 @@ const MIN_CONTRAST = { ink: 4.5, muted: 4.5, prior: 4.5, prediction: 4.5, poster
  * @returns {Promise<number[][]>} red, green, blue, 0 to 255
  */
 async function coloursOf(widget, roles) {
-  await frames(widget.page());
+  await waitForFrames(widget.page());
   return widget.evaluate((element, names) => {
     const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }));
     return names.map((name) => {
@@ -51,11 +51,11 @@ const paperOf = async (widget) => hex((await coloursOf(widget, ['paper']))[0]);
 /** @param {number[]} channels */
 const hex = (channels) => `#${channels.map((channel) => channel.toString(16).padStart(2, '0')).join('')}`;
 
-/** Returns the contrast of two colours by WCAG. @param {number[]} one @param {number[]} other */
-function contrast(one, other) {
+/** Returns the contrast of two colours by WCAG. @param {number[]} first @param {number[]} second */
+function contrast(first, second) {
   const linear = (/** @type {number} */ c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
-  const luminance = ([r, g, b] = one) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
-  const [low, high] = [luminance(one), luminance(other)].sort((a, b) => a - b);
+  const luminance = ([r, g, b] = first) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+  const [low, high] = [luminance(first), luminance(second)].sort((a, b) => a - b);
   return (high + 0.05) / (low + 0.05);
 }
 
@@ -233,7 +233,7 @@ test('custom properties colour controls and canvases, also when they change', as
 
 test('no control has custom properties of its own, which extensions that darken pages leave behind', async ({ page, figure }) => {
   const widget = await mount(page, figure);
-  await unfold(widget);
+  await openDisclosures(widget);
   expect(await widget.locator('.machine [style*="--"]').count()).toBe(0);
   const thumbs = await widget.getByRole('slider').evaluateAll((sliders) =>
     sliders.filter((slider) => slider.matches('input')).map((slider) => getComputedStyle(slider).getPropertyValue('--thumb')));

@@ -1,11 +1,11 @@
 import { expect } from '@playwright/test';
 import { ALL_NAMES, FIGURE_FACTS } from './figures.js';
-import { STILL, frames, mount, pictureOf, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mount, pictureOf, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** Makes the next call into the core crash, and causes that call by an event of a slider. @param {Locator} widget @param {string} slider */
 function trapNextCall(widget, slider) {
@@ -26,17 +26,17 @@ const expectRestarted = (widget) =>
   })).toBe(true);
 
 test('a core that traps is restarted with the same state and picture, and no other element notices', async ({ page, figure }) => {
-  const other = ALL_NAMES[(ALL_NAMES.indexOf(figure) + 1) % ALL_NAMES.length];
+  const otherName = ALL_NAMES[(ALL_NAMES.indexOf(figure) + 1) % ALL_NAMES.length];
   const { slider, values } = FIGURE_FACTS[figure];
-  await showPage(page, `<${figure}></${figure}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${other} id="other"></${other}></div>`);
+  await showPage(page, `<${figure}></${figure}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${otherName} id="other"></${otherName}></div>`);
   const widget = page.locator(figure).first();
-  const neighbour = page.locator('#other');
+  const otherWidget = page.locator('#other');
   await untilReady(widget);
-  await untilReady(neighbour);
+  await untilReady(otherWidget);
   await widget.locator(`#${slider}`).fill(String(values[0]));
-  await frames(page);
+  await waitForFrames(page);
   const [stateBefore, pictureBefore] = [await stateOf(widget), await pictureOf(widget.locator('canvas.plane'))];
-  await neighbour.evaluate((element) => void Object.assign(window, { neighbour: /** @type {AnyElement} */ (element).machine }));
+  await otherWidget.evaluate((element) => void Object.assign(window, { otherMachine: /** @type {AnyElement} */ (element).machine }));
   await takeEvents(page);
   await trapNextCall(widget, slider);
   await expectRestarted(widget);
@@ -45,12 +45,12 @@ test('a core that traps is restarted with the same state and picture, and no oth
   expect(errors[0].message).toMatch(/memory access out of bounds|unreachable/);
   expect(await stateOf(widget)).toEqual(stateBefore);
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
-  expect(await neighbour.evaluate((element) => /** @type {AnyElement} */ (element).machine === Reflect.get(window, 'neighbour'))).toBe(true);
+  expect(await otherWidget.evaluate((element) => /** @type {AnyElement} */ (element).machine === Reflect.get(window, 'otherMachine'))).toBe(true);
   // The figure works again.
   await widget.locator(`#${slider}`).fill(String(values[1]));
   await expect(widget).toHaveAttribute(slider, String(values[1]));
   // After the next picture, the figure recovers from another trap too.
-  await frames(page);
+  await waitForFrames(page);
   await trapNextCall(widget, slider);
   await expectRestarted(widget);
   expect(await takeEvents(page, ['error', 'load'])).toHaveLength(1);
@@ -67,6 +67,6 @@ test('a core that traps twice without a picture between ends in a sentence @nigh
   await trapNextCall(widget, 'v');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
   expect(await takeEvents(page, ['error'])).toHaveLength(2);
-  await frames(page);
+  await waitForFrames(page);
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });

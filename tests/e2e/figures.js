@@ -13,10 +13,10 @@
  * @property {string} slider id of a slider that is visible when the figure opens
  * @property {string[]} at path of the slider's setting in a state
  * @property {[number, number]} values two values of the slider that are not the default
- * @property {[string, number]} other setting that the first picture shows, and a value that is not the default
+ * @property {[string, number]} other name of another setting that the first picture shows, and a value that is not the default
  * @property {string} button label of a visible button that changes the state
- * @property {{ at: number, field: string, value: string }} fold index of a fold with a field, and a value to type there
- * @property {{ at: number, part: string }} paper index of a fold with a part that is printed, and its selector
+ * @property {{ at: number, field: string, value: string }} fold index of a disclosure with a field, and a value to type there
+ * @property {{ at: number, part: string }} paper index of a disclosure with a part that is printed, and its selector
  */
 
 /** @satisfies {Partial<FigureFacts>} */
@@ -70,10 +70,10 @@ export const NAMES_WITH_HANDLES = ALL_NAMES.filter((name) => FIGURE_FACTS[name].
  * Returns the figure on which a test about all figures runs. It depends on the title only, and every figure has some tests.
  *
  * @param {string} title of the test; a tag at its end has no effect
- * @param {Name[]} [among]
+ * @param {Name[]} [candidates]
  */
-export function figureFor(title, among = ALL_NAMES) {
+export function figureFor(title, candidates = ALL_NAMES) {
   let hash = 0;
   for (const character of title.replace(/ @\w+$/, '')) hash = (53 * hash + character.charCodeAt(0)) % 65_521;
-  return among[hash % among.length];
+  return candidates[hash % candidates.length];
 }

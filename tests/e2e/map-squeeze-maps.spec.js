@@ -1,14 +1,14 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { mapFile, openSqueeze, pgmFile, pngFile, squeezeResults, yamlFile } from './squeeze-support.js';
-import { STILL, drop, frames, pictureOf, pixelCountOf, test, unfold } from './support.js';
+import { REDUCED_MOTION, dropFiles, waitForFrames, pictureOf, pixelCountOf, test, openDisclosures } from './support.js';
 
 /**
  * @typedef {import('./squeeze-support.js').MapFile} MapFile
  * @typedef {import('@playwright/test').Locator} Locator
  */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 const ROOM_PLAN = {
   bounds: [0, 0, 6, 4],
@@ -27,8 +27,8 @@ const errorMessageOf = (/** @type {Locator} */ widget) => widget.locator('.own-m
 const currentMapOf = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
 
 /** Chooses files, as a user does. @param {Locator} widget @param {MapFile[]} files */
-async function choose(widget, files) {
-  await unfold(widget);
+async function chooseFiles(widget, files) {
+  await openDisclosures(widget);
   await widget.getByLabel('Choose map files').setInputFiles(files);
 }
 
@@ -36,7 +36,7 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
   const widget = await openSqueeze(page);
   const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
   await widget.getByRole('button', { name: 'Open corridor' }).click();
-  await choose(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
+  await chooseFiles(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toHaveText('room.json: 6.0 m × 4.0 m, 5 walls.');
   const { bounds, walls, startFree, openPlace, config, shown } = await squeezeResults(widget);
   expect(bounds).toEqual(ROOM_PLAN.bounds);
@@ -55,7 +55,7 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
 
 test('presets keep the map of the user, and buttons lead to the apartment and back', async ({ page }) => {
   const widget = await openSqueeze(page);
-  await choose(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
+  await chooseFiles(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
   // The presets are positions in the apartment, and are not offered here.
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
@@ -85,7 +85,7 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
   // A corridor of 4 m × 1 m, whose right half is unknown.
   const image = pngFile('map.png', 80, 20, (column) => column >= 40);
-  await choose(widget, [yamlFile('map.yaml', { ...YAML_FIELDS, image: 'map.png', mode: 'scale' }), image]);
+  await chooseFiles(widget, [yamlFile('map.yaml', { ...YAML_FIELDS, image: 'map.png', mode: 'scale' }), image]);
   await expect(currentMapOf(widget)).toContainText('map.yaml');
   // The robot is in the left half, whose cells are not unknown.
   expect((await squeezeResults(widget)).config.start.x).toBeLessThan(2);
@@ -115,7 +115,7 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
 
 test('a floor plan can be written on the page', async ({ page }) => {
   const widget = await openSqueeze(page);
-  await unfold(widget);
+  await openDisclosures(widget);
   const field = widget.getByLabel('Or a floor plan here');
   const useButton = widget.getByRole('button', { name: 'Use this plan' });
   // The text field opens with an example of a floor plan.
@@ -134,7 +134,7 @@ test('a floor plan can be written on the page', async ({ page }) => {
 test('a map_server pair can be dropped on the widget', async ({ page }) => {
   const widget = await openSqueeze(page);
   await expect(currentMapOf(widget)).toHaveCount(0);
-  await drop(widget.locator('.stage'), [yamlFile('room.yaml', YAML_FIELDS), pgmFile('room.pgm', COLUMNS, ROWS, isOnBorder)]);
+  await dropFiles(widget.locator('.stage'), [yamlFile('room.yaml', YAML_FIELDS), pgmFile('room.pgm', COLUMNS, ROWS, isOnBorder)]);
   await expect(currentMapOf(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
   await expect(currentMapOf(widget)).toBeVisible();
   const { bounds, walls, startFree, config, openPlace } = await squeezeResults(widget);
@@ -152,7 +152,7 @@ test('the reason why a dropped map is refused is visible near the drop until it 
   const resultsBefore = await squeezeResults(widget);
   await widget.locator('.stage').evaluate((stage) => stage.scrollIntoView());
   const scrollBefore = await page.evaluate(() => scrollY);
-  await drop(widget.locator('.stage'), [mapFile('room.txt', 'a room')]);
+  await dropFiles(widget.locator('.stage'), [mapFile('room.txt', 'a room')]);
   const alert = widget.getByRole('alert');
   await expect(alert).toHaveText(/^room\.txt: this kind of file is not read/);
   // Rounding to device pixels makes the visible ratio slightly smaller than 1.
@@ -169,15 +169,15 @@ test('a map that is refused is reported in a sentence, and the present map stays
   const roomYaml = yamlFile('room.yaml', YAML_FIELDS);
   const widget = await openSqueeze(page);
   const resultsBefore = await squeezeResults(widget);
-  await choose(widget, [roomYaml]);
+  await chooseFiles(widget, [roomYaml]);
   await expect(errorMessageOf(widget)).toHaveText(/^room\.yaml: image names room\.pgm, which is not there; expected are both files/);
   // The page accepts this image, and the core refuses it.
-  await choose(widget, [roomYaml, mapFile('room.pgm', 'P5\n60 40\n255\nabc')]);
+  await chooseFiles(widget, [roomYaml, mapFile('room.pgm', 'P5\n60 40\n255\nabc')]);
   await expect(errorMessageOf(widget)).toHaveText(/^room\.pgm.*(2400|60 × 40)/);
   expect(await squeezeResults(widget)).toEqual(resultsBefore);
   await expect(currentMapOf(widget)).toContainText('The apartment');
   await expectAccessible(page);
-  await choose(widget, [roomYaml, image]);
+  await chooseFiles(widget, [roomYaml, image]);
   await expect(currentMapOf(widget)).toContainText('room.yaml');
   await expect(errorMessageOf(widget)).toBeHidden();
 });
@@ -212,14 +212,14 @@ test('a map set by a page is shown, an equal one changes nothing, and an incompl
 test('a large map is opened with a message, and another map takes its place @nightly', async ({ page }) => {
   test.setTimeout(120_000);
   const widget = await openSqueeze(page);
-  const side = 4000;
-  const isPost = (/** @type {number} */ c, /** @type {number} */ r) => c === 0 || r === 0 || c === side - 1 || r === side - 1 || (c % 100 === 50 && r % 100 === 50);
-  await choose(widget, [yamlFile('hall.yaml', { ...YAML_FIELDS, image: 'hall.pgm' }), pgmFile('hall.pgm', side, side, isPost)]);
+  const gridSide = 4000;
+  const isPost = (/** @type {number} */ c, /** @type {number} */ r) => c === 0 || r === 0 || c === gridSide - 1 || r === gridSide - 1 || (c % 100 === 50 && r % 100 === 50);
+  await chooseFiles(widget, [yamlFile('hall.yaml', { ...YAML_FIELDS, image: 'hall.pgm' }), pgmFile('hall.pgm', gridSide, gridSide, isPost)]);
   await expect(currentMapOf(widget)).toContainText('hall.yaml: 200.0 m × 200.0 m', { timeout: 60_000 });
   const { stats, config } = await squeezeResults(widget);
   expect(stats.attempts).toBe(config.samples);
-  await choose(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
+  await chooseFiles(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
-  await frames(page);
+  await waitForFrames(page);
   expect(await pixelCountOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(100);
 });

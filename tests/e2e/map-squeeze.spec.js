@@ -1,12 +1,12 @@
 import { expect } from '@playwright/test';
 import { openSqueeze, squeezeResults } from './squeeze-support.js';
-import { STILL, centreOf, frames, numberIn, pictureOf, readout, stateOf, test, unfold } from './support.js';
+import { REDUCED_MOTION, centreOf, waitForFrames, numberIn, pictureOf, readoutValue, stateOf, test, openDisclosures } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
  */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 const bodyHandle = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot', exact: true });
 const headingHandle = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot' });
@@ -48,7 +48,7 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   const widget = await openSqueeze(page);
   const { x, y } = await centreOf(bodyHandle(widget));
   const edgeLabel = async () => {
-    await frames(page);
+    await waitForFrames(page);
     return bodyHandle(widget).evaluate((element) => getComputedStyle(element, '::before').content);
   };
   await page.mouse.move(x, y);
@@ -93,27 +93,27 @@ test('a robot that a key led into a wall is reported @nightly', async ({ page })
 test('the sampler is chosen by name, and the readouts are those of the machine', async ({ page }) => {
   const widget = await openSqueeze(page);
   const samplersByLabel = { Endpoint: 'endpoint', 'Whole arc': 'whole-arc' };
-  await unfold(widget);
+  await openDisclosures(widget);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   for (const [label, sampler] of Object.entries(samplersByLabel)) {
     await widget.getByLabel(label, { exact: true }).check();
     const { config, stats } = await squeezeResults(widget);
     expect(config.sampler).toBe(sampler);
-    const shownNumber = async (/** @type {string | RegExp} */ name) => numberIn(await readout(widget, name).textContent());
+    const shownNumber = async (/** @type {string | RegExp} */ name) => numberIn(await readoutValue(widget, name).textContent());
     expect(await shownNumber(/^\s*drawn/)).toBe(stats.drawn);
     expect(await shownNumber(/^\s*accepted\s*[\d\u202f]/)).toBe(stats.accepted);
     expect(await shownNumber('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
     expect(await shownNumber('wall distances computed per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
-    const details = (await widget.locator('.readouts .detail').allTextContents()).map((text) => text.split('%')[0]);
-    expect(numberIn(details[0])).toBeCloseTo(100 * stats.acceptanceRate, 1);
+    const detailTexts = (await widget.locator('.readouts .detail').allTextContents()).map((text) => text.split('%')[0]);
+    expect(numberIn(detailTexts[0])).toBeCloseTo(100 * stats.acceptanceRate, 1);
     if (sampler === 'whole-arc') {
-      await expect(readout(widget, 'accepted through a wall')).toHaveText('0, by construction');
+      await expect(readoutValue(widget, 'accepted through a wall')).toHaveText('0, by construction');
       continue;
     }
     expect(await shownNumber('accepted through a wall')).toBe(stats.throughWall);
-    expect(numberIn(details[1])).toBeCloseTo(100 * stats.throughWallRate, 1);
-    const interval = stats.throughWallInterval.map((end) => (100 * end).toFixed(1)).join('\u2060–\u2060');
-    await expect(widget.locator('.verdict')).toContainText(`(95\u202f% interval ${interval}`);
+    expect(numberIn(detailTexts[1])).toBeCloseTo(100 * stats.throughWallRate, 1);
+    const intervalText = stats.throughWallInterval.map((end) => (100 * end).toFixed(1)).join('\u2060–\u2060');
+    await expect(widget.locator('.verdict')).toContainText(`(95\u202f% interval ${intervalText}`);
   }
 });
 
@@ -138,9 +138,9 @@ test('the headline gives the share as a simple fraction, and has words for none 
 test('the table of costs has each sampler, and the share of a processor core follows from its time', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
-  await unfold(widget);
+  await openDisclosures(widget);
   // After two frames the table is marked as busy, because its numbers are out of date.
-  await frames(page);
+  await waitForFrames(page);
   const table = widget.locator('.table');
   await expect(table).toHaveAttribute('aria-busy', 'false');
   const rows = await table.locator('tbody tr').evaluateAll((rowElements) =>
@@ -159,7 +159,7 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
   const widget = await openSqueeze(page);
   const note = widget.locator('.verdict.note');
   await expect(note).toHaveCount(0);
-  await unfold(widget);
+  await openDisclosures(widget);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await widget.getByLabel('Sub-stepped').check();
   await widget.getByRole('slider', { name: 'sub-steps' }).fill('32');
@@ -183,9 +183,9 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
   await page.mouse.down();
   await page.mouse.move(x, y - wallDistance, { steps: 4 });
   await page.mouse.up();
-  const blocked = await squeezeResults(widget);
-  expect(blocked.startFree).toBe(false);
-  expect(blocked.stats.accepted).toBe(0);
+  const blockedResults = await squeezeResults(widget);
+  expect(blockedResults.startFree).toBe(false);
+  expect(blockedResults.stats.accepted).toBe(0);
   await expect(note).toHaveText('No sample was accepted: all 600 drawn paths are in collision.');
   await expect(widget.locator('p[role=status]')).toContainText('No sample was accepted');
 });
@@ -198,7 +198,7 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   const field = widget.getByRole('spinbutton', { name: 'Sample' });
   const output = widget.locator('.marked output');
   const canvas = widget.locator('canvas.plane');
-  await unfold(widget);
+  await openDisclosures(widget);
   const pictureBefore = await pictureOf(canvas);
 
   await field.fill(String(throughWallIndex + 1));
@@ -296,7 +296,7 @@ test('the picture has a description, and a user’s change is announced', async 
   await expect(status).toHaveText(text);
   await expect(widget.locator('.verdict')).toHaveText(text);
   // Without the condition all samples are accepted.
-  await unfold(widget);
+  await openDisclosures(widget);
   await widget.getByLabel('Check samples against the map').uncheck();
   const { throughWall } = (await squeezeResults(widget)).stats;
   await expect(status).toContainText(`Without the map all 600 motions are accepted; ${throughWall} of them, `);
@@ -321,7 +321,7 @@ test('either view is within the apartment, and a close one has the whole map bes
     expect(xMax).toBeLessThan(12 + margin);
     expect(yMax).toBeLessThan(9 + margin);
   }
-  await unfold(widget);
+  await openDisclosures(widget);
   await expect(widget.getByLabel('close-up')).toBeChecked();
   await widget.getByLabel('whole map').check();
   const wholeMapExtent = await viewExtent();

@@ -4,9 +4,9 @@
 // MONKEY_EVENTS is the number of events, MONKEY_SEED the seed. The message of a failure contains both, for a replay.
 
 import { expect } from '@playwright/test';
-import { generator } from '../random.js';
+import { randomGenerator } from '../random.js';
 import { mapFile, pgmFile, yamlFile } from './squeeze-support.js';
-import { FRESH, frames, test, untilReady } from './support.js';
+import { NEW_PAGE_TAG, waitForFrames, test, untilReady } from './support.js';
 import { ALL_NAMES } from './figures.js';
 
 /**
@@ -45,7 +45,7 @@ const DROPPED_FILES = [
 
 /** @param {number} seed @returns {Random} */
 function randomOf(seed) {
-  const random = generator(seed);
+  const random = randomGenerator(seed);
   const randomBelow = (/** @type {number} */ end) => Math.floor(end * random());
   return { below: randomBelow, one: (list) => list[randomBelow(list.length)] };
 }
@@ -55,8 +55,8 @@ async function partAt(page, random, selector) {
   const [name, choice, x, y] = [random.one(ALL_NAMES), random.below(1e6), random.below(99) + 1, random.below(99) + 1];
   const box = await page.evaluate(
     ([name, selector, choice]) => {
-      const parts = [...(document.querySelector(`${name}`)?.shadowRoot?.querySelectorAll(`${selector}`) ?? [])].filter((part) => part.checkVisibility());
-      const part = parts[Number(choice) % parts.length];
+      const visibleParts = [...(document.querySelector(`${name}`)?.shadowRoot?.querySelectorAll(`${selector}`) ?? [])].filter((part) => part.checkVisibility());
+      const part = visibleParts[Number(choice) % visibleParts.length];
       if (!part) return;
       part.scrollIntoView({ block: 'nearest', behavior: 'instant' });
       const { left, top, width, height } = part.getBoundingClientRect();
@@ -174,7 +174,7 @@ const ACTIONS = {
       return `${name} ${choice === 0 ? `${field}: ${JSON.stringify(text)}` : 'a former state'}`;
     }, [name, choice, key, text]);
   },
-  /** Sets a small number of samples, because events would be slow with millions. */
+  /** Sets a small number of samples, because events are slow with millions. */
   async few(page, random) {
     const [name, samples] = [random.one(ALL_NAMES), random.one([1, 20, 300, 2000])];
     return page.evaluate(([name, samples]) => {
@@ -186,12 +186,12 @@ const ACTIONS = {
     const [name, choice] = [random.one(ALL_NAMES), random.below(3)];
     return page.evaluate(async ([name, choice]) => {
       const element = document.querySelector(`${name}`);
-      const mark = document.createComment('');
-      element?.after(mark);
-      const place = /** @type {Element} */ (element);
-      place.remove();
+      const placeholder = document.createComment('');
+      element?.after(placeholder);
+      const movedElement = /** @type {Element} */ (element);
+      movedElement.remove();
       if (choice === 1) await new Promise(requestAnimationFrame);
-      mark.replaceWith(choice === 2 ? Object.assign(document.createElement(`${name}`), { id: place.id }) : place);
+      placeholder.replaceWith(choice === 2 ? Object.assign(document.createElement(`${name}`), { id: movedElement.id }) : movedElement);
       return `${name} ${['moved', 'taken away for a while', 'another one in its place'][Number(choice)]}`;
     }, [name, choice]);
   },
@@ -247,7 +247,7 @@ function faultsOf(page, name) {
 
 test.use({ hasTouch: true });
 
-test('random actions leave every figure sound @nightly', FRESH, async ({ page }) => {
+test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ page }) => {
   test.setTimeout(60_000 + EVENTS * 400);
   page.on('dialog', (dialog) => dialog.dismiss());
   await page.addInitScript(() => {
@@ -283,7 +283,7 @@ test('random actions leave every figure sound @nightly', FRESH, async ({ page })
     await page.mouse.up();
     await page.keyboard.press('Escape');
     await page.emulateMedia({ media: 'screen' });
-    await frames(page);
+    await waitForFrames(page);
     for (const widget of ALL_NAMES) expect(await faultsOf(page, widget), `${widget}: ${replayHint()}`).toEqual([]);
     expect(await page.evaluate(() => Reflect.get(window, 'trouble').splice(0)), replayHint()).toEqual([]);
   }

@@ -1,17 +1,17 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, mount, pictureOf, playSlider, readout, test, unfold } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mount, pictureOf, playSlider, readoutValue, test, openDisclosures } from './support.js';
 
 /** @import { Locator, Page } from '@playwright/test' */
 /** @typedef {HTMLElement & { machine: import('../../www/types.d.ts').OdometryDecomposer }} DecomposerElement */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
 const openDecomposer = (page, attributes) => mount(page, 'odometry-decomposer', { attributes });
 
 /** @param {Locator} widget */
 async function resultsOf(widget) {
-  await frames(widget.page());
+  await waitForFrames(widget.page());
   return widget.evaluate((element) => {
     const { config, stats, shown, poses, robot, drifted } = /** @type {DecomposerElement} */ (element).machine;
     return { config, stats, shown, poses: [...poses], robot, drifted: [...drifted.poses] };
@@ -23,7 +23,7 @@ const slider = (/** @type {Locator} */ widget, /** @type {string} */ name) => wi
 test('the views have room for the arcs of the turns and for nearly every outcome', async ({ page }) => {
   await page.setViewportSize({ width: 656, height: 900 });
   const widget = await openDecomposer(page);
-  await frames(page);
+  await waitForFrames(page);
   const layout = await widget.evaluate((element) => {
     const { pictures, scene } = /** @type {any} */ (element);
     const outsideCount = pictures.map((/** @type {any} */ { view: { extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
@@ -41,12 +41,12 @@ test('the scale of the legs depends only on the size of the window @nightly', as
   await page.setViewportSize(size);
   const widget = await openDecomposer(page);
   const legScale = async () => {
-    await frames(page);
+    await waitForFrames(page);
     return widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.scaleX);
   };
   const firstScale = await legScale();
-  for (const size2 of [{ width: 375, height: 1700 }, { width: 740, height: 375 }, size]) {
-    await page.setViewportSize(size2);
+  for (const otherSize of [{ width: 375, height: 1700 }, { width: 740, height: 375 }, size]) {
+    await page.setViewportSize(otherSize);
     await legScale();
   }
   await expect.poll(legScale).toBeCloseTo(firstScale, 6);
@@ -58,7 +58,7 @@ test('opens on Reverse, and presets set the reading', async ({ page }) => {
   expect(shown).toBe(config.samples);
   await expect(widget).toHaveJSProperty('preset', 'reverse');
   await expect(widget.locator('[part=caption]')).toContainText('two rotations beyond π/2');
-  await expect(readout(widget, 'standard deviation across the path')).toHaveText('± 0.626 m');
+  await expect(readoutValue(widget, 'standard deviation across the path')).toHaveText('± 0.626 m');
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
   const results = await resultsOf(widget);
   expect(results.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
@@ -108,7 +108,7 @@ test('on paper every rule has its name, and the chosen one stands out @nightly',
   await expect(ruleName('Beluga 2')).not.toHaveCSS('font-weight', '700');
   // Other groups of radio buttons print the selected one only.
   await page.emulateMedia({ media: 'screen' });
-  await unfold(widget);
+  await openDisclosures(widget);
   await page.emulateMedia({ media: 'print' });
   await expect(widget.getByText('normal', { exact: true })).toBeVisible();
   await expect(widget.getByText('triangular', { exact: true })).toBeHidden();
@@ -130,7 +130,7 @@ test('the frame drifts, and no outcome moves', async ({ page }) => {
 
 test('the spread against the drive has the outcomes beside the curve', async ({ page }) => {
   const widget = await openDecomposer(page, 'preset="all"');
-  await unfold(widget);
+  await openDisclosures(widget);
   const plot = widget.locator('svg.plot');
   await expect(plot).toHaveAttribute('aria-label', /At the reading, 1\.56 m, 0\.305 m across/);
   await expect(plot.locator('circle')).toHaveCount(1);
@@ -149,18 +149,18 @@ test('the path is scrubbed, and is played to its end and again from its beginnin
   expect(robot).toEqual(config.from);
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const secondWidget = await openDecomposer(page, 'phase="2.8"');
-  const play = secondWidget.locator('.playable.phase button');
+  const playButton = secondWidget.locator('.playable.phase button');
   const { values: valuesToEnd, label } = await playSlider(secondWidget, 'phase');
   expect(label).toBe('Pause');
   expect(valuesToEnd[0]).toBeGreaterThan(2.8);
   expect(valuesToEnd.at(-1)).toBe(3);
-  await expect(play).toHaveText('Play the motion');
+  await expect(playButton).toHaveText('Play the motion');
   const { values: valuesFromStart } = await playSlider(secondWidget, 'phase', 3);
   expect(valuesFromStart[0]).toBe(0);
   expect(valuesFromStart[2]).toBeGreaterThan(valuesFromStart[1]);
-  await expect(play).toHaveText('Play the motion');
+  await expect(playButton).toHaveText('Play the motion');
   const { config: { phase } } = await resultsOf(secondWidget);
   expect(phase).toBe(valuesFromStart[2]);
-  await frames(page);
+  await waitForFrames(page);
   expect((await resultsOf(secondWidget)).config.phase).toBe(phase);
 });

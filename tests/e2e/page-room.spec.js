@@ -1,8 +1,8 @@
 import { expect } from '@playwright/test';
-import { FRESH, STILL, boxOf, frames, mount, showPage, test, testEach, untilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, boxOf, waitForFrames, mount, showPage, test, testEach, untilReady } from './support.js';
 
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** Maximum difference between the reserved height and the height of a figure, em, in any font and at any width up to 80 em. */
 const MAX_DIFFERENCE_EM = 8;
@@ -25,7 +25,7 @@ testEach('the height reserved for a figure until its script is loaded is about t
     const heightsInEm = [];
     for (const width of widths) {
       await page.setViewportSize({ width, height: 900 });
-      await frames(page);
+      await waitForFrames(page);
       heightsInEm.push((await boxOf(widget)).height / 16);
     }
     return heightsInEm;
@@ -45,7 +45,7 @@ testEach('the height reserved for a figure until its script is loaded is about t
     return (machine - folds) / 16;
   });
   expect(emptySpace).toBeLessThan(MAX_DIFFERENCE_EM);
-}, FRESH);
+}, NEW_PAGE_TAG);
 
 test('a title and a caption move nothing when the script is loaded', async ({ page }) => {
   let allowScript = () => {};
@@ -59,8 +59,8 @@ test('a title and a caption move nothing when the script is loaded', async ({ pa
   const text = page.locator('#after');
   const topOfText = async () => (await boxOf(text)).y;
   await text.waitFor();
-  // The first frame comes after the stylesheet, which reserves the room.
-  await frames(page);
+  // The first frame comes after the stylesheet, which reserves the height.
+  await waitForFrames(page);
   const topBefore = await topOfText();
   allowScript();
   await pageIsShown;
@@ -75,9 +75,9 @@ testEach('a figure is no wider than a phone, the column of a book or a screen, a
     await page.setViewportSize({ width, height: 720 });
     for (const spacing of ['0.1em', '0']) {
       await page.evaluate((letterSpacing) => void Object.assign(document.body.style, { letterSpacing }), spacing);
-      await frames(page);
+      await waitForFrames(page);
       expect.soft(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${spacing}`).toBeLessThanOrEqual(width);
     }
     if (width >= 640) expect.soft((await boxOf(widget)).height / 720, `${width} px`).toBeLessThanOrEqual(4 / 3);
   }
-}, FRESH);
+}, NEW_PAGE_TAG);

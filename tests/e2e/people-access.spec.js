@@ -1,13 +1,13 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { FIGURE_FACTS } from './figures.js';
-import { STILL, bananaReadings, boxOf, centreOf, frames, mount, openBanana, pictureOf, pixelCountOf, showPage, stateOf, test, testEach, unfold, untilReady } from './support.js';
+import { REDUCED_MOTION, bananaReadings, boxOf, centreOf, waitForFrames, mount, openBanana, pictureOf, pixelCountOf, showPage, stateOf, test, testEach, openDisclosures, untilReady } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
  */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /**
  * Opens a page with a figure, with all folds open.
@@ -23,7 +23,7 @@ async function showUnfolded(page, name, { attributes = '', before = '', after = 
   });
   const widget = page.locator(name);
   await untilReady(widget);
-  await unfold(widget);
+  await openDisclosures(widget);
   return widget;
 }
 
@@ -55,7 +55,7 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
     widget.getByRole('button', { name }).evaluate((button) => getComputedStyle(button).backgroundColor)));
   expect(pressedColor).not.toBe(otherColor);
   // The right end of a slider in its leftmost position shows the track only.
-  await unfold(widget);
+  await openDisclosures(widget);
   const slider = widget.locator('#alpha5');
   const trackScreenshot = await slider.screenshot();
   await slider.evaluate((element) => element.style.setProperty('--muted', 'Canvas'));
@@ -109,7 +109,7 @@ test('the focus stays near a control that goes or is disabled by its own action'
   await arc.scrollIntoViewIfNeeded();
   await untilReady(arc);
   await arc.evaluate((element) => /** @type {any} */ (element).setState({ widget: 'arc-anatomy', version: 1, line: 8 }));
-  await unfold(arc);
+  await openDisclosures(arc);
   const nextButton = arc.getByRole('button', { name: 'Next line' });
   await nextButton.press('Enter');
   await expect(nextButton).toBeDisabled();
@@ -127,7 +127,7 @@ test('sliders speak their value with its unit, and nothing is announced while on
   await page.mouse.down();
   for (const share of [0.7, 0.6, 0.5]) {
     await page.mouse.move(x + share * width, y + height / 2);
-    await frames(page);
+    await waitForFrames(page);
     expect(await status.textContent()).toBe('');
   }
   const { config } = await bananaReadings(widget);
@@ -161,7 +161,7 @@ test.describe('a finger', () => {
       await client.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [point] });
     }
     await client.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
-    await frames(page);
+    await waitForFrames(page);
   }
 
   /**
@@ -174,7 +174,7 @@ test.describe('a finger', () => {
       const { top, height } = element.getBoundingClientRect();
       scrollBy({ top: top + height / 2 - 0.7 * innerHeight, behavior: 'instant' });
     });
-    await frames(part.page());
+    await waitForFrames(part.page());
   }
   const spaceAround = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
 
@@ -240,9 +240,9 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   // Both events are fired synchronously, without a frame in between.
   const printedPicture = () => canvas.evaluate((element) => {
     dispatchEvent(new Event('beforeprint'));
-    const printed = /** @type {HTMLCanvasElement} */ (element).toDataURL();
+    const printedPixels = /** @type {HTMLCanvasElement} */ (element).toDataURL();
     dispatchEvent(new Event('afterprint'));
-    return printed;
+    return printedPixels;
   });
   const lightPicture = await printedPicture();
   const screenPicture = await pictureOf(canvas);
@@ -266,9 +266,9 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   const sizes = () => canvas.evaluate((element) => ['width', 'height'].map((side) => Reflect.get(element, side)));
   for (const width of [600, 701, 1127, 1920]) {
     await page.setViewportSize({ width, height: 900 });
-    await frames(page);
+    await waitForFrames(page);
     const sizesBefore = await sizes();
-    await frames(page);
+    await waitForFrames(page);
     expect([await sizes(), await page.evaluate(() => Reflect.get(window, 'complaint'))]).toEqual([sizesBefore, undefined]);
   }
 });
@@ -316,12 +316,12 @@ testEach('a figure with all folds open fits into 320 px', async (page, name, isF
       for (let at = part.parentElement; at; at = at.parentElement) if (getComputedStyle(at).overflowX !== 'visible') return false;
       return part.checkVisibility({ visibilityProperty: true });
     };
-    const parts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('*')].filter((part) => part.getBoundingClientRect().right > innerWidth + 0.5 && isReached(part));
-    return [document.documentElement.scrollWidth, body.scrollWidth, ...parts.map(({ outerHTML }) => outerHTML.slice(0, 80))];
+    const overflowingParts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('*')].filter((part) => part.getBoundingClientRect().right > innerWidth + 0.5 && isReached(part));
+    return [document.documentElement.scrollWidth, body.scrollWidth, ...overflowingParts.map(({ outerHTML }) => outerHTML.slice(0, 80))];
   });
   for (const lang of isFull ? ['en', 'de'] : ['en']) {
     await widget.evaluate((element, to) => element.setAttribute('lang', to), lang);
-    await frames(page);
+    await waitForFrames(page);
     expect(await overflow(), lang).toEqual([320, 320]);
   }
 });
@@ -331,21 +331,21 @@ testEach('the help of a slider covers no slider of its group and no rule, and no
   for (const [width, lang] of /** @type {const} */ ([[320, 'en'], [700, 'de']])) {
     await page.setViewportSize({ width, height: 812 });
     await widget.evaluate((element, to) => element.setAttribute('lang', to), lang);
-    await frames(page);
+    await waitForFrames(page);
     const coveredSliders = await widget.evaluate((element) => {
       const root = /** @type {ShadowRoot} */ (element.shadowRoot);
-      const ruleY = /** @type {Element} */ (root.querySelector('.folds')).getBoundingClientRect().top;
+      const foldsTop = /** @type {Element} */ (root.querySelector('.folds')).getBoundingClientRect().top;
       return [...root.querySelectorAll('.slider')].flatMap((row) => {
         const slider = /** @type {HTMLInputElement} */ (row.querySelector('input[type=range]'));
         slider.focus();
-        const help = row.querySelector('.effect')?.getBoundingClientRect();
-        if (!help) return [];
+        const effectBox = row.querySelector('.effect')?.getBoundingClientRect();
+        if (!effectBox) return [];
         // The outline of a thumb ends 4 px outside it, and a thumb has the radius 0.525 rem.
         return [.../** @type {Element} */ (row.closest('fieldset, .controls')).querySelectorAll('.slider input[type=range]')]
           .map((control) => control.getBoundingClientRect())
-          .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > help.top && (top + bottom) / 2 < help.bottom)
+          .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > effectBox.top && (top + bottom) / 2 < effectBox.bottom)
           .map(() => slider.id)
-          .concat(help.top < ruleY && help.bottom > ruleY ? `${slider.id} on the rule` : []);
+          .concat(effectBox.top < foldsTop && effectBox.bottom > foldsTop ? `${slider.id} on the rule` : []);
       });
     });
     expect(coveredSliders, `${width} px, ${lang}`).toEqual([]);

@@ -1,10 +1,10 @@
 import { expect } from '@playwright/test';
-import { STILL, frames, test, untilReady } from './support.js';
+import { REDUCED_MOTION, waitForFrames, test, untilReady } from './support.js';
 
 /** @import { Locator, Page } from '@playwright/test' */
 
 // The chapter's exercises 4, 5 and 7 on the page, by keyboard only: a user predicts the answer, and then reveals it.
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** Opens the page at the section of a figure. @param {Page} page @param {string} section */
 async function openAt(page, section) {
@@ -18,7 +18,7 @@ async function openAt(page, section) {
 async function textRevealedBy(form) {
   await form.getByRole('button').press('Enter');
   await expect(form.getByRole('status')).not.toHaveText('');
-  await frames(form.page());
+  await waitForFrames(form.page());
   return (await form.getByRole('status').textContent())?.replaceAll('\u00a0', ' ') ?? '';
 }
 
@@ -26,7 +26,7 @@ test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ al
   const article = await openAt(page, 'banana');
   const form = article.locator('.sketch');
   const isolateAndOmega = () => article.locator('banana-machine').evaluate((figure) => [Reflect.get(figure, 'isolate'), Reflect.get(figure, 'omega')]);
-  const cases = form.locator('[name=case]');
+  const caseButtons = form.locator('[name=case]');
   const revealedText = async (shape = 'an ellipse') => {
     await expect(form.getByRole('button')).toBeDisabled();
     await form.getByLabel(shape).press('Space');
@@ -38,13 +38,13 @@ test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ al
   const noCloudText = 'Not what you expected. Every robot stops at the same point, with the same heading. There is no cloud.';
   expect(await revealedText()).toBe(noCloudText);
   expect(await isolateAndOmega()).toEqual([4, 0]);
-  await cases.nth(0).press('ArrowDown');
+  await caseButtons.nth(0).press('ArrowDown');
   expect(await revealedText()).toBe(noCloudText);
   expect(await isolateAndOmega()).toEqual([6, 0]);
-  await cases.nth(1).press('ArrowDown');
+  await caseButtons.nth(1).press('ArrowDown');
   expect(await revealedText()).toMatch(/^Not what you expected\. The robots spread over a curved band, by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);
   expect(await isolateAndOmega()).toEqual([4, 0.5]);
-  await cases.nth(2).press('ArrowDown');
+  await caseButtons.nth(2).press('ArrowDown');
   expect(await revealedText('a point')).toMatch(/^Right\. Every robot stops at the same point\. Only the headings differ, by 0\.\d+ rad/);
   expect(await isolateAndOmega()).toEqual([6, 0.5]);
 });
@@ -78,14 +78,14 @@ test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ 
 
 test('exercise 7: the steps of both noises are bet on, and then the curve of the variance along the track is shown', async ({ page }) => {
   const article = await openAt(page, 'reckoning');
-  const curve = article.getByRole('checkbox', { name: 'along the track' });
+  const curveCheckbox = article.getByRole('checkbox', { name: 'along the track' });
   for (const [index, step] of [15, 9].entries()) {
     const form = article.locator('.bet').nth(index);
     await form.getByRole('slider').press('ArrowRight');
-    await expect(curve).toBeChecked({ checked: false });
+    await expect(curveCheckbox).toBeChecked({ checked: false });
     expect(await textRevealedBy(form)).toBe(`Your bet: 11. The figure’s answer, ▲: ${step}.`);
   }
-  await expect(curve).toBeChecked();
+  await expect(curveCheckbox).toBeChecked();
   await expect(article.getByText('predicted along-track variance', { exact: true })).toBeVisible();
 });
 

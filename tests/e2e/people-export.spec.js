@@ -1,12 +1,12 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { openSqueeze, squeezeResults } from './squeeze-support.js';
-import { STILL, bananaReadings, boxOf, frames, mount, openBanana, posesOf, property, test, unfold } from './support.js';
+import { REDUCED_MOTION, bananaReadings, boxOf, waitForFrames, mount, openBanana, posesOf, propertyOf, test, openDisclosures } from './support.js';
 
 /** @import { Locator } from '@playwright/test' */
 /** @typedef {import('../../www/types.d.ts').BananaMachineElement} Figure any element, as far as exports are concerned */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** @param {string} text as `toCSV` writes it */
 function parsedCSV(text) {
@@ -23,14 +23,14 @@ function elementsOf(page, svg) {
   return page.evaluate((text) => {
     const svgDocument = new DOMParser().parseFromString(text, 'image/svg+xml');
     if (svgDocument.querySelector('parsererror')) throw new Error(svgDocument.documentElement.textContent ?? '');
-    const count = (/** @type {string} */ selector) => svgDocument.querySelectorAll(selector).length;
+    const elementCount = (/** @type {string} */ selector) => svgDocument.querySelectorAll(selector).length;
     return {
       title: svgDocument.querySelector('title')?.textContent,
       description: svgDocument.querySelector('desc')?.textContent,
-      paths: count('path'),
-      texts: count('text'),
-      images: count('image'),
-      dashed: count('[stroke-dasharray]'),
+      paths: elementCount('path'),
+      texts: elementCount('text'),
+      images: elementCount('image'),
+      dashed: elementCount('[stroke-dasharray]'),
       size: [svgDocument.documentElement.getAttribute('width'), svgDocument.documentElement.getAttribute('height')].map(Number),
     };
   }, svg);
@@ -53,9 +53,9 @@ test('CSV of the Banana Machine has the samples, and the settings that bring the
   const recomputedPoses = await widget.evaluate((element, { element: _name, ...given }) => {
     const { motion } = /** @type {import('./support.js').BananaMachineElement} */ (element);
     const machine = new motion.BananaMachine(given);
-    const copy = [...machine.poses];
+    const posesCopy = [...machine.poses];
     machine.free();
-    return copy;
+    return posesCopy;
   }, settings);
   expect(recomputedPoses).toEqual(poses);
 });
@@ -76,7 +76,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   const plane = widget.locator('canvas.plane');
   // Position 6 of the slider is a thousand samples.
   await widget.locator('#samples').fill('6');
-  await frames(page);
+  await waitForFrames(page);
   const fewSamples = await elementsOf(page, await svgOf(widget));
   const { width, height } = await boxOf(plane);
   expect(fewSamples.title).toBe('The Banana Machine');
@@ -90,7 +90,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   // The handle, an element on the page, is exported as a ring.
   expect(svgText).toMatch(/<path[^>]*a7\.5,7\.5[^>]*stroke-width="3"/);
   await widget.locator('#samples').fill('9');
-  await frames(page);
+  await waitForFrames(page);
   const manySamples = await elementsOf(page, await svgOf(widget));
   expect(manySamples.images).toBe(1);
   expect(manySamples.paths).toBeLessThan(60);
@@ -125,14 +125,14 @@ test('PNG of a figure has twice the pixels and opaque paper', async ({ page, fig
 
 test('the menu saves files with names that say what they are, from the keyboard too', async ({ page }) => {
   const widget = await openBanana(page);
-  await unfold(widget);
+  await openDisclosures(widget);
   await widget.locator('.exports button').first().focus();
   for (const ending of ['png', 'svg', 'csv']) {
     const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
-    expect(download.suggestedFilename()).toBe(`banana-machine-${await property(widget, 'seed')}.${ending}`);
-    const contents = readFileSync(await download.path());
-    expect(contents.length).toBeGreaterThan(1000);
-    if (ending === 'csv') expect(contents.toString()).toBe(await csvOf(widget));
+    expect(download.suggestedFilename()).toBe(`banana-machine-${await propertyOf(widget, 'seed')}.${ending}`);
+    const fileContents = readFileSync(await download.path());
+    expect(fileContents.length).toBeGreaterThan(1000);
+    if (ending === 'csv') expect(fileContents.toString()).toBe(await csvOf(widget));
     await page.keyboard.press('Tab');
   }
 });

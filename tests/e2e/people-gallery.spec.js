@@ -1,9 +1,9 @@
 import { expect, test as plain } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL_NAMES } from './figures.js';
-import { STILL, boxOf, frames, mount, pictureOf, property, test, testEach, untilReady } from './support.js';
+import { REDUCED_MOTION, boxOf, waitForFrames, mount, pictureOf, propertyOf, test, testEach, untilReady } from './support.js';
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 test('examples of the reference start when they are opened, and are what their code says', async ({ page }) => {
   await page.goto('/reference.html');
@@ -17,7 +17,7 @@ test('examples of the reference start when they are opened, and are what their c
     await example.locator('summary').first().click();
     await element.locator('canvas').first().scrollIntoViewIfNeeded();
     await expect(element.locator('.cloud button').first()).toBeVisible();
-    await frames(page);
+    await waitForFrames(page);
     const code = (await example.locator('code').first().textContent()) ?? '';
     const settings = await element.evaluate((figure) => Reflect.get(figure, 'machine').config);
     for (const [name, value] of Object.entries(attributes)) expect(code).toContain(`${name}="${value}"`);
@@ -43,7 +43,7 @@ testEach('each item sets the whole state that it describes, whatever was pressed
     // Clicked by script, because some buttons are in a closed disclosure.
     await button.evaluate((element) => /** @type {HTMLElement} */ (element).click());
     await expect(button).toHaveAttribute('aria-current', 'true');
-    await frames(page);
+    await waitForFrames(page);
     const values = JSON.parse((await button.getAttribute('data-try')) ?? '{}');
     const [state, properties] = await figure.evaluate((element, keys) => {
       const state = /** @type {any} */ (element).getState();
@@ -75,15 +75,15 @@ test('a term and an entry of the legend highlight their line in the picture', as
   const pictureBefore = await pictureOf(canvas);
   const term = article.getByText('dashed ellipse', { exact: true });
   await term.focus();
-  expect(await property(figure, 'highlight')).toBe('ellipse');
-  await frames(page);
+  expect(await propertyOf(figure, 'highlight')).toBe('ellipse');
+  await waitForFrames(page);
   const highlightedPicture = await pictureOf(canvas);
   expect(highlightedPicture).not.toBe(pictureBefore);
   await term.blur();
-  await frames(page);
+  await waitForFrames(page);
   expect(await pictureOf(canvas)).toBe(pictureBefore);
   await figure.locator('.legend').getByText('Gaussian in (x, y)').hover();
-  await frames(page);
+  await waitForFrames(page);
   expect(await pictureOf(canvas)).toBe(highlightedPicture);
 });
 
@@ -103,7 +103,7 @@ for (const [width, height] of [[1280, 720], [375, 760]]) {
     const [heading, stand] = [await boxOf(article.locator('header')), await boxOf(article.locator('.stand'))];
     expect(stand.y).toBeGreaterThanOrEqual(heading.y + heading.height);
     await article.getByRole('button', { name: 'Odometry model' }).evaluate((button) => button.scrollIntoView({ block: 'end' }));
-    await frames(page);
+    await waitForFrames(page);
     await expect(article.locator('canvas.plane')).toBeInViewport({ ratio: 0.95 });
     await expect(article.getByRole('button', { name: 'Odometry model' })).toBeInViewport();
   });

@@ -1,8 +1,8 @@
 import { expect } from '@playwright/test';
 import { FIGURE_FACTS } from './figures.js';
-import { STILL, bananaReadings, frames, mount, numberIn, openBanana, pictureOf, readout, showPage, test, testEach, unfold, untilReady, untilSettled } from './support.js';
+import { REDUCED_MOTION, bananaReadings, waitForFrames, mount, numberIn, openBanana, pictureOf, readoutValue, showPage, test, testEach, openDisclosures, untilReady, untilSettled } from './support.js';
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** Folders of the widgets by their keys in a catalogue. */
 const FOLDERS = {
@@ -72,7 +72,7 @@ testEach('no English is left in a German figure', async (page, name) => {
   });
   const widget = page.locator(name);
   await untilReady(widget);
-  await unfold(widget);
+  await openDisclosures(widget);
   const texts = await textsOf(widget);
   expect(texts.length).toBeGreaterThan(60);
   expect(english.filter((part) => texts.some((text) => text === part || (part.includes(' ') && text.includes(part))))).toEqual([]);
@@ -82,17 +82,17 @@ test('the nearest lang decides, also on the form of numbers; a language without 
   const widget = await openBanana(page);
   await page.addScriptTag({ type: 'module', url: '/de.js' });
   const expectPlayButton = (/** @type {string} */ name) => expect(widget.getByRole('button', { name, exact: true })).toBeVisible();
-  const englishSkew = (await readout(widget, 'cross-track skew').textContent()) ?? '';
+  const englishSkew = (await readoutValue(widget, 'cross-track skew').textContent()) ?? '';
   await widget.evaluate((element) => element.setAttribute('lang', 'de'));
   await expectPlayButton('Stichproben ziehen');
-  const germanSkew = (await readout(widget, /[Qq]uer/).textContent()) ?? '';
+  const germanSkew = (await readoutValue(widget, /[Qq]uer/).textContent()) ?? '';
   expect(germanSkew).toBe(englishSkew.replaceAll('.', ','));
   expect(germanSkew).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
   expect(numberIn(germanSkew.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await bananaReadings(widget)).stats.crossTrackSkew, 3);
   await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await expectPlayButton('Draw samples');
-  await expect(readout(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
+  await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
   await widget.evaluate((element) => {
     element.removeAttribute('lang');
     /** @type {HTMLElement} */ (element.parentElement).lang = 'de-not a tag';
@@ -102,7 +102,7 @@ test('the nearest lang decides, also on the form of numbers; a language without 
 
 test('a page may replace words and add languages; a message of another shape is refused by name', async ({ page }) => {
   const widget = await openBanana(page, 'preset="gentle"');
-  await unfold(widget);
+  await openDisclosures(widget);
   const errors = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
     setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', bend: { right: () => 'À droite.' } } });
@@ -136,7 +136,7 @@ test('a page may replace words and add languages; a message of another shape is 
   await expect(widget.locator('p[part=caption]')).toHaveText('À droite.');
   // The digits are Latin in all languages, and so is the separator between them.
   await widget.evaluate((element) => element.setAttribute('lang', 'ar-EG'));
-  await expect(readout(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
+  await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
 });
 
 test('a page from right to left has the same picture, and nothing beside its figure @nightly', async ({ page, figure }) => {
@@ -154,12 +154,12 @@ test('a page from right to left has the same picture, and nothing beside its fig
 });
 
 test('signs stand left of their numbers on a page from right to left, also among words from right to left', async ({ page, figure }) => {
-  const head = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { play: "נגן" })</script>';
+  const headHtml = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { play: "נגן" })</script>';
   for (const [lang, direction, values] of [['en', 'ltr', '.machine'], ['he', 'rtl', '.machine :is(bdi, [dir=ltr])']]) {
-    await showPage(page, `<div dir="rtl" lang="${lang}"><${figure}><p slot="caption">נגן</p></${figure}></div>`, { head });
+    await showPage(page, `<div dir="rtl" lang="${lang}"><${figure}><p slot="caption">נגן</p></${figure}></div>`, { head: headHtml });
     const widget = page.locator(figure);
     await untilReady(widget);
-    await unfold(widget);
+    await openDisclosures(widget);
     const signsAndSides = await widget.evaluate(({ shadowRoot }, selector) => {
       const range = new Range();
       const boxOfCharacter = (/** @type {Text} */ text, /** @type {number} */ index) => {
@@ -193,12 +193,12 @@ test('a page translator that replaces every text freezes none @nightly', async (
   const [translated, other] = ['#translated', '#other'].map((id) => page.locator(id));
   const { slider, values } = FIGURE_FACTS[figure];
   const texts = async () => {
-    await frames(page);
+    await waitForFrames(page);
     return Promise.all([translated, other].map((widget) => widget.locator('.machine').evaluate((machine) => machine.textContent)));
   };
   for (const widget of [translated, other]) {
     await untilReady(widget);
-    await unfold(widget);
+    await openDisclosures(widget);
   }
   await translated.evaluate(({ shadowRoot }) => {
     const walker = document.createTreeWalker(/** @type {ShadowRoot} */ (shadowRoot), NodeFilter.SHOW_TEXT);

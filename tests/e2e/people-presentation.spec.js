@@ -1,8 +1,8 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { STILL, boxOf, centreOf, frames, mount, showPage, stateOf, test, testEach, untilReady } from './support.js';
+import { REDUCED_MOTION, boxOf, centreOf, waitForFrames, mount, showPage, stateOf, test, testEach, untilReady } from './support.js';
 
-test.use({ ...STILL, viewport: { width: 1920, height: 1080 } });
+test.use({ ...REDUCED_MOTION, viewport: { width: 1920, height: 1080 } });
 
 /** @param {import('@playwright/test').Locator} widget */
 const fitsItsSurface = (widget) => widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight && element.scrollWidth <= element.clientWidth);
@@ -49,12 +49,12 @@ test('without full screen the attribute fills the window, and the button leaves'
   await expect.poll(() => boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
   // A handle stays under the pointer at any font size.
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
-  await frames(page);
+  await waitForFrames(page);
   const from = await centreOf(handle);
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
   await page.mouse.move(from.x + 60, from.y - 40, { steps: 4 });
-  await frames(page);
+  await waitForFrames(page);
   const to = await centreOf(handle);
   expect(Math.hypot(to.x - from.x - 60, to.y - from.y + 40)).toBeLessThan(2);
   await page.mouse.up();
@@ -122,14 +122,14 @@ testEach('a presented figure has large pictures and legible letters, with and wi
   const sizesOnPage = await fontSizes();
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
-  await frames(page);
+  await waitForFrames(page);
   expect(await fitsItsSurface(widget)).toBe(true);
   const pictures = await Promise.all((await widget.locator('.stage canvas').all()).map(boxOf));
   for (const { height } of pictures) expect(height).toBeGreaterThan(1080 * 0.5);
   for (const [i, size] of (await fontSizes()).entries()) expect(size / sizesOnPage[i]).toBeCloseTo(1.5, 5);
   await page.keyboard.press('c');
   await expect(widget.locator('.folds')).toBeInViewport({ ratio: 0.99 });
-  await frames(page);
+  await waitForFrames(page);
   expect(await fitsItsSurface(widget)).toBe(true);
   const bottom = Math.max(...(await Promise.all((await widget.locator('.presenting button').all()).map(boxOf))).map(({ y, height }) => y + height));
   for (const picture of await widget.locator('.stage canvas').all()) {

@@ -2,16 +2,16 @@ import { expect } from '@playwright/test';
 import { settings } from '../../www/settings.js';
 import { expectAccessible } from './axe.js';
 import { TWO_NAMES } from './figures.js';
-import { STILL, frames, mount, printedCount, property, takeEvents, test, unfold, valueField } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mount, printedCount, propertyOf, takeEvents, test, openDisclosures, valueField } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
-test.use(STILL);
+test.use(REDUCED_MOTION);
 
 /** @param {import('@playwright/test').Page} page @param {string} name */
 async function widgetOf(page, name) {
   const widget = await mount(page, name);
-  await unfold(widget);
+  await openDisclosures(widget);
   await takeEvents(page);
   return widget;
 }
@@ -27,7 +27,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await expect(valueField(widget, 'alpha1')).toBeFocused();
   await page.keyboard.press('Enter');
   await expect(slider).toBeFocused();
-  expect(await property(widget, 'alpha1')).toBe(0.4);
+  expect(await propertyOf(widget, 'alpha1')).toBe(0.4);
   expect((await takeEvents(page, ['input', 'change'])).map(({ name }) => name)).toEqual(['input', 'change']);
   // The thumb is at the end of the slider.
   await expect(slider).toHaveValue('0.2');
@@ -36,7 +36,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await expect(helpOf(widget, 'alpha1')).toBeVisible();
   // An arrow key on the slider starts from the end of the slider, not from the typed value beyond it.
   await page.keyboard.press('ArrowLeft');
-  expect(await property(widget, 'alpha1')).toBeLessThan(0.2);
+  expect(await propertyOf(widget, 'alpha1')).toBeLessThan(0.2);
   // Values beyond the end of the slider can be typed.
   await page.keyboard.press('End');
   await expect(helpOf(widget, 'alpha1')).toHaveText('Ends at 0.200; type values beyond.');
@@ -52,7 +52,7 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
   await field.click();
   await page.keyboard.type('\u22122.125 m/s');
   await page.keyboard.press('Tab');
-  expect(await property(widget, 'v')).toBe(-2.125);
+  expect(await propertyOf(widget, 'v')).toBe(-2.125);
   await expect(field).toHaveValue('\u22122.125 m/s');
   await expect(helpOf(widget, 'v')).toHaveText('Ends at \u22121.50 m/s; type values beyond.');
   await field.click();
@@ -60,7 +60,7 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
   await page.keyboard.press('Escape');
   await expect(widget.locator('#v')).toBeFocused();
   await expect(field).toHaveValue('\u22122.125 m/s');
-  expect(await property(widget, 'v')).toBe(-2.125);
+  expect(await propertyOf(widget, 'v')).toBe(-2.125);
   // Enter leads from the slider to the field, and changes nothing by itself.
   await takeEvents(page);
   await page.keyboard.press('Enter');
@@ -77,7 +77,7 @@ test('a value that is refused is reported with the allowed range, and the last g
     ['omega', '', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000 (got "").'],
     ['samples', '2.5', 'N must be a whole number between 1 and 10\u202f000\u202f000 (got 2.5).'],
   ]) {
-    const valueBefore = await property(widget, key);
+    const valueBefore = await propertyOf(widget, key);
     const field = valueField(widget, key);
     const shownText = await field.inputValue();
     await field.click();
@@ -88,7 +88,7 @@ test('a value that is refused is reported with the allowed range, and the last g
     await expect(field).toBeFocused();
     await expect(field).toHaveValue(shownText);
     await expect(field).toHaveAttribute('aria-describedby', `${key}-effect`);
-    expect(await property(widget, key)).toBe(valueBefore);
+    expect(await propertyOf(widget, key)).toBe(valueBefore);
     expect(await takeEvents(page)).toEqual([]);
     if (key === 'samples') await expectAccessible(page, undefined, 'banana-machine');
     // The message disappears when the text changes.
@@ -100,7 +100,7 @@ test('a value that is refused is reported with the allowed range, and the last g
   for (const text of ['2,000', '3\u202f000']) {
     await valueField(widget, 'samples').fill(text);
     await page.keyboard.press('Enter');
-    expect(await property(widget, 'samples')).toBe(Number(text.replace(/\D/, '')));
+    expect(await propertyOf(widget, 'samples')).toBe(Number(text.replace(/\D/, '')));
   }
 });
 
@@ -108,21 +108,21 @@ test('a number that no sample has is refused and kept until it is right or left 
   const widget = await widgetOf(page, 'banana-machine');
   const field = widget.locator('#robot');
   const errorMessage = widget.locator('.marked [role=alert]');
-  const samples = await property(widget, 'samples');
+  const samples = await propertyOf(widget, 'samples');
   for (const text of ['2.5', String(samples + 1)]) {
     await field.fill('7');
     await field.fill(text);
     await expect(errorMessage).toHaveText(`Robot must be a whole number between 1 and ${printedCount(samples)} (got ${text}).`);
     await expect(field).toHaveValue(text);
-    expect(await property(widget, 'marked')).toBe(6);
+    expect(await propertyOf(widget, 'marked')).toBe(6);
     await field.blur();
     await expect(field).toHaveValue('7');
     await expect(errorMessage).toHaveCount(0);
   }
   await field.fill(String(samples));
-  expect(await property(widget, 'marked')).toBe(samples - 1);
+  expect(await propertyOf(widget, 'marked')).toBe(samples - 1);
   await field.fill('');
-  expect(await property(widget, 'marked')).toBe(null);
+  expect(await propertyOf(widget, 'marked')).toBe(null);
 });
 
 for (const name of TWO_NAMES) {
@@ -138,7 +138,7 @@ for (const name of TWO_NAMES) {
         await valueField(widget, key).click();
         await valueField(widget, key).fill(String(value));
         await page.keyboard.press('Enter');
-        expect(await property(widget, key), key).toBe(value);
+        expect(await propertyOf(widget, key), key).toBe(value);
       }
       await widget.evaluate((element, name) => element.removeAttribute(name), key);
     }
@@ -155,37 +155,37 @@ test('a change by the page leaves what is being typed @nightly', async ({ page }
   await field.focus();
   await page.keyboard.type('0.1');
   await setAlpha1(0.15);
-  await frames(page);
+  await waitForFrames(page);
   await expect(field).toHaveValue('0.1');
   await page.keyboard.type('2');
   await page.keyboard.press('Enter');
-  expect(await property(widget, 'alpha1')).toBe(0.12);
+  expect(await propertyOf(widget, 'alpha1')).toBe(0.12);
   // Escape leads back to the slider, with the current value.
   await field.focus();
   await page.keyboard.type('9');
   await setAlpha1(0.17);
-  await frames(page);
+  await waitForFrames(page);
   await page.keyboard.press('Escape');
   await expect(field).toHaveValue('0.170');
-  expect(await property(widget, 'alpha1')).toBe(0.17);
+  expect(await propertyOf(widget, 'alpha1')).toBe(0.17);
 });
 
 test('German has a decimal comma, and takes a point too', async ({ page }) => {
   const widget = await widgetOf(page, 'banana-machine');
   await page.addScriptTag({ type: 'module', url: '/de.js' });
   await page.evaluate(() => (document.documentElement.lang = 'de'));
-  await frames(page);
+  await waitForFrames(page);
   for (const [text, value] of [['0,35', 0.35], ['0.45', 0.45]]) {
     await widget.locator('#alpha1').focus();
     await page.keyboard.type(String(text));
     await page.keyboard.press('Enter');
-    expect(await property(widget, 'alpha1')).toBe(value);
+    expect(await propertyOf(widget, 'alpha1')).toBe(value);
   }
   await expect(valueField(widget, 'alpha1')).toHaveValue('0,450');
   // Numbers of robots are integers: a point before three digits separates thousands.
   await widget.locator('#samples').focus();
   await page.keyboard.type('20.000');
   await page.keyboard.press('Enter');
-  expect(await property(widget, 'samples')).toBe(20_000);
+  expect(await propertyOf(widget, 'samples')).toBe(20_000);
   await expect(helpOf(widget, 'alpha1')).toContainText('Endet bei 0,200');
 });

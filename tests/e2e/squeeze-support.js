@@ -5,7 +5,7 @@
  */
 
 import { pngOf } from '../png.js';
-import { frames, showPage, untilReady } from './support.js';
+import { waitForFrames, showPage, untilReady } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -27,7 +27,7 @@ export async function openSqueeze(page, attributes = '') {
 
 /** Returns the results of the machine after the next frames. @param {Locator} widget */
 export async function squeezeResults(widget) {
-  await frames(widget.page());
+  await waitForFrames(widget.page());
   const { plan: { bounds, walls }, poses, verdicts, ...others } = await widget.evaluate((element) => {
     const { config, shown, stats, startFree, openPlace, plan, poses, verdicts } = /** @type {MapSqueezeElement} */ (element).machine;
     return { config, shown, stats, startFree, openPlace, plan, poses, verdicts };

@@ -1,10 +1,10 @@
 /**
- * Helpers of the browser tests: the test function, the gallery page, readings of a machine, and actions on controls.
+ * Helpers of the browser tests: the test function, test pages, readings of a machine, and actions on controls.
  *
  * @module
  */
 
-import { expect, test as base } from '@playwright/test';
+import { expect, test as playwrightTest } from '@playwright/test';
 import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureFor } from './figures.js';
 
 /**
@@ -30,7 +30,7 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureFor } from './figures
  *
  * @type {import('@playwright/test').TestType<import('@playwright/test').PlaywrightTestArgs & import('@playwright/test').PlaywrightTestOptions & FigureFixtures, import('@playwright/test').PlaywrightWorkerArgs & import('@playwright/test').PlaywrightWorkerOptions>}
  */
-export const test = base.extend({
+export const test = playwrightTest.extend({
   /* oxlint-disable no-empty-pattern */
   figure: async ({}, use, { title }) => use(figureFor(title)),
   cloud: async ({}, use, { title }) => use(figureFor(title, CLOUD_NAMES)),
@@ -54,15 +54,15 @@ export const test = base.extend({
  * Declares a test about all figures. The daily tests run it with one figure, which depends on the title, and nightly tests with each.
  *
  * @param {string} title
- * @param {(page: Page, name: Name, isFull: boolean) => Promise<void>} claim body of the test; `isFull` is true in nightly tests
+ * @param {(page: Page, name: Name, isFull: boolean) => Promise<void>} testBody body of the test; `isFull` is true in nightly tests
  * @param {{ tag?: string }} [details]
  */
-export function testEach(title, claim, details = {}) {
-  test(title, details, ({ page, figure }) => claim(page, figure, false));
+export function testEach(title, testBody, details = {}) {
+  test(title, details, ({ page, figure }) => testBody(page, figure, false));
   for (const name of ALL_NAMES) {
     test(`${title}: ${name} @nightly`, details, ({ page }) => {
       test.slow();
-      return claim(page, name, true);
+      return testBody(page, name, true);
     });
   }
 }
@@ -77,10 +77,10 @@ function skipIntroduction() {
 }
 
 /** Tag of tests of a first visit or of the browser history. They get a new page, see playwright.config.js. */
-export const FRESH = { tag: '@fresh' };
+export const NEW_PAGE_TAG = { tag: '@fresh' };
 
 /** Options of tests that need a complete cloud. With reduced motion a cloud is complete at once. */
-export const STILL = { contextOptions: { reducedMotion: /** @type {const} */ ('reduce') } };
+export const REDUCED_MOTION = { contextOptions: { reducedMotion: /** @type {const} */ ('reduce') } };
 
 /**
  * Opens a page with a body, and records the events of its elements.
@@ -120,7 +120,7 @@ export async function untilReady(widget) {
   await widget.evaluate(async (element) => {
     while (Reflect.get(element, 'machine') === undefined) await new Promise(requestAnimationFrame);
   });
-  await frames(widget.page());
+  await waitForFrames(widget.page());
 }
 
 /**
@@ -146,13 +146,13 @@ export async function mount(page, name, { attributes = '', ...options } = {}) {
  * @returns {Promise<FiredEvent[]>}
  */
 export async function takeEvents(page, names = ['load', 'input', 'change', 'error']) {
-  await frames(page);
+  await waitForFrames(page);
   const events = /** @type {FiredEvent[]} */ (await page.evaluate(() => Reflect.get(window, 'heard').splice(0)));
   return events.filter(({ name }) => names.includes(name));
 }
 
 /** Returns a property of a figure. @param {Locator} widget @param {string} name */
-export function property(widget, name) {
+export function propertyOf(widget, name) {
   return widget.evaluate((element, key) => Reflect.get(element, key), name);
 }
 
@@ -162,7 +162,7 @@ export function property(widget, name) {
  * @param {unknown} value
  * @returns {Promise<string>} error of the error event; empty if there is none
  */
-export function assign(widget, name, value) {
+export function setProperty(widget, name, value) {
   return widget.evaluate(
     (element, [key, newValue]) => {
       let errorText = '';
@@ -240,20 +240,20 @@ export async function pauseEarly(page, name) {
   }, name);
 }
 
-/** Opens every fold of a widget. @param {Locator} widget */
-export async function unfold(widget) {
+/** Opens every disclosure of a widget. @param {Locator} widget */
+export async function openDisclosures(widget) {
   await widget.evaluate(({ shadowRoot }) => {
-    for (const fold of shadowRoot?.querySelectorAll('details') ?? []) fold.open ||= fold.matches('[part=fold]');
+    for (const disclosure of shadowRoot?.querySelectorAll('details') ?? []) disclosure.open ||= disclosure.matches('[part=fold]');
   });
-  await untilUnfolded(widget);
+  await untilDisclosuresRendered(widget);
 }
 
 /** Waits for the contents of open disclosures, which are rendered after the browser's `toggle` event. @param {Locator} widget */
-export async function untilUnfolded(widget) {
+export async function untilDisclosuresRendered(widget) {
   await widget.evaluate(async ({ shadowRoot }) => {
     while (shadowRoot?.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
   });
-  await frames(widget.page());
+  await waitForFrames(widget.page());
 }
 
 /** Returns the text field of a slider's value. @param {Locator} widget @param {string} key of the setting */
@@ -262,7 +262,7 @@ export function valueField(widget, key) {
 }
 
 /** Waits until all requested frames have been drawn. @param {Page} page */
-export async function frames(page) {
+export async function waitForFrames(page) {
   await page.evaluate(async () => {
     for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   });
@@ -270,7 +270,7 @@ export async function frames(page) {
 
 /** Returns the readings of a machine after the next frames, other than its poses, which are many. @param {Locator} widget */
 export async function bananaReadings(widget) {
-  await frames(widget.page());
+  await waitForFrames(widget.page());
   return widget.evaluate((element) => {
     const { config, shown, stats, table, contours } = /** @type {BananaMachineElement} */ (element).machine;
     return { config, shown, stats, table, end: [...contours.command.slice(-2)] };
@@ -279,14 +279,14 @@ export async function bananaReadings(widget) {
 
 /** Returns the poses of a machine after the next frames. @param {Locator} widget @returns {Promise<number[]>} */
 export async function posesOf(widget) {
-  await frames(widget.page());
+  await waitForFrames(widget.page());
   return [...(await widget.evaluate((element) => /** @type {BananaMachineElement} */ (element).machine.poses))];
 }
 
 /** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */
 export async function setSliders(widget, values) {
   for (const [id, value] of Object.entries(values)) await widget.locator(`#${id}`).fill(String(value));
-  await frames(widget.page());
+  await waitForFrames(widget.page());
 }
 
 /**
@@ -327,7 +327,7 @@ export async function centreOf(locator) {
 
 /** Returns the pixels of a canvas as text. @param {Locator} canvas @returns {Promise<string>} */
 export async function pictureOf(canvas) {
-  await frames(canvas.page());
+  await waitForFrames(canvas.page());
   return canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).toDataURL());
 }
 
@@ -338,7 +338,7 @@ export async function pictureOf(canvas) {
  * @param {string} role name of the custom property
  */
 export async function pixelCountOf(canvas, role) {
-  await frames(canvas.page());
+  await waitForFrames(canvas.page());
   return canvas.evaluate((element, name) => {
     const target = /** @type {HTMLCanvasElement} */ (element);
     const colorProbe = document.createElement('span');
@@ -366,28 +366,28 @@ export async function pixelCountOf(canvas, role) {
   }, role);
 }
 
-/** Returns the number of a readout, without the text next to it. @param {Locator} widget @param {string | RegExp} name */
-export function readout(widget, name) {
+/** Returns the element with the value of a readout, without its detail. @param {Locator} widget @param {string | RegExp} name */
+export function readoutValue(widget, name) {
   return widget.locator('.readouts div').filter({ hasText: name }).locator('dd').first();
 }
 
-/** Returns the small print below a readout. @param {Locator} widget @param {string | RegExp} name */
+/** Returns the line of detail below a readout. @param {Locator} widget @param {string | RegExp} name */
 export function readoutDetail(widget, name) {
   return widget.locator('.readouts div').filter({ hasText: name }).locator('dd.detail');
 }
 
 /** Drops files on a part of the widget. @param {Locator} part @param {{ name: string, buffer: Buffer }[]} files */
-export function drop(part, files) {
+export function dropFiles(part, files) {
   return part.evaluate(
     (target, newFiles) => {
       const dataTransfer = new DataTransfer();
       for (const { name, bytes } of newFiles) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
       const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
-      const [over, drop] = [event('dragover'), event('drop')];
+      const [over, dropFiles] = [event('dragover'), event('drop')];
       target.dispatchEvent(over);
       if (!over.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
-      target.dispatchEvent(drop);
-      if (!drop.defaultPrevented) throw new Error('The browser takes the file.');
+      target.dispatchEvent(dropFiles);
+      if (!dropFiles.defaultPrevented) throw new Error('The browser takes the file.');
       if (target.closest('.dropping')) throw new Error('It is still marked.');
     },
     files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
@@ -401,11 +401,11 @@ export function drop(part, files) {
  * @param {string} [attributes]
  * @returns {Promise<Locator>} the widget
  */
-export async function openUnfoldedBanana(page, attributes = '') {
+export async function openBananaWithDisclosures(page, attributes = '') {
   const widget = await openBanana(page, attributes);
-  await unfold(widget);
+  await openDisclosures(widget);
   await page.evaluate(() => scrollTo(0, 0));
-  await frames(page);
+  await waitForFrames(page);
   return widget;
 }
 
@@ -422,5 +422,5 @@ export function numberIn(text) {
 /** Waits until a figure has computed and drawn everything. @param {Locator} widget */
 export async function untilSettled(widget) {
   await widget.evaluate((element) => /** @type {AnyElement} */ (element).settled);
-  await frames(widget.page());
+  await waitForFrames(widget.page());
 }

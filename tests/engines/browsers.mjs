@@ -28,7 +28,7 @@ import { ensureFirefox, ensureWebKit } from './programs.mjs';
 /** Size of the page within the window of the browser, CSS pixels. */
 const SIZE = { width: 1280, height: 800 };
 
-/** Milliseconds that a script in a page may take, as for all machines of the digest. */
+/** Time limit of a script in a page, ms. The digest of all machines takes longest. */
 const SCRIPT_TIMEOUT = 240_000;
 
 const KEYS = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, ArrowUp: Key.ARROW_UP, ArrowDown: Key.ARROW_DOWN };
@@ -68,7 +68,7 @@ async function webkit() {
  * @param {string} driver program that speaks WebDriver
  * @param {Record<string, string>} env
  * @param {object} capabilities
- * @param {() => Promise<unknown>} [end] is called after the driver has ended
+ * @param {() => Promise<unknown>} [end] called after the driver has ended
  * @returns {Promise<Engine>}
  */
 async function engineWith(driver, env, capabilities, end = async () => {}) {

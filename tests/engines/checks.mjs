@@ -15,10 +15,10 @@ import { machineState } from './inside.js';
 
 /** @typedef {import('./browsers.mjs').Engine} Engine */
 
-/** Number of steps of a drag: a hand does not jump to the end. */
+/** Number of pointer moves of a drag. */
 const STEPS = 8;
 
-/** A picture with at most so many colours counts as blank: lines, letters and a cloud have many shades. */
+/** Maximum number of colours of a blank picture. Antialiased lines, text and a cloud have many more shades. */
 const MAX_COLOURS_OF_BLANK = 16;
 
 const readSource = (/** @type {string} */ path) => readFileSync(join(ROOT, path), 'utf8');
@@ -67,7 +67,7 @@ class Page {
     for (const count of await this.ask('coloursOf', tag)) assert.ok(count > MAX_COLOURS_OF_BLANK, `A picture has ${count} colours.`);
   }
 
-  /** Keeps a screenshot. @param {string} what its name */
+  /** Writes a screenshot to a file. @param {string} what part of the file name */
   async keepScreenshot(what) {
     const directory = join(ROOT, 'test-results/engines');
     mkdirSync(directory, { recursive: true });

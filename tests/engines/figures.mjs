@@ -1,5 +1,5 @@
 /**
- * Handles of each figure, and the places to which the tests drag them.
+ * Handles of each figure, and the positions to which the tests drag them.
  *
  * @module
  */

@@ -60,7 +60,7 @@ export async function machineState({ config, poses = null, stats, verdicts = nul
 }
 
 /**
- * Returns the position of a handle, that of the place to which it is to be dragged, and the size of a pixel.
+ * Returns the position of a handle, the position to which a test drags it, and the size of a pixel.
  *
  * @param {{ tag: string, handle: string, to: number[] }} given `to` is a place in the picture, m
  * @returns {{ from: Point, to: Point, pixel: number }} in pixels of the window; `pixel` in m
@@ -77,7 +77,7 @@ export function placesOf({ tag, handle, to: [x, y] }) {
   };
 }
 
-/** @param {{ tag: string, selector: string }} given element that is to have the focus */
+/** Focuses an element of a figure; returns true if it got the focus. @param {{ tag: string, selector: string }} given */
 export function focus({ tag, selector }) {
   const part = /** @type {HTMLElement} */ (rootOf(tag).querySelector(selector));
   part.focus();

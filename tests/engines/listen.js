@@ -1,4 +1,4 @@
-/** Records errors of a page, because WebKit's driver has no access to the console. Runs before other scripts there. */
+/** Records the errors of a page, because WebKit's driver has no access to the console. It runs before the other scripts of the page. */
 {
   const complaints = /** @type {string[]} */ ([]);
   Object.assign(globalThis, { complaints });

@@ -1,4 +1,4 @@
-// Finds Firefox and WebKit, which `npm run test:engines` drives besides Chromium, or installs them by apt.
+// Finds Firefox and WebKit for `npm run test:engines`, or installs them by apt.
 
 import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';

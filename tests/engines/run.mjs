@@ -1,6 +1,6 @@
 /**
- * `npm run test:engines`: builds, and opens the page in Chromium, Firefox and WebKit. `npm run test:engines -- ENGINE…` takes some of
- * them. Pictures are in test-results/engines.
+ * `npm run test:engines`: builds the page, and checks it in Chromium, Firefox and WebKit. `npm run test:engines -- ENGINE…` selects some of
+ * them. Screenshots are written to test-results/engines.
  *
  * @module
  */

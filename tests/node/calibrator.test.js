@@ -42,8 +42,8 @@ test('an α that rounds to 0 is an upper bound, and not 0', () => {
   assert.deepEqual([alphaOrBound(1e-7, [0, 0.0016]), alphaOrBound(1e-7, [0, 0.0016], 2), alphaOrBound(0.03, [0.024, 0.036], 2)], ['≤ 0.0016', '≤ 0.0032', '0.060']);
 });
 
-/** Returns the result of a calibration of two α's. @param {object} [change] replaces fields @returns {any} */
-const calibrationOf = (change) => ({
+/** Returns the result of a calibration of two α's. @param {object} [changedFields] replaces fields @returns {any} */
+const calibrationOf = (changedFields) => ({
   alphas: [0.03, 0.008],
   intervals: [[0.024, 0.036], [0.007, 0.0091]],
   recommended: { inflation: 2 },
@@ -52,12 +52,12 @@ const calibrationOf = (change) => ({
     distanceScale: { value: 0.99, interval: [0.98, 0.999], corrected: true }, turnScale: { value: 1.01, interval: [1.005, 1.015], corrected: false },
   },
   diagnostics: { checks: [{ name: 'enough-legs', passed: true, message: '' }], windows: [{ length: 1, count: 78, coverage: 0.923 }] },
-  ...change,
+  ...changedFields,
 });
 
-/** Returns the lines for Nav2 without indentation. @param {object} [change] of the calibration @param {object} [other] options */
-const linesOf = (change, other) =>
-  nav2Lines({ calibration: calibrationOf(change), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...other }, en.nav2)
+/** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [other] options */
+const linesOf = (changedFields, other) =>
+  nav2Lines({ calibration: calibrationOf(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...other }, en.nav2)
     .map((line) => line.trim());
 
 test('lines for Nav2 have the recommended α’s, and the fitted ones in comments', () => {
@@ -99,7 +99,7 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
 test('legs of the simulated log are those that the settings open with', () => {
   const config = Object.fromEntries(settings['alpha-calibrator'].map((setting) => [setting.key, setting.default]));
   assert.deepEqual(SIMULATED_LEGS, { distance: config.distance, angle: config.angle });
-  const hasTruth = (/** @type {object} */ change) => truthApplies(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...change } }));
+  const hasTruth = (/** @type {object} */ changedFields) => truthApplies(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...changedFields } }));
   assert.deepEqual([hasTruth({}), hasTruth({ distance: 0.3 }), hasTruth({ angle: 0.3 }), hasTruth({ duration: 1 }), hasTruth({ rule: 'nav2' })], [true, false, false, false, false]);
 });
 

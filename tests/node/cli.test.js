@@ -17,19 +17,19 @@ import { warningsOf } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { useLanguageOf } from '../../www/messages/registry.ts';
 import { judgementOf } from '../../www/widgets/alpha-calibrator/words.ts';
-import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
+import { odometryMessage, poseOf, recordingOf, stampOf, transformMessage, twistOf } from '../mcap.js';
 
 const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
-const example = (/** @type {string} */ name) => fileURLToPath(new URL(`../../examples/calibration/${name}.csv`, import.meta.url));
-const ARGS = ['--odometry', example('odometry'), '--reference', example('reference')];
+const examplePath = (/** @type {string} */ name) => fileURLToPath(new URL(`../../examples/calibration/${name}.csv`, import.meta.url));
+const ARGS = ['--odometry', examplePath('odometry'), '--reference', examplePath('reference')];
 
 /** @type {string} */
 let folder;
 before(() => (folder = mkdtempSync(join(tmpdir(), 'motion-cli-'))));
 after(() => rmSync(folder, { recursive: true, force: true }));
 
-/** @param {string} name @param {string | Uint8Array} contents */
-function fileWith(name, contents) {
+/** Writes a file in the temporary folder, and returns its path. @param {string} name @param {string | Uint8Array} contents */
+function writeInFolder(name, contents) {
   const path = join(folder, name);
   writeFileSync(path, contents);
   return path;
@@ -43,40 +43,40 @@ async function outputOf(args, core = load) {
 }
 
 /** Returns the options with which the core is called, with logs in arrays. @param {string[]} args @returns {Promise<any>} */
-async function callOf(args) {
+async function coreOptionsOf(args) {
   /** @type {any} */
-  let call;
-  const { err } = await outputOf(args, async () => ({ calibrate(/** @type {any} */ options) { call = { ...options, odometry: [options.odometry].flat(), reference: [options.reference].flat() }; throw new RangeError('stop'); } }));
-  assert.ok(call, err);
-  return call;
+  let coreOptions;
+  const { err } = await outputOf(args, async () => ({ calibrate(/** @type {any} */ options) { coreOptions = { ...options, odometry: [options.odometry].flat(), reference: [options.reference].flat() }; throw new RangeError('stop'); } }));
+  assert.ok(coreOptions, err);
+  return coreOptions;
 }
 
 useLanguageOf(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }) }));
 
 test('options reach the core', async () => {
-  const { odometry, reference, ...fit } = await callOf(ARGS);
+  const { odometry, reference, ...fit } = await coreOptionsOf(ARGS);
   assert.deepEqual(fit, { legs: { distance: 0.25, angle: 0.2 } });
   for (const log of [...odometry, ...reference]) assert.deepEqual(Object.keys(log), ['t', 'x', 'y', 'theta', 'breaks']);
   const optionsText = '--model omnidirectional --rule omni --update-min-d 0.5 --update-min-a 0.3 --outliers keep --reference-position-std 0.001 --reference-yaw-std 2e-3';
-  const call = await callOf([...ARGS, ...optionsText.split(' ')]);
-  assert.deepEqual({ ...call, odometry: [], reference: [] }, { odometry: [], reference: [], model: 'omnidirectional', rule: 'omni', legs: { distance: 0.5, angle: 0.3 }, outliers: 'keep', positionStd: 0.001, yawStd: 0.002 });
-  assert.deepEqual((await callOf([...ARGS, '--duration=0.5'])).legs, { duration: 0.5 });
-  assert.equal((await callOf([...ARGS, '--rule', 'omni'])).model, 'omnidirectional');
+  const coreOptions = await coreOptionsOf([...ARGS, ...optionsText.split(' ')]);
+  assert.deepEqual({ ...coreOptions, odometry: [], reference: [] }, { odometry: [], reference: [], model: 'omnidirectional', rule: 'omni', legs: { distance: 0.5, angle: 0.3 }, outliers: 'keep', positionStd: 0.001, yawStd: 0.002 });
+  assert.deepEqual((await coreOptionsOf([...ARGS, '--duration=0.5'])).legs, { duration: 0.5 });
+  assert.equal((await coreOptionsOf([...ARGS, '--rule', 'omni'])).model, 'omnidirectional');
 });
 
 test('files without an option are recordings, paired where each is one table', async () => {
-  const [odometryPath, referencePath] = [example('odometry'), example('reference')];
-  const later = (/** @type {string} */ name, /** @type {string} */ from) => fileWith(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
-  const expectedCall = await callOf(ARGS);
-  assert.deepEqual(await callOf([referencePath, odometryPath]), expectedCall);
-  assert.deepEqual(await callOf([referencePath, '--recording', odometryPath]), expectedCall);
+  const [odometryPath, referencePath] = [examplePath('odometry'), examplePath('reference')];
+  const later = (/** @type {string} */ name, /** @type {string} */ from) => writeInFolder(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
+  const expectedCall = await coreOptionsOf(ARGS);
+  assert.deepEqual(await coreOptionsOf([referencePath, odometryPath]), expectedCall);
+  assert.deepEqual(await coreOptionsOf([referencePath, '--recording', odometryPath]), expectedCall);
   const [odometry2, truth2] = [later('odom2.csv', odometryPath), later('truth2.csv', referencePath)];
-  const { odometry: drives, reference: measured } = await callOf([truth2, odometryPath, '--odometry', odometry2, '--reference', referencePath]);
+  const { odometry: drives, reference: measured } = await coreOptionsOf([truth2, odometryPath, '--odometry', odometry2, '--reference', referencePath]);
   for (const logs of [drives, measured]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.floor(t[0] / 1000)), [0, 1]);
 });
 
 test('systematic errors are corrected or left in by name, all of them or single ones', async () => {
-  const correctOf = async (/** @type {string} */ args) => (await callOf([...ARGS, ...args.split(' ')])).correct;
+  const correctOf = async (/** @type {string} */ args) => (await coreOptionsOf([...ARGS, ...args.split(' ')])).correct;
   assert.deepEqual(await correctOf('--no-correct mountYaw,leverArm --correct turnScale'), { mountYaw: false, leverArm: false, turnScale: true });
   const noCorrection = { clockOffset: false, mountYaw: false, leverArm: false, distanceScale: false, turnScale: false };
   assert.deepEqual(await correctOf('--no-correct all'), noCorrection);
@@ -88,19 +88,19 @@ test('a recording has both logs, by topics and frames that are clear or named', 
     const t = 100 + i / 20;
     const pose = { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(1.01 * i, 2, 0) };
     return [
-      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, i, 1, 0) },
+      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessage(t, i, 1, 0) },
       { topic: '/mocap', type: 'geometry_msgs/msg/PoseStamped', t, message: pose },
       { topic: '/other', type: 'geometry_msgs/msg/PoseStamped', t, message: pose },
       { topic: '/third', type: 'geometry_msgs/msg/PoseStamped', t, message: pose },
       { topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', t, message: twistOf(1, 2) },
-      { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, 'odom', 'base_link', i, 1, 0), transform(t, 'map', 'base_link', 1.01 * i, 2, 0)] } },
+      { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessage(t, 'odom', 'base_link', i, 1, 0), transformMessage(t, 'map', 'base_link', 1.01 * i, 2, 0)] } },
     ];
   }).flat();
   const recordingOptions = async (/** @type {string} */ name, /** @type {string[]} */ ...topics) =>
-    ['--recording', fileWith(name, await recordingOf(messages.filter(({ topic }) => topics.includes(topic)), { compression: 'zstd' }))];
+    ['--recording', writeInFolder(name, await recordingOf(messages.filter(({ topic }) => topics.includes(topic)), { compression: 'zstd' }))];
   const numbersOf = async (/** @type {string[]} */ ...args) => {
-    const call = await callOf(args);
-    return [call.odometry[0].y?.[3], call.odometry[0].omega?.[3], call.reference[0].y[3]];
+    const coreOptions = await coreOptionsOf(args);
+    return [coreOptions.odometry[0].y?.[3], coreOptions.odometry[0].omega?.[3], coreOptions.reference[0].y[3]];
   };
   const allTopicsArgs = await recordingOptions('run.mcap', '/odom', '/mocap', '/other', '/cmd_vel');
   assert.deepEqual(await numbersOf(...allTopicsArgs), [1, undefined, 2]);
@@ -118,9 +118,9 @@ test('a recording has both logs, by topics and frames that are clear or named', 
 });
 
 test('bad input has the exit code 2 and a sentence', async () => {
-  const straightLog = fileWith('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
+  const straightLog = writeInFolder('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
   for (const [args, start] of /** @type {[string[], string][]} */ ([
-    [[example('odometry')], 'odometry.csv: it has the odometry only, t, x, y, yaw; give the reference too. Name both, '],
+    [[examplePath('odometry')], 'odometry.csv: it has the odometry only, t, x, y, yaw; give the reference too. Name both, '],
     [['a.csv', 'b.csv', '--time-unit', 'ms,s'], '--time-unit ms,s has two units; give the files with --odometry and --reference.'],
     [['a.csv', 'b.csv', '--reference-columns', 't,x,y,yaw'], '--reference-columns needs --reference FILE.'],
     [['--odometri', 'a'], 'unknown option --odometri; the nearest is --odometry, --help lists all.'],
@@ -128,26 +128,26 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--topic', '/odom'], 'unknown option --topic; the nearest are --odometry-topic and --reference-topic, --help lists all.'],
     [['--bag', 'bags/run'], 'unknown option --bag; files need no option, as in calibrate bags/run, --help lists all.'],
     [['--bag=run.bag'], 'unknown option --bag; files need no option, as in calibrate run.bag, --help lists all.'],
-    [[fileWith('notes.txt', 'no numbers')], 'notes.txt: it does not look like a log, '],
+    [[writeInFolder('notes.txt', 'no numbers')], 'notes.txt: it does not look like a log, '],
     [['--seed', '1'], 'unknown option --seed; --help lists all.'],
     [['--update-min-d', '--json'], '--update-min-d needs a value.\n'],
     [['--columns', '-,t,x,y,yaw'], '--columns needs a value; one that begins with a dash follows “=”, as in --columns=-,t,x,y,yaw.\n'],
     [['a.bag', '--help=3'], '--help takes no value.\n'],
     [['-r', 'nav2', 'a.bag'], 'unknown option -r; options have whole names, as in --rule nav2, --help lists all.'],
     [['a.bag', '-rule', 'nav2'], 'unknown option -rule; the nearest is --rule, --help lists all.'],
-    [[ARGS[1], fileWith('degrees.csv', readFileSync(example('reference'), 'utf8').replace('yaw', 'yaw_deg'))], 'degrees.csv: headings in deg would turn at 0.0166 rad/s, and do not agree with the path or with their range; state their unit: rad or deg. Choose with --angle-unit, as in --angle-unit rad; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit deg,rad.\n'],
-    [[fileWith('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw.\n'],
-    [[fileWith('days.csv', ['t,x,y,yaw', ...Array.from({ length: 40 }, (_, i) => `${45_244 + i / 1_728_000},${i / 40},0,0`)].join('\n')), ARGS[3]], 'days.csv: in s, the times would mean 1.73e+6 rows a second; write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days).\n'],
+    [[ARGS[1], writeInFolder('degrees.csv', readFileSync(examplePath('reference'), 'utf8').replace('yaw', 'yaw_deg'))], 'degrees.csv: headings in deg would turn at 0.0166 rad/s, and do not agree with the path or with their range; state their unit: rad or deg. Choose with --angle-unit, as in --angle-unit rad; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit deg,rad.\n'],
+    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw.\n'],
+    [[writeInFolder('days.csv', ['t,x,y,yaw', ...Array.from({ length: 40 }, (_, i) => `${45_244 + i / 1_728_000},${i / 40},0,0`)].join('\n')), ARGS[3]], 'days.csv: in s, the times would mean 1.73e+6 rows a second; write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days).\n'],
     [['no/metadata.yaml', 'no/run.mcap'], 'no: there is no such file or folder.\n'],
     [['no.bag', '--rule', 'Nav2'], '--rule is "Nav2"; allowed is '],
     [
-      [fileWith('two.csv', ['t,x,y,yaw,b_x,b_y,b_yaw', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 39},0,0`)].join('\n'))],
+      [writeInFolder('two.csv', ['t,x,y,yaw,b_x,b_y,b_yaw', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 39},0,0`)].join('\n'))],
       "two.csv: it is not clear what the odometry is: t, x, y, yaw (t, x, y, yaw), b_ (b_x, b_y, b_yaw). Choose with --odometry-topic, as in --odometry-topic 't, x, y, yaw'.\n",
     ],
     [['--json'], 'no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.'],
-    [['--odometry', example('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
+    [['--odometry', examplePath('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
     [
-      [example('odometry'), fileWith('lidar_odom.csv', readFileSync(example('reference')))],
+      [examplePath('odometry'), writeInFolder('lidar_odom.csv', readFileSync(examplePath('reference')))],
       'odometry.csv: the odometry is in odometry.csv, lidar_odom.csv, and the reference in no file; give one of each for a drive. Choose with --odometry and --reference.\n',
     ],
     [[...ARGS, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
@@ -163,7 +163,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [[ARGS[1], ARGS[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
     [[...ARGS.slice(0, 2), '--reference', join(folder, 'no.csv')], `${join(folder, 'no.csv')}: there is no such file or folder.`],
     [[...ARGS, '--plot', join(folder, 'no', 'plot.svg')], '--plot '],
-    // Errors of the core, by the names of options and files.
+    // Errors of the core name options and files.
     [[...ARGS, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
     [[...ARGS, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
     [[...ARGS.slice(0, 2), '--reference', straightLog], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
@@ -182,7 +182,7 @@ test('a shell gets help and errors, and may close the pipe', () => {
   assert.match(shell('my/bag').stderr, /^the command must be calibrate or inspect \(got “my\/bag”\), as in npx motion-widgets inspect my\/bag; --help has examples\.$/m);
   const outputOfClosedPipe = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...ARGS, '--json'], { encoding: 'utf8' });
   assert.deepEqual([outputOfClosedPipe.stdout, outputOfClosedPipe.stderr], ['{', '']);
-  const ofPipedLog = spawnSync('sh', ['-c', 'cat "$2" | "$0" "$1" inspect /dev/stdin', process.execPath, CLI, example('odometry')], { encoding: 'utf8' });
+  const ofPipedLog = spawnSync('sh', ['-c', 'cat "$2" | "$0" "$1" inspect /dev/stdin', process.execPath, CLI, examplePath('odometry')], { encoding: 'utf8' });
   assert.match(ofPipedLog.stdout, /^stdin: table\n.*\n.* 4494 /);
 });
 
@@ -190,13 +190,13 @@ test('a recording of the example has the truth in its intervals, and its JSON th
   /** @type {import('../mcap.js').Message[]} */
   const messages = [];
   for (const [topic, name, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
-    for (const row of readFileSync(example(name), 'utf8').trim().split('\n').slice(1)) {
+    for (const row of readFileSync(examplePath(name), 'utf8').trim().split('\n').slice(1)) {
       const [t, x, y, theta] = row.split(',').map(Number);
-      const message = topic === '/odom' ? odometry(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
+      const message = topic === '/odom' ? odometryMessage(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
       messages.push({ topic, type, t, message });
     }
   }
-  const path = fileWith('example.mcap', await recordingOf(messages.sort((a, b) => a.t - b.t), { compression: 'zstd', chunkSize: 100_000 }));
+  const path = writeInFolder('example.mcap', await recordingOf(messages.sort((a, b) => a.t - b.t), { compression: 'zstd', chunkSize: 100_000 }));
   const { status, stdout, stderr } = spawnSync(process.execPath, [CLI, 'calibrate', '--recording', path, '--json'], { encoding: 'utf8' });
   assert.equal(status, 0, stderr);
   const result = JSON.parse(stdout);
@@ -230,11 +230,11 @@ test('doc/calibration.md shows the report of the example', async () => {
 });
 
 test('units are stated for both logs, or for each', async () => {
-  const [header, ...rows] = readFileSync(example('odometry'), 'utf8').trim().split('\n');
-  const scaledBy = (/** @type {number} */ scale) => fileWith(`scaled-${scale}.csv`, [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [scale, scale, scale, 180 / Math.PI][i]).join(','))].join('\n'));
+  const [header, ...rows] = readFileSync(examplePath('odometry'), 'utf8').trim().split('\n');
+  const scaledBy = (/** @type {number} */ scale) => writeInFolder(`scaled-${scale}.csv`, [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [scale, scale, scale, 180 / Math.PI][i]).join(','))].join('\n'));
   const scaledLog = scaledBy(1000);
   const units = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
-  const [fromSi, fromStatedUnits] = [await callOf(ARGS), await callOf(['--odometry', scaledLog, ...ARGS.slice(2), ...units])];
+  const [fromSi, fromStatedUnits] = [await coreOptionsOf(ARGS), await coreOptionsOf(['--odometry', scaledLog, ...ARGS.slice(2), ...units])];
   assert.deepEqual(fromStatedUnits.reference, fromSi.reference);
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(fromStatedUnits.odometry[0][name][999] - fromSi.odometry[0][name][999]) < 1e-9, name);
   const refusal = await outputOf(['--odometry', scaledBy(1), ...ARGS.slice(2), '--angle-unit', 'rad']);
@@ -244,7 +244,7 @@ test('units are stated for both logs, or for each', async () => {
 test('a folder gives its logs, and other files are skipped', async () => {
   const path = join(folder, 'drive');
   mkdirSync(path);
-  for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(path, name), readFileSync(example(from)));
+  for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(path, name), readFileSync(examplePath(from)));
   writeFileSync(join(path, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
   writeFileSync(join(path, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
   let inspected = '';
@@ -257,13 +257,13 @@ test('a folder gives its logs, and other files are skipped', async () => {
 
 test('a journal beside a recording is named, unless it is empty', async () => {
   for (const [bytes, message] of [['', ''], ['377f0682', 'skipped: odometry.db3-wal: it is a journal']]) {
-    fileWith('odometry.db3-wal', Buffer.from(bytes, 'hex'));
-    const { code, err } = await outputOf(['--odometry', fileWith('odometry.db3', readFileSync(example('odometry'))), ...ARGS.slice(2)]);
+    writeInFolder('odometry.db3-wal', Buffer.from(bytes, 'hex'));
+    const { code, err } = await outputOf(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePath('odometry'))), ...ARGS.slice(2)]);
     assert.deepEqual([code, err.split(' with')[0]], [0, message]);
   }
   // All messages are in the journal.
-  const database = fileWith('run.db3', 'SQLite format 3\0');
-  fileWith('run.db3-wal', Buffer.from('377f0682', 'hex'));
+  const database = writeInFolder('run.db3', 'SQLite format 3\0');
+  writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
   for (const flag of [[], ['--json']]) {
     let [out, err] = ['', ''];
     const code = await run(['inspect', database, ...flag], { load, print: (text) => (out += text), complain: (text) => (err += text) });
@@ -274,8 +274,8 @@ test('a journal beside a recording is named, unless it is empty', async () => {
 
 /** Writes the reference of another drive: the path of the example from its end to its start. */
 const writeReversedReference = () => {
-  const [header, ...rows] = readFileSync(example('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
-  return fileWith('other.csv', [header, ...rows.map(([t], i) => [t, ...rows[rows.length - 1 - i].slice(1)])].join('\n'));
+  const [header, ...rows] = readFileSync(examplePath('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
+  return writeInFolder('other.csv', [header, ...rows.map(([t], i) => [t, ...rows[rows.length - 1 - i].slice(1)])].join('\n'));
 };
 
 test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async () => {
@@ -284,7 +284,7 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
   assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: .*\nFirst multiply the odometry’s distances by .*\n$/m);
   assert.match((await outputOf([...ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
-  const swappedOutput = await outputOf(['--odometry', example('reference'), '--reference', example('odometry'), '--yaml']);
+  const swappedOutput = await outputOf(['--odometry', examplePath('reference'), '--reference', examplePath('odometry'), '--yaml']);
   assert.match(swappedOutput.err, /^Warning: .* Are the two swapped\?$/m);
   const reversedPath = writeReversedReference();
   const refusal = await outputOf([...ARGS.slice(0, 3), reversedPath, '--yaml']);
@@ -333,14 +333,14 @@ test('inspect lists what is in a file, and the command to go on with', async () 
     const t = 100 + i / 20;
     const header = { stamp: stampOf(t), frame_id: 'map' };
     return [
-      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometry(t, i, 1, 0) },
+      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessage(t, i, 1, 0) },
       { topic: '/vicon/robot 1', type: 'geometry_msgs/msg/PoseStamped', t, message: { header, pose: poseOf(i, 2, 0) } },
       { topic: '/chatter', type: 'std_msgs/msg/String', t, message: { data: '' } },
       { topic: '/lost', type: 'geometry_msgs/msg/PoseStamped', t, message: { header, pose: poseOf(NaN, 2, 0) } },
-      { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transform(t, 'map', 'base_link', i, 2, 0)] } },
+      { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessage(t, 'map', 'base_link', i, 2, 0)] } },
     ];
   }).flat();
-  const inspectedRecording = await inspectionOf([fileWith('run.mcap', await recordingOf(messages, { compression: 'zstd' }))]);
+  const inspectedRecording = await inspectionOf([writeInFolder('run.mcap', await recordingOf(messages, { compression: 'zstd' }))]);
   for (const line of [
     /^run\.mcap: MCAP recording$/m, /^ {2}\/chatter +std_msgs\/msg\/String +40$/m, /^ {2}\/odom +nav_msgs\/msg\/Odometry +40 +20\.0 Hz +odometry$/m,
     /^ {2}\/vicon\/robot 1 +geometry_msgs\/msg\/PoseStamped +40 +20\.0 Hz +reference$/m,
@@ -348,19 +348,19 @@ test('inspect lists what is in a file, and the command to go on with', async () 
     /^ {2}npx motion-widgets calibrate DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(inspectedRecording, line);
   for (const [role, otherRole] of [['odometry', 'reference'], ['reference', 'odometry']]) {
-    assert.match(await inspectionOf([example(role)]), new RegExp(`; give the ${otherRole} too\\.\\n\\n {2}npx motion-widgets calibrate --${role} \\S+ --${otherRole} FILE --rule nav2$`, 'm'));
+    assert.match(await inspectionOf([examplePath(role)]), new RegExp(`; give the ${otherRole} too\\.\\n\\n {2}npx motion-widgets calibrate --${role} \\S+ --${otherRole} FILE --rule nav2$`, 'm'));
   }
-  const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => fileWith(`${name}.csv`, readFileSync(example(from))));
+  const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => writeInFolder(`${name}.csv`, readFileSync(examplePath(from))));
   const orderWarning = 'b.csv is taken as the odometry and a.csv as the reference, by their order: neither name says which is which.\n';
   assert.ok((await inspectionOf([a, b])).endsWith(`\n${orderWarning}\n  npx motion-widgets calibrate --odometry DIR/b.csv --reference DIR/a.csv --rule nav2\n`));
   assert.equal((await outputOf([a, b, '--json'])).err, orderWarning);
-  const inMillimetres = fileWith('mm.csv', readFileSync(example('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
+  const inMillimetres = writeInFolder('mm.csv', readFileSync(examplePath('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
   assert.match(await inspectionOf([inMillimetres], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
-  assert.match(await inspectionOf([a, b, fileWith('empty_table.csv', 't,x,y,yaw\n')]), /^Give two files without empty_table\.csv:\n\n {2}npx motion-widgets calibrate --odometry FILE --reference FILE --rule nav2$/m);
-  const alternating = fileWith('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
+  assert.match(await inspectionOf([a, b, writeInFolder('empty_table.csv', 't,x,y,yaw\n')]), /^Give two files without empty_table\.csv:\n\n {2}npx motion-widgets calibrate --odometry FILE --reference FILE --rule nav2$/m);
+  const alternating = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
   assert.equal((await inspectionOf([alternating], 2)).match(/give the log of one robot/g)?.length, 1);
   assert.match(await inspectionOf([inMillimetres, '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry DIR\/mm\.csv --reference FILE --length-unit mm --rule nav2$/m);
-  const positionsOnly = fileWith('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
+  const positionsOnly = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
   const { recordings: [{ series }], ...contents } = JSON.parse(await inspectionOf([positionsOnly, '--json'], 2));
   assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
   assert.deepEqual([contents.missing.split(';')[0], contents.command], ['positions.csv: gt_ (gt_x, gt_y) are positions without a heading', undefined]);
@@ -379,7 +379,7 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
 
 test('the report, the lines for Nav2 and the figure’s verdict agree whether the reference is a localizer’s', async () => {
   for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
-    const args = [...ARGS.slice(0, 3), fileWith(`${name}.csv`, readFileSync(example('reference')))];
+    const args = [...ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePath('reference')))];
     const [{ out }, { out: json }] = [await outputOf(args), await outputOf([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(json);
     const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
@@ -389,7 +389,7 @@ test('the report, the lines for Nav2 and the figure’s verdict agree whether th
 });
 
 test('the report says what failed, what is lost, and what to drive', async () => {
-  const { odometry: odometryLogs, reference, ...options } = await callOf(ARGS);
+  const { odometry: odometryLogs, reference, ...options } = await coreOptionsOf(ARGS);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
   const reportWith = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, begins: [10, 1000], date: '' });

@@ -17,7 +17,7 @@ const motion = await (await freshModule()).load();
 const EXCLUDED_EXPORTS = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2', 'calibrate']);
 
 /** Classes of the machines in core.js, by tag name. @type {Map<string, any>} */
-const classes = new Map(
+const machineClasses = new Map(
   Object.entries(motion)
     .filter(([name, exported]) => 'free' in (exported.prototype ?? {}) && !EXCLUDED_EXPORTS.has(name))
     .map(([name, exported]) => [name.replace(/\B[A-Z]/g, '-$&').toLowerCase(), exported]),
@@ -34,7 +34,7 @@ test('a seed gives the bits that it gave', async () => {
 test('every widget and every class of the core has configurations, and every function is asked', () => {
   const listedTags = [...textOf('www/widgets/index.ts').matchAll(/^import '\.\/([\w-]+)\//gm)].map(([, tag]) => tag);
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), listedTags.sort(), 'www/widgets/index.ts');
-  assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...classes.keys()].sort(), 'core.js');
+  assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...machineClasses.keys()].sort(), 'core.js');
   assert.deepEqual(Object.keys(widgets).sort(), listedTags, 'digest.js');
   const functions = Object.keys(motion).filter((name) => !('free' in (motion[name].prototype ?? {})) && !TESTED_ELSEWHERE.has(name) && !EXCLUDED_EXPORTS.has(name));
   for (const name of functions) assert.match(textOf('tests/digest/digest.js'), new RegExp(`\\b${name}\\(`));
@@ -49,12 +49,12 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
   test(`configurations of ${tag} take every setting, every word and every preset`, () => {
     for (const { key, type, words, nullable, default: opening, in: group } of settings[tag]) {
       if (group) continue;
-      const takenValues = valuesOf(key);
+      const coveredValues = valuesOf(key);
       const allowed = type === 'boolean' ? [true, false] : (words ?? []);
-      for (const value of allowed) assert.ok(takenValues.has(JSON.stringify(value)) || value === opening, `${key}: ${value}`);
-      const otherValues = [...takenValues].filter((value) => value !== undefined && value !== JSON.stringify(opening));
+      for (const value of allowed) assert.ok(coveredValues.has(JSON.stringify(value)) || value === opening, `${key}: ${value}`);
+      const otherValues = [...coveredValues].filter((value) => value !== undefined && value !== JSON.stringify(opening));
       assert.ok(otherValues.length > 0, `${key} is never set`);
-      if (nullable && opening !== null && type !== 'number') assert.ok(takenValues.has('null'), `${key}: null`);
+      if (nullable && opening !== null && type !== 'number') assert.ok(coveredValues.has('null'), `${key}: null`);
     }
     for (const { name } of presets[/** @type {keyof typeof presets} */ (tag)]) {
       assert.ok(Object.values(configurations).some(({ preset }) => preset === name), `preset ${name}`);
@@ -63,7 +63,7 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
 
   test(`all that a machine of ${tag} tells is in its digest`, () => {
     const functionText = widgets[tag].toString();
-    const members = Object.getOwnPropertyNames(classes.get(tag).prototype);
+    const members = Object.getOwnPropertyNames(machineClasses.get(tag).prototype);
     const missingNames = members.filter((name) => !TESTED_ELSEWHERE.has(name) && !new RegExp(`\\b${name}\\b`).test(functionText));
     assert.deepEqual(missingNames, [], `ask for them in digest.js and in tests/digest/`);
   });

@@ -1,5 +1,5 @@
-// Documents: their links and lengths, and numbers and names in them: limits of the pages, presets, true parameters of the example log,
-// and names of files and commands.
+// Documents: their links and lengths, numbers in them (limits of the pages, presets, true parameters of the example log), and names of files
+// and commands.
 
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';

@@ -8,7 +8,7 @@ import { test } from 'node:test';
 import { setImmediate as turn } from 'node:timers/promises';
 import { mutantOf } from '../fuzz/mutate.js';
 import { targets } from '../fuzz/targets.js';
-import { generator } from '../random.js';
+import { randomGenerator } from '../random.js';
 
 /** Number of mutations for each target. The nightly job sets a larger number and another seed. */
 const INPUT_COUNT = Number(process.env.FUZZ_INPUTS ?? 400);
@@ -17,7 +17,7 @@ const SEED = Number(process.env.FUZZ_SEED ?? 1);
 /** Maximum processor time of one input, s, and maximum memory growth of all inputs, bytes. */
 const [MAX_SECONDS, MAX_BYTES] = [1, 256 * 2 ** 20];
 
-/** Number of inputs between two turns of the event loop, in which inflated data is released. */
+/** Number of inputs after which the test yields to the event loop, so that decompressed data can be released. */
 const INPUTS_PER_TURN = 100;
 
 /** Inputs of a target that fuzzing found: hexadecimal, one a line. @param {string} target */
@@ -29,7 +29,7 @@ function foundInputs(target) {
 
 for (const [name, { corpus, run }] of Object.entries(targets)) {
   test(`${name}: every input gives a result or a sentence`, async () => {
-    const random = generator(SEED);
+    const random = randomGenerator(SEED);
     const allInputs = [...corpus, ...foundInputs(name)];
     /** @param {Buffer<ArrayBuffer>} bytes */
     const check = async (bytes) => {

@@ -1,4 +1,4 @@
-// Imports between the folders of www/, as doc/implementation-notes.md allows them.
+// Imports between the folders of www/: only those that doc/implementation-notes.md allows.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

@@ -65,12 +65,12 @@ test('odometry and reference are guessed by types, names and frames', () => {
 });
 
 test('groups of columns are guessed as topics are, and may be named without a separator', () => {
-  const table = /** @type {const} */ ({ name: 'run.csv', format: 'csv' });
+  const poseTable = /** @type {const} */ ({ name: 'run.csv', format: 'csv' });
   for (const [series, odometry, reference, wishes] of /** @type {[Parameters<typeof recording>[0], string, string, any?][]} */ ([
     [{ odom_: 'columns', gt_: 'columns' }, 'odom_', 'gt_'], [{ '': 'columns', gt_: 'columns' }, '', 'gt_'], [{ '': 'columns', _true: 'columns' }, '', '_true'], [{ '/truth': 'columns', '/odom': 'columns' }, '/odom', '/truth'],
     [{ a_: 'columns', b_: 'columns' }, 'b_', 'a_', { odometry: { series: 'b' } }],
   ])) {
-    const [drive] = planDrives([recording(series, table)], wishes).drives;
+    const [drive] = planDrives([recording(series, poseTable)], wishes).drives;
     assert.deepEqual([drive.odometry.choice.series, drive.reference.choice.series], [odometry, reference]);
   }
 });
@@ -137,20 +137,20 @@ test('several recordings are drives of their own, or give one log each', async (
 const drivesOf = async (files, wishes) => readDrives(planDrives(await openRecordings(Object.entries(files).map(([name, text]) => new File([text], name))), wishes));
 
 /** Table of poses. @param {number} count @param {(i: number) => number[]} row */
-const table = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count }, (_, i) => row(i).join(','))].join('\n');
+const poseTable = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count }, (_, i) => row(i).join(','))].join('\n');
 
 /** Poses along x at 20 Hz. @param {(i: number) => number} x @param {number} [start] */
-const straight = (x, start = 0) => table(400, (i) => [start + i / 20, x(i), 0, 0]);
+const straightTable = (x, start = 0) => poseTable(400, (i) => [start + i / 20, x(i), 0, 0]);
 
 test('logs of several drives are paired by their times, their names, or their order', async () => {
-  const pairedNames = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, straight((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
+  const pairedNames = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, straightTable((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
   assert.deepEqual(await pairedNames({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
   assert.deepEqual(await pairedNames({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth2.csv': 0, 'truth1.csv': 0 }), [['odom1.csv', 'truth1.csv'], ['odom2.csv', 'truth2.csv']]);
   assert.deepEqual(await pairedNames({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
 });
 
 test('two logs without a sign of their roles get them by their order, which a plan says', async () => {
-  const planOf = async (/** @type {string[]} */ ...names) => planDrives(await openRecordings(names.map((name, k) => new File([straight((i) => (i * (10 + k)) / 1000)], name))));
+  const planOf = async (/** @type {string[]} */ ...names) => planDrives(await openRecordings(names.map((name, k) => new File([straightTable((i) => (i * (10 + k)) / 1000)], name))));
   const { isByOrder, unpaired } = await planOf('a.csv', 'b.csv');
   assert.deepEqual([isByOrder, unpaired.odometry[0].recording.name, unpaired.reference[0].recording.name], [true, 'a.csv', 'b.csv']);
   assert.equal((await planOf('a.csv', 'odom.csv')).isByOrder, false);
@@ -169,13 +169,13 @@ test('two logs get one start, and none in common is noted', async () => {
 
 test('names of a localizer, and swapped ones, are noted', async () => {
   const noteNames = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
-    const recordings = await openRecordings([odometry, reference].map((name, k) => new File([straight((i) => (i * (k + 1)) / 100)], name)));
+    const recordings = await openRecordings([odometry, reference].map((name, k) => new File([straightTable((i) => (i * (k + 1)) / 100)], name)));
     const [drive] = await readDrives(planDrives(recordings, { roles: new Map([[recordings[0], 'odometry'], [recordings[1], 'reference']]) }));
     return drive.reference.summary.notes.map(({ name }) => name);
   };
   assert.deepEqual(await noteNames('truth.csv', 'wheels.csv'), ['swapped']);
   assert.deepEqual(await noteNames('odom.csv', 'amcl_pose.csv'), ['localizer']);
-  const [{ odometry, reference }] = await drivesOf({ 'odom.csv': straight((i) => i / 90), 'truth.csv': straight((i) => i / 80) });
+  const [{ odometry, reference }] = await drivesOf({ 'odom.csv': straightTable((i) => i / 90), 'truth.csv': straightTable((i) => i / 80) });
   const notesWithFrame = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
   assert.deepEqual([notesWithFrame('mocap'), notesWithFrame('map')], [[], [{ name: 'localizer', values: [] }]]);
   for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await noteNames(one, other), [], one);
@@ -186,10 +186,10 @@ test('one path given as both logs is refused, in another frame and in other file
     const [x, y] = [Math.sin(i / 50), 1 - Math.cos(i / 50)];
     return [i / 20, dx + x * Math.cos(turn) - y * Math.sin(turn), x * Math.sin(turn) + y * Math.cos(turn), i / 50 + turn];
   };
-  const refusalText = await sentenceOf(drivesOf({ 'odom.csv': table(400, (i) => curveRow(i)), 'truth.csv': table(400, (i) => curveRow(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
+  const refusalText = await sentenceOf(drivesOf({ 'odom.csv': poseTable(400, (i) => curveRow(i)), 'truth.csv': poseTable(400, (i) => curveRow(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
   assert.equal(refusalText, 'truth.csv: it has the same motion as odom.csv; give two independent measurements of one drive.');
   const spiralRow = (/** @type {number} */ i, scale = 1) => [i / 20, scale * i * 0.08 * Math.cos(i / 50), scale * i * 0.08 * Math.sin(i / 50), 0];
-  const roundedFiles = (/** @type {number} */ digits, scale = 1, size = 1) => ({ 'odom.csv': table(400, (i) => spiralRow(i, size)), 'truth.csv': table(400, (i) => spiralRow(i, size * scale).map((value) => Number(value.toFixed(digits)))) });
+  const roundedFiles = (/** @type {number} */ digits, scale = 1, size = 1) => ({ 'odom.csv': poseTable(400, (i) => spiralRow(i, size)), 'truth.csv': poseTable(400, (i) => spiralRow(i, size * scale).map((value) => Number(value.toFixed(digits)))) });
   for (const digits of [2, 3, 4]) assert.equal(await sentenceOf(drivesOf(roundedFiles(digits))), refusalText);
   // Not refused: paths that differ by more than the rounding, unrounded paths, and short ones.
   for (const [digits, scale, size] of [[2, 1.001], [9, 1.0001], [2, 1, 0.1]]) assert.equal((await drivesOf(roundedFiles(digits, scale, size))).length, 1);
@@ -197,27 +197,27 @@ test('one path given as both logs is refused, in another frame and in other file
   const [one, other] = await openRecordings([new File([commands], 'log.csv'), new File([commands], 'log.csv')]);
   assert.match(await sentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /^log\.csv: it is given twice;/);
   assert.equal(
-    await sentenceOf(drivesOf({ 'odom1.csv': table(400, (i) => curveRow(i)), 'odom2.csv': table(400, (i) => curveRow(i)), 'truth1.csv': straight((i) => i / 90), 'truth2.csv': straight((i) => i / 80) })),
+    await sentenceOf(drivesOf({ 'odom1.csv': poseTable(400, (i) => curveRow(i)), 'odom2.csv': poseTable(400, (i) => curveRow(i)), 'truth1.csv': straightTable((i) => i / 90), 'truth2.csv': straightTable((i) => i / 80) })),
     'odom2.csv: it is the drive of odom1.csv; give each drive once.',
   );
   // Differences of a millimetre make two paths different.
-  assert.equal((await drivesOf({ 'odom.csv': table(400, (i) => curveRow(i)), 'truth.csv': table(400, (i) => curveRow(i).with(1, curveRow(i)[1] + (i % 7) / 1000)) })).length, 1);
+  assert.equal((await drivesOf({ 'odom.csv': poseTable(400, (i) => curveRow(i)), 'truth.csv': poseTable(400, (i) => curveRow(i).with(1, curveRow(i)[1] + (i % 7) / 1000)) })).length, 1);
 });
 
 test('a frozen reference is left out while the odometry moves on, and kept while it stands', async () => {
   const odometryX = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
-  const odometry = straight(odometryX);
+  const odometry = straightTable(odometryX);
   const seenX = (/** @type {number} */ i) => 1.01 * odometryX(i);
   const referenceOf = async (/** @type {string} */ reference, odometryTable = odometry) => (await drivesOf({ 'odom.csv': odometryTable, 'truth.csv': reference }))[0].reference;
-  assert.deepEqual([(await referenceOf(straight(seenX))).summary.dropped, (await referenceOf(straight(seenX))).summary.used], [{}, 400]);
-  const frozenTable = straight((i) => seenX(i >= 200 && i < 300 ? 200 : i));
+  assert.deepEqual([(await referenceOf(straightTable(seenX))).summary.dropped, (await referenceOf(straightTable(seenX))).summary.used], [{}, 400]);
+  const frozenTable = straightTable((i) => seenX(i >= 200 && i < 300 ? 200 : i));
   const { data, summary } = await referenceOf(frozenTable);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [301, [201], 301, { held: { count: 99, first: 0 } }]);
-  assert.equal(await sentenceOf(referenceOf(straight(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
+  assert.equal(await sentenceOf(referenceOf(straightTable(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // A pause of two seconds, or one in which the odometry moves by five centimetres, does not count as lost.
   const droppedDuring = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
     const xOf = (/** @type {number} */ i) => (speed * i) / 20;
-    return (await referenceOf(straight((i) => 1.01 * xOf(i >= 200 && i <= 200 + 20 * seconds ? 200 : i)), straight(xOf))).summary.dropped.held?.count;
+    return (await referenceOf(straightTable((i) => 1.01 * xOf(i >= 200 && i <= 200 + 20 * seconds ? 200 : i)), straightTable(xOf))).summary.dropped.held?.count;
   };
   assert.deepEqual([await droppedDuring(2, 0.4), await droppedDuring(2.2, 0.4), await droppedDuring(7, 0.0095), await droppedDuring(7, 0.0105)], [undefined, 44, undefined, 140]);
   // Speeds of a log of commands also show that the robot moves.
@@ -229,13 +229,13 @@ test('a log that does not follow the other one names the correction that makes i
   const headings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
   const path = [[0, 0]];
   for (const [i, heading] of headings.entries()) path.push([path[i][0] + Math.cos(heading) / 40, path[i][1] + Math.sin(heading) / 40]);
-  const tableOf = (/** @type {(row: number[]) => number[]} */ change) => table(1200, (i) => change([i / 20, ...path[i], headings[i]]).map((value) => Number(value.toFixed(6))));
+  const tableOf = (/** @type {(row: number[]) => number[]} */ change) => poseTable(1200, (i) => change([i / 20, ...path[i], headings[i]]).map((value) => Number(value.toFixed(6))));
   const distorted = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
   const degree = Math.PI / 180;
   for (const [change, sentence, what] of /** @type {[(row: number[]) => number[], RegExp, string?][]} */ ([
     [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored relative to its heading and to /],
     [([t, x, y, yaw]) => [t, -x, y, yaw], /its x axis is mirrored /],
-    // Compass headings.
+    // A compass heading is clockwise from north.
     [([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw], /its heading has the wrong sign,/],
     [([t, x, y, yaw]) => [t, y, x, yaw], /its x and y are swapped;/],
     [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
@@ -248,14 +248,14 @@ test('a log that does not follow the other one names the correction that makes i
     assert.equal(refusal.ask?.what, what);
   }
   // A reference that is mounted backwards is not taken for a mirrored axis, even if the robot hardly turns.
-  const backwardMounted = await drivesOf({ 'odom.csv': table(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': table(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
+  const backwardMounted = await drivesOf({ 'odom.csv': poseTable(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTable(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
   assert.equal(backwardMounted.length, 1);
   assert.match(await sentenceOf(drivesOf({ 'odom.csv': tableOf(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': tableOf(distorted) })), /^odom\.csv: its y axis is mirrored/);
 });
 
 test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {
   const rows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
-  const [{ reference }] = await drivesOf({ 'odom.csv': straight((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...rows].join('\n') });
+  const [{ reference }] = await drivesOf({ 'odom.csv': straightTable((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...rows].join('\n') });
   assert.equal(reference.summary.distance.toFixed(1), '2.0');
   assert.deepEqual(summarySentences(reference, english.found), [
     '199 of 200 rows, 12.9 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m, yaw in degrees (by name)',

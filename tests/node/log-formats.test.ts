@@ -11,7 +11,7 @@ import { unlz4 } from '../../www/logs/formats/lz4.ts';
 import type { Choice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
-import { odometry, recordingOf, transform, type Message } from '../mcap.js';
+import { odometryMessage, recordingOf, transformMessage, type Message } from '../mcap.js';
 import { refusalOf, sentenceOf } from './log-support.js';
 
 /** Compressed files by name. */
@@ -226,15 +226,15 @@ const count = 40;
 const arrayOf = <T>(make: (i: number) => T): T[] => Array.from({ length: count }, (_, i) => make(i));
 const read = async (messages: Message[], ...choices: Choice[]) => (await open(fileOf(await recordingOf(messages), 'run.mcap'))).read(choices);
 const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
-const movingTransform = (i: number) => transform(at(i), 'odom', 'base_footprint', i / 50, 0, 0);
+const movingTransform = (i: number) => transformMessage(at(i), 'odom', 'base_footprint', i / 50, 0, 0);
 
 test('a transform that never changes is no log', async () => {
-  const messages = arrayOf((i) => tfAt(i, transform(at(i), 'odom', 'base_link', 1, 2, 0), transform(at(i), 'map', 'robot', i / 50, 0, 0)));
+  const messages = arrayOf((i) => tfAt(i, transformMessage(at(i), 'odom', 'base_link', 1, 2, 0), transformMessage(at(i), 'map', 'robot', i / 50, 0, 0)));
   assert.equal(await sentenceOf(read(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
 });
 
 test('a constant transform that is published more often than the moving one adds no rows', async () => {
-  const messages = arrayOf((i) => [tfAt(i, movingTransform(i)), ...[0.3, 0.6].map((part) => tfAt(i + part, transform(at(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
+  const messages = arrayOf((i) => [tfAt(i, movingTransform(i)), ...[0.3, 0.6].map((part) => tfAt(i + part, transformMessage(at(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
   const [{ data }] = await read(messages, BASE_CHOICE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(count).keys()]);
   assert.deepEqual([...(data as Poses).x], arrayOf((i) => i / 50 + 0.5));
@@ -243,7 +243,7 @@ test('a constant transform that is published more often than the moving one adds
 /** Messages of nodes that publish one topic after the other. @param nodes a letter each */
 const turns = (nodes: string): Message[] => [...nodes].flatMap((node, turn) => arrayOf((i) => {
   const t = at(count * turn + i);
-  return { topic: '/odom', type: 'nav_msgs/msg/Odometry', node, t, message: odometry(t, i / 50, 0, 0) };
+  return { topic: '/odom', type: 'nav_msgs/msg/Odometry', node, t, message: odometryMessage(t, i / 50, 0, 0) };
 }));
 
 test('nodes that publish a topic in turns are refused, and one that is started again is not', async () => {

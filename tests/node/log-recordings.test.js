@@ -7,31 +7,31 @@ import { english } from '../../www/logs/en.ts';
 import { readAhead, stampAt } from '../../www/logs/formats/container.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
-import { odometry, poseOf, recordingOf, stampOf, transform, twistOf } from '../mcap.js';
-import { generator } from '../random.js';
+import { odometryMessage, poseOf, recordingOf, stampOf, transformMessage, twistOf } from '../mcap.js';
+import { randomGenerator } from '../random.js';
 import { readLog, sentenceOf } from './log-support.js';
 
 /** @import { Message } from '../mcap.js' */
 
 const START = 1000;
 const COUNT = 120;
-const time = (/** @type {number} */ i) => START + i / 20;
+const timeOf = (/** @type {number} */ i) => START + i / 20;
 const TF = 'tf2_msgs/msg/TFMessage';
 const ODOMETRY = 'nav_msgs/msg/Odometry';
 
 /** @returns {Message[]} messages about a drive along an arc */
-function drive() {
+function driveMessages() {
   /** @type {Message[]} */
   const messages = [];
   for (let i = 0; i < COUNT; i++) {
     // Messages are recorded a little after their stamps.
-    const [t, recordTime] = [time(i), time(i) + 0.01];
+    const [t, recordTime] = [timeOf(i), timeOf(i) + 0.01];
     const [x, y, theta] = [i / 100, i / 200, i / 50];
     const add = (/** @type {string} */ topic, /** @type {string} */ type, /** @type {any} */ message) => messages.push({ topic, type, t: recordTime, message });
-    if (i === COUNT - 1) add('/tf_static', TF, { transforms: [transform(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
-    if (i % 5 === 0) add('/tf', TF, { transforms: [transform(t + 1, 'map', 'odom', 1, 2, Math.PI / 2)] });
-    add('/tf', TF, { transforms: [transform(t, 'odom', 'base_footprint', x, y, theta), transform(t, 'base_link', 'wheel', 0, 0, 9 * theta)] });
-    add('/odom', ODOMETRY, odometry(t, x, y, theta));
+    if (i === COUNT - 1) add('/tf_static', TF, { transforms: [transformMessage(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
+    if (i % 5 === 0) add('/tf', TF, { transforms: [transformMessage(t + 1, 'map', 'odom', 1, 2, Math.PI / 2)] });
+    add('/tf', TF, { transforms: [transformMessage(t, 'odom', 'base_footprint', x, y, theta), transformMessage(t, 'base_link', 'wheel', 0, 0, 9 * theta)] });
+    add('/odom', ODOMETRY, odometryMessage(t, x, y, theta));
     add('/mocap/pose', 'geometry_msgs/msg/PoseStamped', { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) });
     add('/cmd_vel', 'geometry_msgs/msg/Twist', twistOf(0.5, x));
     add('/chatter', 'std_msgs/msg/String', { data: 'hello '.repeat(20) });
@@ -40,7 +40,7 @@ function drive() {
 }
 
 /** Messages of odometry along x. @param {number} count @param {(i: number) => any} [message] */
-const odomMessages = (count, message = (i) => odometry(time(i), i, 0, 0)) => Array.from({ length: count }, (_, i) => ({ topic: '/odom', type: ODOMETRY, t: time(i), message: message(i) }));
+const odomMessages = (count, message = (i) => odometryMessage(timeOf(i), i, 0, 0)) => Array.from({ length: count }, (_, i) => ({ topic: '/odom', type: ODOMETRY, t: timeOf(i), message: message(i) }));
 
 const mcapFile = (/** @type {Uint8Array<ArrayBuffer>} */ bytes) => new File([bytes], 'run.mcap');
 
@@ -49,7 +49,7 @@ const assertClose = (/** @type {ArrayLike<number>} */ values, /** @type {(i: num
 };
 
 test('topics are listed, and topics and chains of frames are read in one pass', async () => {
-  const source = mcapFile(await recordingOf(drive()));
+  const source = mcapFile(await recordingOf(driveMessages()));
   const [recording] = await openRecordings([source]);
   assert.equal(recording.format, 'mcap');
   assert.deepEqual(
@@ -80,7 +80,7 @@ test('topics are listed, and topics and chains of frames are read in one pass', 
 });
 
 test('an incomplete index is not used', async () => {
-  const bytes = await recordingOf(drive());
+  const bytes = await recordingOf(driveMessages());
   const logWithIndex = await readLog(mcapFile(bytes), { series: '/odom' });
   // The checksum of the summary is cleared, and an index of a chunk gets a code that readers skip.
   const footer = bytes.length - 28;
@@ -94,17 +94,17 @@ test('an incomplete index is not used', async () => {
 
 test('stamps that begin at 0 are used; messages without stamps have the times of recording, which is reported', async () => {
   const logWithStamps = async (/** @type {(i: number) => number} */ stamp) => {
-    const messages = odomMessages(100, (i) => odometry(stamp(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
+    const messages = odomMessages(100, (i) => odometryMessage(stamp(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
     const log = await readLog(mcapFile(await recordingOf(messages)), { series: '/odom' });
     return { ...log, sentences: summarySentences(log, english.found).join(' ') };
   };
-  const simulated = await logWithStamps((i) => i / 10);
-  assert.deepEqual([simulated.start, simulated.summary.rows, simulated.data.t[0], simulated.data.t[99]], [0, 100, 0, 9.9]);
+  const simulatedLog = await logWithStamps((i) => i / 10);
+  assert.deepEqual([simulatedLog.start, simulatedLog.summary.rows, simulatedLog.data.t[0], simulatedLog.data.t[99]], [0, 100, 0, 9.9]);
   // Most messages have no stamp.
   const unstamped = await logWithStamps((i) => (i < 49 ? i : 0));
   assert.deepEqual([unstamped.start, unstamped.data.t.length, unstamped.data.t[20]], [1_700_000_000, 100, 1]);
   assert.match(unstamped.sentences, /times: when messages were recorded/);
-  assert.doesNotMatch(simulated.sentences, /recorded/);
+  assert.doesNotMatch(simulatedLog.sentences, /recorded/);
   const withoutHeader = await recordingOf(odomMessages(100).map((message, i) => ({ ...message, type: 'geometry_msgs/msg/Pose', t: 1_700_000_000 + i / 20, message: poseOf(i, 0, 0) })));
   assert.deepEqual((await readLog(mcapFile(withoutHeader), { series: '/odom' })).data, unstamped.data);
   // A single missing stamp is far from all other times.
@@ -114,7 +114,7 @@ test('stamps that begin at 0 are used; messages without stamps have the times of
 });
 
 test('unusable quaternions, numbers and times are left out', async () => {
-  const messages = odomMessages(20, (i) => odometry(i === 8 ? time(2) : time(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
+  const messages = odomMessages(20, (i) => odometryMessage(i === 8 ? timeOf(2) : timeOf(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
   const { data, summary } = await readLog(mcapFile(await recordingOf(messages)), { series: '/odom' });
   assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8, 11].includes(i)));
   assert.deepEqual(summary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 1, first: 6 }, damaged: { count: 1, first: 12 }, duplicate: { count: 1, first: 9 } });
@@ -122,7 +122,7 @@ test('unusable quaternions, numbers and times are left out', async () => {
 });
 
 test('messages that were written in any order are read in the order of their times', async () => {
-  const random = generator(5);
+  const random = randomGenerator(5);
   const shuffled = odomMessages(200).map((message) => ({ message, key: random() })).sort((one, other) => one.key - other.key).map(({ message }) => message);
   // The messages are in one chunk, or in dozens of chunks that overlap in time.
   for (const chunkSize of [1e6, 4096]) {
@@ -134,7 +134,7 @@ test('messages that were written in any order are read in the order of their tim
 test('topics and frames that cannot be read are refused', async () => {
   const poses = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose, Pose2D or tf2_msgs/TFMessage';
   const commands = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
-  const source = mcapFile(await recordingOf(drive()));
+  const source = mcapFile(await recordingOf(driveMessages()));
   for (const [choice, sentence] of /** @type {const} */ ([
     [{ series: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poses}, or ${commands}.`],
     [{ series: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poses}.`],
@@ -146,8 +146,8 @@ test('topics and frames that cannot be read are refused', async () => {
 
 test('a transform that never changes holds from the beginning, and a moving one from its first message', async () => {
   const messagesWith = (/** @type {(i: number) => number} */ mountX) => Array.from({ length: 60 }, (_, i) => [
-    transform(i / 10, 'world', 'marker', i / 20, 0, 0),
-    ...(i % 3 === 0 && i >= 30 ? [transform(i / 10, 'marker', 'base', mountX(i), 0, 0)] : []),
+    transformMessage(i / 10, 'world', 'marker', i / 20, 0, 0),
+    ...(i % 3 === 0 && i >= 30 ? [transformMessage(i / 10, 'marker', 'base', mountX(i), 0, 0)] : []),
   ].map((transform) => ({ topic: '/tf', type: TF, t: i / 10, message: { transforms: [transform] } }))).flat();
   const resultWith = async (/** @type {(i: number) => number} */ mountX) => {
     const { start, data, summary } = await readLog(mcapFile(await recordingOf(messagesWith(mountX))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
@@ -155,7 +155,7 @@ test('a transform that never changes holds from the beginning, and a moving one 
   };
   assert.deepEqual(await resultWith(() => 0.5), [60, 0, 0.5, 60]);
   // A static transform that is published again with another value does not set the times of the poses.
-  const staticTransforms = [0, 3].map((t) => ({ topic: '/tf_static', type: TF, t, message: { transforms: [transform(t, 'base', 'laser', t, 0, 0)] } }));
+  const staticTransforms = [0, 3].map((t) => ({ topic: '/tf_static', type: TF, t, message: { transforms: [transformMessage(t, 'base', 'laser', t, 0, 0)] } }));
   const recalibrated = mcapFile(await recordingOf([...messagesWith(() => 0.5), ...staticTransforms].sort((one, other) => one.t - other.t)));
   const { data: { t } } = await readLog(recalibrated, { series: '/tf', frames: { parent: 'world', child: 'laser' } });
   assert.equal(t.length, 60);
@@ -167,20 +167,20 @@ test('positions without a heading are refused, by their type', async () => {
   const points = Array.from({ length: 20 }, (_, i) => ({
     topic: '/prism', type: 'geometry_msgs/msg/PointStamped', t: i / 10, message: { header: { stamp: stampOf(i / 10), frame_id: 'world' }, point: { x: i / 20, y: 0, z: 0 } },
   }));
-  const [recording] = await openRecordings([mcapFile(await recordingOf([...drive().filter(({ topic }) => topic === '/odom'), ...points]))]);
+  const [recording] = await openRecordings([mcapFile(await recordingOf([...driveMessages().filter(({ topic }) => topic === '/odom'), ...points]))]);
   const sentence = /^run\.mcap: \/prism \(PointStamped\) are positions without a heading; give a reference that measures the heading, /;
   assert.match(await sentenceOf((async () => planDrives([recording]))()), sentence);
   assert.match(await sentenceOf(recording.read([{ series: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
 });
 
 test('other recordings are refused', async () => {
-  const refusal = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = drive()) => sentenceOf(readLog(mcapFile(await recordingOf(messages, options)), { series: '/odom' }));
+  const refusal = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = driveMessages()) => sentenceOf(readLog(mcapFile(await recordingOf(messages, options)), { series: '/odom' }));
   assert.equal(await refusal({ compression: 'odd' }), 'run.mcap, topic /odom: none of its messages can be read (compression by snappy, not by zstd or lz4); expected is an undamaged recording.');
   assert.equal(await refusal({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
   const [encodedOtherwise] = await openRecordings([mcapFile(await recordingOf(odomMessages(3), { encoding: 'json' }))]);
   assert.match(await sentenceOf((async () => planDrives([encodedOtherwise]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);
   assert.equal(await refusal({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
-  assert.equal(await refusal({}, drive().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
+  assert.equal(await refusal({}, driveMessages().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
   // These messages claim to be odometry, and are too short.
   const shortMessages = odomMessages(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY }));
   assert.match(await refusal({}, shortMessages), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
@@ -213,7 +213,7 @@ test('times of recording keep their nanoseconds, also those that a number rounds
 });
 
 test('a file that is read in pieces has its bytes, one after the other, across pieces and after gaps', async () => {
-  const random = generator(7);
+  const random = randomGenerator(7);
   const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => random() * 256)));
   const readRange = readAhead(new File([bytes], 'run.mcap'));
   for (let from = 0; from < bytes.length; ) {

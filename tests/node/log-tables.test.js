@@ -31,7 +31,7 @@ const ROWS = Array.from({ length: 24 }, (_, i) => {
 /** @typedef {typeof ROWS[0]} Row */
 
 /** Table of all rows. @param {string} header @param {(row: Row) => (string | number)[]} cells @param {string} [separator] */
-const table = (header, cells, separator = ',') => [header, ...ROWS.map((row) => cells(row).join(separator)), ''].join('\n');
+const tableOf = (header, cells, separator = ',') => [header, ...ROWS.map((row) => cells(row).join(separator)), ''].join('\n');
 
 const EPOCH = 1_718_000_000;
 /** Digits of a time in nanoseconds. @param {number} t */
@@ -48,9 +48,9 @@ const utf16 = (/** @type {string} */ text) => new Uint8Array(Buffer.from(`\ufeff
 const ODOMETRY_COLUMNS = 'seq header.frame_id child_frame_id pose.pose.position.x pose.pose.position.y pose.pose.position.z pose.pose.orientation.x pose.pose.orientation.y pose.pose.orientation.z pose.pose.orientation.w'.split(' ');
 const VELOCITY_COLUMNS = ['twist.twist.linear.x', 'twist.twist.linear.y', 'twist.twist.angular.x', 'twist.twist.angular.z'];
 const rostopicTable = (/** @type {(row: Row) => string | number} */ stamp) =>
-  table(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((name) => `field.${name}`)].join(','), (row) => [nanoseconds(row.t), stamp(row), row.i, 'odom', 'base', ...poseOf(row), 9, row.v, 9, 9, row.omega]);
+  tableOf(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((name) => `field.${name}`)].join(','), (row) => [nanoseconds(row.t), stamp(row), row.i, 'odom', 'base', ...poseOf(row), 9, row.v, 9, 9, row.omega]);
 const bagpyTable = (/** @type {string} */ sec, /** @type {string} */ nsec) =>
-  table(['Time', sec, nsec, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (row) => [EPOCH + row.t + 7, ...splitTime(row.t), row.i, 'odom', 'base', ...poseOf(row), row.v, 9, 9, row.omega]);
+  tableOf(['Time', sec, nsec, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (row) => [EPOCH + row.t + 7, ...splitTime(row.t), row.i, 'odom', 'base', ...poseOf(row), row.v, 9, 9, row.omega]);
 
 /** PlotJuggler's table of two topics, in which each sample of a topic has its own row. */
 const plotjugglerTable = [
@@ -97,52 +97,52 @@ const READABLE_TABLES = [
   { name: 'pandas: decimal commas in UTF-16', text: utf16(pandasTable('german')) },
   { name: 'pandas: nanoseconds in quotes', start: EPOCH, text: pandasTable('nanoseconds') },
   { name: 'pandas: a log of two that are merged', series: ['odom_', 'gt_'], choice: { series: 'odom_' }, text: pandasTable('merged') },
-  { name: 'blanks after commas, quoted names, units', text: table('"time [s]", "x [m]", "y [m]", "yaw [rad]"', ({ t, x, y, theta }) => [t, x, y, theta], ', ') },
-  { name: 'tabs, columns in another order', text: table('heading\ttimestamp\tx\ty', ({ t, x, y, theta }) => [theta, t, x, y], '\t') },
-  { name: 'a separator in quotes', text: table('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
-  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${table('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(withComma), ';').replaceAll('\n', '\r\n')}` },
-  { name: 'a spreadsheet in UTF-16', text: utf16(table('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(withComma), '\t')) },
-  { name: 'commas in quotes', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${withComma(value)}"`)) },
-  { name: 'times with exponents', start: EPOCH, text: table('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${nanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(withComma)], ';') },
-  { name: 'units in a row below the header', text: table('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta), 24.5]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
-  { name: 'quantities over their units', text: table('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
-  { name: 'bars, seconds and microseconds', start: EPOCH, text: table('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
+  { name: 'blanks after commas, quoted names, units', text: tableOf('"time [s]", "x [m]", "y [m]", "yaw [rad]"', ({ t, x, y, theta }) => [t, x, y, theta], ', ') },
+  { name: 'tabs, columns in another order', text: tableOf('heading\ttimestamp\tx\ty', ({ t, x, y, theta }) => [theta, t, x, y], '\t') },
+  { name: 'a separator in quotes', text: tableOf('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
+  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(withComma), ';').replaceAll('\n', '\r\n')}` },
+  { name: 'a spreadsheet in UTF-16', text: utf16(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(withComma), '\t')) },
+  { name: 'commas in quotes', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${withComma(value)}"`)) },
+  { name: 'times with exponents', start: EPOCH, text: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${nanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(withComma)], ';') },
+  { name: 'units in a row below the header', text: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta), 24.5]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
+  { name: 'quantities over their units', text: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
+  { name: 'bars, seconds and microseconds', start: EPOCH, text: tableOf('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
   { name: 'rows of two topics', series: ['/a', '/b'], choice: { series: '/b' }, text: ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9`, `/b,${t},${x},${y},${theta}`, `,${t},9,9,9`]).toSpliced(0, 0, 'topic,t,x,y,yaw').join('\n') },
   { name: 'rows of two robots, each with both logs', series: ['a/odom_', 'b/odom_', 'a/gt_', 'b/gt_'], choice: { series: 'b/gt_' }, text: ROWS.flatMap(({ t, x, y, theta }) => [`a,${t},8,8,8,9,9,9`, `b,${t},7,7,7,${x},${y},${theta}`]).toSpliced(0, 0, 'robot,t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw').join('\n') },
   { name: 'rows of two topics, each with columns of its own', series: ['a_', 'b_'], choice: { series: 'b_' }, text: ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9,,,`, `/b,${t},,,,${x},${y},${theta}`]).toSpliced(0, 0, 'topic,t,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
   { name: 'two logs that are joined with NaN', series: ['a_', 'b_'], choice: { series: 'b_' }, says: /^24 of 24 rows/, text: ROWS.flatMap(({ t, x, y, theta }) => [`${t + 0.01},9,9,9,NaN,NaN,NaN`, `${t},NaN,NaN,NaN,${x},${y},${theta}`]).toSpliced(0, 0, 't,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
-  { name: 'numbers of laps and landmarks', text: table('t,id,tag_id,x,y,yaw', ({ i, t, x, y, theta }) => [t, i >> 3, i >> 3, x, y, theta]) },
-  { name: 'semicolons below a long preamble', text: `${'Parameter 1: value, 2\n'.repeat(80)}${table('t;x;y;yaw', ({ t, x, y, theta }) => [t, x, y, theta], ';')}` },
-  { name: 'names of MATLAB', text: table('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, degrees(theta)]), says: /degrees/ },
-  { name: 'durations of MATLAB', text: table('Time,x,y,yaw', ({ t, x, y, theta }) => [`00:00:${String(Math.floor(t)).padStart(2, '0')}.${String(t % 1).slice(2).padEnd(1, '0')}`, x, y, theta]) },
-  { name: 'millimetres, degrees and milliseconds by name', text: table('t_ms,x [mm],y [mm],yaw (deg)', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]) },
+  { name: 'numbers of laps and landmarks', text: tableOf('t,id,tag_id,x,y,yaw', ({ i, t, x, y, theta }) => [t, i >> 3, i >> 3, x, y, theta]) },
+  { name: 'semicolons below a long preamble', text: `${'Parameter 1: value, 2\n'.repeat(80)}${tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [t, x, y, theta], ';')}` },
+  { name: 'names of MATLAB', text: tableOf('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, degrees(theta)]), says: /degrees/ },
+  { name: 'durations of MATLAB', text: tableOf('Time,x,y,yaw', ({ t, x, y, theta }) => [`00:00:${String(Math.floor(t)).padStart(2, '0')}.${String(t % 1).slice(2).padEnd(1, '0')}`, x, y, theta]) },
+  { name: 'millimetres, degrees and milliseconds by name', text: tableOf('t_ms,x [mm],y [mm],yaw (deg)', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]) },
   { name: 'rostopic echo -p', start: EPOCH, text: rostopicTable(({ t }) => nanoseconds(t)) },
   { name: 'rostopic echo -p with stamps of 0', start: EPOCH, text: rostopicTable(() => 0) },
   { name: 'rostopic echo -p, commands', start: EPOCH, kind: 'commands', choice: { kind: 'commands' }, text: rostopicTable(({ t }) => nanoseconds(t)) },
   { name: 'bagpy', start: EPOCH, text: bagpyTable('header.stamp.secs', 'header.stamp.nsecs') },
   { name: 'stamp_sec, stamp_nsec', start: EPOCH, text: bagpyTable('stamp_sec', 'stamp_nsec') },
   { name: 'seconds, nanoseconds', start: EPOCH, text: bagpyTable('seconds', 'nanoseconds [ns]') },
-  { name: 'ros2 topic echo --csv of odometry', start: EPOCH, text: table('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ...zeros(36), row.v, 0, 0, 0, 0, row.omega, ...zeros(36)]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH, text: table('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ABBREVIATED, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH, text: table('', (row) => [...splitTime(row.t), 'map', ...poseOf(row), ABBREVIATED]).slice(1) },
-  { name: 'ros2 topic echo --csv of poses', start: EPOCH, text: table('', (row) => [...splitTime(row.t), 'map', ...poseOf(row)]).slice(1) },
-  { name: 'ros2 topic echo --csv of commands', start: EPOCH, kind: 'commands', text: table('', ({ t, v, omega }) => [...splitTime(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
+  { name: 'ros2 topic echo --csv of odometry', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ...zeros(36), row.v, 0, 0, 0, 0, row.omega, ...zeros(36)]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ABBREVIATED, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'map', ...poseOf(row), ABBREVIATED]).slice(1) },
+  { name: 'ros2 topic echo --csv of poses', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'map', ...poseOf(row)]).slice(1) },
+  { name: 'ros2 topic echo --csv of commands', start: EPOCH, kind: 'commands', text: tableOf('', ({ t, v, omega }) => [...splitTime(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
   { name: 'PlotJuggler, a topic of two', start: EPOCH, series: ['/odom', '/mocap', '/imu'], choice: { series: '/odom' }, text: plotjugglerTable },
-  { name: 'a prefix', series: ['gt_', 'odom_'], choice: { series: 'odom_' }, text: table('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
-  { name: 'a suffix', series: ['_gt', '_odom'], choice: { series: '_gt' }, text: table('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
-  { name: 'an own message before one that it contains', text: table('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw', ({ t, x, y, theta }) => [t, 9, x, y, theta]), series: ['', 'object'] },
+  { name: 'a prefix', series: ['gt_', 'odom_'], choice: { series: 'odom_' }, text: tableOf('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
+  { name: 'a suffix', series: ['_gt', '_odom'], choice: { series: '_gt' }, text: tableOf('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
+  { name: 'an own message before one that it contains', text: tableOf('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw', ({ t, x, y, theta }) => [t, 9, x, y, theta]), series: ['', 'object'] },
   { name: 'Motive in metres, Y up', text: motiveTable('Meters', true), says: /Y is the vertical axis/ },
   { name: 'Motive in millimetres, Z up', text: motiveTable('Millimeters', false), says: /Z is the vertical axis/ },
-  { name: 'TUM', start: EPOCH, text: table('# timestamp tx ty tz qx qy qz qw', (row) => [EPOCH + row.t, ...poseOf(row)], ' ') },
-  { name: 'TUM without a header, tabs', text: table('', (row) => [row.t, ...poseOf(row)], '\t').slice(1) },
-  { name: 'UTIAS', start: EPOCH, text: table('# Ground truth\n# Time [s]    x [m]    y [m]    orientation [rad]', ({ t, x, y, theta }) => [EPOCH + t, x, y, theta], '    ') },
-  { name: 'UTIAS, commands', kind: 'commands', text: table('# Time [s]    forward velocity [m/s]    angular velocity[rad/s]', ({ t, v, omega }) => [t, v, omega], '\t') },
-  { name: 'a commented header in another order', text: table('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
-  { name: 'EuRoC', start: EPOCH, text: table('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [nanoseconds(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
+  { name: 'TUM', start: EPOCH, text: tableOf('# timestamp tx ty tz qx qy qz qw', (row) => [EPOCH + row.t, ...poseOf(row)], ' ') },
+  { name: 'TUM without a header, tabs', text: tableOf('', (row) => [row.t, ...poseOf(row)], '\t').slice(1) },
+  { name: 'UTIAS', start: EPOCH, text: tableOf('# Ground truth\n# Time [s]    x [m]    y [m]    orientation [rad]', ({ t, x, y, theta }) => [EPOCH + t, x, y, theta], '    ') },
+  { name: 'UTIAS, commands', kind: 'commands', text: tableOf('# Time [s]    forward velocity [m/s]    angular velocity[rad/s]', ({ t, v, omega }) => [t, v, omega], '\t') },
+  { name: 'a commented header in another order', text: tableOf('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
+  { name: 'EuRoC', start: EPOCH, text: tableOf('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [nanoseconds(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
   { name: 'CARMEN', text: ROWS.flatMap(({ t, x, y, theta }) => [`FLASER 3 1.0 2.0 3.0 ${x} ${y} ${theta} 5 6 7 ${t} host ${t}`, `ODOM 5 6 7 0.5 0.1 0 ${t} host ${t}`]).join('\n'), series: ['ODOM', 'FLASER'], choice: { series: 'FLASER' } },
-  { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, text: table('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, degrees(theta)]) },
-  { name: 'dates with a zone, in a column without a name', start: EPOCH, text: table(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDate(t + 7200)}+02:00`, x, y, theta]) },
-  { name: 'times in ms, by rate and speed', text: table('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), says: /time in ms \(by rate and speed\)/ },
+  { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, text: tableOf('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, degrees(theta)]) },
+  { name: 'dates with a zone, in a column without a name', start: EPOCH, text: tableOf(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDate(t + 7200)}+02:00`, x, y, theta]) },
+  { name: 'times in ms, by rate and speed', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), says: /time in ms \(by rate and speed\)/ },
 ];
 
 for (const { name, text, kind = 'poses', start = 0, series = [''], choice, options, says } of READABLE_TABLES) {

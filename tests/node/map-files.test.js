@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { limits } from '../../www/settings.js';
-import { SIGNATURE, header, pngOf } from '../png.js';
+import { SIGNATURE, headerChunk, pngOf } from '../png.js';
 import { description, file, machineWithMap, refusalOf } from './map-support.js';
 
 const PGM = file('map.pgm', 'P5 2 1 255\n\x00\x7f');
@@ -100,6 +100,6 @@ test('a damaged or too large PNG image is refused by a sentence', async () => {
   const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
   const sentence = await refusalOf([description(), file('map.png', png.subarray(0, 50))]);
   assert.match(sentence, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
-  const largeImage = Buffer.concat([SIGNATURE, header({ width: 100_000, height: 100_000 })]);
+  const largeImage = Buffer.concat([SIGNATURE, headerChunk({ width: 100_000, height: 100_000 })]);
   assert.equal(await refusalOf([description(), file('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
 });

@@ -1,4 +1,5 @@
-// Modules of single figures, which external.js loads: no machine of another figure, and the bits of the whole module.
+// WebAssembly modules of single figures, which external.js loads. Each has no machine of another figure, and gives the same bits as the common
+// module.
 
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';

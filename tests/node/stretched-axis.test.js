@@ -1,4 +1,4 @@
-// The factor in the name of an axis that is stretched against the other.
+// Factor in the name of an axis whose scale differs from that of the other axis.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

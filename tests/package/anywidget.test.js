@@ -6,7 +6,7 @@ import { after, before, test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 import { settings } from '../../www/settings.js';
-import { launch, listen } from './support.js';
+import { launchBrowser, recordConsoleMessages } from './support.js';
 
 /** @type {import('@playwright/test').Browser} */
 let browser;
@@ -14,7 +14,7 @@ let browser;
 let server;
 
 before(async () => {
-  browser = await launch();
+  browser = await launchBrowser();
   server = await serve(join(ROOT, 'dist'), { port: 0 });
 });
 
@@ -32,7 +32,7 @@ after(async () => {
  */
 async function pageShowing(state, kind) {
   const page = await browser.newPage();
-  const consoleMessages = listen(page);
+  const consoleMessages = recordConsoleMessages(page);
   const body = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
   await page.goto(`${server.address}page.html`);
@@ -74,11 +74,11 @@ async function untilComplete(page) {
     const { stats, samples } = el.firstElementChild;
     return (stats?.n ?? stats?.attempts) === samples;
   });
-  await frames(page);
+  await waitForFrames(page);
 }
 
 /** @param {import('@playwright/test').Page} page */
-const frames = (page) =>
+const waitForFrames = (page) =>
   page.evaluate(async () => {
     for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   });
@@ -91,18 +91,18 @@ const frames = (page) =>
 const valuesOf = (page, names) =>
   page.evaluate((traitNames) => {
     const { el, state } = /** @type {any} */ (globalThis).view;
-    const pick = (/** @type {any} */ object) => Object.fromEntries(traitNames.map((name) => [name, object[name]]));
-    return { traits: pick(state), figure: pick(el.firstElementChild) };
+    const valuesOfTraits = (/** @type {any} */ object) => Object.fromEntries(traitNames.map((name) => [name, object[name]]));
+    return { traits: valuesOfTraits(state), figure: valuesOfTraits(el.firstElementChild) };
   }, names);
 
 /** Sets traits of the model and clears its log. @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changes */
-const change = async (page, changes) => {
+const setTraits = async (page, changes) => {
   await page.evaluate((newValues) => {
     const { model, log } = /** @type {any} */ (globalThis).view;
     log.length = 0;
     for (const [name, value] of Object.entries(newValues)) model.set(name, value);
   }, changes);
-  await frames(page);
+  await waitForFrames(page);
 };
 
 /** Traits that every model of a notebook has besides the settings. */
@@ -118,7 +118,7 @@ test('traits become what the figure shows, by whichever of their names, and thos
   assert.equal(traits.samples, 2000);
   assert.deepEqual(traits.alphas, figure.alphas);
   await page.getByRole('button', { name: 'Neu würfeln' }).waitFor();
-  await change(page, { lang: null, omega: null });
+  await setTraits(page, { lang: null, omega: null });
   assert.deepEqual((await valuesOf(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
   await page.getByRole('button', { name: 'New seed' }).waitFor();
   assert.deepEqual(consoleMessages, []);
@@ -130,7 +130,7 @@ test('a trait with the underscore of a Python keyword sets the property of that 
   const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'odometry-decomposer', from_: from }, 'notebook');
   await page.locator('canvas').first().waitFor();
   assert.deepEqual((await valuesOf(page, ['from'])).figure, { from });
-  await change(page, { from_: null });
+  await setTraits(page, { from_: null });
   const { figure, traits } = await valuesOf(page, ['from', 'from_']);
   assert.notDeepEqual(figure.from, from);
   assert.deepEqual(traits.from_, figure.from);
@@ -141,7 +141,7 @@ test('a trait with the underscore of a Python keyword sets the property of that 
 test('a change of the model reaches the figure, what follows of it the model, and an equal value nobody', async () => {
   const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
   await untilComplete(page);
-  await change(page, { _asked: 1, preset: 'hard' });
+  await setTraits(page, { _asked: 1, preset: 'hard' });
   const { traits, figure } = await valuesOf(page, ['preset', 'v', 'omega', 'dt', 'command']);
   assert.deepEqual(figure, { preset: 'hard', v: 1, omega: 1.2, dt: 1.4, command: { v: 1, omega: 1.2, dt: 1.4 } });
   assert.deepEqual(traits, figure);
@@ -154,12 +154,12 @@ test('a change of the model reaches the figure, what follows of it the model, an
     Object.assign(state, { omega: 0.2, v: 0.5 });
     for (const name of ['omega', 'v']) for (const listener of listeners.get(`change:${name}`)) listener();
   });
-  await frames(page);
+  await waitForFrames(page);
   const afterChanges = await valuesOf(page, ['preset', 'v', 'omega']);
   assert.deepEqual(afterChanges.figure, { preset: null, v: 0.5, omega: 0.2 });
   assert.deepEqual(afterChanges.traits, afterChanges.figure);
 
-  await change(page, { command: { dt: 1.4, omega: 0.2, v: 0.5 } });
+  await setTraits(page, { command: { dt: 1.4, omega: 0.2, v: 0.5 } });
   const log = await page.evaluate(() => /** @type {any} */ (globalThis).view.log);
   assert.deepEqual(log, [['command', { dt: 1.4, omega: 0.2, v: 0.5 }]]);
   assert.deepEqual(consoleMessages, []);
@@ -170,11 +170,11 @@ test('what is refused is said by the trait error, and the trait has the last goo
   const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
   await untilComplete(page);
   const { traits: { alphas } } = await valuesOf(page, ['alphas']);
-  await change(page, { alphas: [1, 2, 3] });
+  await setTraits(page, { alphas: [1, 2, 3] });
   const { traits } = await valuesOf(page, ['alphas', 'error']);
   assert.match(String(traits.error), /^alphas .*allowed/);
   assert.deepEqual(traits.alphas, alphas);
-  await change(page, { samples: 200 });
+  await setTraits(page, { samples: 200 });
   assert.deepEqual((await valuesOf(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
   assert.deepEqual(consoleMessages, []);
   await page.close();
@@ -189,17 +189,17 @@ test('in a book whose models keep nothing the figure is as live, and what is tak
     await page.getByRole('slider', { name: /noise level/ }).focus();
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('Tab');
-    await frames(page);
+    await waitForFrames(page);
     // The model has only the traits that it was given.
     assert.deepEqual(Object.keys(await page.evaluate(() => /** @type {any} */ (globalThis).view.state)).sort(), ['preset', 'samples', 'view', 'widget']);
     assert.equal(traits.preset, 'corridor');
-    const remains = await page.evaluate(() => {
+    const stateAfterRemoval = await page.evaluate(() => {
       const { el, end, listeners } = /** @type {any} */ (globalThis).view;
       end();
       return { html: el.innerHTML, listeners: [...listeners.values()].reduce((sum, { size }) => sum + size, 0) };
     });
-    assert.equal(remains.html, '');
-    if (kind === 'notebook') assert.equal(remains.listeners, 0);
+    assert.equal(stateAfterRemoval.html, '');
+    if (kind === 'notebook') assert.equal(stateAfterRemoval.listeners, 0);
     assert.deepEqual(consoleMessages, []);
     await page.close();
   }

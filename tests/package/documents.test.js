@@ -26,8 +26,8 @@ const isMissing = (/** @type {string} */ path) => !existsSync(join(packageRoot, 
 test('package.json names no file that the package leaves out', () => {
   const { bin, exports, main, types, unpkg, jsdelivr, customElements } = JSON.parse(readPackaged('package.json'));
   /** @type {(value: any) => string[]} */
-  const paths = (value) => (typeof value === 'string' ? [value] : Object.values(value).flatMap(paths));
-  const allPaths = [...paths(bin), ...paths(exports), main, types, unpkg, jsdelivr, customElements];
+  const pathsIn = (value) => (typeof value === 'string' ? [value] : Object.values(value).flatMap(pathsIn));
+  const allPaths = [...pathsIn(bin), ...pathsIn(exports), main, types, unpkg, jsdelivr, customElements];
   assert.ok(allPaths.length > 10, allPaths.join(' '));
   assert.deepEqual(allPaths.filter(isMissing), []);
 });

@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../www/settings.js';
-import { listen, serveProject } from './support.js';
+import { recordConsoleMessages, serveProject } from './support.js';
 
 const project = serveProject();
 
@@ -28,7 +28,7 @@ test('every script of the package can be imported in Node, and leaves no names b
     for (const address of ${JSON.stringify(addresses)}) await import(address);
     console.log(JSON.stringify(Object.getOwnPropertyNames(globalThis).filter((name) => !before.includes(name))));
   `);
-  // The library Lit keeps the versions of its loaded copies in global variables.
+  // Lit keeps the versions of its loaded copies in global variables.
   const litNames = ['reactiveElementVersions', 'litHtmlVersions', 'litElementVersions', 'litPropertyMetadata'];
   assert.deepEqual(JSON.parse(output).filter((/** @type {string} */ name) => !litNames.includes(name)), []);
 });
@@ -131,7 +131,7 @@ test('TypeScript knows the elements, the components of React and the core, howev
 async function pageWith(scripts) {
   const elements = '<banana-machine></banana-machine><banana-machine></banana-machine><map-squeeze></map-squeeze>';
   const page = await project.browser.newPage();
-  const consoleMessages = listen(page);
+  const consoleMessages = recordConsoleMessages(page);
   /** @type {string[]} */
   const requests = [];
   page.on('request', (request) => requests.push(request.url()));
@@ -159,7 +159,7 @@ test('custom-elements.json says what the elements have', async () => {
   const page = await project.browser.newPage();
   await page.goto(`${project.address}plain/`);
   for (const { tagName, attributes, members, events, cssParts, cssProperties } of declarations) {
-    const actual = await page.evaluate(async (tag) => {
+    const actualNames = await page.evaluate(async (tag) => {
       const element = document.createElement(tag);
       document.body.prepend(element);
       await new Promise((resolve) => element.addEventListener('load', resolve));
@@ -177,7 +177,7 @@ test('custom-elements.json says what the elements have', async () => {
     }, tagName);
     const sortedNames = (/** @type {{ name: string }[]} */ list) => list.map(({ name }) => name).sort();
     // HTML attributes have no capital letters.
-    assert.deepEqual(sortedNames(attributes).map((name) => name.toLowerCase()).sort(), actual.attributes.sort(), tagName);
+    assert.deepEqual(sortedNames(attributes).map((name) => name.toLowerCase()).sort(), actualNames.attributes.sort(), tagName);
     for (const name of sortedNames(members)) {
       const hasMember = await page.evaluate(([tag, key]) => key in /** @type {Element} */ (document.querySelector(tag)), [tagName, name]);
       assert.ok(hasMember, `${tagName} has ${name}`);
@@ -185,8 +185,8 @@ test('custom-elements.json says what the elements have', async () => {
     for (const { name, description } of [...attributes, ...members, ...events, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
     assert.deepEqual(sortedNames(events), ['change', 'error', 'input', 'load', 'stats']);
     // The element with the part progress exists only while samples are drawn.
-    assert.deepEqual(sortedNames(cssParts), [...new Set([...actual.parts, 'progress'])].sort(), `parts of ${tagName}`);
-    assert.deepEqual(sortedNames(cssProperties), actual.properties.sort(), `properties of ${tagName}`);
+    assert.deepEqual(sortedNames(cssParts), [...new Set([...actualNames.parts, 'progress'])].sort(), `parts of ${tagName}`);
+    assert.deepEqual(sortedNames(cssProperties), actualNames.properties.sort(), `properties of ${tagName}`);
   }
   await page.close();
 });
@@ -226,8 +226,8 @@ test('the classic script is ASCII: it means the same, whatever encoding its page
 
 test('two copies of the bundle on a page get along @nightly', async () => {
   const classic = '<script defer src="/iframe/motion-widgets.iife.js"></script>';
-  for (const other of [classic, scriptTag('external.js?copy')]) {
-    const { consoleMessages } = await pageWith(scriptTag('external.js') + other);
+  for (const otherScript of [classic, scriptTag('external.js?copy')]) {
+    const { consoleMessages } = await pageWith(scriptTag('external.js') + otherScript);
     assert.deepEqual(consoleMessages, []);
   }
 });

@@ -23,7 +23,7 @@ test('a frame that takes the height of its widget', async () => {
     page.evaluate(() => {
       const frame = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
       const innerRoot = /** @type {Document} */ (frame.contentDocument).documentElement;
-      return { given: frame.clientHeight, needed: innerRoot.scrollHeight, scrolls: innerRoot.scrollHeight > innerRoot.clientHeight };
+      return { frameHeight: frame.clientHeight, contentHeight: innerRoot.scrollHeight, scrolls: innerRoot.scrollHeight > innerRoot.clientHeight };
     });
   for (const width of [1100, 420]) {
     await page.setViewportSize({ width, height: 800 });
@@ -32,8 +32,8 @@ test('a frame that takes the height of its widget', async () => {
       const body = /** @type {Document} */ (frame.contentDocument).body;
       return frame.style.height === `${Math.ceil(body.getBoundingClientRect().height)}px`;
     });
-    const { given, needed, scrolls } = await heights();
-    assert.equal(given, needed);
+    const { frameHeight, contentHeight, scrolls } = await heights();
+    assert.equal(frameHeight, contentHeight);
     assert.ok(!scrolls);
   }
   await page.close();
@@ -69,7 +69,7 @@ test('the one file of a classroom, from a disk', async () => {
   await opened.page.close();
 });
 
-// Bundlers that do not copy the WebAssembly modules into their output, as they do not know `new URL(…, import.meta.url)`.
+// The bundlers below do not copy the WebAssembly modules into their output, because they do not process `new URL(…, import.meta.url)`.
 
 /** @param {import('esbuild').BuildOptions} options */
 const esbuildBundler = (options) => async (/** @type {string} */ outdir) => {

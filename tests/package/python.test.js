@@ -19,21 +19,21 @@ let temporaryDirectory;
 /** Search path of Python: the directories of the package and of its dependencies. @type {string} */
 let searchPath;
 
-/** @param {string[]} args @param {string} [search] */
-const python = (args, search = '') => {
-  const env = { ...process.env, PYTHONPATH: search, PIP_ROOT_USER_ACTION: 'ignore', PIP_DISABLE_PIP_VERSION_CHECK: '1' };
+/** @param {string[]} args @param {string} [pythonPath] */
+const runPython = (args, pythonPath = '') => {
+  const env = { ...process.env, PYTHONPATH: pythonPath, PIP_ROOT_USER_ACTION: 'ignore', PIP_DISABLE_PIP_VERSION_CHECK: '1' };
   return execFileSync('python3', args, { encoding: 'utf8', env });
 };
 
-/** @param {string[]} args @param {string} [search] */
-const pip = (args, search) => python(['-m', 'pip', '--quiet', ...args], search);
+/** @param {string[]} args @param {string} [pythonPath] */
+const pip = (args, pythonPath) => runPython(['-m', 'pip', '--quiet', ...args], pythonPath);
 
 /** Installs what the package needs to be built and to run, once for all clones of the repository, and returns its directory. */
 function dependencies() {
-  const lists = project.match(/^(?:requires|dependencies) = .*$/gm) ?? [];
-  const requirements = lists.flatMap((list) => list.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
+  const requirementLists = project.match(/^(?:requires|dependencies) = .*$/gm) ?? [];
+  const requirements = requirementLists.flatMap((list) => list.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
   assert.ok(requirements.length >= 2, project);
-  const version = python(['--version']);
+  const version = runPython(['--version']);
   const directory = join(CACHE, `python-${createHash('sha256').update(requirements + version).digest('hex').slice(0, 12)}`);
   if (existsSync(directory)) return directory;
   const incomplete = `${directory}-${process.pid}`;
@@ -50,9 +50,9 @@ before(async () => {
   const [wheel] = readdirSync(temporaryDirectory);
   const { version } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
   assert.equal(wheel, `motion_widgets-${version}-py3-none-any.whl`);
-  const site = join(temporaryDirectory, 'site');
-  pip(['install', '--no-deps', '--target', site, join(temporaryDirectory, wheel)]);
-  searchPath = [site, installedDependencies].join(delimiter);
+  const installDirectory = join(temporaryDirectory, 'site');
+  pip(['install', '--no-deps', '--target', installDirectory, join(temporaryDirectory, wheel)]);
+  searchPath = [installDirectory, installedDependencies].join(delimiter);
 });
 
 after(() => rmSync(temporaryDirectory, { recursive: true, force: true }));
@@ -64,7 +64,7 @@ test('the wheel is imported, and a setting that is a keyword of Python has an un
     'm.BananaMachine(reverse_aware=True, morph=0.5); m.MapSqueeze(steps=4)',
     'print(json.dumps([m.__file__, figure.get_state(["widget", "from_"])]))',
   ];
-  const [file, state] = JSON.parse(python(['-c', lines.join('\n')], searchPath));
+  const [file, state] = JSON.parse(runPython(['-c', lines.join('\n')], searchPath));
   assert.ok(file.startsWith(temporaryDirectory), file);
   assert.deepEqual(state, { widget: 'odometry-decomposer', from_: { x: 1, y: 2, theta: 0.5 } });
 });
@@ -77,7 +77,7 @@ test('no trait hides what every widget has', () => {
     'print([f"{name}.{each}" for name in m.__all__ for each, trait in vars(getattr(m, name)).items()',
     '       if isinstance(trait, TraitType) and hasattr(Figure, each)])',
   ];
-  assert.equal(python(['-c', lines.join('\n')], searchPath).trim(), '[]');
+  assert.equal(runPython(['-c', lines.join('\n')], searchPath).trim(), '[]');
 });
 
 test('a value out of its range, and parts that are wrong or missing, are refused with what is allowed', () => {
@@ -91,7 +91,7 @@ test('a value out of its range, and parts that are wrong or missing, are refused
     ['BananaMachine(overlays=["elipse"])', "overlays[0] is 'elipse'; allowed is one of command, ellipse, exponential, linearized, additive"],
   ];
   const lines = ['import motion_widgets as m, traitlets', ...refusals.flatMap(([call]) => [`try: m.${call}`, 'except traitlets.TraitError as error: print(error)'])];
-  assert.deepEqual(python(['-c', lines.join('\n')], searchPath).trim().split('\n'), refusals.map(([, message]) => message));
+  assert.deepEqual(runPython(['-c', lines.join('\n')], searchPath).trim().split('\n'), refusals.map(([, message]) => message));
 });
 
 test('what a figure reports is applied and echoed if the figure sent it and Python has not changed it since', () => {
@@ -107,11 +107,11 @@ test('what a figure reports is applied and echoed if the figure sent it and Pyth
     'f.set_state({"omega": 1.2, "dt": 1.4, "_shown": {"heard": heard, "settings": {"preset": "hard", "omega": 1.2, "dt": 1.4}}})',
     'print(json.dumps([f.preset, f.omega, f.dt, [sorted(each["state"]) for each in sent]]))',
   ];
-  assert.deepEqual(JSON.parse(python(['-c', lines.join('\n')], searchPath)), ['hard', 0.2, 1.4, [['_shown', 'dt']]]);
+  assert.deepEqual(JSON.parse(runPython(['-c', lines.join('\n')], searchPath)), ['hard', 0.2, 1.4, [['_shown', 'dt']]]);
 });
 
 test('settings that were not given are None', () => {
-  assert.equal(python(['-c', 'import motion_widgets as m; f = m.MapSqueeze(); print({getattr(f, name) for name in m.MapSqueeze._settings})'], searchPath).trim(), '{None}');
+  assert.equal(runPython(['-c', 'import motion_widgets as m; f = m.MapSqueeze(); print({getattr(f, name) for name in m.MapSqueeze._settings})'], searchPath).trim(), '{None}');
 });
 
 test('names of generated code are those that its language allows', () => {

@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { afterEach, beforeEach, test } from 'node:test';
 import { buildSync } from 'esbuild';
 import { ROOT } from '../../scripts/process.mjs';
-import { listen, serveProject } from './support.js';
+import { recordConsoleMessages, serveProject } from './support.js';
 
 const project = serveProject(prepare);
 /** Address of the pages. */
@@ -67,11 +67,11 @@ function prepare() {
     cpSync(join(ROOT, 'node_modules', name), join(project.directory, 'node_modules', name), { recursive: true });
   }
   mkdirSync(join(project.directory, 'react'));
-  write('application.js', APPLICATION);
-  write('client.js', CLIENT);
+  writeInProject('application.js', APPLICATION);
+  writeInProject('client.js', CLIENT);
   const pageWith = (/** @type {string} */ html) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${html}</div><script type="module" src="./bundle.js"></script>`;
-  write('index.html', pageWith(''));
-  write('sent.html', pageWith(serverHtmlOf({ omega: 0.8 })));
+  writeInProject('index.html', pageWith(''));
+  writeInProject('sent.html', pageWith(serverHtmlOf({ omega: 0.8 })));
   const directory = join(project.directory, 'react');
   // The development build of React reports errors.
   const define = { 'process.env.NODE_ENV': '"development"' };
@@ -80,13 +80,13 @@ function prepare() {
 
 beforeEach(async () => {
   page = await project.browser.newPage();
-  consoleMessages = listen(page);
+  consoleMessages = recordConsoleMessages(page);
 });
 
 afterEach(() => page.close());
 
 /** Writes a file next to the installed package. @param {string} name @param {string} contents */
-function write(name, contents) {
+function writeInProject(name, contents) {
   writeFileSync(join(project.directory, 'react', name), contents);
 }
 
@@ -98,8 +98,8 @@ function serverHtmlOf(props) {
     import { renderToString } from 'react-dom/server';
     import { Application } from './application.js';
     console.log(renderToString(createElement(Application, { first: ${text} })));`;
-  write('server.mjs', source);
-  write('package.json', '{ "type": "module" }');
+  writeInProject('server.mjs', source);
+  writeInProject('package.json', '{ "type": "module" }');
   const script = join(project.directory, 'react/server.mjs');
   return execFileSync(process.execPath, [script], { encoding: 'utf8', env: { ...process.env, NODE_ENV: 'development' } }).trim();
 }

@@ -7,7 +7,7 @@ import { after, before, test } from 'node:test';
 import { filesOf } from '../../scripts/bundle.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
-import { launch, listen } from './support.js';
+import { launchBrowser, recordConsoleMessages } from './support.js';
 
 /** @type {import('@playwright/test').Browser} */
 let browser;
@@ -17,7 +17,7 @@ let server;
 before(async () => {
   execFileSync(process.execPath, [join(ROOT, 'scripts/site.mjs')], { stdio: 'inherit' });
   server = await serve(join(ROOT, 'build/site'), { port: 0, base: '/book/' });
-  browser = await launch();
+  browser = await launchBrowser();
 });
 
 after(async () => {
@@ -27,7 +27,7 @@ after(async () => {
 
 test('pages fit a phone, load without complaints, and start their figures', async () => {
   const page = await browser.newPage({ viewport: { width: 375, height: 800 } });
-  const consoleMessages = listen(page);
+  const consoleMessages = recordConsoleMessages(page);
   const paths = filesOf('build/site').map((path) => path.slice('build/site/'.length)).filter((path) => /^(?!rust|classroom|embed\.).*html$/.test(path));
   let figureCount = 0;
   for (const path of paths) {

@@ -48,31 +48,31 @@ export function installPackage() {
 export function serveProject(prepare) {
   const context = /** @type {{ directory: string, address: string, browser: import('@playwright/test').Browser }} */ ({});
   /** @type {(() => void)[]} */
-  const endings = [];
+  const cleanups = [];
   before(async () => {
-    // The calling file is evaluated completely first.
+    // Waits until the test file is evaluated.
     await null;
     const { directory, remove } = installPackage();
-    endings.push(remove);
+    cleanups.push(remove);
     context.directory = directory;
     prepare?.();
     const { address, close } = await serve(directory, { port: 0 });
-    endings.push(close);
-    Object.assign(context, { address, browser: await launch() });
+    cleanups.push(close);
+    Object.assign(context, { address, browser: await launchBrowser() });
   });
   after(async () => {
     await context.browser?.close();
-    for (const end of endings.reverse()) end();
+    for (const end of cleanups.reverse()) end();
   });
   return context;
 }
 
-export function launch() {
+export function launchBrowser() {
   return chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS });
 }
 
 /** Collects the errors and warnings of a page. @param {import('@playwright/test').Page} page @returns {string[]} */
-export function listen(page) {
+export function recordConsoleMessages(page) {
   /** @type {string[]} */
   const consoleMessages = [];
   page.on('console', (message) => void (['error', 'warning'].includes(message.type()) && consoleMessages.push(message.text())));
@@ -92,7 +92,7 @@ export function listen(page) {
 export async function openWithCloud(browser, address, prepare) {
   const page = await browser.newPage();
   await prepare?.(page);
-  const consoleMessages = listen(page);
+  const consoleMessages = recordConsoleMessages(page);
   /** @type {string[]} */
   const requests = [];
   page.on('request', (request) => requests.push(request.url()));

@@ -1,4 +1,4 @@
-//! `ArcAnatomy`.
+//! Tests of `ArcAnatomy`.
 
 use crate::support::{Object, get};
 use wasm_bindgen_test::wasm_bindgen_test;

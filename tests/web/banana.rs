@@ -1,4 +1,4 @@
-//! `BananaMachine`.
+//! Tests of `BananaMachine`.
 
 use crate::support::Object;
 use wasm_bindgen_test::wasm_bindgen_test;

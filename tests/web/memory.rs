@@ -14,7 +14,7 @@ fn memory_size() -> u32 {
     memory.buffer().unchecked_into::<ArrayBuffer>().byte_length()
 }
 
-/// Constructors, and an expression that their objects compute.
+/// Constructors, each with an expression of its object.
 const CLASSES: [(&str, &str); 8] = [
     ("BananaMachine({ samples: 20_000 })", "stats"),
     ("MapSqueeze({ samples: 20_000 })", "stats"),

@@ -1,4 +1,4 @@
-//! `DeadReckoning`.
+//! Tests of `DeadReckoning`.
 
 use crate::support::Object;
 use wasm_bindgen_test::wasm_bindgen_test;

@@ -15,7 +15,7 @@ extern "C" {
     fn evaluate_js(expression: &str, it: &JsValue) -> Result<JsValue, JsValue>;
 }
 
-/// JavaScript value that expressions refer to as `it`. In expressions `motion` is the whole interface, and `pick` returns some of an
+/// JavaScript value, which expressions name `it`. In expressions, `motion` is the module of the interface, and `pick` returns some of an
 /// object's properties as an array.
 pub struct Object(JsValue);
 

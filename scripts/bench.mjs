@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { EXAMPLE_LOGS } from './example-log.mjs';
-import { ROOT, UserError, progress, run, runAsScript } from './process.mjs';
+import { ROOT, UserError, printStep, run, runAsScript } from './process.mjs';
 import { serve } from './serve.mjs';
 import { nativeRust } from './toolchain.mjs';
 import { report } from '../benches/report.js';
@@ -23,13 +23,13 @@ async function runBench(quick) {
   await build();
   const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((path) => readFileSync(join(ROOT, path), 'utf8'));
   const options = { quick, log: { odometry, reference } };
-  progress('Node');
+  printStep('Node');
   // These modules need dist/, which exists only after the build.
   const { measure } = await import('../benches/suite.js');
   const { load } = await import('../dist/core.js');
   const node = await measure(/** @type {import('../www/types.d.ts').Motion} */ (await load()), options);
   const browser = await ensureBrowser();
-  progress('Chromium');
+  printStep('Chromium');
   const results = { ranOn: await describeMachine(browser.version), quick, node, ...(await resultsInChromium(browser.chrome, options)) };
   writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(results, null, 2)}\n`);
   console.log(`\n${report(results)}\n\nbuild/bench.json has all measurements.`);
@@ -62,11 +62,11 @@ async function resultsInChromium(executablePath, options) {
   const browser = await launcher.launch({ executablePath, args: CHROME_ARGUMENTS });
   const figuresPage = `${address}benches/page.html`;
   try {
-    progress('First cloud');
+    printStep('First cloud');
     const start = await timeStart(browser, figuresPage, options.quick ? 5 : 11);
-    progress('Drags');
+    printStep('Drags');
     const drags = await timeDrags(browser, figuresPage, options.quick ? 10 : 40);
-    progress('Refresh and calibration');
+    printStep('Refresh and calibration');
     // This page has no figures.
     const page = await browser.newPage();
     await page.route(`${address}empty`, (route) => route.fulfill({ headers: ISOLATION_HEADERS, contentType: 'text/html', body: '' }));

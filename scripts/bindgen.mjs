@@ -5,7 +5,7 @@ import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { filesOf } from './bundle.mjs';
-import { ROOT, UserError, isProgram, once, progress, run } from './process.mjs';
+import { ROOT, UserError, isProgram, once, printStep, run } from './process.mjs';
 import { CACHE, manifestValue, nativeRust } from './toolchain.mjs';
 
 const CRATE = 'scripts/bind';
@@ -29,7 +29,7 @@ async function compileProgram(name, features) {
   const program = join(installDirectory, 'bin', name);
   if (isProgram(program)) return program;
   const { bin, env } = await nativeRust();
-  progress(`Building ${name} of wasm-bindgen ${version}, once`);
+  printStep(`Building ${name} of wasm-bindgen ${version}, once`);
   const args = ['install', '--quiet', '--debug', '--path', CRATE, '--bin', name, ...features, '--root', installDirectory, '--no-track', '--force'];
   // Cargo locks its directory while it builds, so this build has its own.
   const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };

@@ -2,7 +2,7 @@
 
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { ROOT, UserError, findProgram, mustRun, progress, run } from './process.mjs';
+import { ROOT, UserError, findProgram, mustRun, printStep, run } from './process.mjs';
 import { CACHE, aptInstall } from './toolchain.mjs';
 
 /** Programs of the full Chromium, which alone has a back-forward cache. */
@@ -98,7 +98,7 @@ async function chromeForTesting() {
     const presentBrowser = await matchingPair(chrome, driver);
     if (presentBrowser !== undefined) return presentBrowser;
   }
-  progress('Downloading Chrome for Testing');
+  printStep('Downloading Chrome for Testing');
   const chrome = await downloadProgram(directory, 'chrome@stable');
   if (chrome === undefined) return undefined;
   if ((await versionOf(chrome)) === undefined) await installLibraries();

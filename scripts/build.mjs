@@ -8,7 +8,7 @@ import { bindProgram } from './bindgen.mjs';
 import { WIDGETS, bundle, filesOf } from './bundle.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { cratesOf } from './licences.mjs';
-import { ROOT, mustRun, progress, run, runAsScript, settleAll } from './process.mjs';
+import { ROOT, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensurePackages, wasmRust } from './toolchain.mjs';
 
 const pathOf = (/** @type {string} */ path) => join(ROOT, path);
@@ -91,7 +91,7 @@ async function buildCores(names, local) {
   // Waits for Rust first: an error of other work would end the process before the message about missing Rust.
   const rust = await wasmRust();
   const [binderProgram, packages] = [bindProgram(), ensurePackages(local ? undefined : 'scripts')];
-  progress(`Compiling the core to WebAssembly (${rust.description}): ${names.join(', ')}`);
+  printStep(`Compiling the core to WebAssembly (${rust.description}): ${names.join(', ')}`);
   const finishedCores = [];
   for (const name of names) {
     // Cargo writes all cores to one path: each is bound before the next is compiled. Optimization runs meanwhile.

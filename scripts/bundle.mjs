@@ -7,7 +7,7 @@ import * as declared from '../www/settings.js';
 import { widgets } from './declarations.mjs';
 import { licences, packagesOf } from './licences.mjs';
 import { manifest } from './manifest.mjs';
-import { ROOT, UserError, progress } from './process.mjs';
+import { ROOT, UserError, printStep } from './process.mjs';
 import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
 import { withTables } from './tables.mjs';
@@ -161,7 +161,7 @@ export declare function isFigureTag(tag: string): boolean;
  * @param {(path: string, script: string) => string} [options.transformScript] returns the script that replaces a script of www/
  */
 export async function bundle({ tags = WIDGETS, transformScript = (_, script) => script } = {}) {
-  progress('Bundling the pages');
+  printStep('Bundling the pages');
   await writeTypes();
   await writeComponents();
   writeFileSync(pathOf('build/widgets.js'), await widgetLoaders());
@@ -169,7 +169,9 @@ export async function bundle({ tags = WIDGETS, transformScript = (_, script) => 
   const bytesModule = hashedFile('motion-bytes', '.js', MODULE_SCRIPTS.bytes(wasm, SHIFTED_CHARACTERS.utf8));
   const { build, transformSync } = await import('esbuild');
   /**
-   * @param {Record<string, string>} entryPoints by the name of the product, from www/
+   * Bundles scripts of www/ for dist/.
+   *
+   * @param {Record<string, string>} entryPoints paths from www/, by the name of the script in dist/
    * @param {keyof typeof CHUNK_PATHS | 'inlined' | 'worker'} form
    * @param {import('esbuild').BuildOptions} options
    */
@@ -362,8 +364,8 @@ function minimalDeclarations() {
 }
 
 /**
- * Marks the constants of a library as pure, so that unused ones are dropped. They are half of the code that only writes YAML, or only blurs
- * and shuffles arrays. A bundler cannot know that computing them has no effect.
+ * Marks the constants of a library as pure, so that the bundler drops unused ones, such as those for writing YAML. The bundler cannot know
+ * that computing them has no side effects.
  *
  * @param {string} library with each constant at the start of a line
  */
@@ -381,7 +383,8 @@ const REPLACED_PASSAGES = {
     ['Buffer.from(wasm, "base64")', 'Uint8Array.from(atob(wasm), (character) => character.charCodeAt(0))'],
   ],
   'lit-html.js': [
-    // The Trusted Types policy gets its own name, because the page may have a Lit that needs Lit's. Without a policy only rendering fails.
+    // The Trusted Types policy gets its own name, because another copy of Lit on the page may use the name "lit-html". Without a policy only
+    // rendering fails.
     [
       's.createPolicy("lit-html",{createHTML:t=>t})',
       '((...names)=>{for(const name of names)try{return s.createPolicy(name,{createHTML:t=>t})}catch{}})("motion-widgets","lit-html")',

@@ -28,7 +28,7 @@ import { importTypeScript } from './typescript.mjs';
  * @property {Field[]} state fields of the state that only this widget has
  */
 
-/** TypeScript types by type of setting. Words (enumerations) and groups (several numbers) have their own. @type {Record<string, string>} */
+/** TypeScript types by type of setting. Words (enumerations) and groups (several numbers) have generated types. @type {Record<string, string>} */
 const TYPE_NAMES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
 /** Properties and state of every element with a cloud. @type {import('../www/figure/attributes.ts').Documentation} */

@@ -5,7 +5,7 @@
 import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
-import { ROOT, UserError, mustRun, progress, run, runAsScript } from './process.mjs';
+import { ROOT, UserError, mustRun, printStep, run, runAsScript } from './process.mjs';
 import { nativeRust } from './toolchain.mjs';
 
 const TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((file) => file.replace(/\.txt$/, ''));
@@ -86,7 +86,7 @@ await runAsScript(import.meta.url, async () => {
   const unknownTarget = namedTargets.find((name) => !TARGETS.includes(name));
   if (unknownTarget !== undefined) throw new UserError(`"${unknownTarget}" is not a target; targets are ${TARGETS.join(', ')}.`);
   const waitingTargets = namedTargets.length > 0 ? namedTargets : [...TARGETS];
-  progress(`${isKeeping ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
+  printStep(`${isKeeping ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
   await compileTargets();
   const runWaiting = async () => {
     for (let target = waitingTargets.shift(); target !== undefined; target = waitingTargets.shift()) {

@@ -39,7 +39,7 @@ export async function withCollectedOutput(work) {
 }
 
 /** Prints the name of the step that begins. @param {string} text */
-export function progress(text) {
+export function printStep(text) {
   print(`\n▸ ${text}\n`);
 }
 
@@ -120,7 +120,7 @@ export function endGroupWithProcess(group) {
   for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, endAfterSignal).on(signal, endAfterSignal);
 }
 
-/** Forgets a process group that has ended. @param {number} group */
+/** Removes an ended process group from those that are ended with this process. @param {number} group */
 export function forgetGroup(group) {
   processGroups.delete(group);
   // Signals have their usual meaning while no program runs.

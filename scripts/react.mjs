@@ -8,13 +8,13 @@ import { ROOT } from './process.mjs';
 
 /** @typedef {import('./declarations.mjs').Widget} Widget */
 
-const HEAD = '// Generated from the declarations: not to be edited.\n';
+const HEADER = '// Generated from the declarations: not to be edited.\n';
 
 /** Writes both files. */
 export async function writeComponents() {
   const figures = await widgets();
-  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEAD}\nimport { component } from '../www/react.ts';\n\n${figures.map(componentOf).join('')}`);
-  writeFileSync(join(ROOT, 'build/react.d.ts'), [HEAD, imports(figures), PROP_TYPES, ...figures.map(typesOf), jsxTags(figures)].join('\n'));
+  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEADER}\nimport { component } from '../www/react.ts';\n\n${figures.map(componentOf).join('')}`);
+  writeFileSync(join(ROOT, 'build/react.d.ts'), [HEADER, importLines(figures), PROP_TYPES, ...figures.map(typesOf), jsxTags(figures)].join('\n'));
 }
 
 /** @param {Widget} widget */
@@ -29,7 +29,7 @@ function componentOf({ tag, machine, attributes, properties }) {
 }
 
 /** @param {Widget[]} allWidgets */
-function imports(allWidgets) {
+function importLines(allWidgets) {
   const elements = allWidgets.map(({ machine }) => `${machine}Element`);
   return (
     "import type { ClassAttributes, ForwardRefExoticComponent, HTMLAttributes, RefAttributes } from 'react';\n" +

@@ -5,7 +5,7 @@ import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { join, posix } from 'node:path';
 import { build } from './build.mjs';
 import { WIDGETS, filesOf } from './bundle.mjs';
-import { ROOT, UserError, mustRun, progress, runAsScript } from './process.mjs';
+import { ROOT, UserError, mustRun, printStep, runAsScript } from './process.mjs';
 import { escapedHtml } from './tables.mjs';
 import { ensurePackages, nativeRust } from './toolchain.mjs';
 
@@ -43,7 +43,7 @@ const navigationHtml = (page) => {
   return `<nav class="site" aria-label="Site">${links.join('\n')}\n<a href="${homepage}">Source</a></nav>`;
 };
 
-/** Returns the address that a piece of code in the text links to: that of a page, or for a tag, that of its figure alone. */
+/** Returns the address that inline code in a document links to: a page of the site, or for a tag a page with this figure only. */
 function addressOf(/** @type {string} */ code) {
   if (code in TOP_LINKS) return code;
   const [, widget, attributeText] = code.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];
@@ -127,10 +127,10 @@ await runAsScript(import.meta.url, async () => {
   await build();
   await ensurePackages('scripts');
   const rust = await nativeRust();
-  progress('Documenting the crate');
+  printStep('Documenting the crate');
   const docOptions = ['--quiet', '--locked', '--no-deps', '--lib', '--target-dir', join(ROOT, 'build/rustdoc')];
   await mustRun('The crate is not documented: see above.', join(rust.bin, 'cargo'), ['doc', ...docOptions], { env: rust.env });
-  progress('Rendering the documents');
+  printStep('Rendering the documents');
   rmSync(SITE, { recursive: true, force: true });
   cpSync(join(ROOT, 'dist'), SITE, { recursive: true, filter: (path) => !/(\.d\.ts|\.map|cli\.js|motion-widgets\.js)$/.test(path) });
   cpSync(join(ROOT, 'build/rustdoc/doc'), join(SITE, 'rust'), { recursive: true });

@@ -10,7 +10,7 @@ import { testRunnerProgram } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { filesOf } from './bundle.mjs';
-import { ROOT, UserError, withCollectedOutput, once, progress, run, runAsScript, settleAll } from './process.mjs';
+import { ROOT, UserError, withCollectedOutput, once, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
@@ -227,7 +227,7 @@ async function outcomeOf(name, programArgs) {
   const seconds = () => (Date.now() - startTime) / 1000;
   try {
     const job = await prepare(programArgs);
-    progress(name);
+    printStep(name);
     startTime = Date.now();
     const { ok, output, timedOut } = await job();
     const totalOf = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, count]) => sum + Number(count), 0);
@@ -236,7 +236,7 @@ async function outcomeOf(name, programArgs) {
     const note = timedOut ? `ended after ${TIME_LIMIT} s` : ranNoTest ? 'no test ran' : undefined;
     return { name, ok: ok && !ranNoTest && !tally?.failed, seconds: seconds(), output, tally, note };
   } catch (error) {
-    progress(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
+    printStep(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
     return { name, ok: false, seconds: seconds(), note: 'not run: see above' };
   }
 }
@@ -286,7 +286,7 @@ const LAST_LINES = 60;
  * @returns {boolean} whether all is well
  */
 function summarize(outcomes) {
-  progress('Summary');
+  printStep('Summary');
   console.log(`${[...toolVersions].join('; ')}\n`);
   let passed = 0;
   let failed = 0;

@@ -5,7 +5,7 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { homedir, tmpdir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
-import { ROOT, UserError, findProgram, mustRun, once, progress, taskQueue, run, runAsScript } from './process.mjs';
+import { ROOT, UserError, findProgram, mustRun, once, printStep, taskQueue, run, runAsScript } from './process.mjs';
 
 const WASM_TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
@@ -50,7 +50,7 @@ async function installPackages(key) {
   const name = `motion-widgets-${key.replace('/', '-')}`;
   const stampFile = join(ROOT, `node_modules/.installed-${name}`);
   if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === lockHash) return;
-  progress(`Installing npm packages${key === 'root' ? '' : ` of ${key}`}`);
+  printStep(`Installing npm packages${key === 'root' ? '' : ` of ${key}`}`);
   // No package's install script is needed. `npm ci` would remove those of the other workspaces.
   await mustRun(
     'The npm packages could not be installed: check that this machine reaches its npm registry and start again.',
@@ -77,7 +77,7 @@ async function aptInstallNow(packages, sentence) {
   if (findProgram('apt-get') === undefined) throw new UserError(sentence);
   const rootCommand = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
   if (rootCommand.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new UserError(sentence);
-  progress(`Installing ${packages.join(' ')} by apt`);
+  printStep(`Installing ${packages.join(' ')} by apt`);
   const [command, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
   await run(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
   // Apt must not remove an installed package, above all no other Rust.
@@ -120,7 +120,7 @@ export const nativeRust = once(/** @returns {Promise<Rust>} */ async () => {
 
 /** @returns {Promise<boolean>} */
 async function installRustup() {
-  progress('Installing Rust by rustup');
+  printStep('Installing Rust by rustup');
   const script = join(tmpdir(), `rustup-init-${process.pid}.sh`);
   const download = ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', '-o', script, 'https://sh.rustup.rs'];
   const options = ['-y', '--no-modify-path', '--profile', 'default', '--target', WASM_TARGET];
@@ -174,7 +174,7 @@ async function hasTarget({ bin, env }) {
   const canFallBack = findProgram('apt-get') !== undefined;
   const dayInMs = 24 * 3600 * 1000;
   if (canFallBack && existsSync(unreachableMark) && Date.now() - statSync(unreachableMark).mtimeMs < dayInMs) return false;
-  progress(`Asking rustup for ${WASM_TARGET}`);
+  printStep(`Asking rustup for ${WASM_TARGET}`);
   const addTarget = () => run(program, ['target', 'add', WASM_TARGET], { env, seconds: canFallBack ? 60 : 600 });
   const { ok, timedOut } = canFallBack && (await isServerSilent()) ? { ok: false, timedOut: true } : await addTarget();
   if (ok) return true;

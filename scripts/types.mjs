@@ -15,7 +15,7 @@ const HEADER = '// Generated from the declarations: not to be edited.\n';
 /** Declaration of `Symbol.dispose`, which may be missing in the `lib` setting of a project. */
 const DISPOSABLE_LIBRARY = '/// <reference lib="esnext.disposable" />\n';
 
-/** Tags in templates of other frameworks: module, interface and attributes of any element there, and prefix of properties. */
+/** Frameworks with typed templates: module and interface that are extended by the tags, type of the attributes of any element, prefix of properties. */
 const TEMPLATE_TYPES = {
   solid: { module: 'solid-js', namespace: 'namespace JSX { interface IntrinsicElements extends Tags {} }', any: "import('solid-js').JSX.HTMLAttributes", prefix: 'prop:' },
   svelte: { module: 'svelte/elements', namespace: 'interface SvelteHTMLElements extends Tags {}', any: "import('svelte/elements').HTMLAttributes", prefix: '' },

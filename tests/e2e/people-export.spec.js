@@ -18,7 +18,7 @@ function parsedCSV(text) {
 const csvOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toCSV());
 const svgOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toSVG());
 
-/** Parses an SVG file, and counts its elements. @param {import('@playwright/test').Page} page @param {string} svg */
+/** Parses an SVG file, and returns its title, description and size, and the numbers of its elements. @param {import('@playwright/test').Page} page @param {string} svg */
 function elementsOf(page, svg) {
   return page.evaluate((text) => {
     const svgDocument = new DOMParser().parseFromString(text, 'image/svg+xml');

@@ -268,7 +268,7 @@ export async function waitForFrames(page) {
   });
 }
 
-/** Returns the readings of a machine after the next frames, other than its poses, which are many. @param {Locator} widget */
+/** Returns results of a Banana Machine after the next frames, without its many poses. @param {Locator} widget */
 export async function bananaReadings(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {

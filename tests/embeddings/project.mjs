@@ -8,7 +8,7 @@
 import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, delimiter, join } from 'node:path';
-import { ROOT, mustRun, once, progress } from '../../scripts/process.mjs';
+import { ROOT, mustRun, once, printStep } from '../../scripts/process.mjs';
 import { start } from './serving.mjs';
 import { CACHE } from '../../scripts/toolchain.mjs';
 
@@ -181,7 +181,7 @@ export async function prepareExample(name, definition) {
   if (existsSync(stamp) && readFileSync(stamp, 'utf8') === currentHash) return { directory, tools };
   rmSync(stamp, { force: true });
   removeCaches(join(directory, 'node_modules'));
-  progress(`${name}: installing`);
+  printStep(`${name}: installing`);
   await definition.install(directory, { ...tools, ...packed });
   writeFileSync(stamp, currentHash);
   return { directory, tools };

@@ -10,7 +10,7 @@ import { join } from 'node:path';
 import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
 import { build } from '../../scripts/build.mjs';
-import { ROOT, UserError, progress, runAsScript } from '../../scripts/process.mjs';
+import { ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
 import { check } from './checks.mjs';
 import { engine, engines, prepareExample } from './project.mjs';
 
@@ -35,11 +35,11 @@ async function outcomesOf(browser, name) {
   let serving = 'build';
   try {
     const { directory, tools } = await prepareExample(name, definition);
-    progress(`${name}: building`);
+    printStep(`${name}: building`);
     await definition.build?.(directory, tools);
     for (const currentServing of definition.servings) {
       serving = currentServing.name;
-      progress(`${name}: ${serving}`);
+      printStep(`${name}: ${serving}`);
       const { url, stop } = await currentServing.serve(directory, tools);
       try {
         const { passed, failures } = await check(browser, { name, definition, serving: currentServing, url });
@@ -77,9 +77,9 @@ async function test(engineNames) {
 
 /** Prints versions and outcomes. @param {Outcome[]} outcomes @param {string} version of the browser */
 async function summarize(outcomes, version) {
-  progress(`Versions: Node ${process.versions.node}, Chromium ${version}`);
+  printStep(`Versions: Node ${process.versions.node}, Chromium ${version}`);
   for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await engine(name)).versions()}`);
-  progress('Summary');
+  printStep('Summary');
   for (const { name, serving, passed, failures, seconds } of outcomes) {
     const counts = `${passed} passed, ${failures.length} failed`;
     console.log(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(16)} ${serving.padEnd(20)} ${seconds.toFixed(0).padStart(4)} s  ${counts}`);

@@ -82,6 +82,8 @@ class Page {
 }
 
 /**
+ * Runs all checks in an engine.
+ *
  * @param {string} name of the engine
  * @param {Engine} engine
  * @param {string} address

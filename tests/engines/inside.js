@@ -113,7 +113,7 @@ export function slidersOf(tag) {
     .map((slider) => {
       const { id, value, step, max } = /** @type {HTMLInputElement} */ (slider);
       const shown = Number(value);
-      // The slider in a chart has a name of its own.
+      // The id of a slider in a chart is not the name of a setting.
       const setting = { [id]: shown, ...figure.getState() }[id];
       return { key: id, value: figure[id] ?? setting, shown, step: Number(step), end: Number(max) };
     });

@@ -2,7 +2,7 @@
 
 import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { UserError, findProgram, isProgram, mustRun, progress, run } from '../../scripts/process.mjs';
+import { UserError, findProgram, isProgram, mustRun, printStep, run } from '../../scripts/process.mjs';
 import { CACHE, aptInstall, nativeRust } from '../../scripts/toolchain.mjs';
 
 const FIREFOX_NAMES = ['firefox-esr', 'firefox'];
@@ -31,7 +31,7 @@ async function ensureGeckodriver() {
   const present = find();
   if (present !== undefined) return present;
   const rust = await nativeRust();
-  progress('Compiling geckodriver, once');
+  printStep('Compiling geckodriver, once');
   const options = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE, 'geckodriver')];
   await mustRun(FIREFOX_SENTENCE, join(rust.bin, 'cargo'), options, { env: rust.env, seconds: 1200 });
   return join(bin, 'geckodriver');

@@ -9,7 +9,7 @@ import { mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileS
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { build } from '../../scripts/build.mjs';
-import { ROOT, UserError, progress, runAsScript } from '../../scripts/process.mjs';
+import { ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 import { engines } from './browsers.mjs';
 
@@ -38,7 +38,7 @@ async function serveSite() {
 
 /** Opens a page in an engine, and returns what its checks found. @param {string} name @param {string} address */
 async function outcomeOf(name, address) {
-  progress(name);
+  printStep(name);
   let version = 'none';
   try {
     const engine = await engines[name]();
@@ -75,7 +75,7 @@ async function test(engineNames) {
   } finally {
     stop();
   }
-  progress(`Summary, by Node ${process.versions.node}`);
+  printStep(`Summary, by Node ${process.versions.node}`);
   console.log(summaryLines.join('\n'));
   return failed === 0;
 }

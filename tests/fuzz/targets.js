@@ -16,7 +16,7 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { applyMap, cellsOf, mapData } from '../../www/widgets/map-squeeze/maps/data.ts';
 import { odometryMessage, poseOf, recordingOf, stampOf, transformMessage, twistOf } from '../mcap.js';
 import { readLog } from '../node/log-support.js';
-import { file, refusalOf } from '../node/map-support.js';
+import { fileWith, refusalOf } from '../node/map-support.js';
 
 /**
  * @typedef {object} Target
@@ -153,8 +153,8 @@ const PLANS = bytesOfTexts(
 
 /** @type {Record<string, Target>} */
 export const targets = {
-  yaml: { corpus: YAMLS, run: (bytes) => filesAreTaken(file('map.yaml', bytes), file('map.pgm', 'P5 2 1 255\nab')) },
-  plan: { corpus: PLANS, run: (bytes) => filesAreTaken(file('map.json', bytes)) },
+  yaml: { corpus: YAMLS, run: (bytes) => filesAreTaken(fileWith('map.yaml', bytes), fileWith('map.pgm', 'P5 2 1 255\nab')) },
+  plan: { corpus: PLANS, run: (bytes) => filesAreTaken(fileWith('map.json', bytes)) },
   csv: {
     corpus: bytesOfTexts(
       't,x,y,yaw\n0.5,1,2,3\n0.75,1,2,-3\n1,nan,2,3\n1.25,1,2,3\n',

@@ -66,11 +66,11 @@ test('options reach the core', async () => {
 
 test('files without an option are recordings, paired where each is one table', async () => {
   const [odometryPath, referencePath] = [examplePath('odometry'), examplePath('reference')];
-  const later = (/** @type {string} */ name, /** @type {string} */ from) => writeInFolder(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
+  const laterCopyOf = (/** @type {string} */ name, /** @type {string} */ from) => writeInFolder(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
   const expectedCall = await coreOptionsOf(ARGS);
   assert.deepEqual(await coreOptionsOf([referencePath, odometryPath]), expectedCall);
   assert.deepEqual(await coreOptionsOf([referencePath, '--recording', odometryPath]), expectedCall);
-  const [odometry2, truth2] = [later('odom2.csv', odometryPath), later('truth2.csv', referencePath)];
+  const [odometry2, truth2] = [laterCopyOf('odom2.csv', odometryPath), laterCopyOf('truth2.csv', referencePath)];
   const { odometry: drives, reference: measured } = await coreOptionsOf([truth2, odometryPath, '--odometry', odometry2, '--reference', referencePath]);
   for (const logs of [drives, measured]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.floor(t[0] / 1000)), [0, 1]);
 });
@@ -211,7 +211,7 @@ test('a recording of the example has the truth in its intervals, and its JSON th
 test('the report of the example, from the verdict to the lines for Nav2', async () => {
   const { code, out } = await outputOf([...ARGS, '--rule', 'nav2', '--reference-yaw-std', '0']);
   assert.equal(code, 0);
-  const parts = [
+  const reportPatterns = [
     /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, /, /^ {2}columns: t, x, y, yaw\n {2}units: time in s, /m, /^Consistent: all checks passed\. Use the recommended α’s with legs of this length\.$/m,
     /^\d+ legs of 0\.25 m or 0\.2 rad; model odometry, rule nav2$/m, /^ +fitted +95 % +recommended$/m,
     /^alpha1 +0\.0\d+ +\S+ to \S+ +0\.0\d+ +rotation noise from rotation$/m, /^The fit covers .* held-out windows of 1 m/m,
@@ -219,7 +219,7 @@ test('the report of the example, from the verdict to the lines for Nav2', async 
     /^correlation of neighbouring legs +0\.0/m, /^enough-legs +\d+ +≥ 100 +ok$/m, /^tails-normal +\S+ +1 to 3\.5 +ok$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s after the start$/m,
     /^of 1 m +\d+ +\d\S* % +\d\.\d+$/m, /^# nav2_params\.yaml\namcl:$/m, /2026-01-02$/m, /^ {4}alpha1: 0\.\d+ {2}# fitted 0\.\d+, 95 % /m, /^ {4}update_min_a: 0\.2$/m,
   ];
-  const positions = parts.map((part) => out.search(part));
+  const positions = reportPatterns.map((part) => out.search(part));
   assert.deepEqual(positions.filter((place, i) => place < 0 || place < positions[i - 1]).map((place) => positions.indexOf(place)), [], out);
 });
 
@@ -247,9 +247,9 @@ test('a folder gives its logs, and other files are skipped', async () => {
   for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(path, name), readFileSync(examplePath(from)));
   writeFileSync(join(path, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
   writeFileSync(join(path, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
-  let inspected = '';
-  await run(['inspect', path], { load, print: (text) => (inspected += text), complain: () => {} });
-  assert.match(inspected, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
+  let inspectedText = '';
+  await run(['inspect', path], { load, print: (text) => (inspectedText += text), complain: () => {} });
+  assert.match(inspectedText, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
   const { code, out, err } = await outputOf(['metadata.yaml', 'odom.csv'].map((name) => join(path, name)));
   assert.deepEqual([code, out.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
   assert.match(err, /^skipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
@@ -262,11 +262,11 @@ test('a journal beside a recording is named, unless it is empty', async () => {
     assert.deepEqual([code, err.split(' with')[0]], [0, message]);
   }
   // All messages are in the journal.
-  const database = writeInFolder('run.db3', 'SQLite format 3\0');
+  const databasePath = writeInFolder('run.db3', 'SQLite format 3\0');
   writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
-  for (const flag of [[], ['--json']]) {
+  for (const jsonFlag of [[], ['--json']]) {
     let [out, err] = ['', ''];
-    const code = await run(['inspect', database, ...flag], { load, print: (text) => (out += text), complain: (text) => (err += text) });
+    const code = await run(['inspect', databasePath, ...jsonFlag], { load, print: (text) => (out += text), complain: (text) => (err += text) });
     assert.deepEqual([code, out], [2, '']);
     assert.match(err, /^run\.db3-wal: it is a journal with messages that its \.db3 file lacks; /m);
   }
@@ -357,8 +357,8 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   const inMillimetres = writeInFolder('mm.csv', readFileSync(examplePath('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
   assert.match(await inspectionOf([inMillimetres], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
   assert.match(await inspectionOf([a, b, writeInFolder('empty_table.csv', 't,x,y,yaw\n')]), /^Give two files without empty_table\.csv:\n\n {2}npx motion-widgets calibrate --odometry FILE --reference FILE --rule nav2$/m);
-  const alternating = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
-  assert.equal((await inspectionOf([alternating], 2)).match(/give the log of one robot/g)?.length, 1);
+  const alternatingTable = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
+  assert.equal((await inspectionOf([alternatingTable], 2)).match(/give the log of one robot/g)?.length, 1);
   assert.match(await inspectionOf([inMillimetres, '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry DIR\/mm\.csv --reference FILE --length-unit mm --rule nav2$/m);
   const positionsOnly = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
   const { recordings: [{ series }], ...contents } = JSON.parse(await inspectionOf([positionsOnly, '--json'], 2));

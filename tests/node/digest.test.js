@@ -23,12 +23,12 @@ const machineClasses = new Map(
     .map(([name, exported]) => [name.replace(/\B[A-Z]/g, '-$&').toLowerCase(), exported]),
 );
 
-const golden = textOf('tests/digest/golden.txt');
+const goldenDigest = textOf('tests/digest/golden.txt');
 
 test('a seed gives the bits that it gave', async () => {
-  const computed = await digest(motion, configurationList);
-  if (process.env.UPDATE_DIGEST) writeFileSync(new URL('../digest/golden.txt', import.meta.url), computed);
-  else assert.deepEqual(differences(golden, computed), []);
+  const computedDigest = await digest(motion, configurationList);
+  if (process.env.UPDATE_DIGEST) writeFileSync(new URL('../digest/golden.txt', import.meta.url), computedDigest);
+  else assert.deepEqual(differences(goldenDigest, computedDigest), []);
 });
 
 test('every widget and every class of the core has configurations, and every function is asked', () => {
@@ -50,8 +50,8 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
     for (const { key, type, words, nullable, default: opening, in: group } of settings[tag]) {
       if (group) continue;
       const coveredValues = valuesOf(key);
-      const allowed = type === 'boolean' ? [true, false] : (words ?? []);
-      for (const value of allowed) assert.ok(coveredValues.has(JSON.stringify(value)) || value === opening, `${key}: ${value}`);
+      const allowedValues = type === 'boolean' ? [true, false] : (words ?? []);
+      for (const value of allowedValues) assert.ok(coveredValues.has(JSON.stringify(value)) || value === opening, `${key}: ${value}`);
       const otherValues = [...coveredValues].filter((value) => value !== undefined && value !== JSON.stringify(opening));
       assert.ok(otherValues.length > 0, `${key} is never set`);
       if (nullable && opening !== null && type !== 'number') assert.ok(coveredValues.has('null'), `${key}: null`);

@@ -8,7 +8,7 @@ import { english } from '../../www/logs/en.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { pairLogs } from '../../www/logs/pairs.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
-import { refusalOf, sentenceOf } from './log-support.js';
+import { refusalOf, refusalSentenceOf } from './log-support.js';
 
 /** @import { Recording } from '../../www/logs/log.ts' */
 
@@ -25,7 +25,7 @@ const TYPE_AND_KIND = /** @type {const} */ ({
  * @param {string[]} [frames] of transforms, as "odom base_link"
  * @returns {Recording}
  */
-const recording = (series, more, frames = []) => ({
+const recordingOf = (series, more, frames = []) => ({
   name: 'run.mcap',
   format: 'mcap',
   series: Object.entries(series).map(([name, of]) => {
@@ -42,7 +42,7 @@ const choiceText = ({ series, frames }) => (frames ? `${series} ${frames.parent}
 /** Plans drives. A refusal rejects the promise. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
 const plannedDrives = async (recordings, wishes) => planDrives(recordings, wishes);
 
-/** Cases with one answer: the series of a recording, the expected odometry and reference, the frames in /tf, the user's options. @type {[Parameters<typeof recording>[0], string, string, string[]?, any?][]} */
+/** Cases with one answer: the series of a recording, the expected odometry and reference, the frames in /tf, the user's options. @type {[Parameters<typeof recordingOf>[0], string, string, string[]?, any?][]} */
 const CLEAR_CASES = [
   [{ '/odom': 'odometry', '/vrpn_client_node/robot/pose': 'pose', '/amcl_pose': 'pose', '/cmd_vel': 'twist' }, '/odom', '/vrpn_client_node/robot/pose'],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose', '/cmd_vel': 'twist' }, '/cmd_vel', '/vicon/robot', [], { kind: 'commands' }],
@@ -59,24 +59,24 @@ const CLEAR_CASES = [
 
 test('odometry and reference are guessed by types, names and frames', () => {
   for (const [series, odometry, reference, frames, wishes] of CLEAR_CASES) {
-    const [drive] = planDrives([recording(series, {}, frames)], wishes).drives;
+    const [drive] = planDrives([recordingOf(series, {}, frames)], wishes).drives;
     assert.deepEqual([choiceText(drive.odometry.choice), choiceText(drive.reference.choice)], [odometry, reference]);
   }
 });
 
 test('groups of columns are guessed as topics are, and may be named without a separator', () => {
   const poseTable = /** @type {const} */ ({ name: 'run.csv', format: 'csv' });
-  for (const [series, odometry, reference, wishes] of /** @type {[Parameters<typeof recording>[0], string, string, any?][]} */ ([
+  for (const [series, odometry, reference, wishes] of /** @type {[Parameters<typeof recordingOf>[0], string, string, any?][]} */ ([
     [{ odom_: 'columns', gt_: 'columns' }, 'odom_', 'gt_'], [{ '': 'columns', gt_: 'columns' }, '', 'gt_'], [{ '': 'columns', _true: 'columns' }, '', '_true'], [{ '/truth': 'columns', '/odom': 'columns' }, '/odom', '/truth'],
     [{ a_: 'columns', b_: 'columns' }, 'b_', 'a_', { odometry: { series: 'b' } }],
   ])) {
-    const [drive] = planDrives([recording(series, poseTable)], wishes).drives;
+    const [drive] = planDrives([recordingOf(series, poseTable)], wishes).drives;
     assert.deepEqual([drive.odometry.choice.series, drive.reference.choice.series], [odometry, reference]);
   }
 });
 
 test('a question is asked where a role is not clear', async () => {
-  for (const [series, sentence, what, role, choices, frames, wishes] of /** @type {[Parameters<typeof recording>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
+  for (const [series, sentence, what, role, choices, frames, wishes] of /** @type {[Parameters<typeof recordingOf>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
     [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/cmd_vel': 'twist' }, 'by its names and types it has no reference, but /odom (Odometry), ', 'series', 'reference', []],
@@ -95,7 +95,7 @@ test('a question is asked where a role is not clear', async () => {
     [{ '/odom': 'odometry', '/mocap': 'pose' }, '/odom is the odometry itself; ', 'series', 'reference', ['/mocap'], [], { reference: { series: '/odom' } }],
     [{ '/tf': 'tf' }, 'odom → base is the odometry itself; ', 'series', 'reference', [], ['odom base', 'mocap robot'], { reference: { frames: { parent: 'odom', child: 'base' } } }],
   ])) {
-    const { message, ask } = await refusalOf(plannedDrives([recording(series, {}, frames)], wishes));
+    const { message, ask } = await refusalOf(plannedDrives([recordingOf(series, {}, frames)], wishes));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${sentence}`), message);
     assert.deepEqual([ask?.what, ask?.role], [what, role], message);
     if (choices) assert.deepEqual(ask?.choices, choices);
@@ -103,34 +103,34 @@ test('a question is asked where a role is not clear', async () => {
 });
 
 test('several recordings are drives of their own, or give one log each', async () => {
-  const recordingWithBothLogs = recording({ '/odom': 'odometry', '/mocap': 'pose' });
+  const recordingWithBothLogs = recordingOf({ '/odom': 'odometry', '/mocap': 'pose' });
   assert.equal(planDrives([recordingWithBothLogs, recordingWithBothLogs]).drives.length, 2);
-  const { unpaired } = planDrives([recording({ '/mocap': 'pose' }), recording({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
+  const { unpaired } = planDrives([recordingOf({ '/mocap': 'pose' }), recordingOf({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
   assert.deepEqual([unpaired.odometry[0].choice.series, unpaired.reference[0].choice.series], ['/odom', '/mocap']);
-  const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([recordingWithBothLogs, recording({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
+  const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([recordingWithBothLogs, recordingOf({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
   assert.deepEqual([drives.length, unpairedOdometry.choice.series], [0, '/odom']);
   // A recording that has neither odometry nor a reference is left out, unless the user chose it as one of the two.
-  const camera = recording({ '/image': 'text' }, { name: 'camera.mcap' });
-  const { drives: [drive], unused } = planDrives([camera, recordingWithBothLogs]);
+  const cameraRecording = recordingOf({ '/image': 'text' }, { name: 'camera.mcap' });
+  const { drives: [drive], unused } = planDrives([cameraRecording, recordingWithBothLogs]);
   assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [recordingWithBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
-  assert.match(await sentenceOf(plannedDrives([recordingWithBothLogs, camera], { roles: new Map([[camera, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
+  assert.match(await refusalSentenceOf(plannedDrives([recordingWithBothLogs, cameraRecording], { roles: new Map([[cameraRecording, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
   const unpairedNames = async (/** @type {string[]} */ ...names) => {
-    const plan = planDrives(names.map((name) => recording({ '': 'columns' }, { name, format: 'csv' })));
+    const plan = planDrives(names.map((name) => recordingOf({ '': 'columns' }, { name, format: 'csv' })));
     return [plan.unpaired.odometry, plan.unpaired.reference].map((parts) => parts.map(({ recording: { name } }) => name));
   };
   assert.deepEqual(await unpairedNames('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
   assert.deepEqual(await unpairedNames('a.csv', 'b.csv'), [['a.csv'], ['b.csv']]);
   assert.deepEqual(await unpairedNames('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
-  assert.match(await sentenceOf(unpairedNames('a.csv', 'b.csv', 'c.csv', 'd.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
-  assert.match(await sentenceOf(unpairedNames('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: the odometry is in odom1\.csv, odom2\.csv, and the reference in truth\.csv; /);
+  assert.match(await refusalSentenceOf(unpairedNames('a.csv', 'b.csv', 'c.csv', 'd.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
+  assert.match(await refusalSentenceOf(unpairedNames('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: the odometry is in odom1\.csv, odom2\.csv, and the reference in truth\.csv; /);
   // A log may be ambiguous in one role only.
-  const twoBodies = recording({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
-  const odometryTable = recording({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
-  const { ask } = await refusalOf(plannedDrives([odometryTable, twoBodies]));
+  const twoBodyRecording = recordingOf({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
+  const odometryTable = recordingOf({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
+  const { ask } = await refusalOf(plannedDrives([odometryTable, twoBodyRecording]));
   assert.deepEqual([ask?.what, ask?.role, ask?.choices], ['series', 'reference', ['Robot', 'Cart']]);
-  assert.equal(planDrives([odometryTable, twoBodies], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
-  const ambiguous = recording({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
-  assert.match(await sentenceOf(plannedDrives([ambiguous, ambiguous])), /^run\.mcap: it is not clear what the reference is: /);
+  assert.equal(planDrives([odometryTable, twoBodyRecording], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
+  const ambiguousRecording = recordingOf({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
+  assert.match(await refusalSentenceOf(plannedDrives([ambiguousRecording, ambiguousRecording])), /^run\.mcap: it is not clear what the reference is: /);
 });
 
 /** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
@@ -186,18 +186,18 @@ test('one path given as both logs is refused, in another frame and in other file
     const [x, y] = [Math.sin(i / 50), 1 - Math.cos(i / 50)];
     return [i / 20, dx + x * Math.cos(turn) - y * Math.sin(turn), x * Math.sin(turn) + y * Math.cos(turn), i / 50 + turn];
   };
-  const refusalText = await sentenceOf(drivesOf({ 'odom.csv': poseTable(400, (i) => curveRow(i)), 'truth.csv': poseTable(400, (i) => curveRow(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
+  const refusalText = await refusalSentenceOf(drivesOf({ 'odom.csv': poseTable(400, (i) => curveRow(i)), 'truth.csv': poseTable(400, (i) => curveRow(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
   assert.equal(refusalText, 'truth.csv: it has the same motion as odom.csv; give two independent measurements of one drive.');
   const spiralRow = (/** @type {number} */ i, scale = 1) => [i / 20, scale * i * 0.08 * Math.cos(i / 50), scale * i * 0.08 * Math.sin(i / 50), 0];
   const roundedFiles = (/** @type {number} */ digits, scale = 1, size = 1) => ({ 'odom.csv': poseTable(400, (i) => spiralRow(i, size)), 'truth.csv': poseTable(400, (i) => spiralRow(i, size * scale).map((value) => Number(value.toFixed(digits)))) });
-  for (const digits of [2, 3, 4]) assert.equal(await sentenceOf(drivesOf(roundedFiles(digits))), refusalText);
+  for (const digits of [2, 3, 4]) assert.equal(await refusalSentenceOf(drivesOf(roundedFiles(digits))), refusalText);
   // Not refused: paths that differ by more than the rounding, unrounded paths, and short ones.
   for (const [digits, scale, size] of [[2, 1.001], [9, 1.0001], [2, 1, 0.1]]) assert.equal((await drivesOf(roundedFiles(digits, scale, size))).length, 1);
   const commands = ['t,x,y,yaw,v,omega', ...Array.from({ length: 99 }, (_, i) => `${i / 20},${i / 40},0,0,0.5,0`)].join('\n');
   const [one, other] = await openRecordings([new File([commands], 'log.csv'), new File([commands], 'log.csv')]);
-  assert.match(await sentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /^log\.csv: it is given twice;/);
+  assert.match(await refusalSentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /^log\.csv: it is given twice;/);
   assert.equal(
-    await sentenceOf(drivesOf({ 'odom1.csv': poseTable(400, (i) => curveRow(i)), 'odom2.csv': poseTable(400, (i) => curveRow(i)), 'truth1.csv': straightTable((i) => i / 90), 'truth2.csv': straightTable((i) => i / 80) })),
+    await refusalSentenceOf(drivesOf({ 'odom1.csv': poseTable(400, (i) => curveRow(i)), 'odom2.csv': poseTable(400, (i) => curveRow(i)), 'truth1.csv': straightTable((i) => i / 90), 'truth2.csv': straightTable((i) => i / 80) })),
     'odom2.csv: it is the drive of odom1.csv; give each drive once.',
   );
   // Differences of a millimetre make two paths different.
@@ -207,13 +207,13 @@ test('one path given as both logs is refused, in another frame and in other file
 test('a frozen reference is left out while the odometry moves on, and kept while it stands', async () => {
   const odometryX = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
   const odometry = straightTable(odometryX);
-  const seenX = (/** @type {number} */ i) => 1.01 * odometryX(i);
+  const referenceX = (/** @type {number} */ i) => 1.01 * odometryX(i);
   const referenceOf = async (/** @type {string} */ reference, odometryTable = odometry) => (await drivesOf({ 'odom.csv': odometryTable, 'truth.csv': reference }))[0].reference;
-  assert.deepEqual([(await referenceOf(straightTable(seenX))).summary.dropped, (await referenceOf(straightTable(seenX))).summary.used], [{}, 400]);
-  const frozenTable = straightTable((i) => seenX(i >= 200 && i < 300 ? 200 : i));
+  assert.deepEqual([(await referenceOf(straightTable(referenceX))).summary.dropped, (await referenceOf(straightTable(referenceX))).summary.used], [{}, 400]);
+  const frozenTable = straightTable((i) => referenceX(i >= 200 && i < 300 ? 200 : i));
   const { data, summary } = await referenceOf(frozenTable);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [301, [201], 301, { held: { count: 99, first: 0 } }]);
-  assert.equal(await sentenceOf(referenceOf(straightTable(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
+  assert.equal(await refusalSentenceOf(referenceOf(straightTable(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // A pause of two seconds, or one in which the odometry moves by five centimetres, does not count as lost.
   const droppedDuring = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
     const xOf = (/** @type {number} */ i) => (speed * i) / 20;
@@ -230,8 +230,8 @@ test('a log that does not follow the other one names the correction that makes i
   const path = [[0, 0]];
   for (const [i, heading] of headings.entries()) path.push([path[i][0] + Math.cos(heading) / 40, path[i][1] + Math.sin(heading) / 40]);
   const tableOf = (/** @type {(row: number[]) => number[]} */ change) => poseTable(1200, (i) => change([i / 20, ...path[i], headings[i]]).map((value) => Number(value.toFixed(6))));
-  const distorted = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
-  const degree = Math.PI / 180;
+  const distortedRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
+  const radPerDegree = Math.PI / 180;
   for (const [change, sentence, what] of /** @type {[(row: number[]) => number[], RegExp, string?][]} */ ([
     [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored relative to its heading and to /],
     [([t, x, y, yaw]) => [t, -x, y, yaw], /its x axis is mirrored /],
@@ -239,10 +239,10 @@ test('a log that does not follow the other one names the correction that makes i
     [([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw], /its heading has the wrong sign,/],
     [([t, x, y, yaw]) => [t, y, x, yaw], /its x and y are swapped;/],
     [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
-    [([t, x, y, yaw]) => [t, x, y, yaw * degree], /its headings are in radians and were read as degrees;/, 'angleUnit'],
+    [([t, x, y, yaw]) => [t, x, y, yaw * radPerDegree], /its headings are in radians and were read as degrees;/, 'angleUnit'],
     [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /: multiplied by 0\.098, its lengths match those of odom\.csv;/, 'lengthUnit'],
   ])) {
-    const refusal = await refusalOf(drivesOf({ 'odom.csv': tableOf((row) => row), 'truth.csv': tableOf((row) => change(distorted(row))) }));
+    const refusal = await refusalOf(drivesOf({ 'odom.csv': tableOf((row) => row), 'truth.csv': tableOf((row) => change(distortedRow(row))) }));
     assert.match(refusal.message, sentence);
     assert.match(refusal.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
     assert.equal(refusal.ask?.what, what);
@@ -250,7 +250,7 @@ test('a log that does not follow the other one names the correction that makes i
   // A reference that is mounted backwards is not taken for a mirrored axis, even if the robot hardly turns.
   const backwardMounted = await drivesOf({ 'odom.csv': poseTable(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTable(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
   assert.equal(backwardMounted.length, 1);
-  assert.match(await sentenceOf(drivesOf({ 'odom.csv': tableOf(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': tableOf(distorted) })), /^odom\.csv: its y axis is mirrored/);
+  assert.match(await refusalSentenceOf(drivesOf({ 'odom.csv': tableOf(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': tableOf(distortedRow) })), /^odom\.csv: its y axis is mirrored/);
 });
 
 test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {

@@ -12,7 +12,7 @@ import type { Choice, Commands, Log, Poses, Recording, Source } from '../../www/
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
 import { odometryMessage, recordingOf, transformMessage, type Message } from '../mcap.js';
-import { refusalOf, sentenceOf } from './log-support.js';
+import { refusalOf, refusalSentenceOf } from './log-support.js';
 
 /** Compressed files by name. */
 const FILES: Record<string, string> = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
@@ -23,9 +23,9 @@ const fileOf = (bytes: Uint8Array | string, name: string, path?: string): Source
 
 /** Returns the files of a rosbag2 folder. In recordings.json the folder's name is the prefix of their names. */
 const folderOf = (name: string): Source[] =>
-  Object.keys(FILES).filter((file) => file.startsWith(`${name}-metadata`) || file.startsWith(`${name}-${name}.`)).map((file) => {
-    const ownName = file.slice(name.length + 1);
-    return fileOf(bytesOf(file), ownName, `${name}/${ownName}`);
+  Object.keys(FILES).filter((fileList) => fileList.startsWith(`${name}-metadata`) || fileList.startsWith(`${name}-${name}.`)).map((fileList) => {
+    const nameInFolder = fileList.slice(name.length + 1);
+    return fileOf(bytesOf(fileList), nameInFolder, `${name}/${nameInFolder}`);
   });
 
 async function open(...sources: Source[]): Promise<Recording> {
@@ -39,9 +39,9 @@ const summaryText = (log: Log) => summarySentences(log, english.found).join('. '
 /** Odometry and reference of the drive, from its tables. */
 const tables = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => fileOf(bytesOf(name), name)))).map((table) => table.read([{ series: '' }]));
 const [[odometryLog], [referenceLog]] = await Promise.all(tables);
-const BOTH: Choice[] = [{ series: '/odom' }, { series: '/truth' }];
+const BOTH_CHOICES: Choice[] = [{ series: '/odom' }, { series: '/truth' }];
 
-const file = (name: string) => [fileOf(bytesOf(name), name)];
+const fileList = (name: string) => [fileOf(bytesOf(name), name)];
 
 /** Metadata of a recording in two files. */
 const SPLIT_METADATA = 'rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: [split0.mcap, split1.mcap]\n';
@@ -51,10 +51,10 @@ const splitFiles = (...parts: number[]) => [
 ];
 
 const RECORDINGS: Record<string, Source[]> = {
-  'none.bag': file('none.bag'), 'bz2.bag': file('bz2.bag'), 'lz4.bag': file('lz4.bag'),
-  'none.mcap': file('none.mcap'), 'lz4.mcap': file('lz4.mcap'), 'zstd.mcap': file('zstd.mcap'), 'unindexed.mcap': file('unindexed.mcap'),
-  'unchunked.mcap': file('unchunked.mcap'), 'ros1-support.mcap': file('ros1-support.mcap'), 'ros2-support.mcap': file('ros2-support.mcap'),
-  'a compressed database alone': file('sqlite-file-sqlite-file.db3.zstd'),
+  'none.bag': fileList('none.bag'), 'bz2.bag': fileList('bz2.bag'), 'lz4.bag': fileList('lz4.bag'),
+  'none.mcap': fileList('none.mcap'), 'lz4.mcap': fileList('lz4.mcap'), 'zstd.mcap': fileList('zstd.mcap'), 'unindexed.mcap': fileList('unindexed.mcap'),
+  'unchunked.mcap': fileList('unchunked.mcap'), 'ros1-support.mcap': fileList('ros1-support.mcap'), 'ros2-support.mcap': fileList('ros2-support.mcap'),
+  'a compressed database alone': fileList('sqlite-file-sqlite-file.db3.zstd'),
   sqlite: folderOf('sqlite'), 'sqlite-messages': folderOf('sqlite-messages'), 'sqlite-file': folderOf('sqlite-file'),
   'mcap-messages': folderOf('mcap-messages'), 'mcap-file': folderOf('mcap-file'),
   'split files': splitFiles(0, 1), 'split files in another order': splitFiles(1, 0),
@@ -64,7 +64,7 @@ for (const [name, sources] of Object.entries(RECORDINGS)) {
   test(`${name} has the rows of the tables to the last bit`, async () => {
     const recording = await open(...sources);
     assert.deepEqual(recording.series.map(({ name: topic, kind, count }) => [topic, kind, count]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
-    const logs = await recording.read(BOTH);
+    const logs = await recording.read(BOTH_CHOICES);
     for (const [i, table] of [odometryLog, referenceLog].entries()) {
       assert.deepEqual([logs[i].start, logs[i].data], [table.start, table.data]);
       assert.deepEqual([logs[i].summary.dropped, logs[i].summary.notes, logs[i].summary.clock], [{}, [], 'header.stamp']);
@@ -74,10 +74,10 @@ for (const [name, sources] of Object.entries(RECORDINGS)) {
 
 /** Returns the rows of the drive that a log has, and compares their poses. Headings may differ by the error. */
 function rowsOf({ start, data }: Log, error = 0): number[] {
-  const [read, all] = [data, odometryLog.data] as Poses[];
-  const rows = Array.from(read.t, (t) => Math.round(20 * (start - odometryLog.start + t - all.t[0])));
-  for (const field of ['x', 'y'] as const) assert.deepEqual([...read[field]], rows.map((row) => all[field][row]));
-  for (const [i, row] of rows.entries()) assert.ok(Math.abs(read.theta[i] - all.theta[row]) <= error, `${read.theta[i]}, not ${all.theta[row]}`);
+  const [readMessages, all] = [data, odometryLog.data] as Poses[];
+  const rows = Array.from(readMessages.t, (t) => Math.round(20 * (start - odometryLog.start + t - all.t[0])));
+  for (const field of ['x', 'y'] as const) assert.deepEqual([...readMessages[field]], rows.map((row) => all[field][row]));
+  for (const [i, row] of rows.entries()) assert.ok(Math.abs(readMessages.theta[i] - all.theta[row]) <= error, `${readMessages.theta[i]}, not ${all.theta[row]}`);
   return rows;
 }
 
@@ -91,8 +91,8 @@ for (const name of ['types.bag', 'types.mcap']) {
     // Pose2D has a heading. Those of quaternions are rounded to steps of 1e-12.
     for (const log of poses) assert.deepEqual(rowsOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), range(0, 40), log.name);
     // The same formulas as in generate.py.
-    const rounded = (value: number) => Math.round(4096 * value) / 4096;
-    const commands = [range(0, 40).map((i) => rounded(0.5 + 0.2 * Math.sin(i / 9))), range(0, 40).map((i) => rounded(0.8 * Math.sin(i / 23)))];
+    const roundCommand = (value: number) => Math.round(4096 * value) / 4096;
+    const commands = [range(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), range(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
     const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
     for (const { data, name: topic } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], commands, topic);
     assert.equal(logs[0].summary.clock, 'log time');
@@ -103,11 +103,11 @@ for (const name of ['types.bag', 'types.mcap']) {
 }
 
 test('files that are missing are noted, and the rest is read', async () => {
-  const [odometry] = await (await open(...splitFiles(1))).read(BOTH);
+  const [odometry] = await (await open(...splitFiles(1))).read(BOTH_CHOICES);
   assert.deepEqual(rowsOf(odometry), range(50, 100));
   assert.match(summaryText(odometry), /the files split0\.mcap of the recording are missing/);
-  assert.match(await sentenceOf(openRecordings(splitFiles())), /^drive\/metadata\.yaml: it describes a recording in split0\.mcap, split1\.mcap; give that file too/);
-  assert.match(await sentenceOf(openRecordings([fileOf(SPLIT_METADATA, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
+  assert.match(await refusalSentenceOf(openRecordings(splitFiles())), /^drive\/metadata\.yaml: it describes a recording in split0\.mcap, split1\.mcap; give that file too/);
+  assert.match(await refusalSentenceOf(openRecordings([fileOf(SPLIT_METADATA, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
 });
 
 /** Reads the odometry of a file. */
@@ -119,11 +119,11 @@ const odometryOfDamaged = (name: string, at: number) => odometryOf(bytesOf(name)
 const positionsOf = (bytes: Buffer, text: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(text, 'g')), ({ index }) => index);
 
 /** Returns a function that finds a position inside each chunk of a file: 60 bytes after a text in the header of the chunk. */
-const inChunks = (field: string) => (bytes: Buffer) => positionsOf(bytes, field).map((at) => at + 60);
+const positionsInChunks = (field: string) => (bytes: Buffer) => positionsOf(bytes, field).map((at) => at + 60);
 
 /** Positions in the blocks that have messages of the odometry. In an MCAP file, the text is in chunk indexes too. */
 const BLOCK_POSITIONS: Record<string, (bytes: Buffer) => number[]> = {
-  'bz2.bag': inChunks('compression='), 'lz4.bag': inChunks('compression='), 'zstd.mcap': inChunks('zstd'), 'lz4.mcap': inChunks('lz4'),
+  'bz2.bag': positionsInChunks('compression='), 'lz4.bag': positionsInChunks('compression='), 'zstd.mcap': positionsInChunks('zstd'), 'lz4.mcap': positionsInChunks('lz4'),
   'sqlite-sqlite.db3': (bytes) => [...new Set(positionsOf(bytes, 'base_link').map((at) => at - (at % 4096)))],
 };
 
@@ -150,10 +150,10 @@ for (const [name, blockPositions] of Object.entries(BLOCK_POSITIONS)) {
 
 test('a database whose transaction was never finished has the messages of all its pages', async () => {
   const bytes = bytesOf('sqlite-sqlite.db3');
-  const root = range(0, bytes.length / 4096).map((page) => 4096 * page).find((at) => bytes[at] === 5) ?? 0;
+  const rootPage = range(0, bytes.length / 4096).map((page) => 4096 * page).find((at) => bytes[at] === 5) ?? 0;
   // The number of pages and the root of the messages are those before the transaction: an empty page.
   bytes.writeUInt32BE(8, 28);
-  bytes.fill(0, root, root + 5)[root] = 13;
+  bytes.fill(0, rootPage, rootPage + 5)[rootPage] = 13;
   const log = await odometryOf(bytes, 'run.db3');
   assert.deepEqual(rowsOf(log), range(0, 100));
   assert.match(summaryText(log), /gaps: none\. notes: the file is incomplete: it ends in the middle of a row or record$/);
@@ -165,8 +165,8 @@ test('a damaged message is dropped, and a file of damaged headers or compression
   const log = await odometryOfDamaged(name, positionsOf(bytesOf(name), '\\(\xb5/\xfd')[6] + 20);
   assert.deepEqual([rowsOf(log), log.summary.dropped], [[...range(0, 3), ...range(4, 100)], { damaged: { count: 1, first: 4 } }]);
   const withoutTopics = Buffer.from(bytesOf('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
-  assert.match(await sentenceOf(odometryOf(withoutTopics, 'none.bag')), /none of its messages can be read \(a record has no field topic\); expected/);
-  assert.match(await sentenceOf(odometryOfDamaged('sqlite-file-sqlite-file.db3.zstd', 4000)), /none of its messages can be read \(.+\); expected/);
+  assert.match(await refusalSentenceOf(odometryOf(withoutTopics, 'none.bag')), /none of its messages can be read \(a record has no field topic\); expected/);
+  assert.match(await refusalSentenceOf(odometryOfDamaged('sqlite-file-sqlite-file.db3.zstd', 4000)), /none of its messages can be read \(.+\); expected/);
 });
 
 test('LZ4 frames of another size are refused, and any damage to one with checksums', async () => {
@@ -175,19 +175,19 @@ test('LZ4 frames of another size are refused, and any damage to one with checksu
   const at = bytes.indexOf('lz4');
   const [size, length] = [at - 16, at + 3].map((from) => Number(bytes.readBigUInt64LE(from)));
   const frame = bytes.subarray(at + 11, at + 11 + length);
-  const records = await unlz4(frame, size);
-  for (const wrongSize of [size - 1, size + 1]) await assert.rejects(unlz4(frame, wrongSize), RangeError);
+  const chunkRecords = await unlz4(frame, size);
+  for (const wrongByteCount of [size - 1, size + 1]) await assert.rejects(unlz4(frame, wrongByteCount), RangeError);
   // Checksums are added for the only block and for the contents.
   const { h32Raw } = await xxhash();
   const checksum = (part: Uint8Array) => Buffer.from(Uint32Array.of(h32Raw(part)).buffer);
   const from = frame[4] & 0x08 ? 15 : 7;
-  const checked = Buffer.concat([frame.subarray(0, -4), checksum(frame.subarray(from + 4, -4)), frame.subarray(-4), checksum(records)]);
-  checked[4] |= 0x14;
-  assert.deepEqual(await unlz4(checked, size), records);
-  for (let i = from + 4; i < checked.length; i++) {
-    const damaged = Buffer.from(checked);
-    damaged[i] ^= 17;
-    await assert.rejects(unlz4(damaged, size), RangeError);
+  const frameWithChecksums = Buffer.concat([frame.subarray(0, -4), checksum(frame.subarray(from + 4, -4)), frame.subarray(-4), checksum(chunkRecords)]);
+  frameWithChecksums[4] |= 0x14;
+  assert.deepEqual(await unlz4(frameWithChecksums, size), chunkRecords);
+  for (let i = from + 4; i < frameWithChecksums.length; i++) {
+    const damagedFrame = Buffer.from(frameWithChecksums);
+    damagedFrame[i] ^= 17;
+    await assert.rejects(unlz4(damagedFrame, size), RangeError);
   }
 });
 
@@ -196,14 +196,14 @@ test('formats that are not read are refused with the cure, by their contents', a
     ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['sqlitePart', '\x18\xe2\x2d\0'], ['sqlitePart', '\xd9\xd5\x05\xf9'], ['zip', 'PK\x03\x04'],
     ['gzip', '\x1f\x8b\x08'], ['bzip2', 'BZh9'], ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
   ];
-  for (const [format, start] of magicBytes) assert.equal(await sentenceOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
+  for (const [format, start] of magicBytes) assert.equal(await refusalSentenceOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
   assert.deepEqual(new Set(magicBytes.map(([format]) => format)), new Set(Object.keys(UNSUPPORTED_FORMATS)));
 });
 
 test('a recording without one whole message is incomplete, and the tool that repairs it is named', async () => {
   for (const [name, tool] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover | sqlite3 NEW.db3']]) {
     for (const size of [20, 200]) {
-      const sentence = await sentenceOf(openRecordings([fileOf(bytesOf(name).slice(0, size), name)]));
+      const sentence = await refusalSentenceOf(openRecordings([fileOf(bytesOf(name).slice(0, size), name)]));
       assert.ok(sentence.startsWith(`${name}: it is incomplete`) && sentence.includes(`“${tool}”`), sentence);
     }
   }
@@ -211,49 +211,49 @@ test('a recording without one whole message is incomplete, and the tool that rep
 
 test('files that are no recording are refused', async () => {
   const database = Uint8Array.from({ length: 4096 }, (_, i) => 'SQLite format 3\0\x10'.charCodeAt(i) || 0);
-  assert.match(await sentenceOf(openRecordings([fileOf(database, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
-  assert.match(await sentenceOf(openRecordings([fileOf('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...splitFiles()])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
-  const large = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob(['\x28\xb5\x2f\xfd'].map((text) => Buffer.from(text, 'latin1'))) };
-  assert.match(await sentenceOf(openRecordings([large])), /^run\.db3: it has more than 1073741824 bytes when it is decompressed; decompress it with “zstd -d”/);
-  const small = await open(...file('small.db3'));
-  assert.match(await sentenceOf(small.read([{ series: '/pose' }])), /^small\.db3, topic \/pose: it has fewer than 2 messages;/);
+  assert.match(await refusalSentenceOf(openRecordings([fileOf(database, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
+  assert.match(await refusalSentenceOf(openRecordings([fileOf('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...splitFiles()])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
+  const largeFile = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob(['\x28\xb5\x2f\xfd'].map((text) => Buffer.from(text, 'latin1'))) };
+  assert.match(await refusalSentenceOf(openRecordings([largeFile])), /^run\.db3: it has more than 1073741824 bytes when it is decompressed; decompress it with “zstd -d”/);
+  const smallRecording = await open(...fileList('small.db3'));
+  assert.match(await refusalSentenceOf(smallRecording.read([{ series: '/pose' }])), /^small\.db3, topic \/pose: it has fewer than 2 messages;/);
 });
 
 const TF = 'tf2_msgs/msg/TFMessage';
 const at = (i: number) => 1_700_000_000 + i / 20;
-const tfAt = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF, t: at(i), message: { transforms } });
+const tfMessage = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF, t: at(i), message: { transforms } });
 const count = 40;
-const arrayOf = <T>(make: (i: number) => T): T[] => Array.from({ length: count }, (_, i) => make(i));
-const read = async (messages: Message[], ...choices: Choice[]) => (await open(fileOf(await recordingOf(messages), 'run.mcap'))).read(choices);
+const mapSteps = <T>(make: (i: number) => T): T[] => Array.from({ length: count }, (_, i) => make(i));
+const readMessages = async (messages: Message[], ...choices: Choice[]) => (await open(fileOf(await recordingOf(messages), 'run.mcap'))).read(choices);
 const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
 const movingTransform = (i: number) => transformMessage(at(i), 'odom', 'base_footprint', i / 50, 0, 0);
 
 test('a transform that never changes is no log', async () => {
-  const messages = arrayOf((i) => tfAt(i, transformMessage(at(i), 'odom', 'base_link', 1, 2, 0), transformMessage(at(i), 'map', 'robot', i / 50, 0, 0)));
-  assert.equal(await sentenceOf(read(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
+  const messages = mapSteps((i) => tfMessage(i, transformMessage(at(i), 'odom', 'base_link', 1, 2, 0), transformMessage(at(i), 'map', 'robot', i / 50, 0, 0)));
+  assert.equal(await refusalSentenceOf(readMessages(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
 });
 
 test('a constant transform that is published more often than the moving one adds no rows', async () => {
-  const messages = arrayOf((i) => [tfAt(i, movingTransform(i)), ...[0.3, 0.6].map((part) => tfAt(i + part, transformMessage(at(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
-  const [{ data }] = await read(messages, BASE_CHOICE);
+  const messages = mapSteps((i) => [tfMessage(i, movingTransform(i)), ...[0.3, 0.6].map((part) => tfMessage(i + part, transformMessage(at(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
+  const [{ data }] = await readMessages(messages, BASE_CHOICE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(count).keys()]);
-  assert.deepEqual([...(data as Poses).x], arrayOf((i) => i / 50 + 0.5));
+  assert.deepEqual([...(data as Poses).x], mapSteps((i) => i / 50 + 0.5));
 });
 
 /** Messages of nodes that publish one topic after the other. @param nodes a letter each */
-const turns = (nodes: string): Message[] => [...nodes].flatMap((node, turn) => arrayOf((i) => {
+const alternatingMessages = (nodes: string): Message[] => [...nodes].flatMap((node, turn) => mapSteps((i) => {
   const t = at(count * turn + i);
   return { topic: '/odom', type: 'nav_msgs/msg/Odometry', node, t, message: odometryMessage(t, i / 50, 0, 0) };
 }));
 
 test('nodes that publish a topic in turns are refused, and one that is started again is not', async () => {
-  const nodes = await open(...file('nodes.bag'));
-  assert.match(await sentenceOf(nodes.read(BOTH)), /^nodes\.bag, topic \/odom: several nodes publish it in turns \(\/base, \/simulator\);/);
-  assert.equal((await read(turns('abab'), { series: '/odom' }))[0].data.t.length, 4 * count);
-  assert.match(await sentenceOf(read(turns('ababa'), { series: '/odom' })), /in turns \(a, b\);/);
+  const nodes = await open(...fileList('nodes.bag'));
+  assert.match(await refusalSentenceOf(nodes.read(BOTH_CHOICES)), /^nodes\.bag, topic \/odom: several nodes publish it in turns \(\/base, \/simulator\);/);
+  assert.equal((await readMessages(alternatingMessages('abab'), { series: '/odom' }))[0].data.t.length, 4 * count);
+  assert.match(await refusalSentenceOf(readMessages(alternatingMessages('ababa'), { series: '/odom' })), /in turns \(a, b\);/);
 });
 
 test('a topic of two types is refused', async () => {
-  const messages = turns('ab').map((message) => (message.node === 'b' ? { ...message, schema: 'geometry_msgs/msg/PoseStamped' } : message));
-  assert.match(await sentenceOf(read(messages, { series: '/odom' })), /^run\.mcap, topic \/odom: its messages have the types nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped;/);
+  const messages = alternatingMessages('ab').map((message) => (message.node === 'b' ? { ...message, schema: 'geometry_msgs/msg/PoseStamped' } : message));
+  assert.match(await refusalSentenceOf(readMessages(messages, { series: '/odom' })), /^run\.mcap, topic \/odom: its messages have the types nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped;/);
 });

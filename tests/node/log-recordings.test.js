@@ -9,7 +9,7 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
 import { odometryMessage, poseOf, recordingOf, stampOf, transformMessage, twistOf } from '../mcap.js';
 import { randomGenerator } from '../random.js';
-import { readLog, sentenceOf } from './log-support.js';
+import { readLog, refusalSentenceOf } from './log-support.js';
 
 /** @import { Message } from '../mcap.js' */
 
@@ -83,10 +83,10 @@ test('an incomplete index is not used', async () => {
   const bytes = await recordingOf(driveMessages());
   const logWithIndex = await readLog(mcapFile(bytes), { series: '/odom' });
   // The checksum of the summary is cleared, and an index of a chunk gets a code that readers skip.
-  const footer = bytes.length - 28;
-  bytes.writeUInt32LE(0, footer + 16);
+  const footerStart = bytes.length - 28;
+  bytes.writeUInt32LE(0, footerStart + 16);
   const CHUNK_INDEX = 8;
-  let record = Number(bytes.readBigUInt64LE(footer));
+  let record = Number(bytes.readBigUInt64LE(footerStart));
   while (bytes[record] !== CHUNK_INDEX) record += 9 + Number(bytes.readBigUInt64LE(record + 1));
   bytes[record] = 0x80;
   assert.deepEqual((await readLog(mcapFile(bytes), { series: '/odom' })).data, logWithIndex.data);
@@ -101,12 +101,12 @@ test('stamps that begin at 0 are used; messages without stamps have the times of
   const simulatedLog = await logWithStamps((i) => i / 10);
   assert.deepEqual([simulatedLog.start, simulatedLog.summary.rows, simulatedLog.data.t[0], simulatedLog.data.t[99]], [0, 100, 0, 9.9]);
   // Most messages have no stamp.
-  const unstamped = await logWithStamps((i) => (i < 49 ? i : 0));
-  assert.deepEqual([unstamped.start, unstamped.data.t.length, unstamped.data.t[20]], [1_700_000_000, 100, 1]);
-  assert.match(unstamped.sentences, /times: when messages were recorded/);
+  const unstampedLog = await logWithStamps((i) => (i < 49 ? i : 0));
+  assert.deepEqual([unstampedLog.start, unstampedLog.data.t.length, unstampedLog.data.t[20]], [1_700_000_000, 100, 1]);
+  assert.match(unstampedLog.sentences, /times: when messages were recorded/);
   assert.doesNotMatch(simulatedLog.sentences, /recorded/);
   const withoutHeader = await recordingOf(odomMessages(100).map((message, i) => ({ ...message, type: 'geometry_msgs/msg/Pose', t: 1_700_000_000 + i / 20, message: poseOf(i, 0, 0) })));
-  assert.deepEqual((await readLog(mcapFile(withoutHeader), { series: '/odom' })).data, unstamped.data);
+  assert.deepEqual((await readLog(mcapFile(withoutHeader), { series: '/odom' })).data, unstampedLog.data);
   // A single missing stamp is far from all other times.
   const logWithoutStamp = await logWithStamps((i) => (i === 50 ? 0 : 5 + i / 10));
   assert.deepEqual([logWithoutStamp.data.t.length, logWithoutStamp.summary.dropped.stray?.count], [99, 1]);
@@ -123,10 +123,10 @@ test('unusable quaternions, numbers and times are left out', async () => {
 
 test('messages that were written in any order are read in the order of their times', async () => {
   const random = randomGenerator(5);
-  const shuffled = odomMessages(200).map((message) => ({ message, key: random() })).sort((one, other) => one.key - other.key).map(({ message }) => message);
+  const shuffledMessages = odomMessages(200).map((message) => ({ message, key: random() })).sort((one, other) => one.key - other.key).map(({ message }) => message);
   // The messages are in one chunk, or in dozens of chunks that overlap in time.
   for (const chunkSize of [1e6, 4096]) {
-    const { data } = await readLog(mcapFile(await recordingOf(shuffled, { chunkSize })), { series: '/odom' });
+    const { data } = await readLog(mcapFile(await recordingOf(shuffledMessages, { chunkSize })), { series: '/odom' });
     assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 200 }, (_, i) => i));
   }
 });
@@ -141,7 +141,7 @@ test('topics and frames that cannot be read are refused', async () => {
     [{ series: '/odom', frames: { parent: 'map', child: 'odom' } }, 'run.mcap, topic /odom: its type is “nav_msgs/msg/Odometry”; expected is tf2_msgs/TFMessage, which has frames.'],
     [{ series: '/tf' }, 'run.mcap, topic /tf: give a parent and a child frame, connected by odom → base_link, map → base_link, odom → base_footprint, map → base_footprint.'],
     [{ series: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms lead along map → laser; expected are frames that are connected, of base_footprint → base_link, map → odom, odom → base_footprint, base_link → wheel.'],
-  ])) assert.equal(await sentenceOf(readLog(source, choice)), sentence);
+  ])) assert.equal(await refusalSentenceOf(readLog(source, choice)), sentence);
 });
 
 test('a transform that never changes holds from the beginning, and a moving one from its first message', async () => {
@@ -156,29 +156,29 @@ test('a transform that never changes holds from the beginning, and a moving one 
   assert.deepEqual(await resultWith(() => 0.5), [60, 0, 0.5, 60]);
   // A static transform that is published again with another value does not set the times of the poses.
   const staticTransforms = [0, 3].map((t) => ({ topic: '/tf_static', type: TF, t, message: { transforms: [transformMessage(t, 'base', 'laser', t, 0, 0)] } }));
-  const recalibrated = mcapFile(await recordingOf([...messagesWith(() => 0.5), ...staticTransforms].sort((one, other) => one.t - other.t)));
-  const { data: { t } } = await readLog(recalibrated, { series: '/tf', frames: { parent: 'world', child: 'laser' } });
+  const recalibratedFile = mcapFile(await recordingOf([...messagesWith(() => 0.5), ...staticTransforms].sort((one, other) => one.t - other.t)));
+  const { data: { t } } = await readLog(recalibratedFile, { series: '/tf', frames: { parent: 'world', child: 'laser' } });
   assert.equal(t.length, 60);
   // The pose is known from 3 s on, at the times of the transform to the robot's own frame.
   assert.deepEqual(await resultWith((i) => i / 100), [10, 3, 1.8, 10]);
 });
 
 test('positions without a heading are refused, by their type', async () => {
-  const points = Array.from({ length: 20 }, (_, i) => ({
+  const pointMessages = Array.from({ length: 20 }, (_, i) => ({
     topic: '/prism', type: 'geometry_msgs/msg/PointStamped', t: i / 10, message: { header: { stamp: stampOf(i / 10), frame_id: 'world' }, point: { x: i / 20, y: 0, z: 0 } },
   }));
-  const [recording] = await openRecordings([mcapFile(await recordingOf([...driveMessages().filter(({ topic }) => topic === '/odom'), ...points]))]);
+  const [recording] = await openRecordings([mcapFile(await recordingOf([...driveMessages().filter(({ topic }) => topic === '/odom'), ...pointMessages]))]);
   const sentence = /^run\.mcap: \/prism \(PointStamped\) are positions without a heading; give a reference that measures the heading, /;
-  assert.match(await sentenceOf((async () => planDrives([recording]))()), sentence);
-  assert.match(await sentenceOf(recording.read([{ series: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
+  assert.match(await refusalSentenceOf((async () => planDrives([recording]))()), sentence);
+  assert.match(await refusalSentenceOf(recording.read([{ series: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
 });
 
 test('other recordings are refused', async () => {
-  const refusal = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = driveMessages()) => sentenceOf(readLog(mcapFile(await recordingOf(messages, options)), { series: '/odom' }));
+  const refusal = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = driveMessages()) => refusalSentenceOf(readLog(mcapFile(await recordingOf(messages, options)), { series: '/odom' }));
   assert.equal(await refusal({ compression: 'odd' }), 'run.mcap, topic /odom: none of its messages can be read (compression by snappy, not by zstd or lz4); expected is an undamaged recording.');
   assert.equal(await refusal({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
   const [encodedOtherwise] = await openRecordings([mcapFile(await recordingOf(odomMessages(3), { encoding: 'json' }))]);
-  assert.match(await sentenceOf((async () => planDrives([encodedOtherwise]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);
+  assert.match(await refusalSentenceOf((async () => planDrives([encodedOtherwise]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);
   assert.equal(await refusal({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
   assert.equal(await refusal({}, driveMessages().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
   // These messages claim to be odometry, and are too short.
@@ -187,7 +187,7 @@ test('other recordings are refused', async () => {
 });
 
 test('chunks with another checksum or size than they state are not read', async () => {
-  const reasonOf = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: none of its messages can be read \((.+)\); expected/.exec(await sentenceOf(readLog(mcapFile(bytes), { series: '/odom' })))?.[1];
+  const reasonOf = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: none of its messages can be read \((.+)\); expected/.exec(await refusalSentenceOf(readLog(mcapFile(bytes), { series: '/odom' })))?.[1];
   const damagedBytes = await recordingOf(odomMessages(20), { chunkSize: 1e6 });
   damagedBytes[damagedBytes.length >> 2] ^= 1;
   assert.equal(await reasonOf(damagedBytes), 'the checksum of a chunk is wrong');

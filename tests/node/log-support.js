@@ -24,4 +24,4 @@ export async function refusalOf(reading) {
 }
 
 /** Returns the sentence of a log that is refused. @param {Promise<unknown>} reading */
-export const sentenceOf = async (reading) => (await refusalOf(reading)).message;
+export const refusalSentenceOf = async (reading) => (await refusalOf(reading)).message;

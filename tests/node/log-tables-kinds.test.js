@@ -6,7 +6,7 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { german } from '../../www/logs/de.ts';
 import { warningsOf } from '../../www/logs/pairs.ts';
 import { Rows } from '../../www/logs/rows.ts';
-import { refusalOf, sentenceOf } from './log-support.js';
+import { refusalOf, refusalSentenceOf } from './log-support.js';
 
 /** @param {string | Uint8Array<ArrayBuffer>} text @param {import('../../www/logs/log.ts').OpenOptions} [options] @param {string} [series] */
 async function readTable(text, options, series = '') {
@@ -53,28 +53,28 @@ test('rows that cannot be used are dropped with the first line of each cause, an
 
 test('late rows are sorted; a time far from all others is dropped', async () => {
   const times = timesFrom(50);
-  const shuffled = await readTable(straightTable([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
-  assert.deepEqual([[...shuffled.data.t], [...shuffled.data.breaks]], [times, []]);
-  assert.deepEqual([shuffled.data.x[20], shuffled.summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
-  const swappedParts = await readTable(straightTable([...timesFrom(50, 100), ...timesFrom(50)]));
-  assert.deepEqual([swappedParts.data.t.length, swappedParts.data.t[0], swappedParts.data.x[0]], [100, 0, 1]);
-  for (const stray of [1e6, -1e6]) {
-    const { data, summary } = await readTable(straightTable(times.with(20, stray)));
+  const shuffledTable = await readTable(straightTable([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
+  assert.deepEqual([[...shuffledTable.data.t], [...shuffledTable.data.breaks]], [times, []]);
+  assert.deepEqual([shuffledTable.data.x[20], shuffledTable.summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
+  const swappedTable = await readTable(straightTable([...timesFrom(50, 100), ...timesFrom(50)]));
+  assert.deepEqual([swappedTable.data.t.length, swappedTable.data.t[0], swappedTable.data.x[0]], [100, 0, 1]);
+  for (const strayTime of [1e6, -1e6]) {
+    const { data, summary } = await readTable(straightTable(times.with(20, strayTime)));
     assert.deepEqual([[...data.t], summary.dropped, [...data.breaks]], [times.toSpliced(20, 1), { stray: { count: 1, first: 22 } }, []]);
   }
 });
 
 test('a log that is out of order everywhere is sorted, and one of two clocks in turns is not taken for it', async () => {
   const [header, ...rows] = circleTable().split('\n');
-  const order = rows.map((_, i) => (i * 301) % rows.length);
-  for (const range of [8, rows.length]) {
-    const shuffled = rows.map((_, i) => i).toSorted((one, other) => one + (order[one] % range) - other - (order[other] % range));
-    const { data, summary } = await readTable([header, ...shuffled.map((i) => rows[i])].join('\n'));
+  const rowOrder = rows.map((_, i) => (i * 301) % rows.length);
+  for (const shuffleRange of [8, rows.length]) {
+    const shuffledTable = rows.map((_, i) => i).toSorted((one, other) => one + (rowOrder[one] % shuffleRange) - other - (rowOrder[other] % shuffleRange));
+    const { data, summary } = await readTable([header, ...shuffledTable.map((i) => rows[i])].join('\n'));
     assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE.map(([, x]) => x), [], rows.length]);
     assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rows.length / 8, JSON.stringify(summary.notes));
   }
-  const twoClocks = rows.flatMap((row, i) => [row, [CIRCLE[i][0] + 5.02, ...CIRCLE[rows.length - 1 - i].slice(1)].join(',')]);
-  assert.match(await sentenceOf(readTable([header, ...twoClocks].join('\n'))), /^run\.csv: /);
+  const twoClockTable = rows.flatMap((row, i) => [row, [CIRCLE[i][0] + 5.02, ...CIRCLE[rows.length - 1 - i].slice(1)].join(',')]);
+  assert.match(await refusalSentenceOf(readTable([header, ...twoClockTable].join('\n'))), /^run\.csv: /);
 });
 
 test('a block of zeros in a table loses the row that it is in', async () => {
@@ -92,18 +92,18 @@ test('a clock that was set back leaves the larger part, and halves are refused',
     const { data, summary } = await readTable(straightTable([...timesFrom(200), ...timesFrom(100, 20 - setBackBy)]));
     assert.deepEqual([data.t.length, summary.dropped], [200, { setBack: { count: 100, first: 202 } }]);
   }
-  const later = await readTable(straightTable([...timesFrom(60), ...timesFrom(140, 4.03)]));
-  assert.deepEqual([later.data.t.length, later.data.x[0], later.summary.dropped.setBack], [140, 60 / 50, { count: 60, first: 2 }]);
-  assert.match(await sentenceOf(readTable(straightTable([...timesFrom(100), ...timesFrom(100, 5)]))), /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
+  const laterTable = await readTable(straightTable([...timesFrom(60), ...timesFrom(140, 4.03)]));
+  assert.deepEqual([laterTable.data.t.length, laterTable.data.x[0], laterTable.summary.dropped.setBack], [140, 60 / 50, { count: 60, first: 2 }]);
+  assert.match(await refusalSentenceOf(readTable(straightTable([...timesFrom(100), ...timesFrom(100, 5)]))), /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
 });
 
 test('a clock that begins at 0 again goes on, also around a late row: each day or week, and where a counter overflows', async () => {
   const readWithClock = (/** @type {string} */ header, /** @type {(seconds: number) => number | string} */ text) =>
     readTable([`${header},x,y,yaw`, ...Array.from({ length: 200 }, (_, i) => (i === 99 || i === 100 ? 199 - i : i)).map((i) => `${text(i / 20 - 5)},${i / 50},0,0`)].join('\n'));
-  const clock = (/** @type {number} */ period, /** @type {number} */ unit) => (/** @type {number} */ t) => (t < 0 ? period : 0) + Number((unit * t).toFixed(2));
+  const clockTime = (/** @type {number} */ period, /** @type {number} */ unit) => (/** @type {number} */ t) => (t < 0 ? period : 0) + Number((unit * t).toFixed(2));
   for (const [header, text] of /** @type {const} */ ([
     ['t', (/** @type {number} */ t) => (t < 0 ? `23:59:${(60 + t).toFixed(2)}` : `00:00:0${t.toFixed(2)}`)],
-    ['t', clock(604_800, 1)], ['t', clock(2 ** 32, 1e6)], ['millis', clock(2 ** 32, 1e3)], ['msec', clock(2 ** 32, 1e3)], ['t_useconds', clock(2 ** 32, 1e6)],
+    ['t', clockTime(604_800, 1)], ['t', clockTime(2 ** 32, 1e6)], ['millis', clockTime(2 ** 32, 1e3)], ['msec', clockTime(2 ** 32, 1e3)], ['t_useconds', clockTime(2 ** 32, 1e6)],
   ])) {
     const { data: { t }, summary: { notes, gaps } } = await readWithClock(header, text);
     assert.deepEqual([t.length, Number((t[199] - t[0]).toFixed(6)), notes, gaps.count], [200, 9.95, [{ name: 'rollover', values: [101] }, { name: 'sorted', values: [1] }], 0]);
@@ -117,8 +117,8 @@ test('stamps of 0 drop their rows, and are no choice of the clock for the others
   const { start, data, summary } = await readTable(['time,header.stamp,x,y,yaw', ...rows].join('\n'));
   assert.deepEqual([start, data.t.length, data.t[0], summary.clock, summary.units.time.unit], [1_718_000_000, 57, 0.2, 'header.stamp', 'ns']);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ noStamp: { count: 3, first: 2 } }, []]);
-  const frozen = await readTable(['time,header.stamp,x,y,yaw', ...rows.map((row) => row.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
-  assert.deepEqual([frozen.data.t.length, frozen.summary.clock, frozen.summary.columns?.t], [60, 'time', 'time']);
+  const frozenStampTable = await readTable(['time,header.stamp,x,y,yaw', ...rows.map((row) => row.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
+  assert.deepEqual([frozenStampTable.data.t.length, frozenStampTable.summary.clock, frozenStampTable.summary.columns?.t], [60, 'time', 'time']);
 });
 
 test('poses that a table repeats at the rate of another log are taken once', async () => {
@@ -140,7 +140,7 @@ test('pauses and jumps are found, and a heading that wraps is no jump', async ()
 });
 
 test('a clock that was set forward is noted, and pauses are none', async () => {
-  const logOf = (/** @type {(t: number) => number} */ clock, /** @type {(i: number) => number[]} */ pose = (i) => CIRCLE[i].slice(1)) => readTable(['t,x,y,yaw', ...Array.from({ length: 780 }, (_, i) => [clock(i / 20), ...pose(i)])].join('\n'));
+  const logOf = (/** @type {(t: number) => number} */ clockTime, /** @type {(i: number) => number[]} */ pose = (i) => CIRCLE[i].slice(1)) => readTable(['t,x,y,yaw', ...Array.from({ length: 780 }, (_, i) => [clockTime(i / 20), ...pose(i)])].join('\n'));
   const set = (/** @type {number} */ t) => t + (t > 20 ? 0.75 : 0);
   const [setLog, pausedLog, ...otherLogs] = await Promise.all([
     logOf(set),
@@ -159,15 +159,15 @@ test('a clock that was set forward is noted, and pauses are none', async () => {
 const spinRow = ([t]) => [t, 5 * (t - Math.sin(t / 2) * 2), 0, Math.sin(t) * Math.cos(t / 2) ** 8];
 
 test('ordinary logs are neither of two paths nor in another unit', async () => {
-  const wrapped = (/** @type {number} */ angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
+  const wrapAngle = (/** @type {number} */ angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
   const cartAngle = (/** @type {number} */ i) => (60 * Math.floor(i / 100) + Math.min(60, i % 100)) / 80;
   for (const table of [
     // Few rows a round, vibrations, a single pose elsewhere, a car, a fast cart whose heading is noisy at rest, and a name with a unit.
-    circleTable((_, i) => [2 * i, Math.sin(i), -Math.cos(i), wrapped(i)]),
+    circleTable((_, i) => [2 * i, Math.sin(i), -Math.cos(i), wrapAngle(i)]),
     circleTable(([t, , , yaw], i) => [t, (i % 2) / 25, 0, yaw]),
     circleTable(([t], i) => (i < 10 ? [t, i === 4 ? 5 : 0, 0, 0] : [])),
     circleTable(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0]),
-    circleTable(([t], i) => [t, 20 * Math.sin(cartAngle(i)), -20 * Math.cos(cartAngle(i)), wrapped(cartAngle(i) + 0.03 * Math.sin(i * i))]),
+    circleTable(([t], i) => [t, 20 * Math.sin(cartAngle(i)), -20 * Math.cos(cartAngle(i)), wrapAngle(cartAngle(i) + 0.03 * Math.sin(i * i))]),
     circleTable(spinRow, 't,x_m,y_m,yaw'),
   ]) assert.equal((await readTable(table)).summary.units.length.unit, 'm');
 });
@@ -209,7 +209,7 @@ const UNIT_QUESTIONS = [
 ];
 
 test('times in minutes or hours are refused by their name', async () => {
-  for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await sentenceOf(readTable(circleTable(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
+  for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await refusalSentenceOf(readTable(circleTable(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
   assert.equal((await readTable(circleTable(([t, ...rest]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...rest], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
 });
 
@@ -279,12 +279,12 @@ test('more rows than those of a day at 100 Hz are refused', async () => {
   const rows = Object.assign(new Rows({ file: 'run.csv' }), { count: 1e7 - 1 });
   const addRow = async () => rows.add(0, 0, 0, 0, 0, 1);
   await addRow();
-  assert.equal(await sentenceOf(addRow()), 'run.csv: there are more rows; expected are at most 10000000.');
+  assert.equal(await refusalSentenceOf(addRow()), 'run.csv: there are more rows; expected are at most 10000000.');
 });
 
 test('a file that has been moved is refused', async () => {
   const missingFile = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
-  assert.equal(await sentenceOf(openRecordings([/** @type {any} */ (missingFile)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
+  assert.equal(await refusalSentenceOf(openRecordings([/** @type {any} */ (missingFile)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
 });
 
 test('lines across the pieces of a large file are read whole', async () => {

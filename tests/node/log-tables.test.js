@@ -37,13 +37,13 @@ const EPOCH = 1_718_000_000;
 /** Digits of a time in nanoseconds. @param {number} t */
 const nanoseconds = (t) => `${EPOCH + Math.floor(t)}${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
 const splitTime = (/** @type {number} */ t) => [EPOCH + Math.floor(t), Math.round((t % 1) * 1e9)];
-const withComma = (/** @type {unknown} */ value) => String(value).replace('.', ',');
+const decimalComma = (/** @type {unknown} */ value) => String(value).replace('.', ',');
 const degrees = (/** @type {number} */ radians) => (radians * 180) / Math.PI;
 const isoDate = (/** @type {number} */ t) => new Date((EPOCH + Math.floor(t)) * 1000).toISOString().slice(0, 19) + `.${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
 const poseOf = (/** @type {Row} */ { x, y, qz, qw }) => [x, y, 0, 0, 0, qz, qw];
-const zeros = (/** @type {number} */ count) => Array.from({ length: count }, () => 0);
+const zeroList = (/** @type {number} */ count) => Array.from({ length: count }, () => 0);
 const ABBREVIATED = '<array type: double[36]>';
-const utf16 = (/** @type {string} */ text) => new Uint8Array(Buffer.from(`\ufeff${text}`, 'utf16le'));
+const utf16Bytes = (/** @type {string} */ text) => new Uint8Array(Buffer.from(`\ufeff${text}`, 'utf16le'));
 
 const ODOMETRY_COLUMNS = 'seq header.frame_id child_frame_id pose.pose.position.x pose.pose.position.y pose.pose.position.z pose.pose.orientation.x pose.pose.orientation.y pose.pose.orientation.z pose.pose.orientation.w'.split(' ');
 const VELOCITY_COLUMNS = ['twist.twist.linear.x', 'twist.twist.linear.y', 'twist.twist.angular.x', 'twist.twist.angular.z'];
@@ -65,14 +65,14 @@ const plotjugglerTable = [
 /** Returns an export of Motive, with preamble, body and marker. @param {'Meters' | 'Millimeters'} unit @param {boolean} isYUp */
 function motiveTable(unit, isYUp) {
   const scale = unit === 'Meters' ? 1 : 1000;
-  const repeated = (/** @type {string} */ text, /** @type {number} */ count) => Array.from({ length: count }, () => text).join(',');
+  const repeatedCells = (/** @type {string} */ text, /** @type {number} */ count) => Array.from({ length: count }, () => text).join(',');
   return [
     `Format Version,1.25,Take Name,drive,Take Notes,,Capture Frame Rate,16.000000,Export Frame Rate,16.000000,Capture Start Time,2024-06-10 06.13.20.000 AM,Total Frames in Take,60,Rotation Type,Quaternion,Length Units,${unit},Coordinate Space,Global`,
     '',
-    `,Type,${repeated('Rigid Body', 8)},${repeated('Rigid Body Marker', 3)}`,
-    `,Name,${repeated('Robot', 8)},${repeated('Robot:Marker1', 3)}`,
-    `,ID,${repeated('6E6B', 11)}`,
-    `,,${repeated('Rotation', 4)},${repeated('Position', 3)},Mean Marker Error,${repeated('Position', 3)}`,
+    `,Type,${repeatedCells('Rigid Body', 8)},${repeatedCells('Rigid Body Marker', 3)}`,
+    `,Name,${repeatedCells('Robot', 8)},${repeatedCells('Robot:Marker1', 3)}`,
+    `,ID,${repeatedCells('6E6B', 11)}`,
+    `,,${repeatedCells('Rotation', 4)},${repeatedCells('Position', 3)},Mean Marker Error,${repeatedCells('Position', 3)}`,
     'Frame,Time (Seconds),X,Y,Z,W,X,Y,Z,,X,Y,Z',
     ...ROWS.map(({ i, t, x, y, qz, qw }) => {
       // Heading about Y turns Z towards X.
@@ -94,16 +94,16 @@ const READABLE_TABLES = [
   { name: 'pandas: dates of Berlin', start: EPOCH, text: pandasTable('berlin') },
   { name: 'pandas: dates without a zone', start: EPOCH, text: pandasTable('naive'), says: /UTC/ },
   { name: 'pandas: durations', text: pandasTable('timedelta') },
-  { name: 'pandas: decimal commas in UTF-16', text: utf16(pandasTable('german')) },
+  { name: 'pandas: decimal commas in UTF-16', text: utf16Bytes(pandasTable('german')) },
   { name: 'pandas: nanoseconds in quotes', start: EPOCH, text: pandasTable('nanoseconds') },
   { name: 'pandas: a log of two that are merged', series: ['odom_', 'gt_'], choice: { series: 'odom_' }, text: pandasTable('merged') },
   { name: 'blanks after commas, quoted names, units', text: tableOf('"time [s]", "x [m]", "y [m]", "yaw [rad]"', ({ t, x, y, theta }) => [t, x, y, theta], ', ') },
   { name: 'tabs, columns in another order', text: tableOf('heading\ttimestamp\tx\ty', ({ t, x, y, theta }) => [theta, t, x, y], '\t') },
   { name: 'a separator in quotes', text: tableOf('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
-  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(withComma), ';').replaceAll('\n', '\r\n')}` },
-  { name: 'a spreadsheet in UTF-16', text: utf16(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(withComma), '\t')) },
-  { name: 'commas in quotes', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${withComma(value)}"`)) },
-  { name: 'times with exponents', start: EPOCH, text: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${nanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(withComma)], ';') },
+  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(decimalComma), ';').replaceAll('\n', '\r\n')}` },
+  { name: 'a spreadsheet in UTF-16', text: utf16Bytes(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(decimalComma), '\t')) },
+  { name: 'commas in quotes', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${decimalComma(value)}"`)) },
+  { name: 'times with exponents', start: EPOCH, text: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${nanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(decimalComma)], ';') },
   { name: 'units in a row below the header', text: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta), 24.5]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'quantities over their units', text: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'bars, seconds and microseconds', start: EPOCH, text: tableOf('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
@@ -122,7 +122,7 @@ const READABLE_TABLES = [
   { name: 'bagpy', start: EPOCH, text: bagpyTable('header.stamp.secs', 'header.stamp.nsecs') },
   { name: 'stamp_sec, stamp_nsec', start: EPOCH, text: bagpyTable('stamp_sec', 'stamp_nsec') },
   { name: 'seconds, nanoseconds', start: EPOCH, text: bagpyTable('seconds', 'nanoseconds [ns]') },
-  { name: 'ros2 topic echo --csv of odometry', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ...zeros(36), row.v, 0, 0, 0, 0, row.omega, ...zeros(36)]).slice(1) },
+  { name: 'ros2 topic echo --csv of odometry', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ...zeroList(36), row.v, 0, 0, 0, 0, row.omega, ...zeroList(36)]).slice(1) },
   { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ABBREVIATED, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED]).slice(1) },
   { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'map', ...poseOf(row), ABBREVIATED]).slice(1) },
   { name: 'ros2 topic echo --csv of poses', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'map', ...poseOf(row)]).slice(1) },

@@ -10,12 +10,12 @@ const motion = await load();
 const decodePng = async (/** @type {Uint8Array} */ bytes) => motion.readMapImage(bytes);
 
 /** @param {string} name @param {BlobPart} contents */
-export const file = (name, contents) => new File([contents], name);
+export const fileWith = (name, contents) => new File([contents], name);
 
 /** Returns the YAML file that describes an image, with fields replaced or added. @param {Record<string, unknown>} [fields] */
-export function description(fields) {
+export function mapYaml(fields) {
   const allFields = { image: 'map.png', resolution: 0.05, origin: '[0, 0, 0]', ...fields };
-  return file('map.yaml', Object.entries(allFields).map(([key, value]) => `${key}: ${value}\n`).join(''));
+  return fileWith('map.yaml', Object.entries(allFields).map(([key, value]) => `${key}: ${value}\n`).join(''));
 }
 
 /** Returns a machine with the map of some files. @param {File[]} files */

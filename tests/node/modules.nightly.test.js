@@ -11,7 +11,7 @@ const DIST = new URL('../../dist/', import.meta.url);
 const DIGESTS = new URL('../digest/', import.meta.url);
 
 const configurations = JSON.parse(readFileSync(new URL('configurations.json', DIGESTS), 'utf8'));
-const golden = readFileSync(new URL('golden.txt', DIGESTS), 'utf8');
+const goldenDigest = readFileSync(new URL('golden.txt', DIGESTS), 'utf8');
 
 for (const tag of Object.keys(widgets)) {
   test(`the module of ${tag} has its machine alone, with the same bits`, async () => {
@@ -21,7 +21,7 @@ for (const tag of Object.keys(widgets)) {
     const core = await instantiate(new WebAssembly.Module(readFileSync(new URL(`chunks/${moduleNames[0]}`, DIST))));
     const machines = Object.keys(widgets).map(pascalCase).filter((name) => name in core);
     assert.deepEqual(machines, [pascalCase(tag)]);
-    const goldenOfTag = golden.split('\n').filter((line) => line.startsWith(`${tag}/`)).map((line) => `${line}\n`).join('');
+    const goldenOfTag = goldenDigest.split('\n').filter((line) => line.startsWith(`${tag}/`)).map((line) => `${line}\n`).join('');
     assert.deepEqual(differences(goldenOfTag, await digest(core, configurations, [tag])), []);
   });
 }

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 
-const CORE = new URL('../../dist/core.js', import.meta.url).href;
-let copies = 0;
+const CORE_ADDRESS = new URL('../../dist/core.js', import.meta.url).href;
+let copyCount = 0;
 
 /**
  * Returns a new instance of the built module, because `load` caches its first core.
@@ -9,8 +9,8 @@ let copies = 0;
  * @returns {Promise<any>} any, because tests also call it with wrong types
  */
 export function freshModule() {
-  copies += 1;
-  return import(`${CORE}?copy=${copies}`);
+  copyCount += 1;
+  return import(`${CORE_ADDRESS}?copy=${copyCount}`);
 }
 
 /**

@@ -126,13 +126,13 @@ test('traits become what the figure shows, by whichever of their names, and thos
 });
 
 test('a trait with the underscore of a Python keyword sets the property of that name, and gets its value', async () => {
-  const from = { x: 1, y: 2, theta: 0.5 };
-  const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'odometry-decomposer', from_: from }, 'notebook');
+  const startPose = { x: 1, y: 2, theta: 0.5 };
+  const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'odometry-decomposer', from_: startPose }, 'notebook');
   await page.locator('canvas').first().waitFor();
-  assert.deepEqual((await valuesOf(page, ['from'])).figure, { from });
+  assert.deepEqual((await valuesOf(page, ['from'])).figure, { from: startPose });
   await setTraits(page, { from_: null });
   const { figure, traits } = await valuesOf(page, ['from', 'from_']);
-  assert.notDeepEqual(figure.from, from);
+  assert.notDeepEqual(figure.from, startPose);
   assert.deepEqual(traits.from_, figure.from);
   assert.deepEqual(consoleMessages, []);
   await page.close();

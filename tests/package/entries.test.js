@@ -267,7 +267,7 @@ test('where the file of a module cannot be had, the embedded one is used, and a 
 
 test('an address that has no module is refused with the cure @nightly', async () => {
   const { page } = await openWithoutModules('');
-  const loading = page.evaluate(async (address) => (await import(address)).load('/none.wasm'), `${DIST}external.js`);
-  await assert.rejects(loading, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(ADVICE));
+  const loadPromise = page.evaluate(async (address) => (await import(address)).load('/none.wasm'), `${DIST}external.js`);
+  await assert.rejects(loadPromise, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(ADVICE));
   await page.close();
 });

@@ -54,8 +54,8 @@ test('a frame names what is wrong with its address @nightly', async () => {
 });
 
 test('a classic script, from a server and from a disk', async () => {
-  const fromDisk = pathToFileURL(join(project.directory, 'classic-script/index.html')).href;
-  for (const address of [`${project.address}classic-script/`, fromDisk]) {
+  const fileAddress = pathToFileURL(join(project.directory, 'classic-script/index.html')).href;
+  for (const address of [`${project.address}classic-script/`, fileAddress]) {
     const { page, requests } = await openWithCloud(project.browser, address);
     assert.equal(requests.length, 3, requests.join(' '));
     await page.close();
@@ -64,9 +64,9 @@ test('a classic script, from a server and from a disk', async () => {
 
 test('the one file of a classroom, from a disk', async () => {
   const page = join(ROOT, 'dist/classroom.html');
-  const opened = await openWithCloud(project.browser, pathToFileURL(page).href);
-  assert.deepEqual(opened.requests, [pathToFileURL(page).href]);
-  await opened.page.close();
+  const openedPage = await openWithCloud(project.browser, pathToFileURL(page).href);
+  assert.deepEqual(openedPage.requests, [pathToFileURL(page).href]);
+  await openedPage.page.close();
 });
 
 // The bundlers below do not copy the WebAssembly modules into their output, because they do not process `new URL(…, import.meta.url)`.

@@ -20,8 +20,8 @@ let tarball;
 before(() => {
   directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
   // The package has been built already.
-  const packed = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--json', '--pack-destination', directory], { encoding: 'utf8' });
-  tarball = join(directory, JSON.parse(packed)[0].filename);
+  const packOutput = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--json', '--pack-destination', directory], { encoding: 'utf8' });
+  tarball = join(directory, JSON.parse(packOutput)[0].filename);
 });
 
 after(() => rmSync(directory, { recursive: true, force: true }));

@@ -46,7 +46,7 @@ export class Renderer extends FigureController {
     const { signal } = this.host.connection;
     addEventListener('beforeprint', () => this.#print(true), { signal });
     addEventListener('afterprint', () => this.#print(false), { signal });
-    // Some browsers do not have the events, others fire them too late.
+    // Some browsers do not fire `beforeprint` and `afterprint`, and others fire them too late.
     const printQuery = matchMedia('print');
     printQuery.addEventListener('change', () => this.#print(printQuery.matches), { signal });
     onLanguage(this.host, () => this.#languageChanged(), signal);

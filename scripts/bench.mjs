@@ -12,7 +12,7 @@ import { serve } from './serve.mjs';
 import { nativeRust } from './toolchain.mjs';
 import { report } from '../benches/report.js';
 
-/** Headers that isolate the page, for a clock in steps of 5 µs instead of 100. */
+/** Headers that isolate the page. Its clock then has steps of 5 µs instead of 100 µs. */
 const ISOLATION_HEADERS = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
 
 /** @typedef {{ quick: boolean, log: { odometry: string, reference: string } }} Options */

@@ -131,7 +131,7 @@ function hashedFile(name, extension, contents) {
 
 /** Characters of an inlined module to which 256 is added, because other bundlers or minifiers might damage them. */
 const SHIFTED_CHARACTERS = {
-  /** Characters that some tools write with a backslash. */
+  /** Characters that some minifiers escape with a backslash. */
   utf8: /[^ -~\x80-\xff]|["$'\\`]/g,
   /** Digits, which could become part of an octal escape after a zero. Shifting all other characters too would double the size. */
   ascii: /(?<=\0)\d/g,

@@ -56,8 +56,8 @@ export async function instantiateFor(name: string): Promise<Motion> {
   try {
     // Waits, because the script that imports the elements can call `load(source)` only after they are defined.
     await null;
-    const [module, { default: makeCore }] = await moduleAndGlue(name);
-    motion = await makeCore(module);
+    const [module, { default: createCore }] = await moduleAndGlue(name);
+    motion = await createCore(module);
   } catch (error) {
     if (!isWasmForbidden()) throw error;
     throw new Error(
@@ -84,8 +84,8 @@ export async function sharedCore(name: string): Promise<SharedCore> {
 
 /** Returns a core from a module that another thread has compiled. */
 export async function instantiateShared({ module, glue }: SharedCore): Promise<Motion> {
-  const { default: makeCore } = await (bundledCores[glue] ?? bundledCores.motion).glue();
-  return makeCore(module);
+  const { default: createCore } = await (bundledCores[glue] ?? bundledCores.motion).glue();
+  return createCore(module);
 }
 
 /** Prevents the garbage collector from freeing a machine of a core that has trapped: the memory of the core may be damaged. */

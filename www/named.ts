@@ -14,7 +14,7 @@ export function createWidget(name: unknown): HTMLElement {
   throw new Error(`widget is ${name === null || name === undefined ? 'missing' : JSON.stringify(name)}; allowed is ${TAGS.join(' or ')}`);
 }
 
-/** Returns a paragraph with the error instead of a figure. `who` names the page or cell that requested the figure. */
+/** Returns a paragraph with the error instead of a figure. `requester` names the page or cell that requested the figure. */
 export function errorParagraph(requester: string, error: unknown) {
   const sentence = document.createElement('p');
   sentence.setAttribute('role', 'alert');

@@ -73,7 +73,7 @@ test('outliers are ringed, and decide the fit where they are not set aside', asy
   await widget.getByRole('radio', { name: 'fit as noise' }).check();
   await untilSettled(widget);
   const statsAfter = await statsOf(widget);
-  // Numbers from the text of the page.
+  // The text of www/index.html contains these numbers.
   const alphaGrowth = [1, 2].map((alpha) => Math.round(Number(statsAfter.alphas[alpha]) / Number(statsBefore.alphas[alpha])));
   const outlierCheck = statsBefore.diagnostics.checks.find(({ name }) => name === 'outliers-few');
   expect([10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), ...alphaGrowth]).toEqual([60, 9, 15]);
@@ -90,7 +90,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
   const statsAfter = await statsOf(widget);
   expect(statsAfter.systematicErrors.mountYaw.corrected).toBe(false);
   expect(statsAfter.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
-  // Numbers from the text of the page.
+  // The text of www/index.html contains these numbers.
   const [from, to] = [statsBefore, statsAfter].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${from} to ${to}&nbsp;rad`);
   await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 14 failed\)\.\s+\d+ legs /);

@@ -94,7 +94,7 @@ test('the picture of a figure stays in sight on a phone, below the header of the
   await widget.locator('.slider input[type=range]').nth(1).evaluate((element) => element.scrollIntoView({ block: 'start' }));
   await waitForFrames(page);
   const { y, height } = await boxOf(picture);
-  // The title of the Banana Machine judges the ellipse, and stays above the picture.
+  // The picture of the Banana Machine has a title with a verdict on the ellipse, which stays in sight too.
   const highest = figure === 'banana-machine' ? await boxOf(widget.locator('.panel-title').first()) : { y };
   expect(highest.y).toBeCloseTo(56, 0);
   expect((await boxOf(widget.locator('.slider input[type=range]').nth(1))).y).toBeGreaterThanOrEqual(y + height);

@@ -100,7 +100,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
     await page.evaluate((hash) => history.replaceState(null, '', hash), links[i]);
   }
   expect(links[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
-  // A figure that is in the address already gets no second part.
+  // A figure whose state is in the address already has no second part there.
   expect(await fragmentOf(figureOf(page, 1))).toBe(links[1]);
   for (const [i, fragment] of links.entries()) {
     const newPage = await context.newPage();

@@ -104,7 +104,7 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   expect(await pictureOf(canvas)).not.toBe(pictureIfFree);
   await expect(widget.locator('.legend').getByLabel('unknown cells')).toBeChecked();
 
-  // A state contains both, and restores both.
+  // A state contains the map and the setting of its unknown cells, and restores both.
   const state = await widget.evaluate((element) => JSON.stringify(/** @type {any} */ (element).getState()));
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   await expect(choice).toHaveCount(0);

@@ -145,7 +145,7 @@ test('a clock that was set forward is noted, and pauses are none', async () => {
   const [setLog, pausedLog, ...otherLogs] = await Promise.all([
     logOf(set),
     logOf(set, (i) => CIRCLE[i > 400 ? i + 15 : i].slice(1)),
-    // A node that publishes only while the robot moves, messages that were held up, and a robot that brakes or turns in the gap.
+    // A node that publishes only while the robot moves, delayed messages, and a robot that brakes or turns in the gap.
     logOf((t) => t + 5 * Math.floor(t / 15)),
     logOf((t) => (t > 20 && t < 20.8 ? 20.8 - (20.8 - t) / 50 : t)),
     logOf(set, (i) => [0.2 * Math.sign(i - 400.5) * (Math.hypot(1, (i - 400.5) / 8) - 1), 0, 0]),

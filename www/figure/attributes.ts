@@ -56,7 +56,7 @@ export const NUMBER_CONVERTER: Converter = {
 export const WORD_CONVERTER: Converter = { parse: (text) => text, print: (value) => value };
 
 /** Boolean attribute. Without a value it is true, as in HTML. The value "false" makes it false. Other values are refused. */
-const BOOLEAN: Converter = {
+const BOOLEAN_CONVERTER: Converter = {
   parse: (text) => text !== 'false' && (text === '' || text === 'true' || text),
   print: String,
 };
@@ -65,7 +65,7 @@ const BOOLEAN: Converter = {
 export const WORD_LIST_CONVERTER: Converter = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
 /** Conversions of the types that fit into an attribute. Objects and arrays have none. */
-const CONVERTERS: Record<string, Converter> = { number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, word: WORD_CONVERTER, boolean: BOOLEAN };
+const CONVERTERS: Record<string, Converter> = { number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, word: WORD_CONVERTER, boolean: BOOLEAN_CONVERTER };
 
 export const THEMES = ['auto', 'light', 'dark'] as const;
 

@@ -58,7 +58,7 @@ export function checkedSubset(field: string, value: unknown, allowed: readonly s
   return allowed.filter((name) => checkedNames.includes(name));
 }
 
-/** Returns true if `present` has all fields of `given` with the same values. Objects are compared deeply. */
+/** Returns true if `present` has all fields of `fields` with the same values. Objects are compared deeply. */
 export function includesFields(present: any, fields: any): boolean {
   if (Object.is(present, fields)) return true;
   if (typeof present !== 'object' || typeof fields !== 'object' || !present || !fields || present.length !== fields.length) return false;

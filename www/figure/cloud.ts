@@ -110,7 +110,7 @@ export class Cloud extends FigureController {
     this.refine(Infinity);
   }
 
-  /** Adds samples for `limit` milliseconds; returns true if all are shown. */
+  /** Adds samples for `limitMs` milliseconds; returns true if all are shown. */
   refine(limitMs = ADDING_MS): boolean {
     const { targetCount } = this;
     const endTime = performance.now() + limitMs;
@@ -138,8 +138,8 @@ export class Cloud extends FigureController {
     if (typeof playing !== 'boolean') throw refusalError('state.playing', playing, 'true or false', TypeError);
     const { shown = currentState.shown === currentState.samples ? samples : Math.min(currentState.shown, samples) } = changes;
     // A comparison with undefined is false, so that a missing selection becomes null.
-    const marked = currentState.marked < (playing ? samples : shown) ? currentState.marked : null;
-    return { shown, marked };
+    const keptSelection = currentState.marked < (playing ? samples : shown) ? currentState.marked : null;
+    return { shown, marked: keptSelection };
   }
 
   /** Index of the selected sample; −1 for none. */

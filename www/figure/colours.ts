@@ -76,15 +76,15 @@ function readPageColours(probe: Element): PageColours {
   const textColour = colourChannels(color);
   const isDarkByDefault = colorScheme === 'normal' && lightness(textColour) > 0.5;
   const ancestorBackgrounds = ancestors(probe).map((ancestor) => getComputedStyle(ancestor).backgroundColor);
-  const backColour = colourChannels(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvas].reverse());
-  const backgroundLightness = lightness(backColour);
-  const isLegible = contrast(textColour, backColour) >= MIN_CONTRAST;
+  const backgroundColour = colourChannels(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvas].reverse());
+  const backgroundLightness = lightness(backgroundColour);
+  const isLegible = contrast(textColour, backgroundColour) >= MIN_CONTRAST;
   const scheme = backgroundLightness < (isLegible ? lightness(textColour) : 0.5) ? 'dark' : 'light';
   // The darkening grows with the darkness of the background. Nearly white backgrounds need none.
   const shade = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
-  const mutedColour = (share: number) => backColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
-  const strength = isLegible ? `${MUTED_SHARES.find((share) => contrast(mutedColour(share), backColour) >= MIN_CONTRAST) ?? 100}%` : '';
-  return { ground: `rgb(${backColour})`, text: isLegible ? color : '', shade, strength, scheme };
+  const mutedColour = (share: number) => backgroundColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
+  const strength = isLegible ? `${MUTED_SHARES.find((share) => contrast(mutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
+  return { ground: `rgb(${backgroundColour})`, text: isLegible ? color : '', shade, strength, scheme };
 }
 
 /** Returns the contrast by WCAG 2. */

@@ -91,7 +91,7 @@ function parseEntered({ settings }: Figure, key: string, name: string, text: str
 }
 
 /** Returns a picture's canvas, on which the pointer selects samples. `Canvases` sets its size. */
-export function canvas(figure: Figure, picture: import('../scene/picture.ts').Picture<any>, description: string) {
+export function pictureCanvas(figure: Figure, picture: import('../scene/picture.ts').Picture<any>, description: string) {
   const selectAtPointer = (event: PointerEvent) => figure.cloud?.selectAtPointer(picture, event);
   return html`<canvas
     width="0"
@@ -104,10 +104,10 @@ export function canvas(figure: Figure, picture: import('../scene/picture.ts').Pi
   ></canvas>`;
 }
 
-export const sliders = (figure: Figure, sliderSpecs: Record<string, SliderSpec>) => Object.keys(sliderSpecs).map((key) => settingSlider(figure, key));
+export const settingSliders = (figure: Figure, sliderSpecs: Record<string, SliderSpec>) => Object.keys(sliderSpecs).map((key) => settingSlider(figure, key));
 
 /** Returns radio buttons for a setting that is a word, with labels by word. */
-export const radios = (figure: Figure, key: string, labels: Record<string, string>) =>
+export const settingRadios = (figure: Figure, key: string, labels: Record<string, string>) =>
   radioGroup(wordsFor(figure, key).name, key, labels, figure.settings.requested[key], (word) => figure.gesture.decide({ [key]: word }));
 
 /** Returns the checkbox of a boolean setting. */

@@ -49,10 +49,10 @@ export class CopyMenu extends FigureController {
   /** Returns the message of a button, unless its text has changed since. */
   messageHtml(kind: string, text?: string) {
     const copyWords = words.copies;
-    const copied = this.#lastCopy?.kind === kind && this.#lastCopy.text === (text ?? this.#lastCopy.text) ? this.#lastCopy : undefined;
-    return html`<output class="copied">${copied ? `${copied.isCopied ? copyWords.done : copyWords.byHand} ${copied.note}` : nothing}</output>
-      ${copied && !copied.isCopied
-        ? html`<textarea readonly rows="3" aria-label=${copyWords.byHand} .value=${copied.text}></textarea>`
+    const shownCopy = this.#lastCopy?.kind === kind && this.#lastCopy.text === (text ?? this.#lastCopy.text) ? this.#lastCopy : undefined;
+    return html`<output class="copied">${shownCopy ? `${shownCopy.isCopied ? copyWords.done : copyWords.byHand} ${shownCopy.note}` : nothing}</output>
+      ${shownCopy && !shownCopy.isCopied
+        ? html`<textarea readonly rows="3" aria-label=${copyWords.byHand} .value=${shownCopy.text}></textarea>`
         : nothing}`;
   }
 }

@@ -87,10 +87,10 @@ export function csvOf(element: Figure) {
 
 /** Downloads a file. */
 export function downloadFile(name: string, blob: Blob) {
-  const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
-  link.click();
+  const downloadLink = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
+  downloadLink.click();
   // The address is released after a minute, when the download has started.
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+  setTimeout(() => URL.revokeObjectURL(downloadLink.href), 60_000);
 }
 
 /** Returns the buttons that save the figure. `fileNameMark` is part of the file names, so that files of different states differ in name. */

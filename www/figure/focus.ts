@@ -42,8 +42,8 @@ export async function moveFocusInto(figure: Figure, origin: EventTarget | null) 
   await figure.updateComplete;
   // After the removal of the focused placeholder, the focus is on the body unless the user has moved it.
   if (!figure.machine || document.activeElement !== document.body) return;
-  const focusable = focusableIn(figure.renderRoot);
+  const focusableElements = focusableIn(figure.renderRoot);
   // With Shift+Tab the focus comes from an element below the figure.
   const comesFromBelow = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;
-  focusable.at(comesFromBelow ? -1 : 0)?.focus();
+  focusableElements.at(comesFromBelow ? -1 : 0)?.focus();
 }

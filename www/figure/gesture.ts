@@ -1,4 +1,4 @@
-/** Events of changes by the user: one `input` for each step and one `change` at the end, for any number of settings. */
+/** Events for changes by the user: an `input` event for each step and a `change` event at the end, for any number of settings. */
 
 import { FigureController } from './controller.ts';
 import type { Values } from './settings.ts';

@@ -108,7 +108,7 @@ function keyOf(element: Element): string {
   return `${name}.${[...rootNode.querySelectorAll(CSS.escape(localName))].indexOf(element) + 1}`;
 }
 
-/** Returns the page's address with a figure's part added or replaced, or moved to the beginning if `first` is true. */
+/** Returns the page's address with a figure's part added or replaced, or moved to the beginning if `isFirst`. */
 function addressWith(key: string, text: string, isFirst: boolean = false): string {
   const part = `${key}=${text}`;
   const allParts = fragmentParts();

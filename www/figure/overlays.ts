@@ -17,7 +17,7 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
     ${styleNames.map((name) => html`<span title=${notes[name] ?? nothing} @pointerenter=${() => highlight(name)} @pointerleave=${() => highlight(null)} @focusin=${() => highlight(name)} @focusout=${() => highlight(null)}>
       ${toggle({
-        label: html`${swatch(styles[name])}<span class=${notes[name] ? 'absent' : nothing}>${formatMarkup(names[name])}${notes[name] ? html`<span class="visually-hidden">: ${notes[name]}</span>` : nothing}</span>`,
+        label: html`${swatchHtml(styles[name])}<span class=${notes[name] ? 'absent' : nothing}>${formatMarkup(names[name])}${notes[name] ? html`<span class="visually-hidden">: ${notes[name]}</span>` : nothing}</span>`,
         checked: overlays.includes(name),
         change: (shown) => setShown(name, shown),
       })}
@@ -27,7 +27,7 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
 }
 
 /** Returns the symbol of a legend item: a line, dot, ring or area in its style. */
-export function swatch({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
+export function swatchHtml({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
   const markShapes = {
     line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,
     dot: svg`<circle class="filled" cx="15" cy="6" r="3" />`,

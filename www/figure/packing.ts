@@ -7,8 +7,8 @@ const MAX_BYTES = 12_000_000;
 
 /** Returns compressed data as letters, digits, - and _. */
 export async function packJson(data: object): Promise<string> {
-  const compressed = new Blob([JSON.stringify(data)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
-  const compressedBytes = new Uint8Array(await new Response(compressed).arrayBuffer());
+  const compressedStream = new Blob([JSON.stringify(data)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+  const compressedBytes = new Uint8Array(await new Response(compressedStream).arrayBuffer());
   return toBase64(compressedBytes).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
 }
 
@@ -18,8 +18,8 @@ export async function unpack(text: string): Promise<unknown> {
     const bytes = fromBase64(text.replaceAll('-', '+').replaceAll('_', '/'));
     const chunks = [];
     let byteCount = 0;
-    const decompressed = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
-    for (const reader = decompressed.getReader(); ; ) {
+    const decompressedStream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
+    for (const reader = decompressedStream.getReader(); ; ) {
       const { done, value } = await reader.read();
       if (done) break;
       byteCount += value.length;

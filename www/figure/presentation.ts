@@ -92,7 +92,7 @@ export class Presentation extends FigureController {
   };
 
   #restoreState() {
-    if (this.host.machine) this.host.state.goBack(this.#stateAtBegin);
+    if (this.host.machine) this.host.state.restoreAsUser(this.#stateAtBegin);
   }
 
   #toggle() {

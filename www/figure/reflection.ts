@@ -62,17 +62,17 @@ export class Reflection extends FigureController {
     this.#pendingAttributes.clear();
     // Properties between two states are sorted by dependency. States keep their order in time.
     let stateOffset = 0;
-    const pending = [...this.#pendingProperties].map(([name, { apply }]) =>
+    const pendingEntries = [...this.#pendingProperties].map(([name, { apply }]) =>
       ({ apply, order: typeof name === 'string' ? stateOffset + this.#order.indexOf(name) : (stateOffset += this.#order.length) }));
     this.#pendingProperties.clear();
-    pending.sort((a, b) => a.order - b.order);
-    for (const { apply } of pending) this.host.runtime.attemptOrReport(apply);
+    pendingEntries.sort((a, b) => a.order - b.order);
+    for (const { apply } of pendingEntries) this.host.runtime.attemptOrReport(apply);
   }
 
   /** Applies a state, now or as soon as there is a machine. */
-  whenReady(enter: () => void) {
-    if (this.host.machine) this.host.runtime.attempt(enter);
-    else this.#pendingProperties.set({}, { apply: enter });
+  whenReady(applyState: () => void) {
+    if (this.host.machine) this.host.runtime.attempt(applyState);
+    else this.#pendingProperties.set({}, { apply: applyState });
   }
 
   /** Sets a property to a value or to its text. Null or undefined sets the default. A value that is refused is reported. */

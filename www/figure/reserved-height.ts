@@ -21,10 +21,10 @@ function heightCss(tag: string, unit: '%' | 'cqi') {
   const heightTerms = HEIGHTS_EM[tag].map((height, i, { length }) => {
     const [fromEm, toEm] = [CLASS_WIDTHS_EM[i], CLASS_WIDTHS_EM[i + 1]];
     const width = `min(100${unit},${toEm}em)`;
-    const interpolated = (from: number, to: number) => `${from}em + ${((to - from) / (toEm - fromEm)).toFixed(3)}*(${width} - ${fromEm}em)`;
+    const interpolatedHeight = (from: number, to: number) => `${from}em + ${((to - from) / (toEm - fromEm)).toFixed(3)}*(${width} - ${fromEm}em)`;
     const penaltyBelow = i > 0 ? ` - 1e6*max(0em,${fromEm}em - 100${unit})` : '';
     const penaltyAbove = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${toEm - 0.001}em)`;
-    return `${typeof height === 'string' ? height : interpolated(...height)}${penaltyBelow}${penaltyAbove}`;
+    return `${typeof height === 'string' ? height : interpolatedHeight(...height)}${penaltyBelow}${penaltyAbove}`;
   });
   return `max(${heightTerms})`;
 }

@@ -73,7 +73,7 @@ export class State extends FigureController {
   }
 
   /** Restores a state, by default the one that the figure opened with, as a change by the user. */
-  goBack(state: Values | undefined = this.#openingState) {
+  restoreAsUser(state: Values | undefined = this.#openingState) {
     const { gesture, runtime } = this.host;
     runtime.attempt(() => {
       this.host.copyMenu.clearMessage();

@@ -15,9 +15,9 @@ export class TextHeights extends FigureController {
 
   hostUpdated() {
     this.#sizeObserver ??= new ResizeObserver((entries) => this.#keepHeights(entries));
-    for (const text of this.host.renderRoot.querySelectorAll<HTMLElement>(CHANGING_TEXTS)) {
-      if (!this.#textElements.has(text)) this.#sizeObserver.observe(text);
-      this.#textElements.add(text);
+    for (const textElement of this.host.renderRoot.querySelectorAll<HTMLElement>(CHANGING_TEXTS)) {
+      if (!this.#textElements.has(textElement)) this.#sizeObserver.observe(textElement);
+      this.#textElements.add(textElement);
     }
   }
 
@@ -32,7 +32,7 @@ export class TextHeights extends FigureController {
     // Changing a size now would call the observer again in this frame.
     requestAnimationFrame(() => {
       this.#sizeObserver?.disconnect();
-      for (const text of this.#textElements) text.style.minHeight = '';
+      for (const textElement of this.#textElements) textElement.style.minHeight = '';
       this.#textElements.clear();
       this.hostUpdated();
     });

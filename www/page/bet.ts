@@ -6,7 +6,7 @@ import type { Figure } from '../page.ts';
 const numberAtPath = (stats: Record<string, any>, path: string): number | null => path.split('.').reduce((part: any, key) => part?.[key], stats) ?? null;
 
 /**
- * Prepares a form with one slider. `enter` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in `stats`,
+ * Prepares a form with one slider. `enterState` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in `stats`,
  * and `data-hides` the overlay that shows it, which is hidden while the user bets.
  */
 export function prepareBet(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {

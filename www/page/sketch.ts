@@ -65,7 +65,7 @@ function outcomeOf(poses: Float64Array, expectedShape: string) {
   return `${verdictText}Every robot stops at the same point, with the same heading. There is no cloud.`;
 }
 
-/** Prepares a form with a pad to draw on. `enter` puts the figure into the state of the chosen radio button `case`. */
+/** Prepares a form with a pad to draw on. `enterState` puts the figure into the state of the chosen radio button `case`. */
 export function prepareSketch(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
   const svgElement = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
   const pad = form.querySelector('svg') as SVGSVGElement;

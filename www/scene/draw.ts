@@ -47,8 +47,8 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
 
 /** Adds a line to the path, from a point in CSS pixels in a direction of the world (rad), with a length in CSS pixels. */
 function headingTick({ context, view }: Brush, [x, y]: number[], heading: number, length: number) {
-  const ahead = view.direction(heading);
-  addLine(context, [[x, y], [x + length * ahead.x, y + length * ahead.y]]);
+  const direction = view.direction(heading);
+  addLine(context, [[x, y], [x + length * direction.x, y + length * direction.y]]);
 }
 
 /** Draws many robots at the same position as one marker with a ray for each heading. */

@@ -120,10 +120,10 @@ export class SvgContext {
   }
 
   #strokeAttributes() {
-    const dash = this.#dash.length ? ` stroke-dasharray="${this.#dash}"` : '';
-    const cap = this.lineCap === 'butt' ? '' : ` stroke-linecap="${this.lineCap}"`;
+    const dashAttribute = this.#dash.length ? ` stroke-dasharray="${this.#dash}"` : '';
+    const capAttribute = this.lineCap === 'butt' ? '' : ` stroke-linecap="${this.lineCap}"`;
     const lineJoinAttribute = this.lineJoin === 'miter' ? '' : ` stroke-linejoin="${this.lineJoin}"`;
-    return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dash}${cap}${lineJoinAttribute}${this.#opacityAttribute()}`;
+    return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dashAttribute}${capAttribute}${lineJoinAttribute}${this.#opacityAttribute()}`;
   }
 
   measureText(text: string) {

@@ -132,8 +132,8 @@ export class View {
     this.#minFill = 0;
     if (keptTarget && isInside(needed, keptTarget) && this.#fillOf(keptTarget, needed) >= minFill) return;
     this.hasZoomedOut = keptTarget !== undefined && minFill === 0;
-    const padded = this.#isSnug ? needed : extentWithMargin(needed);
-    this.#requiredExtent = keptTarget && this.hasZoomedOut ? extentAround([padded.xMin, padded.yMin, padded.xMax, padded.yMax], 2, keptTarget) : padded;
+    const paddedExtent = this.#isSnug ? needed : extentWithMargin(needed);
+    this.#requiredExtent = keptTarget && this.hasZoomedOut ? extentAround([paddedExtent.xMin, paddedExtent.yMin, paddedExtent.xMax, paddedExtent.yMax], 2, keptTarget) : paddedExtent;
     this.#target = this.#coveringExtent(this.#requiredExtent);
     if (!keptTarget) this.extent = this.#target;
   }

@@ -2,7 +2,7 @@
 
 import { html } from 'lit';
 import { checkedObject } from '../../figure/checks.ts';
-import { canvas, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -144,7 +144,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Restores the settings and the log that the figure opened with. */
   #startOver = () => {
-    this.state.goBack();
+    this.state.restoreAsUser();
     this.#opener.close(this.#pageLog).catch(this.#report);
   };
 
@@ -235,9 +235,9 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       ${dropZone(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictLine(this))}</p>
-        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${canvas(this, this.#pathPicture, pathText(reading, chosen))}</div>`)}
+        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${pictureCanvas(this, this.#pathPicture, pathText(reading, chosen))}</div>`)}
         <div class="one">
-          ${titledPicture(say.oneLeg(integer(chosen + 1)), html`<div class="stage">${canvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
+          ${titledPicture(say.oneLeg(integer(chosen + 1)), html`<div class="stage">${pictureCanvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
           ${this.renderer.afterFirstPicture(() => html`<div class="looked">${legControls(this)}</div>`)}
         </div>
         ${this.renderer.afterFirstPicture(() => html`

@@ -1,7 +1,7 @@
 /** Controls of the Alpha Calibrator: the leg that is shown, the model, and the length of legs. */
 
 import { html } from 'lit';
-import { radios, editableSlider, settingSlider } from '../../figure/controls.ts';
+import { settingRadios, editableSlider, settingSlider } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup } from '../../ui/controls.ts';
 import { NO_VALUE, integer, fixed, formatEditable } from '../../ui/format.ts';
@@ -50,11 +50,11 @@ export function modelControls(figure: Figure) {
   const formatDuration = (seconds: number) => (seconds > 0 ? `${formatEditable(seconds, 2)} s` : NO_VALUE);
   const chooseModel = (kind: import('./settings.ts').ModelRule) => figure.gesture.decide(settingsFor(kind));
   return group(fit, html`${radioGroup(model.name, 'kind', kinds, modelRuleOf(figure.settings.requested as any), chooseModel)}
-    ${radios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show: formatDuration })}`, 'fit');
+    ${settingRadios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show: formatDuration })}`, 'fit');
 }
 
 export function predictionControls(figure: Figure) {
-  return group(words.calibrator.prediction, html`${radios(figure, 'noise', words.noises)} ${settingSlider(figure, 'inflation')}`, 'fit');
+  return group(words.calibrator.prediction, html`${settingRadios(figure, 'noise', words.noises)} ${settingSlider(figure, 'inflation')}`, 'fit');
 }
 
 export function legLengths(figure: Figure) {

@@ -1,7 +1,7 @@
 /** <arc-anatomy>: the arc between two poses, and how likely it is after a command. */
 
 import { html } from 'lit';
-import { canvas, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -76,7 +76,7 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
     return html`
       <div class="views">
         ${titledPicture(say.floor, html`<div class="stage" part="picture">
-          ${canvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
+          ${pictureCanvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
         </div>`)}
         ${this.renderer.afterFirstPicture(() => html`
         <div class="aside">${headline(reading)} ${factorBars(reading, this.state.elementState.line)}</div>`)}

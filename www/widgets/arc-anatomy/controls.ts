@@ -1,8 +1,8 @@
 /** Controls of Arc Anatomy: the command, the noise, the heat map, the time along the arcs, and the lines of Table 5.1. */
 
 import { html, nothing } from 'lit';
-import { settingCheckbox, radios, sliders } from '../../figure/controls.ts';
-import { swatch } from '../../figure/overlays.ts';
+import { settingCheckbox, settingRadios, settingSliders } from '../../figure/controls.ts';
+import { swatchHtml } from '../../figure/overlays.ts';
 import { words } from '../../messages/registry.ts';
 import { button, group, formatMarkup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
@@ -11,17 +11,17 @@ import { lineText } from './readouts.ts';
 import { CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, TABLE_LINES, UNDERWAY_AT_END } from './settings.ts';
 import type { ArcAnatomyElement as Figure } from './arc-anatomy.ts';
 
-export const commandControls = (figure: Figure) => group(words.command, sliders(figure, COMMAND_SLIDERS));
+export const commandControls = (figure: Figure) => group(words.command, settingSliders(figure, COMMAND_SLIDERS));
 
 export const noiseControls = (figure: Figure) =>
-  group(words.noise, html`${radios(figure, 'noise', words.noises)} ${sliders(figure, ALPHA_SLIDERS)}`, 'alphas');
+  group(words.noise, html`${settingRadios(figure, 'noise', words.noises)} ${settingSliders(figure, ALPHA_SLIDERS)}`, 'alphas');
 
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
 export function likelihoodControls(figure: Figure) {
   const { likelihood, maps, printed } = words.anatomy;
   const { map } = figure.settings.requested;
-  const contourEntry = (name: 'prob' | 'density') => html`<span>${swatch(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
-  return group(likelihood, html`${settingCheckbox(figure, 'printed', formatMarkup(printed))} ${radios(figure, 'map', maps)}
+  const contourEntry = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
+  return group(likelihood, html`${settingCheckbox(figure, 'printed', formatMarkup(printed))} ${settingRadios(figure, 'map', maps)}
     ${map === 'none' ? nothing : html`<p class="legend contours">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);
 }
 

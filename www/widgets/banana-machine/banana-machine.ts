@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { checkedObject } from '../../figure/checks.ts';
 import { enterCloud } from '../../figure/cloud.ts';
-import { canvas, cloudControls, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, cloudControls, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -228,9 +228,9 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return html`
       <div class="views">
         ${titledPicture(this.#title, html`<div class="stage" part="picture">
-          ${canvas(this, this.#planePicture, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
+          ${pictureCanvas(this, this.#planePicture, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
         </div>`)}
-        ${titledPicture(say.twist, html`<div class="stage">${canvas(this, this.#twistPicture, twistText(reading))}</div>`, 'twist')}
+        ${titledPicture(say.twist, html`<div class="stage">${pictureCanvas(this, this.#twistPicture, twistText(reading))}</div>`, 'twist')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       <div class="morphing">

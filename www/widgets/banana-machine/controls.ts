@@ -1,7 +1,7 @@
 /** The Banana Machine's controls: the command, the noise and the overlays. */
 
 import { html, nothing } from 'lit';
-import { settingCheckbox, radios, settingSlider, sliders } from '../../figure/controls.ts';
+import { settingCheckbox, settingRadios, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { radioButton, group, toggle } from '../../ui/controls.ts';
 import { formatEditable } from '../../ui/format.ts';
@@ -10,7 +10,7 @@ import { COMMAND_SLIDERS } from './settings.ts';
 import type { BananaMachineElement as Figure } from './banana-machine.ts';
 
 export function commandControls(figure: Figure) {
-  return group(words.command, sliders(figure, COMMAND_SLIDERS));
+  return group(words.command, settingSliders(figure, COMMAND_SLIDERS));
 }
 
 export function modelControls(figure: Figure) {
@@ -18,7 +18,7 @@ export function modelControls(figure: Figure) {
   const say = words.banana;
   // The number of the α counts from 1; the other model may have fewer α's.
   const isolatedAlpha = Math.min(figure.state.elementState.isolateChoice, alphas.length);
-  return group(say.modelGroup, html`${radios(figure, 'model', say.models)} ${radios(figure, 'noise', words.noises)}
+  return group(say.modelGroup, html`${settingRadios(figure, 'model', say.models)} ${settingRadios(figure, 'noise', words.noises)}
     ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', say.reverseAware) : nothing}
     ${toggle({
       label: say.isolate,

@@ -1,7 +1,7 @@
 /** Dead Reckoning's controls: the recursion, the path, its noise, and the samples. */
 
 import { html } from 'lit';
-import { radios, cloudControls, settingSlider, sliders } from '../../figure/controls.ts';
+import { settingRadios, cloudControls, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { group } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
@@ -24,10 +24,10 @@ export function moreControls(figure: Figure) {
   const { settings: { alphas }, walked, per } = words.reckoning;
   const walkedText = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<div class="controls">
-    ${group(words.command, html`${sliders(figure, COMMAND_SLIDERS)}
+    ${group(words.command, html`${settingSliders(figure, COMMAND_SLIDERS)}
       ${settingSlider(figure, 'step', { max: Math.max(2, steps), maxEntered: steps, hasNoEffect: steps === 1, effect: walkedText })}`)}
     ${group(words.noise, html`${Object.keys(NOISE_SLIDERS).map((key, i) => settingSlider(figure, key, { effect: alphas.effects[i] }))}
-      ${radios(figure, 'per', per)}`)}
+      ${settingRadios(figure, 'per', per)}`)}
     ${cloudControls(figure, SAMPLE_COUNTS)}
   </div>`;
 }

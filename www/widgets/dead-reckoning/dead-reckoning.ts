@@ -2,7 +2,7 @@
 
 import { html } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { canvas, radios, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, settingRadios, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -96,10 +96,10 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
         <div class="summary">
           ${headline(reading, overlays)}
           <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(reading, overlays)}</p>
-          ${radios(this, 'compounding', say.recursions)}
+          ${settingRadios(this, 'compounding', say.recursions)}
         </div>
-        ${titledPicture(say.floor, html`<div class="stage" part="picture">${canvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
-        ${titledPicture(say.atStepTitle(step), html`<div class="stage">${canvas(this, this.#step, stepText(reading))}</div>`, 'step')}
+        ${titledPicture(say.floor, html`<div class="stage" part="picture">${pictureCanvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
+        ${titledPicture(say.atStepTitle(step), html`<div class="stage">${pictureCanvas(this, this.#step, stepText(reading))}</div>`, 'step')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, OUTLINE_STYLES)} ${presetButtons(this)} ${pathControls(this)}

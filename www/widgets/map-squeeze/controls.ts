@@ -1,7 +1,7 @@
 /** Map Squeeze's controls: start positions, command, noise, sampler, and maps of the user. */
 
 import { html, nothing } from 'lit';
-import { settingCheckbox, radios, cloudControls, settingSlider, sliders } from '../../figure/controls.ts';
+import { settingCheckbox, settingRadios, cloudControls, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup } from '../../ui/controls.ts';
 import { EXTENSIONS } from './maps/open.ts';
@@ -44,7 +44,7 @@ export function samplerControls(figure: Figure) {
 }
 
 export function motionControls(figure: Figure) {
-  return html`${group(words.command, sliders(figure, COMMAND_SLIDERS))}
+  return html`${group(words.command, settingSliders(figure, COMMAND_SLIDERS))}
     ${group(words.noise, settingSlider(figure, 'noise'), 'single')} ${cloudControls(figure, SAMPLE_COUNTS)}`;
 }
 
@@ -52,7 +52,7 @@ export function motionControls(figure: Figure) {
 export function robotAndMap(figure: Figure, hasUnknown: boolean) {
   const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
   return group(heading, html`${settingSlider(figure, 'clearance')} ${settingCheckbox(figure, 'conditioned', condition)}
-    ${hasUnknown ? radios(figure, 'unknown', unknown) : nothing}
+    ${hasUnknown ? settingRadios(figure, 'unknown', unknown) : nothing}
     ${radioGroup(settings.view.name, 'view', views, figure.state.elementState.view, (view) => figure.gesture.choose('view', view))}`);
 }
 

@@ -2,7 +2,7 @@
 
 import { html, nothing } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { canvas, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -297,7 +297,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     return html`
       <div class="views">
         ${titledPicture(floor, html`<div class="stage" part="picture">
-            ${canvas(this, this.picture, this.#description)}
+            ${pictureCanvas(this, this.picture, this.#description)}
             ${this.renderer.afterFirstPicture(() => this.#wallHandles.render())}
             ${this.#handles.render()}
           </div>

@@ -1,7 +1,7 @@
 /** Handles of walls, for the pointer or keys: edges of doorways move along their walls, and whole walls move across their direction. */
 
 import { html, nothing } from 'lit';
-import { swatch } from '../../figure/overlays.ts';
+import { swatchHtml } from '../../figure/overlays.ts';
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
@@ -59,7 +59,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   /** Returns the entry of the handles in the legend. */
   legend() {
     if (this.#currentGrips.every((grip) => !grip)) return nothing;
-    return html`<span class="toggle grips">${swatch({ role: 'truth', mark: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
+    return html`<span class="toggle grips">${swatchHtml({ role: 'truth', mark: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
   }
 
   /** Places new elements, which are rendered after the picture. */

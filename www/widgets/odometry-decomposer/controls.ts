@@ -1,7 +1,7 @@
 /** The Odometry Decomposer's controls: the table that compares the noise models, animated sliders, and the distribution of the noise. */
 
 import { html } from 'lit';
-import { radios, cloudControls, settingSlider, sliders } from '../../figure/controls.ts';
+import { settingRadios, cloudControls, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { radioButton, group, formatMarkup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
@@ -39,7 +39,7 @@ export function playableSlider(figure: Figure, key: 'phase' | 'drift', legend: s
 
 export function noiseControls(figure: Figure) {
   return html`<div class="controls">
-      ${group(words.noise, html`${sliders(figure, NOISE_SLIDERS)} ${radios(figure, 'noise', words.noises)}`, 'alphas')}
+      ${group(words.noise, html`${settingSliders(figure, NOISE_SLIDERS)} ${settingRadios(figure, 'noise', words.noises)}`, 'alphas')}
       ${cloudControls(figure, SAMPLE_COUNTS)}
     </div>
     <p>${formatMarkup(words.decomposer.hinges)}</p>`;

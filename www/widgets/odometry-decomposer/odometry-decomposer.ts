@@ -2,7 +2,7 @@
 
 import { html } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { canvas, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -81,9 +81,9 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
     return html`
       <div class="views">
         ${titledPicture(say.legsTitle, html`<div class="stage" part="picture">
-          ${canvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
+          ${pictureCanvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
         </div>`, 'legs')}
-        ${titledPicture(say.worldTitle, html`<div class="stage">${canvas(this, this.#world, worldText(reading))}</div>`)}
+        ${titledPicture(say.worldTitle, html`<div class="stage">${pictureCanvas(this, this.#world, worldText(reading))}</div>`)}
         ${this.renderer.afterFirstPicture(() => html`
         <div class="summary">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
         <p class="caption">${formatMarkup(say.worldCaption(fixed(driftDistance(reading), 2)))}</p>`)}

@@ -18,4 +18,4 @@ export function presetButtons(figure: import('../../figure/figure.ts').Figure, m
 }
 
 /** Returns the button that restores the state that the figure opened with. */
-export const startOverButton = ({ state }: import('../../figure/figure.ts').Figure, restore = () => state.goBack()) => button(words.startOver, restore, { title: words.startOverTitle, name: 'start-over' });
+export const startOverButton = ({ state }: import('../../figure/figure.ts').Figure, restore = () => state.restoreAsUser()) => button(words.startOver, restore, { title: words.startOverTitle, name: 'start-over' });

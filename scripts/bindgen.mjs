@@ -6,9 +6,9 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { filesOf } from './bundle.mjs';
 import { ROOT, UserError, isProgram, once, printStep, run } from './process.mjs';
-import { CACHE, manifestValue, nativeRust } from './toolchain.mjs';
+import { CACHE_DIRECTORY, manifestValue, nativeRust } from './toolchain.mjs';
 
-const CRATE = 'scripts/bind';
+const BINDGEN_CRATE = 'scripts/bind';
 
 /** Returns the path of the program that generates the glue of the core. The first call builds it. */
 export const bindProgram = once(() => compileProgram('bind', []));
@@ -24,13 +24,13 @@ export const testRunnerProgram = once(async () => {
 async function compileProgram(name, features) {
   const version = requireSameVersion();
   const sourceHash = createHash('sha256');
-  for (const path of filesOf(CRATE)) sourceHash.update(readFileSync(join(ROOT, path)));
-  const installDirectory = join(CACHE, `wasm-bindgen-${version}-${sourceHash.digest('hex').slice(0, 12)}`);
+  for (const path of filesOf(BINDGEN_CRATE)) sourceHash.update(readFileSync(join(ROOT, path)));
+  const installDirectory = join(CACHE_DIRECTORY, `wasm-bindgen-${version}-${sourceHash.digest('hex').slice(0, 12)}`);
   const program = join(installDirectory, 'bin', name);
   if (isProgram(program)) return program;
   const { bin, env } = await nativeRust();
   printStep(`Building ${name} of wasm-bindgen ${version}, once`);
-  const args = ['install', '--quiet', '--debug', '--path', CRATE, '--bin', name, ...features, '--root', installDirectory, '--no-track', '--force'];
+  const args = ['install', '--quiet', '--debug', '--path', BINDGEN_CRATE, '--bin', name, ...features, '--root', installDirectory, '--no-track', '--force'];
   // Cargo locks its directory while it builds, so this build has its own.
   const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };
   const lockedInstall = await run(join(bin, 'cargo'), [...args, '--locked'], { ...cargoOptions, quiet: true });
@@ -44,10 +44,10 @@ async function compileProgram(name, features) {
 /** Returns the version of wasm-bindgen. The core and the programs need exactly the same version. @returns {string} */
 function requireSameVersion() {
   const version = manifestValue('Cargo.lock', /^name = "wasm-bindgen"\nversion = "(.+)"$/m);
-  const binderVersion = manifestValue(`${CRATE}/Cargo.lock`, /^name = "wasm-bindgen-cli-support"\nversion = "(.+)"$/m);
+  const binderVersion = manifestValue(`${BINDGEN_CRATE}/Cargo.lock`, /^name = "wasm-bindgen-cli-support"\nversion = "(.+)"$/m);
   if (version === binderVersion) return version;
   throw new UserError(
-    `The core has wasm-bindgen ${version} and ${CRATE} has ${binderVersion}: write "=${version}" into ${CRATE}/Cargo.toml, ` +
-      `run \`cargo update --manifest-path ${CRATE}/Cargo.toml\` and start again.`,
+    `The core has wasm-bindgen ${version} and ${BINDGEN_CRATE} has ${binderVersion}: write "=${version}" into ${BINDGEN_CRATE}/Cargo.toml, ` +
+      `run \`cargo update --manifest-path ${BINDGEN_CRATE}/Cargo.toml\` and start again.`,
   );
 }

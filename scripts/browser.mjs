@@ -3,12 +3,12 @@
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { ROOT, UserError, findProgram, mustRun, printStep, run } from './process.mjs';
-import { CACHE, aptInstall } from './toolchain.mjs';
+import { CACHE_DIRECTORY, aptInstall } from './toolchain.mjs';
 
 /** Programs of the full Chromium, which alone has a back-forward cache. */
-export const FULL_CHROME = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
+export const FULL_CHROME_NAMES = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
 /** Programs of Chromium. The headless one is preferred: it takes a third less processor time. */
-const CHROME_NAMES = ['chromium-headless-shell', ...FULL_CHROME];
+const CHROME_NAMES = ['chromium-headless-shell', ...FULL_CHROME_NAMES];
 const CHROME_DIRECTORY_OF_MACOS = '/Applications/Google Chrome.app/Contents/MacOS';
 const MISSING_BROWSER =
   'Chromium and a chromedriver of the same version are missing: install both ' +
@@ -91,7 +91,7 @@ async function debianBrowser() {
 
 /** Returns Google's Chrome for Testing, which has a matching chromedriver. Both are downloaded once. */
 async function chromeForTesting() {
-  const directory = join(CACHE, 'browsers');
+  const directory = join(CACHE_DIRECTORY, 'browsers');
   const pathsFile = join(directory, 'paths.json');
   if (existsSync(pathsFile)) {
     const { chrome, driver } = JSON.parse(readFileSync(pathsFile, 'utf8'));

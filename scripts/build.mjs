@@ -84,23 +84,23 @@ function isCurrent(stamp, sourceHash, products) {
 /**
  * Builds cores, each a module and its glue.
  *
- * @param {string[]} names "motion" for the whole core, or the tags of figures, whose cores have their own machine alone
+ * @param {string[]} exportNames "motion" for the whole core, or the tags of figures, whose cores have their own machine alone
  * @param {boolean} local
  */
-async function buildCores(names, local) {
+async function buildCores(exportNames, local) {
   // Waits for Rust first: an error of other work would end the process before the message about missing Rust.
   const rust = await wasmRust();
   const [binderProgram, packages] = [bindProgram(), ensurePackages(local ? undefined : 'scripts')];
-  printStep(`Compiling the core to WebAssembly (${rust.description}): ${names.join(', ')}`);
+  printStep(`Compiling the core to WebAssembly (${rust.description}): ${exportNames.join(', ')}`);
   const finishedCores = [];
-  for (const name of names) {
+  for (const name of exportNames) {
     // Cargo writes all cores to one path: each is bound before the next is compiled. Optimization runs meanwhile.
     const [wasm, bind] = await settleAll([compileCore(rust, name, local), binderProgram, packages]);
     await mustRun('wasm-bindgen failed: see above.', bind, [wasm, pathOf(`build/bound/${name}`)]);
     finishedCores.push(finishCore(name, local));
   }
   await settleAll(finishedCores);
-  if (!names.includes('motion')) return;
+  if (!exportNames.includes('motion')) return;
   copyFileSync(pathOf('build/bound/motion/motion.d.ts'), pathOf('build/core.d.ts'));
   writeFileSync(pathOf('build/motion.wasm.d.ts'), BUNDLED_CORE_TYPES);
 }
@@ -117,8 +117,8 @@ async function compileCore(rust, name, local) {
   // Panic locations contain paths. In a published module the paths of this machine are removed.
   const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
   const { stdout: sysroot } = await run(join(rust.bin, 'rustc'), ['--print', 'sysroot'], { env: rust.env, quiet: true });
-  const prefixes = [sources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
-  const remapOption = `target.wasm32-unknown-unknown.rustflags=[${prefixes}]`;
+  const remapFlags = [sources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
+  const remapOption = `target.wasm32-unknown-unknown.rustflags=[${remapFlags}]`;
   const profile = local ? 'web' : 'release';
   const options = ['--quiet', '--locked', '--profile', profile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
   const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
@@ -228,11 +228,11 @@ async function writeGlue(name, glueNames) {
   const missingChange = name === 'motion' && glueChanges.find(([pattern]) => !bindgenGlue.match(pattern));
   if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, which scripts/build.mjs replaces.`);
   const changedGlue = glueChanges.reduce((text, [pattern, replacement]) => text.replace(pattern, replacement), bindgenGlue);
-  const names = [...bindgenGlue.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, exportName]) => exportName);
+  const exportNames = [...bindgenGlue.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, exportName]) => exportName);
   const { build: bundled } = await import('esbuild');
   const gluePlugin = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents: changedGlue })) };
   const { outputFiles } = await bundled({
-    stdin: { contents: `export { ${[...names, ...glueNames.imports.map(([, importName]) => importName), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: pathOf(`build/bound/${name}`) },
+    stdin: { contents: `export { ${[...exportNames, ...glueNames.imports.map(([, importName]) => importName), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: pathOf(`build/bound/${name}`) },
     bundle: true,
     format: 'esm',
     write: false,
@@ -241,14 +241,14 @@ async function writeGlue(name, glueNames) {
   });
   const shortNameOf = new Map(glueNames.exports);
   const exportOf = (/** @type {string} */ exportName) => shortNameOf.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
-  const body = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, key) => `wasm.${exportOf(key)}`);
+  const glueBody = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, key) => `wasm.${exportOf(key)}`);
   const lines = [
     'export default async (module) => {',
-    body,
+    glueBody,
     `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, importName, key]) => `${key}: ${importName}`)} } });`,
     '__wbg_set_wasm(exports);',
     `exports.${exportOf('__wbindgen_start')}();`,
-    `return { ${names} };`,
+    `return { ${exportNames} };`,
     '};',
   ];
   writeFileSync(pathOf(`build/${name}.js`), `${lines.join('\n')}\n`);

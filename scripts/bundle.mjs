@@ -138,7 +138,7 @@ const SHIFTED_CHARACTERS = {
 };
 
 /** Replacements of www/address.ts for bundles that are not the script named by the page. */
-const ADDRESSES = {
+const ADDRESS_MODULES = {
   /** Address of a classic script, which is known only while the script is evaluated. */
   classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const isClassic = true;",
   /** Address of the script that a chunk belongs to. */
@@ -211,7 +211,7 @@ export async function bundle({ tags = WIDGETS, transformScript = (_, script) => 
             if (form === 'external') onResolve({ filter: /\/logs\/worker\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER)}`, external: true }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: minimalDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
-              contents: options.format === 'iife' ? ADDRESSES.classic : options.splitting ? ADDRESSES.chunk : readFileSync(path, 'utf8'),
+              contents: options.format === 'iife' ? ADDRESS_MODULES.classic : options.splitting ? ADDRESS_MODULES.chunk : readFileSync(path, 'utf8'),
               loader: 'js',
             }));
             onLoad({ filter: /[/\\](?:js-yaml|d3-array)\.mjs$/ }, ({ path }) => ({
@@ -292,9 +292,9 @@ export async function bundle({ tags = WIDGETS, transformScript = (_, script) => 
 }
 
 /** Expression in a template string. It may contain template strings, but no braces outside of them. */
-const EXPRESSION = String.raw`\$\{(?:[^{}\x60]|\x60[^\x60]*\x60)*\}`;
-const EXPRESSIONS = new RegExp(EXPRESSION, 'g');
-const STYLES = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$]|${EXPRESSION})*(?=\x60)`, 'g');
+const EXPRESSION_SOURCE = String.raw`\$\{(?:[^{}\x60]|\x60[^\x60]*\x60)*\}`;
+const EXPRESSIONS_RE = new RegExp(EXPRESSION_SOURCE, 'g');
+const STYLES_RE = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$]|${EXPRESSION_SOURCE})*(?=\x60)`, 'g');
 
 /**
  * Minifies the styles in a script. Bundlers do not, because they are template strings. For the minifier, an expression at the beginning of a
@@ -304,10 +304,10 @@ const STYLES = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$]|$
  * @param {typeof import('esbuild').transformSync} transform
  */
 function withMinifiedStyles(script, transform) {
-  return script.replace(STYLES, (style) => {
+  return script.replace(STYLES_RE, (style) => {
     /** @type {string[]} */
     const expressions = [];
-    const plainStyle = style.replace(EXPRESSIONS, (expression, at) => {
+    const plainStyle = style.replace(EXPRESSIONS_RE, (expression, at) => {
       const name = `expression${expressions.push(expression)}`;
       return /(^|\n) *$/.test(style.slice(0, at)) ? `@${name};` : name;
     });

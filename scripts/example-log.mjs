@@ -30,13 +30,13 @@ const STEPS_PER_ROW = Math.round(ROW_INTERVAL / STEP);
 const EXTRA_TIME = 1;
 
 /** Seed of the noise. */
-const SEED = 1;
+const NOISE_SEED = 1;
 
 /** Maximum accelerations of the robot, m/s² and rad/s². */
 const MAX_ACCELERATIONS = { v: 0.8, omega: 2 };
 
 /** Speed of straight drives, m/s, and rate of turns on the spot, rad/s. */
-const SPEEDS = { v: 0.8, turn: 0.9 };
+const DRIVE_SPEEDS = { v: 0.8, turn: 0.9 };
 
 /** Command and its duration in seconds. @typedef {{ seconds: number, v: number, omega: number }} Command */
 
@@ -46,11 +46,11 @@ function* driveCommands() {
   const evenlySpread = (/** @type {number} */ i, /** @type {number} */ from, /** @type {number} */ to) => from + (to - from) * ((i * 0.6180339887) % 1);
   for (let i = 1; ; i++) {
     const turnSign = i % 3 === 0 ? -1 : 1;
-    yield { seconds: evenlySpread(i, 1.5, 4), v: SPEEDS.v, omega: 0 };
-    if (i % 2 === 0) yield { seconds: evenlySpread(3 * i, 1.5, 3.5), v: 0.75 * SPEEDS.v, omega: turnSign * evenlySpread(5 * i, 0.3, 0.9) };
+    yield { seconds: evenlySpread(i, 1.5, 4), v: DRIVE_SPEEDS.v, omega: 0 };
+    if (i % 2 === 0) yield { seconds: evenlySpread(3 * i, 1.5, 3.5), v: 0.75 * DRIVE_SPEEDS.v, omega: turnSign * evenlySpread(5 * i, 0.3, 0.9) };
     if (i % 5 === 0) yield { seconds: 1, v: 0, omega: 0 };
     yield { seconds: 0.4, v: 0, omega: 0 };
-    yield { seconds: evenlySpread(7 * i, 1.4, 3), v: 0, omega: turnSign * SPEEDS.turn };
+    yield { seconds: evenlySpread(7 * i, 1.4, 3), v: 0, omega: turnSign * DRIVE_SPEEDS.turn };
     yield { seconds: 0.4, v: 0, omega: 0 };
   }
 }
@@ -127,7 +127,7 @@ function truePoses(motion, measuredPoses, seed) {
 }
 
 /** Returns the tables of the example log, as CSV. @param {Motion} motion @param {number} [seed] */
-export function exampleLog(motion, seed = SEED) {
+export function exampleLog(motion, seed = NOISE_SEED) {
   const measuredPoses = odometryPoses(motion);
   const trueDrive = truePoses(motion, measuredPoses, seed);
   const extraRows = Math.round(EXTRA_TIME / ROW_INTERVAL);

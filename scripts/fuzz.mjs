@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { ROOT, UserError, mustRun, printStep, run, runAsScript } from './process.mjs';
 import { nativeRust } from './toolchain.mjs';
 
-const TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((file) => file.replace(/\.txt$/, ''));
+const FUZZ_TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((file) => file.replace(/\.txt$/, ''));
 
 /** Limits of one input: seconds, allocated megabytes, and bytes. The program itself takes 30 MB. */
 const INPUT_LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286', '-max_len=256'];
@@ -83,9 +83,9 @@ await runAsScript(import.meta.url, async () => {
   for (const [name, number] of Object.entries({ RUNS: runs, SEED: seed })) {
     if (number !== undefined && !/^[1-9]\d*$/.test(number)) throw new UserError(`${name} must be a whole number from 1 (got "${number}").`);
   }
-  const unknownTarget = namedTargets.find((name) => !TARGETS.includes(name));
-  if (unknownTarget !== undefined) throw new UserError(`"${unknownTarget}" is not a target; targets are ${TARGETS.join(', ')}.`);
-  const waitingTargets = namedTargets.length > 0 ? namedTargets : [...TARGETS];
+  const unknownTarget = namedTargets.find((name) => !FUZZ_TARGETS.includes(name));
+  if (unknownTarget !== undefined) throw new UserError(`"${unknownTarget}" is not a target; targets are ${FUZZ_TARGETS.join(', ')}.`);
+  const waitingTargets = namedTargets.length > 0 ? namedTargets : [...FUZZ_TARGETS];
   printStep(`${isKeeping ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
   await compileTargets();
   const runWaiting = async () => {

@@ -69,12 +69,12 @@ export function taskQueue() {
  * Waits until all promises are settled. Work that continued after a failure would write files that the next run reads.
  *
  * @template {Promise<unknown>[] | []} T
- * @param {T} works
+ * @param {T} promises
  * @returns {Promise<{ -readonly [K in keyof T]: Awaited<T[K]> }>} rejected with the first failure
  */
-export async function settleAll(works) {
-  await Promise.allSettled(works);
-  return /** @type {Promise<any>} */ (Promise.all(works));
+export async function settleAll(promises) {
+  await Promise.allSettled(promises);
+  return /** @type {Promise<any>} */ (Promise.all(promises));
 }
 
 /**

@@ -22,7 +22,7 @@ const OPTIONAL_TRAITS = { Bool: 't.Bool(None, allow_none=True)', Dict: 't.Dict(d
 /** Writes the module of the elements, and copies the script and the licences into the package: pip reads only its directory. */
 export async function writePython() {
   const sourceDirectory = join(PYTHON_DIRECTORY, 'src/motion_widgets');
-  writeFileSync(join(sourceDirectory, '_elements.py'), await elementsModule());
+  writeFileSync(join(sourceDirectory, '_elements.py'), await elementsSource());
   copyFileSync(join(ROOT, 'dist/anywidget.js'), join(sourceDirectory, 'anywidget.js'));
   for (const license of readdirSync(ROOT).filter((name) => name.startsWith('LICENSE'))) {
     copyFileSync(join(ROOT, license), join(PYTHON_DIRECTORY, license));
@@ -31,7 +31,7 @@ export async function writePython() {
 }
 
 /** @returns {Promise<string>} a module of Python */
-export async function elementsModule() {
+export async function elementsSource() {
   const { GLOBAL_ATTRIBUTES } = await importTypeScript('www/named.ts');
   const { classes } = await classComments();
   const widgetClasses = (await widgets()).map(({ tag, machine, attributes, properties }) => {

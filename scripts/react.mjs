@@ -14,7 +14,7 @@ const HEADER = '// Generated from the declarations: not to be edited.\n';
 export async function writeComponents() {
   const figures = await widgets();
   writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEADER}\nimport { component } from '../www/react.ts';\n\n${figures.map(componentOf).join('')}`);
-  writeFileSync(join(ROOT, 'build/react.d.ts'), [HEADER, importLines(figures), PROP_TYPES, ...figures.map(typesOf), jsxTags(figures)].join('\n'));
+  writeFileSync(join(ROOT, 'build/react.d.ts'), [HEADER, importLines(figures), PROP_TYPES, ...figures.map(componentTypesOf), jsxTags(figures)].join('\n'));
 }
 
 /** @param {Widget} widget */
@@ -85,7 +85,7 @@ type Tag<Element extends FigureElement<any, any>, Names extends keyof Element> =
 `;
 
 /** @param {Widget} widget */
-function typesOf({ tag, machine, attributes, properties }) {
+function componentTypesOf({ tag, machine, attributes, properties }) {
   const attributeNames = unionType(attributes.map(({ name, property = name }) => property));
   const propertyNames = unionType(properties.filter(({ readonly }) => !readonly).map(({ name }) => name));
   return (

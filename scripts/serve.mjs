@@ -25,13 +25,13 @@ export async function serve(directory, { port, base: basePath = '/', headers = {
     request.url = request.url.slice(basePath.length - 1);
     files(request, response, sendNotFound);
   });
-  let triedPort = port ?? 4173;
+  let portToTry = port ?? 4173;
   return new Promise((resolve, reject) => {
     server.on('error', (/** @type {NodeJS.ErrnoException} */ error) => {
       if (error.code !== 'EADDRINUSE' && error.code !== 'EACCES') {
         reject(error);
       } else if (port === undefined) {
-        server.listen(++triedPort, 'localhost');
+        server.listen(++portToTry, 'localhost');
       } else {
         reject(new UserError(`Port ${port} is not free: set PORT to another one, or leave it unset.`));
       }
@@ -41,7 +41,7 @@ export async function serve(directory, { port, base: basePath = '/', headers = {
       if (address === null || typeof address === 'string') return;
       resolve({ address: `http://localhost:${address.port}${basePath}`, close: () => server.close().closeAllConnections() });
     });
-    server.listen(triedPort, 'localhost');
+    server.listen(portToTry, 'localhost');
   });
 }
 

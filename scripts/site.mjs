@@ -9,7 +9,7 @@ import { ROOT, UserError, mustRun, printStep, runAsScript } from './process.mjs'
 import { escapedHtml } from './tables.mjs';
 import { ensurePackages, nativeRust } from './toolchain.mjs';
 
-const SITE = join(ROOT, 'build/site');
+const SITE_DIRECTORY = join(ROOT, 'build/site');
 const { homepage } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
 const SOURCES_URL = homepage.replace('#readme', '/blob/main/');
 
@@ -131,19 +131,19 @@ await runAsScript(import.meta.url, async () => {
   const docOptions = ['--quiet', '--locked', '--no-deps', '--lib', '--target-dir', join(ROOT, 'build/rustdoc')];
   await mustRun('The crate is not documented: see above.', join(rust.bin, 'cargo'), ['doc', ...docOptions], { env: rust.env });
   printStep('Rendering the documents');
-  rmSync(SITE, { recursive: true, force: true });
-  cpSync(join(ROOT, 'dist'), SITE, { recursive: true, filter: (path) => !/(\.d\.ts|\.map|cli\.js|motion-widgets\.js)$/.test(path) });
-  cpSync(join(ROOT, 'build/rustdoc/doc'), join(SITE, 'rust'), { recursive: true });
-  cpSync(join(ROOT, 'scripts/site.css'), join(SITE, 'site.css'));
+  rmSync(SITE_DIRECTORY, { recursive: true, force: true });
+  cpSync(join(ROOT, 'dist'), SITE_DIRECTORY, { recursive: true, filter: (path) => !/(\.d\.ts|\.map|cli\.js|motion-widgets\.js)$/.test(path) });
+  cpSync(join(ROOT, 'build/rustdoc/doc'), join(SITE_DIRECTORY, 'rust'), { recursive: true });
+  cpSync(join(ROOT, 'scripts/site.css'), join(SITE_DIRECTORY, 'site.css'));
   for (const path of ['index.html', 'reference.html']) {
-    const text = readFileSync(join(SITE, path), 'utf8').replace('src="./motion-widgets.js"', 'src="./external.js"');
-    writeFileSync(join(SITE, path), text.replace('</head>', '<link rel="stylesheet" href="./site.css" />\n</head>').replace(/<body[^>]*>/, `$&\n${navigationHtml(path)}`));
+    const text = readFileSync(join(SITE_DIRECTORY, path), 'utf8').replace('src="./motion-widgets.js"', 'src="./external.js"');
+    writeFileSync(join(SITE_DIRECTORY, path), text.replace('</head>', '<link rel="stylesheet" href="./site.css" />\n</head>').replace(/<body[^>]*>/, `$&\n${navigationHtml(path)}`));
   }
   const marked = await import('marked');
   const documents = ['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))];
-  mkdirSync(join(SITE, 'doc/embedding'), { recursive: true });
-  for (const document of documents) writeFileSync(join(SITE, pageOf(document)), renderedPage(marked, document, documents));
-  cpSync(join(ROOT, 'doc/morph.webp'), join(SITE, 'doc/morph.webp'));
+  mkdirSync(join(SITE_DIRECTORY, 'doc/embedding'), { recursive: true });
+  for (const document of documents) writeFileSync(join(SITE_DIRECTORY, pageOf(document)), renderedPage(marked, document, documents));
+  cpSync(join(ROOT, 'doc/morph.webp'), join(SITE_DIRECTORY, 'doc/morph.webp'));
   checkLinks();
   console.log('\nThe site is in build/site/.');
 });

@@ -184,7 +184,7 @@ const PARTS = {
  * Lanes of parts that run side by side, so that no core is idle while a linker, a download, a frame or a test waits. Parts of one
  * lane run one after the other. Cargo waits by itself for a directory that another part writes.
  */
-const LANES = [
+const PART_LANES = [
   ['build', 'browser', ...(NIGHTLY ? ['engines', 'embeddings'] : [])],
   ['rustfmt', 'rust', 'clippy', ...(NIGHTLY ? ['docs'] : [])],
   ['wasm', ...(NIGHTLY ? ['clippy-wasm'] : [])],
@@ -209,7 +209,7 @@ async function runParts(args) {
   /** @type {Outcome[]} */
   const outcomes = [];
   await Promise.all(
-    LANES.map(async (names) => {
+    PART_LANES.map(async (names) => {
       for (const name of names) outcomes.push(await withCollectedOutput(() => outcomeOf(name, [])));
     }),
   );

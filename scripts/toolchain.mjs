@@ -12,7 +12,7 @@ const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bi
 const DEBIAN_BIN = '/usr/bin';
 
 /** Directory of tools that are built or downloaded once for all clones of this user. */
-export const CACHE = join(
+export const CACHE_DIRECTORY = join(
   process.env.XDG_CACHE_HOME ||
     join(homedir(), process.platform === 'darwin' ? 'Library/Caches' : '.cache'),
   'motion-widgets',
@@ -62,7 +62,7 @@ async function installPackages(key) {
 }
 
 /** Locks of apt and of rustup, so that neither runs twice at the same time. */
-const [apt, rustup] = [taskQueue(), taskQueue()];
+const [aptQueue, rustupQueue] = [taskQueue(), taskQueue()];
 
 /**
  * Installs packages by apt, if that is possible without a password.
@@ -70,7 +70,7 @@ const [apt, rustup] = [taskQueue(), taskQueue()];
  * @param {string[]} packages
  * @param {string} sentence thrown as `UserError` otherwise
  */
-export const aptInstall = (packages, sentence) => apt(() => aptInstallNow(packages, sentence));
+export const aptInstall = (packages, sentence) => aptQueue(() => aptInstallNow(packages, sentence));
 
 /** Installs Debian packages. @param {string[]} packages @param {string} sentence of the error */
 async function aptInstallNow(packages, sentence) {
@@ -136,7 +136,7 @@ async function installRustup() {
  */
 export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
   const nativeToolchain = await nativeRust();
-  if (nativeToolchain.bin !== DEBIAN_BIN && (await rustup(() => hasTarget(nativeToolchain)))) {
+  if (nativeToolchain.bin !== DEBIAN_BIN && (await rustupQueue(() => hasTarget(nativeToolchain)))) {
     return { ...nativeToolchain, target: ['--target', WASM_TARGET], description: `${nativeToolchain.description}, ${WASM_TARGET} of rustup` };
   }
   const missingMessage =
@@ -170,7 +170,7 @@ async function hasTarget({ bin, env }) {
   if (program === undefined) return false;
   // Behind some firewalls rustup never returns. A probe, once a day, finds that out; it waits longer if Debian's packages cannot replace
   // it.
-  const unreachableMark = join(CACHE, 'rustup-unreachable');
+  const unreachableMark = join(CACHE_DIRECTORY, 'rustup-unreachable');
   const canFallBack = findProgram('apt-get') !== undefined;
   const dayInMs = 24 * 3600 * 1000;
   if (canFallBack && existsSync(unreachableMark) && Date.now() - statSync(unreachableMark).mtimeMs < dayInMs) return false;
@@ -180,7 +180,7 @@ async function hasTarget({ bin, env }) {
   if (ok) return true;
   if (timedOut) {
     console.log('rustup does not answer.');
-    mkdirSync(CACHE, { recursive: true });
+    mkdirSync(CACHE_DIRECTORY, { recursive: true });
     writeFileSync(unreachableMark, '');
   }
   return false;
@@ -248,7 +248,7 @@ export async function ensureLints({ bin, env }) {
   } else {
     const program = findProgram('rustup', [bin]);
     if (program === undefined) throw new UserError(missingMessage);
-    await rustup(() => mustRun(missingMessage, program, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
+    await rustupQueue(() => mustRun(missingMessage, program, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
   }
   if (!(await hasLints())) throw new UserError(missingMessage);
 }

@@ -6,7 +6,7 @@
 
 import { randomGenerator } from '../random.js';
 
-export const SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
+export const STATE_SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
 
 /** Returns a random state of each element, by its tag name. The states have all fields. @param {number} seed */
 export function randomStates(seed) {

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { SEEDS, randomStates } from './any-state.js';
+import { STATE_SEEDS, randomStates } from './any-state.js';
 import { ALL_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
 import { REDUCED_MOTION, setProperty, waitForFrames, mount, propertyOf, showPage, takeEvents, test, testEach, openDisclosures, untilReady } from './support.js';
 
@@ -154,7 +154,7 @@ testEach('code to embed opens the settings of a state, with its attributes in an
   await showPage(page, `<${name}></${name}>`);
   const widget = page.locator(name).first();
   await untilReady(widget);
-  for (const seed of isFull ? SEEDS : SEEDS.slice(0, 2)) {
+  for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
     const state = { ...randomStates(seed)[name], ...Reflect.get(WITHOUT_ATTRIBUTES, name) };
     const [original, ...copies] = await widget.evaluate(async (element, newState) => {
       /** @type {any} */ (element).setState(newState);

@@ -1,5 +1,5 @@
 import { chromium, expect } from '@playwright/test';
-import { CHROME_ARGUMENTS, FULL_CHROME, findChrome } from '../../scripts/browser.mjs';
+import { CHROME_ARGUMENTS, FULL_CHROME_NAMES, findChrome } from '../../scripts/browser.mjs';
 import { ALL_NAMES, CLOUD_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
 import { NEW_PAGE_TAG, REDUCED_MOTION, setProperty, boxOf, centreOf, waitForFrames, mount, pictureOf, propertyOf, showPage, stateOf, takeEvents, test, openDisclosures, untilReady } from './support.js';
 
@@ -322,7 +322,7 @@ test('a figure that was not displayed shows what was set meanwhile @nightly', as
 
 test('a page that comes back from the back-forward cache is alive @nightly', async ({ baseURL }) => {
   const browser = await chromium.launch({
-    executablePath: findChrome(FULL_CHROME), args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'],
+    executablePath: findChrome(FULL_CHROME_NAMES), args: CHROME_ARGUMENTS, ignoreDefaultArgs: ['--disable-back-forward-cache'],
   });
   const page = await browser.newPage({ baseURL, reducedMotion: 'reduce' });
   await showPage(page, ALL_NAMES.map((name) => `<${name} share></${name}>`).join(''));

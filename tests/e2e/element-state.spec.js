@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { SEEDS, randomStates } from './any-state.js';
+import { STATE_SEEDS, randomStates } from './any-state.js';
 import { REDUCED_MOTION, waitForFrames, mount, showPage, stateOf, takeEvents, test, testEach, openDisclosures, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
@@ -11,7 +11,7 @@ testEach('random states go in and come out, and a second element in the same sta
   const [firstWidget, secondWidget] = ['#one', '#two'].map((id) => page.locator(id));
   await untilReady(firstWidget);
   await untilReady(secondWidget);
-  for (const seed of isFull ? SEEDS : SEEDS.slice(0, 2)) {
+  for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
     const state = randomStates(seed)[name];
     const [first, second] = await page.evaluate(async (newState) => {
       const elements = ['one', 'two'].map((id) => /** @type {AnyElement} */ (/** @type {unknown} */ (document.getElementById(id))));

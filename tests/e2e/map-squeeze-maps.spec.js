@@ -16,10 +16,10 @@ const ROOM_PLAN = {
 };
 
 /** Room of 60 × 40 cells whose border is occupied. */
-const COLUMNS = 60;
-const ROWS = 40;
+const ROOM_COLUMNS = 60;
+const ROOM_ROWS = 40;
 const isOnBorder = (/** @type {number} */ column, /** @type {number} */ row) =>
-  column === 0 || row === 0 || column === COLUMNS - 1 || row === ROWS - 1;
+  column === 0 || row === 0 || column === ROOM_COLUMNS - 1 || row === ROOM_ROWS - 1;
 
 const YAML_FIELDS = { image: 'room.pgm', resolution: 0.05, origin: '[0.0, 0.0, 0.0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.1 };
 
@@ -134,7 +134,7 @@ test('a floor plan can be written on the page', async ({ page }) => {
 test('a map_server pair can be dropped on the widget', async ({ page }) => {
   const widget = await openSqueeze(page);
   await expect(currentMapOf(widget)).toHaveCount(0);
-  await dropFiles(widget.locator('.stage'), [yamlFile('room.yaml', YAML_FIELDS), pgmFile('room.pgm', COLUMNS, ROWS, isOnBorder)]);
+  await dropFiles(widget.locator('.stage'), [yamlFile('room.yaml', YAML_FIELDS), pgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder)]);
   await expect(currentMapOf(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
   await expect(currentMapOf(widget)).toBeVisible();
   const { bounds, walls, startFree, config, openPlace } = await squeezeResults(widget);
@@ -165,7 +165,7 @@ test('the reason why a dropped map is refused is visible near the drop until it 
 });
 
 test('a map that is refused is reported in a sentence, and the present map stays', async ({ page }) => {
-  const image = pgmFile('room.pgm', COLUMNS, ROWS, isOnBorder);
+  const image = pgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder);
   const roomYaml = yamlFile('room.yaml', YAML_FIELDS);
   const widget = await openSqueeze(page);
   const resultsBefore = await squeezeResults(widget);

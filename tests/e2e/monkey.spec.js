@@ -16,7 +16,7 @@ import { ALL_NAMES } from './figures.js';
  * @typedef {(page: Page, random: Random) => Promise<string>} Action random action, which returns a description of itself
  */
 
-const EVENTS = Number(process.env.MONKEY_EVENTS ?? 600);
+const EVENT_COUNT = Number(process.env.MONKEY_EVENTS ?? 600);
 const SEED = Number(process.env.MONKEY_SEED ?? 1);
 
 /** Number of events between two checks of the page. */
@@ -26,7 +26,7 @@ const EVENTS_PER_CHECK = 250;
 const PART_SELECTOR = 'button, summary, input, .handle, canvas, textarea, label';
 
 const TYPED_NUMBERS = ['0', '1', '0.5', '-3', '\u22120.25', '1,5', '1e-300', '1e9', '12345678901', '100', '7', 'NaN', 'Infinity', '', ' ', 'abc', '2 m', '0x10', '1e'];
-const KEYS = ['Tab', 'Shift+Tab', 'Enter', ' ', 'Escape', 'ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Home', 'End', 'c', 'C', '5', 'Backspace', 'Delete'];
+const PRESSABLE_KEYS = ['Tab', 'Shift+Tab', 'Enter', ' ', 'Escape', 'ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Home', 'End', 'c', 'C', '5', 'Backspace', 'Delete'];
 const ATTRIBUTE_TEXTS = ['', 'null', 'true', 'false', 'toString', '__proto__', '\u0000', 'velocity', 'odometry', 'normal', 'triangular', 'close', 'whole', 'endpoint', 'whole-arc', 'sub-stepped', 'free', 'occupied', 'unknown', 'command ellipse', 'Banana', 'Hard arc', 'doorway', ...TYPED_NUMBERS];
 const LANGUAGES = ['en', 'de', 'de-AT', 'fr', '', 'constructor', 'x'];
 const WINDOW_SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 1080], [600, 900]];
@@ -91,7 +91,7 @@ const ACTIONS = {
     return `${part.what} by ${offset}`;
   },
   async key(page, random) {
-    const keys = Array.from({ length: 1 + random.below(4) }, () => random.one(KEYS));
+    const keys = Array.from({ length: 1 + random.below(4) }, () => random.one(PRESSABLE_KEYS));
     for (const key of keys) await page.keyboard.press(key);
     return keys.join(' ');
   },
@@ -248,7 +248,7 @@ function faultsOf(page, name) {
 test.use({ hasTouch: true });
 
 test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ page }) => {
-  test.setTimeout(60_000 + EVENTS * 400);
+  test.setTimeout(60_000 + EVENT_COUNT * 400);
   page.on('dialog', (dialog) => dialog.dismiss());
   await page.addInitScript(() => {
     Object.assign(window, { kept: [], trouble: [] });
@@ -271,15 +271,15 @@ test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ 
   const random = randomOf(SEED);
   /** @type {string[]} */
   const log = [];
-  const replayHint = () => `MONKEY_SEED=${SEED} MONKEY_EVENTS=${EVENTS}, after ${log.length} events; the last:\n${log.slice(-12).join('\n')}\n`;
-  while (log.length < EVENTS) {
+  const replayHint = () => `MONKEY_SEED=${SEED} MONKEY_EVENTS=${EVENT_COUNT}, after ${log.length} events; the last:\n${log.slice(-12).join('\n')}\n`;
+  while (log.length < EVENT_COUNT) {
     const name = random.one(WEIGHTED_ACTIONS);
     log.push(`${name} …`);
     await test.step(name, async () => log.push(`${name} ${await ACTIONS[name](page, random)}`), { box: true }).catch((error) => {
       throw new Error(replayHint(), { cause: error });
     });
     log.splice(-2, 1);
-    if (log.length % EVENTS_PER_CHECK > 0 && log.length < EVENTS) continue;
+    if (log.length % EVENTS_PER_CHECK > 0 && log.length < EVENT_COUNT) continue;
     await page.mouse.up();
     await page.keyboard.press('Escape');
     await page.emulateMedia({ media: 'screen' });

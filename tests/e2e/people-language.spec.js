@@ -5,7 +5,7 @@ import { REDUCED_MOTION, bananaReadings, waitForFrames, mount, numberIn, openBan
 test.use(REDUCED_MOTION);
 
 /** Folders of the widgets by their keys in a catalogue. */
-const FOLDERS = {
+const WIDGET_FOLDERS = {
   banana: 'banana-machine', squeeze: 'map-squeeze', anatomy: 'arc-anatomy',
   decomposer: 'odometry-decomposer', reckoning: 'dead-reckoning', calibrator: 'alpha-calibrator',
 };
@@ -15,7 +15,7 @@ const SAME_NAMES = ['Map Squeeze', 'Arc Anatomy'];
 
 /** @param {string} lang @returns {Promise<any>} messages of a language */
 async function catalogueOf(lang) {
-  const widgetEntries = Object.entries(FOLDERS).map(async ([key, folder]) => [key, (await import(`../../www/widgets/${folder}/${lang}.js`))[lang]]);
+  const widgetEntries = Object.entries(WIDGET_FOLDERS).map(async ([key, folder]) => [key, (await import(`../../www/widgets/${folder}/${lang}.js`))[lang]]);
   return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...Object.fromEntries(await Promise.all(widgetEntries)) };
 }
 

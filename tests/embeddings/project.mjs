@@ -10,7 +10,7 @@ import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, write
 import { basename, delimiter, join } from 'node:path';
 import { ROOT, mustRun, once, printStep } from '../../scripts/process.mjs';
 import { start } from './serving.mjs';
-import { CACHE } from '../../scripts/toolchain.mjs';
+import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
 
 /**
  * Description of an engine: the default export of a file in this folder.
@@ -59,7 +59,7 @@ const SILENT_ENVIRONMENT = {
 };
 
 /** Directory for this clone alone, because tests of other clones may run at the same time. */
-const SCRATCH = join(CACHE, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
+const SCRATCH = join(CACHE_DIRECTORY, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
 
 /** @returns {Promise<string[]>} names of all engines */
 export async function engines() {

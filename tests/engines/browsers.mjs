@@ -26,7 +26,7 @@ import { ensureFirefox, ensureWebKit } from './programs.mjs';
  */
 
 /** Size of the page within the window of the browser, CSS pixels. */
-const SIZE = { width: 1280, height: 800 };
+const PAGE_SIZE = { width: 1280, height: 800 };
 
 /** Time limit of a script in a page, ms. The digest of all machines takes longest. */
 const SCRIPT_TIMEOUT = 240_000;
@@ -98,9 +98,9 @@ async function inSession(url, capabilities, stop) {
   const session = await new Builder().usingServer(url).withCapabilities(new Capabilities(/** @type {any} */ (capabilities))).build();
   await session.manage().setTimeouts({ script: SCRIPT_TIMEOUT, pageLoad: SCRIPT_TIMEOUT });
   const window = session.manage().window();
-  await window.setRect(SIZE);
+  await window.setRect(PAGE_SIZE);
   const [width, height] = /** @type {number[]} */ (await session.executeScript('return [innerWidth, innerHeight]'));
-  await window.setRect({ width: 2 * SIZE.width - width, height: 2 * SIZE.height - height });
+  await window.setRect({ width: 2 * PAGE_SIZE.width - width, height: 2 * PAGE_SIZE.height - height });
   return {
     version: (await session.getCapabilities()).get('browserVersion'),
     open: (url) => session.get(url),
@@ -135,4 +135,4 @@ async function inSession(url, capabilities, stop) {
 }
 
 /** Functions that start the engines, by the names that the command line takes. @type {Record<string, () => Promise<Engine>>} */
-export const engines = { chromium, firefox, webkit };
+export const engineStarters = { chromium, firefox, webkit };

@@ -16,7 +16,7 @@ import { machineState } from './inside.js';
 /** @typedef {import('./browsers.mjs').Engine} Engine */
 
 /** Number of pointer moves of a drag. */
-const STEPS = 8;
+const DRAG_STEPS = 8;
 
 /** Maximum number of colours of a blank picture. Antialiased lines, text and a cloud have many more shades. */
 const MAX_COLOURS_OF_BLANK = 16;
@@ -94,7 +94,7 @@ export async function check(name, engine, address) {
   /** @type {string[]} */
   const failures = [];
   let passed = 0;
-  const attempt = async (/** @type {string} */ what, /** @type {() => Promise<unknown>} */ work) => {
+  const runCheck = async (/** @type {string} */ what, /** @type {() => Promise<unknown>} */ work) => {
     try {
       await work();
       assert.deepEqual(await page.complaints(), [], 'The console has something to say.');
@@ -107,15 +107,15 @@ export async function check(name, engine, address) {
     }
   };
 
-  await attempt('the digest', () => checkDigest(page));
+  await runCheck('the digest', () => checkDigest(page));
   for (const tag of Object.keys(settings)) {
     const { handles } = figures[tag];
-    await attempt(`${tag} opens`, () => checkOpening(page, tag));
+    await runCheck(`${tag} opens`, () => checkOpening(page, tag));
     for (const handle of handles) {
-      await attempt(`${tag} is dragged by its handle "${handle.name}"`, () => checkDragging(page, tag, handle));
-      await attempt(`the handle "${handle.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, handle));
+      await runCheck(`${tag} is dragged by its handle "${handle.name}"`, () => checkDragging(page, tag, handle));
+      await runCheck(`the handle "${handle.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, handle));
     }
-    await attempt(`sliders of ${tag} follow the keyboard`, () => checkSliderKeys(page, tag));
+    await runCheck(`sliders of ${tag} follow the keyboard`, () => checkSliderKeys(page, tag));
   }
   return { passed, failures };
 }
@@ -157,17 +157,17 @@ async function checkOpening(page, tag) {
 async function checkDragging(page, tag, { name, to, placeOf }) {
   await page.open(tag);
   const hashBefore = await page.ask('pictureHashOf', tag);
-  const places = await page.ask('placesOf', { tag, handle: name, to });
+  const handlePlaces = await page.ask('placesOf', { tag, handle: name, to });
   // Pointer positions are whole pixels. A handle that is grasped beside its middle keeps its offset from the pointer.
-  const from = [Math.round(places.from.x), Math.round(places.from.y)];
-  const vector = [places.to.x - places.from.x, places.to.y - places.from.y];
+  const from = [Math.round(handlePlaces.from.x), Math.round(handlePlaces.from.y)];
+  const vector = [handlePlaces.to.x - handlePlaces.from.x, handlePlaces.to.y - handlePlaces.from.y];
   const pointAt = (/** @type {number} */ share) => /** @type {[number, number]} */ (from.map((coordinate, i) => Math.round(coordinate + share * vector[i])));
-  await page.engine.drag(Array.from({ length: STEPS + 1 }, (_, i) => pointAt(i / STEPS)));
+  await page.engine.drag(Array.from({ length: DRAG_STEPS + 1 }, (_, i) => pointAt(i / DRAG_STEPS)));
   await page.untilSettled(tag);
   await page.keepScreenshot(`${tag}-${name}-dragged`);
   const { machine } = await compareWithNode(page, tag);
   const [x, y] = placeOf(machine, to);
-  const error = Math.hypot(x - to[0], y - to[1]) / places.pixel;
+  const error = Math.hypot(x - to[0], y - to[1]) / handlePlaces.pixel;
   assert.ok(error <= 1, `It is ${error.toFixed(2)} pixels beside where it was dragged.`);
   assert.notEqual(await page.ask('pictureHashOf', tag), hashBefore, 'The picture is as it was.');
 }

@@ -18,7 +18,7 @@ const firstCanvasOf = (/** @type {string} */ tag) => /** @type {HTMLCanvasElemen
 const nextFrame = () => new Promise(requestAnimationFrame);
 
 /** Number of frames without a change after which a figure counts as settled. */
-const STILL_FRAMES = 10;
+const UNCHANGED_FRAMES = 10;
 
 /**
  * Scrolls to a figure and waits until its cloud is complete and its picture no longer changes.
@@ -42,10 +42,10 @@ export async function untilSettled(tag) {
   while (sampleCount() !== samples && performance.now() < end) await nextFrame();
   const layout = () => JSON.stringify([figure.pictures.map((/** @type {any} */ { view }) => view.extent), firstCanvasOf(tag).getBoundingClientRect()]);
   let lastLayout = layout();
-  for (let stillFrames = 0; stillFrames < STILL_FRAMES && performance.now() < end; stillFrames++) {
+  for (let unchangedFrames = 0; unchangedFrames < UNCHANGED_FRAMES && performance.now() < end; unchangedFrames++) {
     await nextFrame();
     const currentLayout = layout();
-    if (currentLayout !== lastLayout) stillFrames = 0;
+    if (currentLayout !== lastLayout) unchangedFrames = 0;
     lastLayout = currentLayout;
   }
   return { stats: sampleCount(), samples };
@@ -68,12 +68,12 @@ export async function machineState({ config, poses = null, stats, verdicts = nul
 export function placesOf({ tag, handle, to: [x, y] }) {
   const { view } = figureOf(tag).pictures[0];
   const { left, top, width } = firstCanvasOf(tag).getBoundingClientRect();
-  const zoom = width / view.width;
+  const pixelsPerViewPixel = width / view.width;
   const box = /** @type {Element} */ (rootOf(tag).querySelector(`.handle.${handle}`)).getBoundingClientRect();
   return {
     from: { x: box.x + box.width / 2, y: box.y + box.height / 2 },
-    to: { x: left + zoom * view.toPixelX(x), y: top + zoom * view.toPixelY(y) },
-    pixel: 1 / (zoom * view.scaleX),
+    to: { x: left + pixelsPerViewPixel * view.toPixelX(x), y: top + pixelsPerViewPixel * view.toPixelY(y) },
+    pixel: 1 / (pixelsPerViewPixel * view.scaleX),
   };
 }
 

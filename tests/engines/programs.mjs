@@ -3,7 +3,7 @@
 import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { UserError, findProgram, isProgram, mustRun, printStep, run } from '../../scripts/process.mjs';
-import { CACHE, aptInstall, nativeRust } from '../../scripts/toolchain.mjs';
+import { CACHE_DIRECTORY, aptInstall, nativeRust } from '../../scripts/toolchain.mjs';
 
 const FIREFOX_NAMES = ['firefox-esr', 'firefox'];
 const FIREFOX_SENTENCE =
@@ -12,7 +12,7 @@ const WEBKIT_SENTENCE =
   'WebKit is missing, or what shows and drives it: on Debian and Ubuntu `sudo apt-get install webkit2gtk-driver xvfb`.';
 
 /** Directories in which distributions keep MiniBrowser, in a folder by architecture and version. */
-const LIBRARIES = ['/usr/lib', '/usr/libexec', '/usr/lib64'];
+const LIBRARY_DIRECTORIES = ['/usr/lib', '/usr/libexec', '/usr/lib64'];
 
 /** @returns {Promise<{ firefox: string, driver: string }>} its programs */
 export async function ensureFirefox() {
@@ -26,13 +26,13 @@ export async function ensureFirefox() {
 /** Returns the path of geckodriver. If it is not found, it is compiled once, because distributions have no package of it. */
 async function ensureGeckodriver() {
   const { GECKOWEBDRIVER } = process.env;
-  const bin = join(CACHE, 'geckodriver/bin');
+  const bin = join(CACHE_DIRECTORY, 'geckodriver/bin');
   const find = () => findProgram('geckodriver', [...(GECKOWEBDRIVER ? [GECKOWEBDRIVER] : []), bin]);
   const present = find();
   if (present !== undefined) return present;
   const rust = await nativeRust();
   printStep('Compiling geckodriver, once');
-  const options = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE, 'geckodriver')];
+  const options = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE_DIRECTORY, 'geckodriver')];
   await mustRun(FIREFOX_SENTENCE, join(rust.bin, 'cargo'), options, { env: rust.env, seconds: 1200 });
   return join(bin, 'geckodriver');
 }
@@ -59,7 +59,7 @@ function findWebKit() {
 function findMiniBrowser() {
   const subdirectories = (/** @type {string} */ directory) =>
     existsSync(directory) ? readdirSync(directory, { withFileTypes: true }).filter((entry) => entry.isDirectory()).map(({ name }) => join(directory, name)) : [];
-  const libraries = LIBRARIES.flatMap((directory) => [directory, ...subdirectories(directory).filter((path) => /-linux-gnu/.test(path))]);
+  const libraries = LIBRARY_DIRECTORIES.flatMap((directory) => [directory, ...subdirectories(directory).filter((path) => /-linux-gnu/.test(path))]);
   const candidates = libraries.flatMap(subdirectories).filter((path) => /\/webkit(2gtk|gtk)-[\d.]+$/.test(path));
   return candidates.sort().reverse().map((path) => join(path, 'MiniBrowser')).find(isProgram);
 }

@@ -11,9 +11,9 @@ import { join } from 'node:path';
 import { build } from '../../scripts/build.mjs';
 import { ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
-import { engines } from './browsers.mjs';
+import { engineStarters } from './browsers.mjs';
 
-const PAGE = 'index.html';
+const PAGE_NAME = 'index.html';
 const LISTENER_TAG = '<script src="/tests/engines/listen.js"></script>';
 
 /**
@@ -23,9 +23,9 @@ const LISTENER_TAG = '<script src="/tests/engines/listen.js"></script>';
  */
 async function serveSite() {
   const directory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
-  for (const name of readdirSync(join(ROOT, 'dist'))) if (name !== PAGE) symlinkSync(join(ROOT, 'dist', name), join(directory, name));
+  for (const name of readdirSync(join(ROOT, 'dist'))) if (name !== PAGE_NAME) symlinkSync(join(ROOT, 'dist', name), join(directory, name));
   for (const name of ['tests', 'www']) symlinkSync(join(ROOT, name), join(directory, name));
-  writeFileSync(join(directory, PAGE), readFileSync(join(ROOT, 'dist', PAGE), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
+  writeFileSync(join(directory, PAGE_NAME), readFileSync(join(ROOT, 'dist', PAGE_NAME), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
   const { address, close } = await serve(directory, { port: 0 });
   return {
     address,
@@ -41,7 +41,7 @@ async function outcomeOf(name, address) {
   printStep(name);
   let version = 'none';
   try {
-    const engine = await engines[name]();
+    const engine = await engineStarters[name]();
     version = engine.version;
     try {
       // Imported only here, because checks.mjs imports dist/, which has to be built first.
@@ -59,7 +59,7 @@ async function outcomeOf(name, address) {
 
 /** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} engineNames */
 async function test(engineNames) {
-  const allNames = Object.keys(engines);
+  const allNames = Object.keys(engineStarters);
   const unknownName = engineNames.find((name) => !allNames.includes(name));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allNames.join(', ')}.`);
   await build();

@@ -21,7 +21,7 @@ import { odometryMessage, poseOf, recordingOf, stampOf, transformMessage, twistO
 
 const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
 const examplePath = (/** @type {string} */ name) => fileURLToPath(new URL(`../../examples/calibration/${name}.csv`, import.meta.url));
-const ARGS = ['--odometry', examplePath('odometry'), '--reference', examplePath('reference')];
+const LOG_ARGS = ['--odometry', examplePath('odometry'), '--reference', examplePath('reference')];
 
 /** @type {string} */
 let folder;
@@ -54,20 +54,20 @@ async function coreOptionsOf(args) {
 useLanguageOf(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }) }));
 
 test('options reach the core', async () => {
-  const { odometry, reference, ...fit } = await coreOptionsOf(ARGS);
+  const { odometry, reference, ...fit } = await coreOptionsOf(LOG_ARGS);
   assert.deepEqual(fit, { legs: { distance: 0.25, angle: 0.2 } });
   for (const log of [...odometry, ...reference]) assert.deepEqual(Object.keys(log), ['t', 'x', 'y', 'theta', 'breaks']);
   const optionsText = '--model omnidirectional --rule omni --update-min-d 0.5 --update-min-a 0.3 --outliers keep --reference-position-std 0.001 --reference-yaw-std 2e-3';
-  const coreOptions = await coreOptionsOf([...ARGS, ...optionsText.split(' ')]);
+  const coreOptions = await coreOptionsOf([...LOG_ARGS, ...optionsText.split(' ')]);
   assert.deepEqual({ ...coreOptions, odometry: [], reference: [] }, { odometry: [], reference: [], model: 'omnidirectional', rule: 'omni', legs: { distance: 0.5, angle: 0.3 }, outliers: 'keep', positionStd: 0.001, yawStd: 0.002 });
-  assert.deepEqual((await coreOptionsOf([...ARGS, '--duration=0.5'])).legs, { duration: 0.5 });
-  assert.equal((await coreOptionsOf([...ARGS, '--rule', 'omni'])).model, 'omnidirectional');
+  assert.deepEqual((await coreOptionsOf([...LOG_ARGS, '--duration=0.5'])).legs, { duration: 0.5 });
+  assert.equal((await coreOptionsOf([...LOG_ARGS, '--rule', 'omni'])).model, 'omnidirectional');
 });
 
 test('files without an option are recordings, paired where each is one table', async () => {
   const [odometryPath, referencePath] = [examplePath('odometry'), examplePath('reference')];
   const laterCopyOf = (/** @type {string} */ name, /** @type {string} */ from) => writeInFolder(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
-  const expectedCall = await coreOptionsOf(ARGS);
+  const expectedCall = await coreOptionsOf(LOG_ARGS);
   assert.deepEqual(await coreOptionsOf([referencePath, odometryPath]), expectedCall);
   assert.deepEqual(await coreOptionsOf([referencePath, '--recording', odometryPath]), expectedCall);
   const [odometry2, truth2] = [laterCopyOf('odom2.csv', odometryPath), laterCopyOf('truth2.csv', referencePath)];
@@ -76,7 +76,7 @@ test('files without an option are recordings, paired where each is one table', a
 });
 
 test('systematic errors are corrected or left in by name, all of them or single ones', async () => {
-  const correctOf = async (/** @type {string} */ args) => (await coreOptionsOf([...ARGS, ...args.split(' ')])).correct;
+  const correctOf = async (/** @type {string} */ args) => (await coreOptionsOf([...LOG_ARGS, ...args.split(' ')])).correct;
   assert.deepEqual(await correctOf('--no-correct mountYaw,leverArm --correct turnScale'), { mountYaw: false, leverArm: false, turnScale: true });
   const noCorrection = { clockOffset: false, mountYaw: false, leverArm: false, distanceScale: false, turnScale: false };
   assert.deepEqual(await correctOf('--no-correct all'), noCorrection);
@@ -135,9 +135,9 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['a.bag', '--help=3'], '--help takes no value.\n'],
     [['-r', 'nav2', 'a.bag'], 'unknown option -r; options have whole names, as in --rule nav2, --help lists all.'],
     [['a.bag', '-rule', 'nav2'], 'unknown option -rule; the nearest is --rule, --help lists all.'],
-    [[ARGS[1], writeInFolder('degrees.csv', readFileSync(examplePath('reference'), 'utf8').replace('yaw', 'yaw_deg'))], 'degrees.csv: headings in deg would turn at 0.0166 rad/s, and do not agree with the path or with their range; state their unit: rad or deg. Choose with --angle-unit, as in --angle-unit rad; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit deg,rad.\n'],
-    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw.\n'],
-    [[writeInFolder('days.csv', ['t,x,y,yaw', ...Array.from({ length: 40 }, (_, i) => `${45_244 + i / 1_728_000},${i / 40},0,0`)].join('\n')), ARGS[3]], 'days.csv: in s, the times would mean 1.73e+6 rows a second; write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days).\n'],
+    [[LOG_ARGS[1], writeInFolder('degrees.csv', readFileSync(examplePath('reference'), 'utf8').replace('yaw', 'yaw_deg'))], 'degrees.csv: headings in deg would turn at 0.0166 rad/s, and do not agree with the path or with their range; state their unit: rad or deg. Choose with --angle-unit, as in --angle-unit rad; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit deg,rad.\n'],
+    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), LOG_ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw.\n'],
+    [[writeInFolder('days.csv', ['t,x,y,yaw', ...Array.from({ length: 40 }, (_, i) => `${45_244 + i / 1_728_000},${i / 40},0,0`)].join('\n')), LOG_ARGS[3]], 'days.csv: in s, the times would mean 1.73e+6 rows a second; write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days).\n'],
     [['no/metadata.yaml', 'no/run.mcap'], 'no: there is no such file or folder.\n'],
     [['no.bag', '--rule', 'Nav2'], '--rule is "Nav2"; allowed is '],
     [
@@ -150,23 +150,23 @@ test('bad input has the exit code 2 and a sentence', async () => {
       [examplePath('odometry'), writeInFolder('lidar_odom.csv', readFileSync(examplePath('reference')))],
       'odometry.csv: the odometry is in odometry.csv, lidar_odom.csv, and the reference in no file; give one of each for a drive. Choose with --odometry and --reference.\n',
     ],
-    [[...ARGS, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
-    [[...ARGS, '--json', '--yaml'], '--json excludes --yaml: give one or the other.'],
-    [[...ARGS, '--update-min-d', '0,25'], '--update-min-d must be a number with a decimal point, 0.25 (got “0,25”).'],
-    [[...ARGS, '--update-min-a', 'wide'], '--update-min-a must be a number (got “wide”).'],
-    [[...ARGS, '--duration', '1', '--update-min-a', '1'], '--duration excludes --update-min-d and --update-min-a: give one or the other.'],
-    [[...ARGS, '--no-correct', 'yaw'], '--no-correct must be all, or names of clockOffset, mountYaw, leverArm, distanceScale, turnScale (got “yaw”).'],
-    [[...ARGS, '--reference-frames', 'map'], '--reference-frames must be a parent and a child frame, as in map,base_link (got “map”).'],
-    [[...ARGS, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns, or two of these for odometry and reference (got “min”).'],
-    [[...ARGS, '--reference-frames', 'map,base_link'], 'reference.csv: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
-    [[...ARGS, '--odometry-topic', '/odom'], 'odometry.csv, topic /odom: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
-    [[ARGS[1], ARGS[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
-    [[...ARGS.slice(0, 2), '--reference', join(folder, 'no.csv')], `${join(folder, 'no.csv')}: there is no such file or folder.`],
-    [[...ARGS, '--plot', join(folder, 'no', 'plot.svg')], '--plot '],
+    [[...LOG_ARGS, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
+    [[...LOG_ARGS, '--json', '--yaml'], '--json excludes --yaml: give one or the other.'],
+    [[...LOG_ARGS, '--update-min-d', '0,25'], '--update-min-d must be a number with a decimal point, 0.25 (got “0,25”).'],
+    [[...LOG_ARGS, '--update-min-a', 'wide'], '--update-min-a must be a number (got “wide”).'],
+    [[...LOG_ARGS, '--duration', '1', '--update-min-a', '1'], '--duration excludes --update-min-d and --update-min-a: give one or the other.'],
+    [[...LOG_ARGS, '--no-correct', 'yaw'], '--no-correct must be all, or names of clockOffset, mountYaw, leverArm, distanceScale, turnScale (got “yaw”).'],
+    [[...LOG_ARGS, '--reference-frames', 'map'], '--reference-frames must be a parent and a child frame, as in map,base_link (got “map”).'],
+    [[...LOG_ARGS, '--time-unit', 'min'], '--time-unit must be s, ms, us, or ns, or two of these for odometry and reference (got “min”).'],
+    [[...LOG_ARGS, '--reference-frames', 'map,base_link'], 'reference.csv: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
+    [[...LOG_ARGS, '--odometry-topic', '/odom'], 'odometry.csv, topic /odom: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
+    [[LOG_ARGS[1], LOG_ARGS[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
+    [[...LOG_ARGS.slice(0, 2), '--reference', join(folder, 'no.csv')], `${join(folder, 'no.csv')}: there is no such file or folder.`],
+    [[...LOG_ARGS, '--plot', join(folder, 'no', 'plot.svg')], '--plot '],
     // Errors of the core name options and files.
-    [[...ARGS, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
-    [[...ARGS, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
-    [[...ARGS.slice(0, 2), '--reference', straightLog], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
+    [[...LOG_ARGS, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
+    [[...LOG_ARGS, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
+    [[...LOG_ARGS.slice(0, 2), '--reference', straightLog], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
   ])) {
     const { code, out, err } = await outputOf(args);
     assert.deepEqual([code, out.replaceAll(/^(Odometry|Reference): .*\n( {2}.*\n)*/gm, '')], [2, ''], err);
@@ -180,7 +180,7 @@ test('a shell gets help and errors, and may close the pipe', () => {
   const refusal = shell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
   assert.deepEqual([refusal.status, refusal.stdout, refusal.stderr], [2, '', 'no.csv: there is no such file or folder.\n']);
   assert.match(shell('my/bag').stderr, /^the command must be calibrate or inspect \(got “my\/bag”\), as in npx motion-widgets inspect my\/bag; --help has examples\.$/m);
-  const outputOfClosedPipe = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...ARGS, '--json'], { encoding: 'utf8' });
+  const outputOfClosedPipe = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...LOG_ARGS, '--json'], { encoding: 'utf8' });
   assert.deepEqual([outputOfClosedPipe.stdout, outputOfClosedPipe.stderr], ['{', '']);
   const ofPipedLog = spawnSync('sh', ['-c', 'cat "$2" | "$0" "$1" inspect /dev/stdin', process.execPath, CLI, examplePath('odometry')], { encoding: 'utf8' });
   assert.match(ofPipedLog.stdout, /^stdin: table\n.*\n.* 4494 /);
@@ -209,7 +209,7 @@ test('a recording of the example has the truth in its intervals, and its JSON th
 });
 
 test('the report of the example, from the verdict to the lines for Nav2', async () => {
-  const { code, out } = await outputOf([...ARGS, '--rule', 'nav2', '--reference-yaw-std', '0']);
+  const { code, out } = await outputOf([...LOG_ARGS, '--rule', 'nav2', '--reference-yaw-std', '0']);
   assert.equal(code, 0);
   const reportPatterns = [
     /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, /, /^ {2}columns: t, x, y, yaw\n {2}units: time in s, /m, /^Consistent: all checks passed\. Use the recommended α’s with legs of this length\.$/m,
@@ -225,7 +225,7 @@ test('the report of the example, from the verdict to the lines for Nav2', async 
 
 test('doc/calibration.md shows the report of the example', async () => {
   const [, report] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\s*```\n/s) ?? [];
-  const { out } = await outputOf(ARGS);
+  const { out } = await outputOf(LOG_ARGS);
   assert.equal(report.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), out.trimEnd());
 });
 
@@ -234,10 +234,10 @@ test('units are stated for both logs, or for each', async () => {
   const scaledBy = (/** @type {number} */ scale) => writeInFolder(`scaled-${scale}.csv`, [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [scale, scale, scale, 180 / Math.PI][i]).join(','))].join('\n'));
   const scaledLog = scaledBy(1000);
   const units = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
-  const [fromSi, fromStatedUnits] = [await coreOptionsOf(ARGS), await coreOptionsOf(['--odometry', scaledLog, ...ARGS.slice(2), ...units])];
+  const [fromSi, fromStatedUnits] = [await coreOptionsOf(LOG_ARGS), await coreOptionsOf(['--odometry', scaledLog, ...LOG_ARGS.slice(2), ...units])];
   assert.deepEqual(fromStatedUnits.reference, fromSi.reference);
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(fromStatedUnits.odometry[0][name][999] - fromSi.odometry[0][name][999]) < 1e-9, name);
-  const refusal = await outputOf(['--odometry', scaledBy(1), ...ARGS.slice(2), '--angle-unit', 'rad']);
+  const refusal = await outputOf(['--odometry', scaledBy(1), ...LOG_ARGS.slice(2), '--angle-unit', 'rad']);
   assert.match(refusal.err, /^scaled-1\.csv: its headings are in degrees and were read as radians; .* Choose with --angle-unit, as in --angle-unit deg; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\./);
 });
 
@@ -258,7 +258,7 @@ test('a folder gives its logs, and other files are skipped', async () => {
 test('a journal beside a recording is named, unless it is empty', async () => {
   for (const [bytes, message] of [['', ''], ['377f0682', 'skipped: odometry.db3-wal: it is a journal']]) {
     writeInFolder('odometry.db3-wal', Buffer.from(bytes, 'hex'));
-    const { code, err } = await outputOf(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePath('odometry'))), ...ARGS.slice(2)]);
+    const { code, err } = await outputOf(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePath('odometry'))), ...LOG_ARGS.slice(2)]);
     assert.deepEqual([code, err.split(' with')[0]], [0, message]);
   }
   // All messages are in the journal.
@@ -279,22 +279,22 @@ const writeReversedReference = () => {
 };
 
 test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async () => {
-  const { code, out, err } = await outputOf([...ARGS, '--yaml', '--rule', 'nav2']);
+  const { code, out, err } = await outputOf([...LOG_ARGS, '--yaml', '--rule', 'nav2']);
   assert.equal(code, 0);
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
   assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: .*\nFirst multiply the odometry’s distances by .*\n$/m);
-  assert.match((await outputOf([...ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
+  assert.match((await outputOf([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const swappedOutput = await outputOf(['--odometry', examplePath('reference'), '--reference', examplePath('odometry'), '--yaml']);
   assert.match(swappedOutput.err, /^Warning: .* Are the two swapped\?$/m);
   const reversedPath = writeReversedReference();
-  const refusal = await outputOf([...ARGS.slice(0, 3), reversedPath, '--yaml']);
+  const refusal = await outputOf([...LOG_ARGS.slice(0, 3), reversedPath, '--yaml']);
   assert.deepEqual([refusal.code, refusal.out], [3, '']);
   assert.match(refusal.err, /^No lines for nav2_params\.yaml: the log is unusable\.$/m);
 });
 
 test('--plot writes a panel for each drive, with both paths aligned, and the ends of legs at the times of the reference', async () => {
   const path = join(folder, 'plot.svg');
-  assert.equal((await outputOf([...ARGS, '--plot', path])).code, 0);
+  assert.equal((await outputOf([...LOG_ARGS, '--plot', path])).code, 0);
   assert.match(readFileSync(path, 'utf8'), /^<svg xmlns=/);
   /** Returns a drive of ten seconds along x. The odometry has it along y, and half a second earlier. @returns {any} */
   const drive = (/** @type {number} */ start) => {
@@ -319,7 +319,7 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
 
 test('a terminal gets colours', async () => {
   let out = '';
-  await run(['calibrate', ...ARGS], { load, print: (text) => (out += text), complain: assert.fail, isColored: true });
+  await run(['calibrate', ...LOG_ARGS], { load, print: (text) => (out += text), complain: assert.fail, isColored: true });
   assert.ok(out.includes('\n\x1b[32mConsistent\x1b[0m: '), out);
 });
 
@@ -368,7 +368,7 @@ test('inspect lists what is in a file, and the command to go on with', async () 
 
 test('an unusable log has a sentence and no lines for Nav2', async () => {
   const reversedPath = writeReversedReference();
-  const { code, out } = await outputOf([...ARGS.slice(0, 3), reversedPath]);
+  const { code, out } = await outputOf([...LOG_ARGS.slice(0, 3), reversedPath]);
   assert.equal(code, 3);
   for (const line of [
     /^Unusable: no α’s are recommended from this log\. The reference does not follow the odometry: /m, /^reference-matches +\S+ +0\.0005 to 0\.7 +FAILED$/m,
@@ -379,7 +379,7 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
 
 test('the report, the lines for Nav2 and the figure’s verdict agree whether the reference is a localizer’s', async () => {
   for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
-    const args = [...ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePath('reference')))];
+    const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePath('reference')))];
     const [{ out }, { out: json }] = [await outputOf(args), await outputOf([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(json);
     const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
@@ -389,7 +389,7 @@ test('the report, the lines for Nav2 and the figure’s verdict agree whether th
 });
 
 test('the report says what failed, what is lost, and what to drive', async () => {
-  const { odometry: odometryLogs, reference, ...options } = await coreOptionsOf(ARGS);
+  const { odometry: odometryLogs, reference, ...options } = await coreOptionsOf(LOG_ARGS);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
   const reportWith = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, begins: [10, 1000], date: '' });

@@ -13,7 +13,7 @@ import { presets } from '../../www/settings.js';
 const textOf = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
 
 /** Files and names of constants, with the sentence of the document that contains the value. @type {[string, string, RegExp][]} */
-const LIMITS = [
+const DOCUMENTED_LIMITS = [
   ['www/widgets/banana-machine/pictures.ts', 'MAX_DOTS', /Up to (\S+) robots are drawn as dots/],
   ['www/widgets/map-squeeze/reading.ts', 'MAX_DOTS', /more than (\S+) motions are drawn as cells/],
   ['www/widgets/banana-machine/words.ts', 'VISIBLE_SKEW', /exact skew is below (\S+) \| both sides are nearly alike/],
@@ -23,7 +23,7 @@ const LIMITS = [
 
 test('doc/model.md and doc/statistics.md have the limits of the pages', () => {
   const documents = `${textOf('doc/model.md')}${textOf('doc/statistics.md')}`.replace(/\s+/g, ' ');
-  for (const [file, name, sentence] of LIMITS) {
+  for (const [file, name, sentence] of DOCUMENTED_LIMITS) {
     const [, limit] = textOf(file).match(new RegExp(`const ${name} = ([\\d._]+);`)) ?? [];
     assert.ok(limit, `${name} of ${file}`);
     assert.equal(documents.match(sentence)?.[1], limit, `${name} of ${file}`);

@@ -13,9 +13,9 @@ import { readLog, refusalSentenceOf } from './log-support.js';
 
 /** @import { Message } from '../mcap.js' */
 
-const START = 1000;
-const COUNT = 120;
-const timeOf = (/** @type {number} */ i) => START + i / 20;
+const START_TIME = 1000;
+const MESSAGE_COUNT = 120;
+const timeOf = (/** @type {number} */ i) => START_TIME + i / 20;
 const TF = 'tf2_msgs/msg/TFMessage';
 const ODOMETRY = 'nav_msgs/msg/Odometry';
 
@@ -23,12 +23,12 @@ const ODOMETRY = 'nav_msgs/msg/Odometry';
 function driveMessages() {
   /** @type {Message[]} */
   const messages = [];
-  for (let i = 0; i < COUNT; i++) {
+  for (let i = 0; i < MESSAGE_COUNT; i++) {
     // Messages are recorded a little after their stamps.
     const [t, recordTime] = [timeOf(i), timeOf(i) + 0.01];
     const [x, y, theta] = [i / 100, i / 200, i / 50];
     const add = (/** @type {string} */ topic, /** @type {string} */ type, /** @type {any} */ message) => messages.push({ topic, type, t: recordTime, message });
-    if (i === COUNT - 1) add('/tf_static', TF, { transforms: [transformMessage(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
+    if (i === MESSAGE_COUNT - 1) add('/tf_static', TF, { transforms: [transformMessage(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
     if (i % 5 === 0) add('/tf', TF, { transforms: [transformMessage(t + 1, 'map', 'odom', 1, 2, Math.PI / 2)] });
     add('/tf', TF, { transforms: [transformMessage(t, 'odom', 'base_footprint', x, y, theta), transformMessage(t, 'base_link', 'wheel', 0, 0, 9 * theta)] });
     add('/odom', ODOMETRY, odometryMessage(t, x, y, theta));
@@ -55,8 +55,8 @@ test('topics are listed, and topics and chains of frames are read in one pass', 
   assert.deepEqual(
     recording.series.map(({ name, count, kind }) => [name, count, kind]),
     [
-      ['/chatter', COUNT, null], ['/cmd_vel', COUNT, 'commands'], ['/mocap/pose', COUNT, 'poses'], ['/odom', COUNT, 'poses'],
-      ['/tf', COUNT + COUNT / 5, 'transforms'], ['/tf_static', 1, 'transforms'],
+      ['/chatter', MESSAGE_COUNT, null], ['/cmd_vel', MESSAGE_COUNT, 'commands'], ['/mocap/pose', MESSAGE_COUNT, 'poses'], ['/odom', MESSAGE_COUNT, 'poses'],
+      ['/tf', MESSAGE_COUNT + MESSAGE_COUNT / 5, 'transforms'], ['/tf_static', 1, 'transforms'],
     ],
   );
   assert.equal(recording.series[3].type, ODOMETRY);
@@ -65,7 +65,7 @@ test('topics are listed, and topics and chains of frames are read in one pass', 
     ...['/odom', '/cmd_vel'].map((series) => ({ series })),
     ...[['map', '/base_link'], ['odom', 'base_footprint']].map(([parent, child]) => ({ series: '/tf', frames: { parent, child } })),
   ]);
-  for (const log of logs) assert.deepEqual([log.start, log.data.t.length, log.summary.notes], [START, COUNT, []], log.name);
+  for (const log of logs) assert.deepEqual([log.start, log.data.t.length, log.summary.notes], [START_TIME, MESSAGE_COUNT, []], log.name);
   assert.deepEqual(await readLog(source, { series: '/odom' }), logs[0]);
   const [odometryData, commandData, mapToBase, odomToFootprint] = logs.map(({ data }) => /** @type {any} */ (data));
   assertClose(odometryData.t, (i) => i / 20);

@@ -23,15 +23,15 @@ import { summarySentences } from '../../www/logs/summary.ts';
  */
 
 /** Rows of a robot that drives on a circle: time, x, y, heading, speed, turn rate. */
-const ROWS = Array.from({ length: 24 }, (_, i) => {
+const CIRCLE_ROWS = Array.from({ length: 24 }, (_, i) => {
   const [t, r, theta] = [i / 16, 1.25, i / 32 - 0.75];
   return { i, t, x: r * Math.sin(theta), y: -r * Math.cos(theta), theta, v: 0.625, omega: 0.5, qz: Math.sin(theta / 2), qw: Math.cos(theta / 2) };
 });
 
-/** @typedef {typeof ROWS[0]} Row */
+/** @typedef {typeof CIRCLE_ROWS[0]} Row */
 
 /** Table of all rows. @param {string} header @param {(row: Row) => (string | number)[]} cells @param {string} [separator] */
-const tableOf = (header, cells, separator = ',') => [header, ...ROWS.map((row) => cells(row).join(separator)), ''].join('\n');
+const tableOf = (header, cells, separator = ',') => [header, ...CIRCLE_ROWS.map((row) => cells(row).join(separator)), ''].join('\n');
 
 const EPOCH = 1_718_000_000;
 /** Digits of a time in nanoseconds. @param {number} t */
@@ -55,7 +55,7 @@ const bagpyTable = (/** @type {string} */ sec, /** @type {string} */ nsec) =>
 /** PlotJuggler's table of two topics, in which each sample of a topic has its own row. */
 const plotjugglerTable = [
   ['__time', ...['position/x', 'position/y', 'orientation/x', 'orientation/y', 'orientation/z', 'orientation/w'].flatMap((name) => [`/odom/pose/pose/${name}`, `/mocap/pose/${name}`]), '/imu/angular_velocity/z'].join(','),
-  ...ROWS.flatMap(({ t, x, y, qz, qw }) => [
+  ...CIRCLE_ROWS.flatMap(({ t, x, y, qz, qw }) => [
     [EPOCH + t, ...[x, y, 0, 0, qz, qw].flatMap((value) => [value, '']), ''],
     [EPOCH + t + 0.01, ...[x + 4, y, 0, 0, qz, qw].flatMap((value) => ['', value]), ''],
     [EPOCH + t + 0.02, ...Array.from({ length: 12 }, () => ''), 0.5],
@@ -74,7 +74,7 @@ function motiveTable(unit, isYUp) {
     `,ID,${repeatedCells('6E6B', 11)}`,
     `,,${repeatedCells('Rotation', 4)},${repeatedCells('Position', 3)},Mean Marker Error,${repeatedCells('Position', 3)}`,
     'Frame,Time (Seconds),X,Y,Z,W,X,Y,Z,,X,Y,Z',
-    ...ROWS.map(({ i, t, x, y, qz, qw }) => {
+    ...CIRCLE_ROWS.map(({ i, t, x, y, qz, qw }) => {
       // Heading about Y turns Z towards X.
       const bodyCells = isYUp ? [0, qz, 0, qw, y * scale, 0.1, x * scale] : [0, 0, qz, qw, x * scale, y * scale, 0.1];
       return [i, t, ...bodyCells, 0.0001, 1, 2, 3].join(',');
@@ -107,10 +107,10 @@ const READABLE_TABLES = [
   { name: 'units in a row below the header', text: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta), 24.5]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'quantities over their units', text: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'bars, seconds and microseconds', start: EPOCH, text: tableOf('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
-  { name: 'rows of two topics', series: ['/a', '/b'], choice: { series: '/b' }, text: ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9`, `/b,${t},${x},${y},${theta}`, `,${t},9,9,9`]).toSpliced(0, 0, 'topic,t,x,y,yaw').join('\n') },
-  { name: 'rows of two robots, each with both logs', series: ['a/odom_', 'b/odom_', 'a/gt_', 'b/gt_'], choice: { series: 'b/gt_' }, text: ROWS.flatMap(({ t, x, y, theta }) => [`a,${t},8,8,8,9,9,9`, `b,${t},7,7,7,${x},${y},${theta}`]).toSpliced(0, 0, 'robot,t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw').join('\n') },
-  { name: 'rows of two topics, each with columns of its own', series: ['a_', 'b_'], choice: { series: 'b_' }, text: ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9,,,`, `/b,${t},,,,${x},${y},${theta}`]).toSpliced(0, 0, 'topic,t,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
-  { name: 'two logs that are joined with NaN', series: ['a_', 'b_'], choice: { series: 'b_' }, says: /^24 of 24 rows/, text: ROWS.flatMap(({ t, x, y, theta }) => [`${t + 0.01},9,9,9,NaN,NaN,NaN`, `${t},NaN,NaN,NaN,${x},${y},${theta}`]).toSpliced(0, 0, 't,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
+  { name: 'rows of two topics', series: ['/a', '/b'], choice: { series: '/b' }, text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9`, `/b,${t},${x},${y},${theta}`, `,${t},9,9,9`]).toSpliced(0, 0, 'topic,t,x,y,yaw').join('\n') },
+  { name: 'rows of two robots, each with both logs', series: ['a/odom_', 'b/odom_', 'a/gt_', 'b/gt_'], choice: { series: 'b/gt_' }, text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`a,${t},8,8,8,9,9,9`, `b,${t},7,7,7,${x},${y},${theta}`]).toSpliced(0, 0, 'robot,t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw').join('\n') },
+  { name: 'rows of two topics, each with columns of its own', series: ['a_', 'b_'], choice: { series: 'b_' }, text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9,,,`, `/b,${t},,,,${x},${y},${theta}`]).toSpliced(0, 0, 'topic,t,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
+  { name: 'two logs that are joined with NaN', series: ['a_', 'b_'], choice: { series: 'b_' }, says: /^24 of 24 rows/, text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`${t + 0.01},9,9,9,NaN,NaN,NaN`, `${t},NaN,NaN,NaN,${x},${y},${theta}`]).toSpliced(0, 0, 't,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
   { name: 'numbers of laps and landmarks', text: tableOf('t,id,tag_id,x,y,yaw', ({ i, t, x, y, theta }) => [t, i >> 3, i >> 3, x, y, theta]) },
   { name: 'semicolons below a long preamble', text: `${'Parameter 1: value, 2\n'.repeat(80)}${tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [t, x, y, theta], ';')}` },
   { name: 'names of MATLAB', text: tableOf('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, degrees(theta)]), says: /degrees/ },
@@ -139,7 +139,7 @@ const READABLE_TABLES = [
   { name: 'UTIAS, commands', kind: 'commands', text: tableOf('# Time [s]    forward velocity [m/s]    angular velocity[rad/s]', ({ t, v, omega }) => [t, v, omega], '\t') },
   { name: 'a commented header in another order', text: tableOf('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
   { name: 'EuRoC', start: EPOCH, text: tableOf('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [nanoseconds(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
-  { name: 'CARMEN', text: ROWS.flatMap(({ t, x, y, theta }) => [`FLASER 3 1.0 2.0 3.0 ${x} ${y} ${theta} 5 6 7 ${t} host ${t}`, `ODOM 5 6 7 0.5 0.1 0 ${t} host ${t}`]).join('\n'), series: ['ODOM', 'FLASER'], choice: { series: 'FLASER' } },
+  { name: 'CARMEN', text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`FLASER 3 1.0 2.0 3.0 ${x} ${y} ${theta} 5 6 7 ${t} host ${t}`, `ODOM 5 6 7 0.5 0.1 0 ${t} host ${t}`]).join('\n'), series: ['ODOM', 'FLASER'], choice: { series: 'FLASER' } },
   { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, text: tableOf('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, degrees(theta)]) },
   { name: 'dates with a zone, in a column without a name', start: EPOCH, text: tableOf(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDate(t + 7200)}+02:00`, x, y, theta]) },
   { name: 'times in ms, by rate and speed', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), says: /time in ms \(by rate and speed\)/ },
@@ -153,8 +153,8 @@ for (const { name, text, kind = 'poses', start = 0, series = [''], choice, optio
     const { t, ...columns } = /** @type {any} */ (log.data);
     assert.equal(log.kind, kind);
     const fields = /** @type {(keyof Row)[]} */ (kind === 'poses' ? ['x', 'y', 'theta'] : ['v', 'omega']);
-    assert.equal(t.length, ROWS.length);
-    for (const row of ROWS) {
+    assert.equal(t.length, CIRCLE_ROWS.length);
+    for (const row of CIRCLE_ROWS) {
       assert.equal(log.start - start + t[row.i], row.t);
       // Other units and quaternions round values up to 1.25 in the last place.
       for (const field of fields) assert.ok(Math.abs(columns[field][row.i] - row[field]) <= Number.EPSILON, `${field} ${columns[field][row.i]} ${row[field]}`);

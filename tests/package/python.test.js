@@ -9,7 +9,7 @@ import { delimiter, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pythonName, scriptName } from '../../scripts/names.mjs';
 import { ROOT } from '../../scripts/process.mjs';
-import { CACHE, ensurePip } from '../../scripts/toolchain.mjs';
+import { CACHE_DIRECTORY, ensurePip } from '../../scripts/toolchain.mjs';
 
 const SOURCES = join(ROOT, 'python');
 const project = readFileSync(join(SOURCES, 'pyproject.toml'), 'utf8');
@@ -34,7 +34,7 @@ function dependencies() {
   const requirements = requirementLists.flatMap((list) => list.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
   assert.ok(requirements.length >= 2, project);
   const version = runPython(['--version']);
-  const directory = join(CACHE, `python-${createHash('sha256').update(requirements + version).digest('hex').slice(0, 12)}`);
+  const directory = join(CACHE_DIRECTORY, `python-${createHash('sha256').update(requirements + version).digest('hex').slice(0, 12)}`);
   if (existsSync(directory)) return directory;
   const incomplete = `${directory}-${process.pid}`;
   pip(['install', '--target', incomplete, ...requirements]);

@@ -18,7 +18,7 @@ let page;
 let consoleMessages;
 
 /** Source of a React application: a test changes its props by `page`, and reads the received events in `heard`. */
-const APPLICATION = `
+const APPLICATION_SOURCE = `
   import { createElement, useRef, useState } from 'react';
   import { BananaMachine, MapSqueeze } from 'motion-widgets/react';
 
@@ -47,7 +47,7 @@ const APPLICATION = `
   }
 `;
 
-const CLIENT = `
+const CLIENT_SOURCE = `
   import { StrictMode, createElement } from 'react';
   import { createRoot, hydrateRoot } from 'react-dom/client';
   import { Application, heard, page } from './application.js';
@@ -67,15 +67,15 @@ function prepare() {
     cpSync(join(ROOT, 'node_modules', name), join(project.directory, 'node_modules', name), { recursive: true });
   }
   mkdirSync(join(project.directory, 'react'));
-  writeInProject('application.js', APPLICATION);
-  writeInProject('client.js', CLIENT);
+  writeInProject('application.js', APPLICATION_SOURCE);
+  writeInProject('client.js', CLIENT_SOURCE);
   const pageWith = (/** @type {string} */ html) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${html}</div><script type="module" src="./bundle.js"></script>`;
   writeInProject('index.html', pageWith(''));
   writeInProject('sent.html', pageWith(serverHtmlOf({ omega: 0.8 })));
   const directory = join(project.directory, 'react');
   // The development build of React reports errors.
-  const define = { 'process.env.NODE_ENV': '"development"' };
-  buildSync({ entryPoints: [join(directory, 'client.js')], bundle: true, format: 'esm', define, outfile: join(directory, 'bundle.js'), logLevel: 'silent' });
+  const esbuildDefine = { 'process.env.NODE_ENV': '"development"' };
+  buildSync({ entryPoints: [join(directory, 'client.js')], bundle: true, format: 'esm', define: esbuildDefine, outfile: join(directory, 'bundle.js'), logLevel: 'silent' });
 }
 
 beforeEach(async () => {

@@ -78,7 +78,7 @@ async function matchingPair(chrome, driver) {
   return { chrome, driver, version };
 }
 
-/** @param {string} program */
+/** Returns the version that a program prints; undefined if it does not run. @param {string} program */
 async function versionOf(program) {
   const { stdout } = await run(program, ['--version'], { quiet: true, seconds: 30 });
   return stdout.match(/\d+(\.\d+){3}/)?.[0];

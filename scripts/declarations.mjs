@@ -11,7 +11,7 @@ import { importTypeScript } from './typescript.mjs';
  *
  * @typedef {object} Field
  * @property {string} name
- * @property {string} type in TypeScript
+ * @property {string} type type in TypeScript
  * @property {string} description
  * @property {true} [readonly]
  * @property {boolean} [isText] true if a number can be given as text

@@ -45,7 +45,7 @@ export async function serve(directory, { port, base: basePath = '/', headers = {
   });
 }
 
-/** @returns {number | undefined} */
+/** Returns the port in the environment variable PORT; undefined if it is not set. @returns {number | undefined} */
 function requestedPort() {
   const [argument] = process.argv.slice(2);
   if (argument !== undefined) throw new UserError(`npm start has no options (got "${argument}"): PORT selects a port, as in PORT=9000 npm start.`);

@@ -43,7 +43,7 @@ const DROPPED_FILES = [
   [mapFile('notes.txt', 'no map')],
 ];
 
-/** @param {number} seed @returns {Random} */
+/** Returns a generator of random numbers and list elements. @param {number} seed @returns {Random} */
 function randomOf(seed) {
   const random = randomGenerator(seed);
   const randomBelow = (/** @type {number} */ end) => Math.floor(end * random());

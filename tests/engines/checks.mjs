@@ -140,7 +140,7 @@ async function compareWithNode(page, tag) {
   return { machine, hash };
 }
 
-/** @type {(page: Page, tag: string) => Promise<void>} */
+/** Compares the state in which a figure opens. @type {(page: Page, tag: string) => Promise<void>} */
 async function checkOpening(page, tag) {
   await page.open(tag);
   await compareWithNode(page, tag);
@@ -183,7 +183,7 @@ async function checkHandleKeys(page, tag, { name }) {
   assert.notEqual(hash, hashBefore, 'Nothing has moved.');
 }
 
-/** @type {(page: Page, tag: string) => Promise<void>} */
+/** Moves each slider by keys, and compares its value. @type {(page: Page, tag: string) => Promise<void>} */
 async function checkSliderKeys(page, tag) {
   await page.open(tag);
   await page.ask('renderSteps', tag);

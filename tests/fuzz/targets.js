@@ -16,7 +16,7 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { applyMap, cellsOf, mapData } from '../../www/widgets/map-squeeze/maps/data.ts';
 import { odometryMessage, poseOf, recordingOf, stampOf, transformMessage, twistOf } from '../mcap.js';
 import { readLog } from '../node/log-support.js';
-import { fileWith, refusalOf } from '../node/map-support.js';
+import { fileWith, refusalMessageOf } from '../node/map-support.js';
 
 /**
  * @typedef {object} Target
@@ -59,7 +59,7 @@ function assertSentence(sentence) {
 
 /** Returns true if the files are accepted as a map. @param {File[]} files */
 async function filesAreTaken(...files) {
-  const sentence = await refusalOf(files);
+  const sentence = await refusalMessageOf(files);
   if (sentence === '') return true;
   assert.ok(sentence.startsWith(files[0].name.replace(/\..*/, '')), sentence);
   assertSentence(sentence);

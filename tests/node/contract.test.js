@@ -81,10 +81,10 @@ test('a page finds every name of the contract', async () => {
 test('a machine opens with the settings that www/settings.js declares', async () => {
   const motion = await (await freshModule()).load();
   for (const [tag, declared] of Object.entries(settings)) {
-    const Machine = motion[tag.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase())];
+    const MachineClass = motion[tag.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase())];
     const fields = (/** @type {string} */ group) => declared.filter((setting) => setting.in === group).map(({ key, field = key, default: value }) => [field, value]);
     const ownSettings = declared.filter((setting) => !setting.in && !setting.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fields(key)) : value]);
-    assert.deepEqual(new Machine().config, Object.fromEntries(ownSettings), tag);
+    assert.deepEqual(new MachineClass().config, Object.fromEntries(ownSettings), tag);
   }
 });
 

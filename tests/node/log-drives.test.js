@@ -8,7 +8,7 @@ import { english } from '../../www/logs/en.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { pairLogs } from '../../www/logs/pairs.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
-import { refusalOf, refusalSentenceOf } from './log-support.js';
+import { refusalErrorOf, refusalSentenceOf } from './log-support.js';
 
 /** @import { Recording } from '../../www/logs/log.ts' */
 
@@ -95,7 +95,7 @@ test('a question is asked where a role is not clear', async () => {
     [{ '/odom': 'odometry', '/mocap': 'pose' }, '/odom is the odometry itself; ', 'series', 'reference', ['/mocap'], [], { reference: { series: '/odom' } }],
     [{ '/tf': 'tf' }, 'odom → base is the odometry itself; ', 'series', 'reference', [], ['odom base', 'mocap robot'], { reference: { frames: { parent: 'odom', child: 'base' } } }],
   ])) {
-    const { message, ask } = await refusalOf(plannedDrives([recordingOf(series, {}, frames)], wishes));
+    const { message, ask } = await refusalErrorOf(plannedDrives([recordingOf(series, {}, frames)], wishes));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${sentence}`), message);
     assert.deepEqual([ask?.what, ask?.role], [what, role], message);
     if (choices) assert.deepEqual(ask?.choices, choices);
@@ -126,7 +126,7 @@ test('several recordings are drives of their own, or give one log each', async (
   // A log may be ambiguous in one role only.
   const twoBodyRecording = recordingOf({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
   const odometryTable = recordingOf({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
-  const { ask } = await refusalOf(plannedDrives([odometryTable, twoBodyRecording]));
+  const { ask } = await refusalErrorOf(plannedDrives([odometryTable, twoBodyRecording]));
   assert.deepEqual([ask?.what, ask?.role, ask?.choices], ['series', 'reference', ['Robot', 'Cart']]);
   assert.equal(planDrives([odometryTable, twoBodyRecording], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
   const ambiguousRecording = recordingOf({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
@@ -242,7 +242,7 @@ test('a log that does not follow the other one names the correction that makes i
     [([t, x, y, yaw]) => [t, x, y, yaw * radPerDegree], /its headings are in radians and were read as degrees;/, 'angleUnit'],
     [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /: multiplied by 0\.098, its lengths match those of odom\.csv;/, 'lengthUnit'],
   ])) {
-    const refusal = await refusalOf(drivesOf({ 'odom.csv': tableOf((row) => row), 'truth.csv': tableOf((row) => change(distortedRow(row))) }));
+    const refusal = await refusalErrorOf(drivesOf({ 'odom.csv': tableOf((row) => row), 'truth.csv': tableOf((row) => change(distortedRow(row))) }));
     assert.match(refusal.message, sentence);
     assert.match(refusal.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
     assert.equal(refusal.ask?.what, what);

@@ -12,7 +12,7 @@ import type { Choice, Commands, Log, Poses, Recording, Source } from '../../www/
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
 import { odometryMessage, recordingOf, transformMessage, type Message } from '../mcap.js';
-import { refusalOf, refusalSentenceOf } from './log-support.js';
+import { refusalErrorOf, refusalSentenceOf } from './log-support.js';
 
 /** Compressed files by name. */
 const FILES: Record<string, string> = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
@@ -90,7 +90,7 @@ for (const name of ['types.bag', 'types.mcap']) {
     const poses = await recording.read([...['/fused', '/vicon', '/pose2d'].map((series) => ({ series })), { series: '/tf', frames }]);
     // Pose2D has a heading. Those of quaternions are rounded to steps of 1e-12.
     for (const log of poses) assert.deepEqual(rowsOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), range(0, 40), log.name);
-    // The same formulas as in generate.py.
+    // The commands have the same formulas as in tests/reference/logs/generate.py.
     const roundCommand = (value: number) => Math.round(4096 * value) / 4096;
     const commands = [range(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), range(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
     const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
@@ -136,7 +136,7 @@ for (const [name, blockPositions] of Object.entries(BLOCK_POSITIONS)) {
       const lostRows = range(0, 100).filter((row) => !rows.includes(row));
       if (lostRows.length > 0) assert.match(summaryText(log), /1 damaged block skipped \(.+\)$/);
       const truncatedLog = odometryOf(bytesOf(name).subarray(0, at), name);
-      if (rowsSoFar.length === 0) await refusalOf(truncatedLog);
+      if (rowsSoFar.length === 0) await refusalErrorOf(truncatedLog);
       else {
         assert.deepEqual(rowsOf(await truncatedLog), rowsSoFar);
         if (lostRows.length > 0) assert.match(summaryText(await truncatedLog), /gaps: none\. notes: the file is incomplete: it ends in the middle of a row or record$/);

@@ -6,7 +6,7 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { german } from '../../www/logs/de.ts';
 import { warningsOf } from '../../www/logs/pairs.ts';
 import { Rows } from '../../www/logs/rows.ts';
-import { refusalOf, refusalSentenceOf } from './log-support.js';
+import { refusalErrorOf, refusalSentenceOf } from './log-support.js';
 
 /** @param {string | Uint8Array<ArrayBuffer>} text @param {import('../../www/logs/log.ts').OpenOptions} [options] @param {string} [series] */
 async function readTable(text, options, series = '') {
@@ -215,7 +215,7 @@ test('times in minutes or hours are refused by their name', async () => {
 
 for (const [name, text, sentence, options, [field, value]] of UNIT_QUESTIONS) {
   test(`asks about ${name}`, async () => {
-    const error = await refusalOf(readTable(text));
+    const error = await refusalErrorOf(readTable(text));
     assert.match(error.message, sentence);
     const [[what, answer]] = Object.entries(options);
     assert.equal(error.ask?.what, what);
@@ -268,7 +268,7 @@ const REFUSED_TABLES = [
 
 for (const [name, contents, sentence, options] of REFUSED_TABLES) {
   test(`refuses ${name}`, async () => {
-    const error = await refusalOf(readTable(contents, options));
+    const error = await refusalErrorOf(readTable(contents, options));
     assert.match(error.message, sentence);
     assert.match(error.message, /; [a-z].+\.$/);
     assert.match(error.sentence(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { limits } from '../../www/settings.js';
 import { SIGNATURE, headerChunk, pngOf } from '../png.js';
-import { mapYaml, fileWith, machineWithMap, refusalOf } from './map-support.js';
+import { mapYaml, fileWith, machineWithMap, refusalMessageOf } from './map-support.js';
 
 const PGM = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');
 
@@ -14,7 +14,7 @@ const MAX_REFUSAL_MS = 1000;
 /** Expects that a description is refused at once, for a reason. @param {string} yaml @param {string} reason */
 async function assertRefusedAtOnce(yaml, reason) {
   const start = performance.now();
-  const sentence = await refusalOf([fileWith('map.yaml', yaml), PGM]);
+  const sentence = await refusalMessageOf([fileWith('map.yaml', yaml), PGM]);
   const duration = performance.now() - start;
   assert.match(sentence, new RegExp(`^map\\.yaml(, line \\d+)?: this is not YAML \\(${reason}\\); expected is one field a line, as in resolution: 0\\.05\\.$`));
   assert.ok(duration < MAX_REFUSAL_MS, `${yaml.slice(0, 40)} took ${duration} ms`);
@@ -28,7 +28,7 @@ test('a map that repeats or contains itself is refused at once', async () => {
     const aliasLines = Array.from({ length: levels }, (_, i) => `k${i}: &a${i} [${Array(width).fill(i ? `*a${i - 1}` : 'x').join(', ')}]`);
     await assertRefusedAtOnce(`${aliasLines.join('\n')}\nimage: *a${levels - 1}`, aliases);
   }
-  const plan = await refusalOf([fileWith('plan.json', '{"bounds": &b [0, 0, 1, 1], "walls": [*b]}')]);
+  const plan = await refusalMessageOf([fileWith('plan.json', '{"bounds": &b [0, 0, 1, 1], "walls": [*b]}')]);
   assert.match(plan, /^plan\.json, line 1: this is not JSON \(aliases/);
 });
 
@@ -50,7 +50,7 @@ test('YAML features other than fields and values are refused at once', async () 
 
 test('two maps at a time are refused', async () => {
   const plan = fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
-  assert.equal(await refusalOf([mapYaml({ image: 'map.pgm' }), PGM, plan]), 'plan.json, map.yaml: these are 2 maps; expected is one at a time.');
+  assert.equal(await refusalMessageOf([mapYaml({ image: 'map.pgm' }), PGM, plan]), 'plan.json, map.yaml: these are 2 maps; expected is one at a time.');
 });
 
 test('a description is read as leniently as map_server reads it', async () => {
@@ -68,7 +68,7 @@ test('a value of any kind or length is refused by a sentence that can be read', 
   const longText = 'x'.repeat(9e4);
   for (const value of [`"${longText}"`, `[${'[1], '.repeat(1e4)}]`, '{a: {b: [c]}}', 'null', 'true', '.nan', '1e999', '""']) {
     for (const field of ['image', 'resolution', 'origin', 'negate', 'mode', 'occupied_thresh', 'free_thresh']) {
-      const sentence = await refusalOf([mapYaml({ image: 'map.pgm', [field]: value }), PGM]);
+      const sentence = await refusalMessageOf([mapYaml({ image: 'map.pgm', [field]: value }), PGM]);
       const isAccepted = field === 'negate' && value === 'true';
       assert.match(sentence, isAccepted ? /^$/ : new RegExp(`^map\\.yaml: ${field}(\\[0\\])? .+; (allowed|expected) (is|are) .+\\.$`), `${field}: ${value.slice(0, 30)}`);
       assert.ok(sentence.length < 400, `${field}: ${value.slice(0, 30)}: ${sentence.length} characters`);
@@ -81,7 +81,7 @@ test('a plan that is not quite JSON is forgiven as long as it may be written by 
   const plan = (count) => fileWith('plan.json', `{"bounds": [0, 0, 9, 9], "walls": [${'[0, 0, 1.5, 1.5],'.repeat(count)}]}`);
   assert.equal((await machineWithMap(plan(1000))).plan.walls.length, 4000);
   // The tolerant parser would take seconds for the largest allowed plan. It is used for small files, and never for valid JSON.
-  assert.match(await refusalOf([plan(20_000)]), /^plan\.json: this is not JSON \(.+\); expected is \{"bounds"/);
+  assert.match(await refusalMessageOf([plan(20_000)]), /^plan\.json: this is not JSON \(.+\); expected is \{"bounds"/);
   const validJson = JSON.stringify({ bounds: [0, 0, 9, 9], walls: Array(20_000).fill([0, 0, 1.5, 1.5]) });
   assert.equal((await machineWithMap(fileWith('plan.json', validJson))).plan.walls.length, 80_000);
 });
@@ -92,14 +92,14 @@ test('the size of a file is checked before the file is read', async () => {
     Object.defineProperty(largeFile, 'size', { value: maxBytes + 1 });
     largeFile.arrayBuffer = () => assert.fail(`${name} is read.`);
     const files = name === 'map.pgm' ? [mapYaml({ image: name }), largeFile] : [largeFile];
-    assert.equal(await refusalOf(files), `${name}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
+    assert.equal(await refusalMessageOf(files), `${name}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
   }
 });
 
 test('a damaged or too large PNG image is refused by a sentence', async () => {
   const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
-  const sentence = await refusalOf([mapYaml(), fileWith('map.png', png.subarray(0, 50))]);
+  const sentence = await refusalMessageOf([mapYaml(), fileWith('map.png', png.subarray(0, 50))]);
   assert.match(sentence, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
   const largeImage = Buffer.concat([SIGNATURE, headerChunk({ width: 100_000, height: 100_000 })]);
-  assert.equal(await refusalOf([mapYaml(), fileWith('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
+  assert.equal(await refusalMessageOf([mapYaml(), fileWith('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
 });

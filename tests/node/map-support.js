@@ -25,7 +25,7 @@ export async function machineWithMap(...files) {
   return machine;
 }
 
-/** Machine to which the maps of `refusalOf` are applied, one after the other. */
+/** Machine to which the maps of `refusalMessageOf` are applied, one after the other. */
 const trialMachine = new motion.MapSqueeze({ samples: 1 });
 
 /**
@@ -34,7 +34,7 @@ const trialMachine = new motion.MapSqueeze({ samples: 1 });
  * @param {File[]} files
  * @param {'en' | 'de'} [language]
  */
-export async function refusalOf(files, language = 'en') {
+export async function refusalMessageOf(files, language = 'en') {
   try {
     (await readMapFiles(files, decodePng)).apply(trialMachine);
   } catch (error) {

@@ -53,7 +53,7 @@ export class Cloud extends FigureController {
     return this.host.settings.isStale ? this.#machine : this.host.reading;
   }
 
-  /** True if the goal is all samples, or the machine has given up. */
+  /** True if all samples are requested, or the machine has given up. */
   get isComplete() {
     return this.#requestedCount >= this.#samples || this.#hasGivenUp(this.#latest);
   }

@@ -59,7 +59,7 @@ export function hiddenContext(canvas: OffscreenCanvas) {
   return canvas.getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D;
 }
 
-/** Clears a canvas, sets the view to its size, and returns the brush for pictures. */
+/** Clears a canvas, sets the view to its size, and returns the context with which a picture is drawn. */
 export function brushOn({ width, height, clientWidth, fontStyle: { fontFamily, fontSize }, context }: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
   const ratio = ((width / Math.max(1, clientWidth)) * parseFloat(fontSize)) / FONT_SIZE;
   view.resize(width / ratio, height / ratio);

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
-import { alphaOrBound, correctFirst, formatInterval as ends, fixed, nav2Lines, toText } from '../../www/widgets/alpha-calibrator/lines.ts';
+import { alphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/lines.ts';
 import { cornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
 import { classesOf, truthApplies } from '../../www/widgets/alpha-calibrator/reading.ts';
 import { SIMULATED_LEGS } from '../../www/widgets/alpha-calibrator/settings.ts';
@@ -32,9 +32,9 @@ test('numbers in files have the digits that the interval makes meaningful, and t
     [1e-7, [0, 0.0016], '0.0000', '0.0000 to 0.0016'],
     [0.5, [0.5 - 1e-9, 0.5 + 1e-9], '0.5000000000', '0.4999999990 to 0.5000000010'],
   ])) {
-    assert.deepEqual([fixed(value, interval), ends(interval)], [text, range]);
+    assert.deepEqual([formatEstimate(value, interval), ends(interval)], [text, range]);
   }
-  assert.deepEqual([toText(1e-7), toText(-2.5e-9), toText(0.25)], ['1.0e-7', '-2.5e-9', '0.25']);
+  assert.deepEqual([formatNumber(1e-7), formatNumber(-2.5e-9), formatNumber(0.25)], ['1.0e-7', '-2.5e-9', '0.25']);
   assert.deepEqual([ends([0, Infinity]), ends([-Infinity, Infinity]), ends(null)], ['', '', '']);
 });
 
@@ -74,7 +74,7 @@ test('lines for Nav2 have the recommended α’s, and the fitted ones in comment
 });
 
 test('lines for Nav2 have no α that means nothing, and none at all where none is recommended', () => {
-  assert.deepEqual([linesOf({ recommended: null }), correctFirst(calibrationOf({ recommended: null }), en.nav2)], [[], []]);
+  assert.deepEqual([linesOf({ recommended: null }), correctionAdvice(calibrationOf({ recommended: null }), en.nav2)], [[], []]);
   assert.deepEqual(linesOf({}, { model: 'velocity' }), []);
   const alphas = [null, 1e-7, 103, 1e-8];
   const intervals = [null, [0, 0.0016], [50, 200], null];

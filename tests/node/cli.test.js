@@ -392,7 +392,7 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const { odometry: odometryLogs, reference, ...options } = await coreOptionsOf(LOG_ARGS);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
-  const reportWith = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, begins: [10, 1000], date: '' });
+  const reportWith = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
   const checks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
   const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks } });
   assert.match(reportOfFailure, /^\nQuestionable: one check failed \(enough-legs\)\. .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);

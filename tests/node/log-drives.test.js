@@ -39,7 +39,7 @@ const recordingOf = (series, more, frames = []) => ({
 /** @param {{ series: string, frames?: { parent: string, child: string } }} choice */
 const choiceText = ({ series, frames }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
 
-/** Plans drives. A refusal rejects the promise. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
+/** Plans drives. A refusal rejects the promise. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').UserChoices} [wishes] */
 const plannedDrives = async (recordings, wishes) => planDrives(recordings, wishes);
 
 /** Cases with one answer: the series of a recording, the expected odometry and reference, the frames in /tf, the user's options. @type {[Parameters<typeof recordingOf>[0], string, string, string[]?, any?][]} */
@@ -133,7 +133,7 @@ test('several recordings are drives of their own, or give one log each', async (
   assert.match(await refusalSentenceOf(plannedDrives([ambiguousRecording, ambiguousRecording])), /^run\.mcap: it is not clear what the reference is: /);
 });
 
-/** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').Wishes} [wishes] */
+/** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').UserChoices} [wishes] */
 const drivesOf = async (files, wishes) => readDrives(planDrives(await openRecordings(Object.entries(files).map(([name, text]) => new File([text], name))), wishes));
 
 /** Table of poses. @param {number} count @param {(i: number) => number[]} row */
@@ -151,9 +151,9 @@ test('logs of several drives are paired by their times, their names, or their or
 
 test('two logs without a sign of their roles get them by their order, which a plan says', async () => {
   const planOf = async (/** @type {string[]} */ ...names) => planDrives(await openRecordings(names.map((name, k) => new File([straightTable((i) => (i * (10 + k)) / 1000)], name))));
-  const { isByOrder, unpaired } = await planOf('a.csv', 'b.csv');
-  assert.deepEqual([isByOrder, unpaired.odometry[0].recording.name, unpaired.reference[0].recording.name], [true, 'a.csv', 'b.csv']);
-  assert.equal((await planOf('a.csv', 'odom.csv')).isByOrder, false);
+  const { hasRolesByOrder, unpaired } = await planOf('a.csv', 'b.csv');
+  assert.deepEqual([hasRolesByOrder, unpaired.odometry[0].recording.name, unpaired.reference[0].recording.name], [true, 'a.csv', 'b.csv']);
+  assert.equal((await planOf('a.csv', 'odom.csv')).hasRolesByOrder, false);
 });
 
 test('two logs get one start, and none in common is noted', async () => {

@@ -8,7 +8,7 @@ import { gunzipSync } from 'node:zlib';
 import xxhash from 'xxhash-wasm';
 import { UNSUPPORTED_FORMATS, english } from '../../www/logs/en.ts';
 import { unlz4 } from '../../www/logs/formats/lz4.ts';
-import type { Choice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
+import type { LogChoice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
 import { odometryMessage, recordingOf, transformMessage, type Message } from '../mcap.js';
@@ -39,7 +39,7 @@ const summaryText = (log: Log) => summarySentences(log, english.found).join('. '
 /** Odometry and reference of the drive, from its tables. */
 const tables = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => fileOf(bytesOf(name), name)))).map((table) => table.read([{ series: '' }]));
 const [[odometryLog], [referenceLog]] = await Promise.all(tables);
-const BOTH_CHOICES: Choice[] = [{ series: '/odom' }, { series: '/truth' }];
+const BOTH_CHOICES: LogChoice[] = [{ series: '/odom' }, { series: '/truth' }];
 
 const fileList = (name: string) => [fileOf(bytesOf(name), name)];
 
@@ -224,7 +224,7 @@ const at = (i: number) => 1_700_000_000 + i / 20;
 const tfMessage = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF, t: at(i), message: { transforms } });
 const count = 40;
 const mapSteps = <T>(make: (i: number) => T): T[] => Array.from({ length: count }, (_, i) => make(i));
-const readMessages = async (messages: Message[], ...choices: Choice[]) => (await open(fileOf(await recordingOf(messages), 'run.mcap'))).read(choices);
+const readMessages = async (messages: Message[], ...choices: LogChoice[]) => (await open(fileOf(await recordingOf(messages), 'run.mcap'))).read(choices);
 const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
 const movingTransform = (i: number) => transformMessage(at(i), 'odom', 'base_footprint', i / 50, 0, 0);
 

@@ -7,7 +7,7 @@ import { openRecordings } from '../../www/logs/open.ts';
  * Reads one log of a file.
  *
  * @param {import('../../www/logs/log.ts').Source} source
- * @param {Partial<import('../../www/logs/log.ts').Choice>} [choice]
+ * @param {Partial<import('../../www/logs/log.ts').LogChoice>} [choice]
  */
 export async function readLog(source, choice) {
   const [recording] = await openRecordings([source]);

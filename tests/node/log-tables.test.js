@@ -9,7 +9,7 @@ import { english } from '../../www/logs/en.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
 
 /**
- * @import { Choice, OpenOptions } from '../../www/logs/log.ts'
+ * @import { LogChoice, OpenOptions } from '../../www/logs/log.ts'
  *
  * @typedef {object} Case
  * @property {string} name
@@ -17,7 +17,7 @@ import { summarySentences } from '../../www/logs/summary.ts';
  * @property {'poses' | 'commands'} [kind] default: poses
  * @property {number} [start] time of the first row; default 0
  * @property {string[]} [series] that the table has; default: one without a name
- * @property {Partial<Choice>} [choice]
+ * @property {Partial<LogChoice>} [choice]
  * @property {OpenOptions} [options]
  * @property {RegExp} [says] sentences of the summary
  */

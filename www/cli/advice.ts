@@ -1,9 +1,9 @@
-/** Options of the command line that answer the questions in errors. */
+/** Advice on the command-line option that resolves an error. */
 
-import { LogError, cut } from '../logs/log-error.ts';
+import { LogError, truncate } from '../logs/log-error.ts';
 import { UNITS } from '../logs/log.ts';
 
-/** Returns a text quoted as one argument of a shell command. */
+/** Quotes a text as one argument of a shell command, if necessary. */
 export const shellQuoted = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 /** Returns a sentence with the option that answers the question of an error. */
@@ -19,5 +19,5 @@ export function optionAdvice({ ask, message }: LogError): string {
     return ` Choose with ${optionText}, as in ${optionText} ${otherUnit}; if odometry and reference differ, with --odometry FILE --reference FILE ${optionText} ${usualUnit},${otherUnit}.`;
   }
   const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];
-  return ` Choose with ${optionText}${first === undefined ? '' : `, as in ${optionText} ${shellQuoted(cut(first))}`}.`;
+  return ` Choose with ${optionText}${first === undefined ? '' : `, as in ${optionText} ${shellQuoted(truncate(first))}`}.`;
 }

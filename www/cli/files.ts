@@ -8,7 +8,7 @@ import type { Recording, Source } from '../logs/log.ts';
 import { openRecordings } from '../logs/open.ts';
 import type { InputPath } from './options.ts';
 
-/** Opens a file or a folder; rejects with a LogError. Skips files that are not logs, each with a call of `onSkip`, if there is a log beside them. */
+/** Opens a file or a folder; rejects with a LogError if it has no log. Calls `onSkip` with the error of each file that is not a log. */
 export async function recordingsOf({ path, open }: InputPath, onSkip: (error: LogError) => void): Promise<Recording[]> {
   const errors: LogError[] = [];
   const recordings = await openRecordings(await openSources(path), open, (error) => errors.push(error));
@@ -22,7 +22,7 @@ async function openSources(path: string): Promise<Source[]> {
   const name = basename(resolve(path));
   try {
     if (!(await stat(path)).isDirectory()) {
-      // A journal beside the file has messages that the file lacks.
+      // The write-ahead log of SQLite beside the file has messages that the file lacks.
       const hasJournal = await stat(`${path}-wal`).then(({ size }) => size > 0, () => false);
       return await Promise.all(['', ...(hasJournal ? ['-wal'] : [])].map((ending) => openSource(`${path}${ending}`, `${name}${ending}`)));
     }

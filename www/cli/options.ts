@@ -2,9 +2,9 @@
 
 import { basename, dirname } from 'node:path';
 import { parseArgs } from 'node:util';
-import type { Wishes } from '../logs/drives.ts';
-import { cut } from '../logs/log-error.ts';
-import { ROLES, UNITS, type Frames, type OpenOptions, type Role } from '../logs/log.ts';
+import type { UserChoices } from '../logs/drives.ts';
+import { truncate } from '../logs/log-error.ts';
+import { ROLES, UNITS, type FramePair, type OpenOptions, type Role } from '../logs/log.ts';
 import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/lines.ts';
 import { shellQuoted } from './advice.ts';
 
@@ -61,16 +61,16 @@ Output:
 Exit codes: 0 result, 2 bad input or options, 3 the log is unusable (see the failed checks), 1 a defect of the program.
 `;
 
-const text = { type: 'string' } as const;
-const repeatedText = { type: 'string', multiple: true } as const;
-const flag = { type: 'boolean' } as const;
+const textOption = { type: 'string' } as const;
+const repeatedTextOption = { type: 'string', multiple: true } as const;
+const flagOption = { type: 'boolean' } as const;
 
 const OPTIONS = {
-  odometry: repeatedText, reference: repeatedText, recording: repeatedText, 'odometry-topic': text, 'reference-topic': text, 'odometry-frames': text,
-  'reference-frames': text, columns: text, 'odometry-columns': text, 'reference-columns': text, 'time-unit': text, 'length-unit': text,
-  'angle-unit': text, model: text, rule: text, 'update-min-d': text, 'update-min-a': text, duration: text, outliers: text,
-  'no-correct': text, correct: text, 'reference-position-std': text, 'reference-yaw-std': text, json: flag, yaml: flag, plot: text,
-  help: { ...flag, short: 'h' }, version: flag,
+  odometry: repeatedTextOption, reference: repeatedTextOption, recording: repeatedTextOption, 'odometry-topic': textOption, 'reference-topic': textOption, 'odometry-frames': textOption,
+  'reference-frames': textOption, columns: textOption, 'odometry-columns': textOption, 'reference-columns': textOption, 'time-unit': textOption, 'length-unit': textOption,
+  'angle-unit': textOption, model: textOption, rule: textOption, 'update-min-d': textOption, 'update-min-a': textOption, duration: textOption, outliers: textOption,
+  'no-correct': textOption, correct: textOption, 'reference-position-std': textOption, 'reference-yaw-std': textOption, json: flagOption, yaml: flagOption, plot: textOption,
+  help: { ...flagOption, short: 'h' }, version: flagOption,
 } as const;
 
 /** Options of the command `inspect`. */
@@ -82,8 +82,8 @@ const OPTION_BY_FIELD: Record<string, string> = {
   positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',
 };
 
-/** Replaces the field at the beginning of an error message of the core by the option; undefined if the message begins without a field. */
-export function withOption(message: string): string | undefined {
+/** Replaces the field with which an error message of the core begins by its option; undefined if the message begins without a field. */
+export function replaceFieldByOption(message: string): string | undefined {
   const [field] = message.split(' ');
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
 }
@@ -94,8 +94,8 @@ export interface InputPath { path: string; open: OpenOptions }
 export interface CalibrateArguments {
   command: 'calibrate';
   inputs: { recording: InputPath[]; odometry: InputPath[]; reference: InputPath[] };
-  wishes: Wishes;
-  /** Options of `calibrate` of the core. */
+  userChoices: UserChoices;
+  /** Options of the core's function `calibrate`. */
   fit: Record<string, any>;
   output: 'text' | 'json' | 'yaml';
   /** Path of the picture. */
@@ -111,38 +111,38 @@ interface InspectArguments {
 }
 
 /** Parses the arguments; throws a UsageError. */
-export function optionsOf(args: string[]): CalibrateArguments | InspectArguments | 'help' | 'version' {
+export function parseOptions(args: string[]): CalibrateArguments | InspectArguments | 'help' | 'version' {
   const { values, positionals: [command, ...givenPaths] } = parseArguments(args);
   // A metadata.yaml stands for its folder. A shell that expands a pattern gives all files of the folder.
-  const folders = givenPaths.filter((path) => basename(path) === 'metadata.yaml').map(dirname);
-  const paths = [...new Set(folders), ...givenPaths.filter((path) => !folders.includes(dirname(path)))];
+  const listedFolders = givenPaths.filter((path) => basename(path) === 'metadata.yaml').map(dirname);
+  const paths = [...new Set(listedFolders), ...givenPaths.filter((path) => !listedFolders.includes(dirname(path)))];
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
-  const columns = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((column) => column.trim());
-  const openAs = (role?: Role, names = columns('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
+  const columnNames = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((column) => column.trim());
+  const openOptionsOf = (role?: Role, names = columnNames('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
   if (command === 'inspect') {
     const allPaths = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
     if (allPaths.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
     const uselessOption = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
     if (uselessOption !== undefined) throw new UsageError(`--${uselessOption} is an option of calibrate; inspect has ${listOfAlternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
     const stated = Object.entries(values).filter((entry): entry is [string, string] => typeof entry[1] === 'string');
-    return { command, inputs: allPaths.map((path) => ({ path, open: openAs() })), stated, isJson: values.json ?? false };
+    return { command, inputs: allPaths.map((path) => ({ path, open: openOptionsOf() })), stated, isJson: values.json ?? false };
   }
   if (command !== 'calibrate') {
     const path = [command, ...paths].find(isPath) ?? 'run.bag';
-    throw new UsageError(`the command must be calibrate or inspect (got “${cut(command ?? '')}”), as in npx motion-widgets inspect ${shellQuoted(path)}; --help has examples.`);
+    throw new UsageError(`the command must be calibrate or inspect (got “${truncate(command ?? '')}”), as in npx motion-widgets inspect ${shellQuoted(path)}; --help has examples.`);
   }
-  const numberOf = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
+  const numberOption = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
     const value = values[name];
     if (value === undefined) return undefined;
     const number = value.trim() === '' ? NaN : Number(value);
     if (Number.isFinite(number)) return number;
     const decimalHint = /^-?\d*,\d+$/.test(value) ? ` with a decimal point, ${value.replace(',', '.')}` : '';
-    throw new UsageError(`--${name} must be a number${decimalHint} (got “${cut(value)}”).`);
+    throw new UsageError(`--${name} must be a number${decimalHint} (got “${truncate(value)}”).`);
   };
-  const [distance, angle, duration] = [numberOf('update-min-d'), numberOf('update-min-a'), numberOf('duration')];
+  const [distance, angle, duration] = [numberOption('update-min-d'), numberOption('update-min-a'), numberOption('duration')];
   if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
-  if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${cut(values.plot)}”).`);
+  if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${truncate(values.plot)}”).`);
   if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
   const recording = [...paths, ...(values.recording ?? [])];
   const { odometry = [], reference = [] } = values;
@@ -155,20 +155,20 @@ export function optionsOf(args: string[]): CalibrateArguments | InspectArguments
   for (const role of ROLES) {
     if (values[`${role}-columns`] !== undefined && !values[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
   }
-  const wishOf = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
-  const inputsOf = (paths: string[], role?: Role) => paths.map((path) => ({ path, open: openAs(role, role && columns(`${role}-columns`)) }));
+  const chosenSeries = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
+  const inputsOf = (paths: string[], role?: Role) => paths.map((path) => ({ path, open: openOptionsOf(role, role && columnNames(`${role}-columns`)) }));
   return {
     command,
     inputs: { recording: inputsOf(recording), odometry: inputsOf(odometry, 'odometry'), reference: inputsOf(reference, 'reference') },
-    wishes: { odometry: wishOf('odometry'), reference: wishOf('reference'), ...(values.model === 'velocity' && { kind: 'commands' }) },
+    userChoices: { odometry: chosenSeries('odometry'), reference: chosenSeries('reference'), ...(values.model === 'velocity' && { kind: 'commands' }) },
     fit: withoutUndefined({
       legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
       model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),
       rule: values.rule,
       outliers: values.outliers,
-      correct: corrections(values['no-correct'], values.correct),
-      positionStd: numberOf('reference-position-std'),
-      yawStd: numberOf('reference-yaw-std'),
+      correct: parseCorrections(values['no-correct'], values.correct),
+      positionStd: numberOption('reference-position-std'),
+      yawStd: numberOption('reference-yaw-std'),
     }),
     output: values.json ? 'json' : values.yaml ? 'yaml' : 'text',
     plot: values.plot,
@@ -182,9 +182,9 @@ function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?
     if (givenUnits === undefined) return [];
     const unitNames = givenUnits.split(',').map((unit) => unit.trim());
     if (unitNames.length > 2 || !unitNames.every((unit) => (UNITS[`${quantity}Unit`] as readonly string[]).includes(unit))) {
-      throw new UsageError(`--${quantity}-unit must be ${listOfAlternatives(UNITS[`${quantity}Unit`])}, or two of these for odometry and reference (got “${cut(givenUnits)}”).`);
+      throw new UsageError(`--${quantity}-unit must be ${listOfAlternatives(UNITS[`${quantity}Unit`])}, or two of these for odometry and reference (got “${truncate(givenUnits)}”).`);
     }
-    if (unitNames.length > 1 && !role) throw new UsageError(`--${quantity}-unit ${cut(givenUnits)} has two units; give the files with --odometry and --reference.`);
+    if (unitNames.length > 1 && !role) throw new UsageError(`--${quantity}-unit ${truncate(givenUnits)} has two units; give the files with --odometry and --reference.`);
     return [[`${quantity}Unit`, role === 'reference' ? unitNames.at(-1) : unitNames[0]]];
   }));
 }
@@ -194,19 +194,19 @@ const withoutUndefined = <T extends object>(object: T): T => Object.fromEntries(
 
 const listOfAlternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);
 
-/** Returns true for systematic errors that are corrected, and false for those that are not. Single names override `all`. */
-function corrections(left?: string, corrected?: string): Record<string, boolean> | undefined {
-  const nameLists = [errorNames('no-correct', left), errorNames('correct', corrected)];
-  const [namesOfAll, singleNames] = [true, false].map((isAll) => nameLists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
-  const entries = [...namesOfAll.flatMap(([, isCorrected]) => SYSTEMATIC_ERRORS.map((name) => [name, isCorrected] as const)), ...singleNames];
+/** Returns true or false for each named systematic error: corrected or not. Single names override `all`. */
+function parseCorrections(uncorrected?: string, corrected?: string): Record<string, boolean> | undefined {
+  const nameLists = [parseErrorNames('no-correct', uncorrected), parseErrorNames('correct', corrected)];
+  const [entriesForAll, entriesByName] = [true, false].map((isAll) => nameLists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
+  const entries = [...entriesForAll.flatMap(([, isCorrected]) => SYSTEMATIC_ERRORS.map((name) => [name, isCorrected] as const)), ...entriesByName];
   return entries.length ? Object.fromEntries(entries) : undefined;
 }
 
-function errorNames(option: string, value?: string): string[] {
+function parseErrorNames(option: string, value?: string): string[] {
   const names = value?.split(',').map((name) => name.trim()) ?? [];
   const unknownName = names.find((name) => name !== 'all' && !(SYSTEMATIC_ERRORS as readonly string[]).includes(name));
   if (unknownName === undefined) return names;
-  throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${cut(unknownName)}”).`);
+  throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${truncate(unknownName)}”).`);
 }
 
 function parseArguments(args: string[]) {
@@ -223,14 +223,14 @@ function parseArguments(args: string[]) {
     }
     const givenName = givenOption.replace(/^-+|=.*/g, '');
     const nameHint = givenName.length === 1 ? 'options have whole names, as in --rule nav2, ' : nearestOptions(givenName);
-    throw new UsageError(`unknown option ${cut(givenOption.replace(/=.*/, ''))}; ${nameHint || (isPath(value) ? `files need no option, as in calibrate ${shellQuoted(value)}, ` : '')}--help lists all.`);
+    throw new UsageError(`unknown option ${truncate(givenOption.replace(/=.*/, ''))}; ${nameHint || (isPath(value) ? `files need no option, as in calibrate ${shellQuoted(value)}, ` : '')}--help lists all.`);
   }
 }
 
 /** Returns true if an argument has an extension or is in a folder. */
 const isPath = (argument = '') => /\.\w+$|\//.test(argument);
 
-/** Returns a hint at the options that begin or end with a name, or have most pairs of letters in common with it. */
+/** Returns a text with the options that are most similar to a name: they begin or end with it, or share most pairs of letters with it. */
 function nearestOptions(name: string): string {
   const letterPairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
   const ownPairs = letterPairs(name);
@@ -240,13 +240,13 @@ function nearestOptions(name: string): string {
     return { option, score: option.startsWith(name) ? 1 + commonFraction : option.endsWith(`-${name}`) ? 1 : commonFraction };
   });
   const bestScore = Math.max(0.4, ...optionScores.map(({ score }) => score));
-  const closest = optionScores.filter(({ score }) => score === bestScore).map(({ option }) => `--${option}`);
-  return closest.length ? `the nearest ${closest.length > 1 ? 'are' : 'is'} ${new Intl.ListFormat('en').format(closest)}, ` : '';
+  const closestOptions = optionScores.filter(({ score }) => score === bestScore).map(({ option }) => `--${option}`);
+  return closestOptions.length ? `the nearest ${closestOptions.length > 1 ? 'are' : 'is'} ${new Intl.ListFormat('en').format(closestOptions)}, ` : '';
 }
 
-function parseFrames(name: string, value: string | undefined): Frames | undefined {
+function parseFrames(name: string, value: string | undefined): FramePair | undefined {
   if (value === undefined) return undefined;
   const [parent, child, ...excessNames] = value.split(',').map((name) => name.trim());
   if (parent && child && excessNames.length === 0) return { parent, child };
-  throw new UsageError(`--${name} must be a parent and a child frame, as in map,base_link (got “${cut(value)}”).`);
+  throw new UsageError(`--${name} must be a parent and a child frame, as in map,base_link (got “${truncate(value)}”).`);
 }

@@ -5,10 +5,10 @@ import type { Drive } from '../logs/drives.ts';
 import { alignedPath, pathOf, poseAt, type Path } from '../logs/path.ts';
 import { escapeXml } from '../scene/svg.ts';
 
-/** Width and maximum height of a panel, and its margins for title and axes, in pixels. */
+/** Width, maximum height and margins of a panel, in pixels. Title and axes are in the margins. */
 const [WIDTH, HEIGHT, MARGIN] = [800, 800, { top: 64, right: 24, bottom: 56, left: 64 }];
 
-/** Minimum length of a step of a line, px. Shorter steps are left out. */
+/** Minimum distance of successive points of a line, pixels. Points that are closer are left out. */
 const MIN_STEP_PX = 0.5;
 
 /** Distance of the paths from the axes, in pixels. */
@@ -36,7 +36,7 @@ ${panelSvgs.join('\n')}
 
 function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: any): { svg: string; height: number } {
   const referencePath = pathOf(reference.data);
-  // Legs have the times of the odometry.
+  // The times of legs are those of the odometry's clock.
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const odometryPath = alignedPath(pathOf(odometry.data), referencePath, clockOffset);
   const [from, to] = [odometry.data.t[0], odometry.data.t[odometry.data.t.length - 1]];

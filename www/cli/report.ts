@@ -1,11 +1,11 @@
-/** Result as text and as JSON. */
+/** Calibration result as text and as JSON. */
 
 import { english } from '../logs/en.ts';
 import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
-import { en as shared } from '../messages/en.ts';
+import { en as sharedTexts } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { alphaOrBound, correctFirst, formatInterval, failedOf, fixed, isOfNav2, missingAlphas, nav2Lines, percent, toText } from '../widgets/alpha-calibrator/lines.ts';
+import { alphaOrBound, correctionAdvice, formatInterval, failedChecksOf, formatEstimate, isOfNav2, missingAlphas, nav2Lines, percent, formatNumber } from '../widgets/alpha-calibrator/lines.ts';
 
 type Interval = [number, number] | null;
 
@@ -22,7 +22,7 @@ export interface CalibrationResult {
   /** Whole seconds that were subtracted from all times. */
   start: number;
   /** Times of the odometry's first row in each drive. */
-  begins: number[];
+  driveStarts: number[];
   date: string;
 }
 
@@ -43,20 +43,20 @@ const LOST_LEG_CAUSES: Record<string, string> = {
 /** Checks whose failure makes a log unusable. */
 const DECISIVE_CHECKS = ['reference-matches', 'enough-legs', 'inflation-bounded'];
 
-/** Number of outliers that are listed. */
+/** Maximum number of outliers that are listed. */
 const MAX_LISTED_OUTLIERS = 5;
 
 /** Returns the summaries of the logs (odometry and reference of each drive), without the result of the fit. */
 export const logSummaries = (logs: ReadLog[]): string =>
   logs.map(({ name, sentences }, i) => `${[`${english.choose.roles[ROLES[i % 2]]}: ${name}`, ...sentences].join('\n  ')}\n`).join('');
 
-/** Returns the report after the summary of the logs. */
-export function reportText({ calibration, options, logs, start, begins, date }: CalibrationResult, isColored = false): string {
+/** Returns the text report, which follows the summaries of the logs. */
+export function reportText({ calibration, options, logs, start, driveStarts, date }: CalibrationResult, isColored = false): string {
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
-  const failedChecks = failedOf(checks);
+  const failedChecks = failedChecksOf(checks);
   const lossTexts = Object.entries(LOST_LEG_CAUSES).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
-  const excludedLegs = [...(lossTexts.length ? [`lost legs: ${lossTexts.join(', ')}`] : []), ...outlierLines(legs, begins)];
+  const excludedLegs = [...(lossTexts.length ? [`lost legs: ${lossTexts.join(', ')}`] : []), ...outlierLines(legs, driveStarts)];
   const text = [
     '',
     ...verdictLines({ calibration, options, logs }),
@@ -73,31 +73,31 @@ export function reportText({ calibration, options, logs, start, begins, date }: 
     ...(excludedLegs.length ? [...excludedLegs, ''] : []),
     ...alignRows([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windows.map(windowRow)]),
     '',
-    ...nav2Section({ calibration, options, logs, start, begins, date }),
+    ...nav2Section({ calibration, options, logs, start, driveStarts, date }),
     '',
   ].join('\n');
   return isColored ? text.replaceAll(/^Consistent|\bok$/gm, inColor(GREEN)).replace(/^Questionable/m, inColor(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, inColor(RED)) : text;
 }
 
-/** Colours of a terminal. */
+/** ANSI codes of colours in a terminal. */
 const [RED, GREEN, YELLOW] = [31, 32, 33];
 
 const inColor = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
-/** Returns the verdict, what to drive for α's that are not identifiable, and warnings of the logs. */
+/** Returns the verdict, the missing drives for α's that are not identifiable, and the warnings of the logs. */
 export const verdictLines = ({ calibration, options, logs }: Pick<CalibrationResult, 'calibration' | 'options' | 'logs'>): string[] => [
   verdictSentence(calibration),
   ...missingAlphas(en.alphas.lacking, options.model, calibration).map(({ indices, lack, drive }) => `${alphaNames(indices)} not identifiable: ${lack}; ${drive}`),
   ...warningsOf(logs).map((name) => en.nav2[name]),
-  ...correctFirst(calibration, en.nav2),
+  ...correctionAdvice(calibration, en.nav2),
 ];
 
-/** Returns the verdict with the advice. */
+/** Returns a sentence with the verdict and the advice. */
 function verdictSentence({ alphas, diagnostics: { verdict, checks } }: any): string {
-  const failedChecks = failedOf(checks);
+  const failedChecks = failedChecksOf(checks);
   if (verdict === 'consistent') {
-    const missing = alphas.flatMap((alpha: number | null, i: number) => (alpha === null ? [i] : []));
-    return `Consistent: all checks passed${missing.length ? `, but ${alphaNames(missing)} cannot be identified` : ''}. Use the recommended α’s with legs of this length.`;
+    const missingIndices = alphas.flatMap((alpha: number | null, i: number) => (alpha === null ? [i] : []));
+    return `Consistent: all checks passed${missingIndices.length ? `, but ${alphaNames(missingIndices)} cannot be identified` : ''}. Use the recommended α’s with legs of this length.`;
   }
   if (verdict === 'questionable') {
     const failedText = failedChecks.length === 1 ? 'one check' : `${failedChecks.length} of ${checks.length} checks`;
@@ -110,7 +110,7 @@ function verdictSentence({ alphas, diagnostics: { verdict, checks } }: any): str
 const alphaNames = (indices: number[]) => new Intl.ListFormat('en').format(indices.map((i) => `alpha${i + 1}`));
 
 function legLengthText({ distance, angle, duration }: { distance?: number; angle?: number; duration?: number }): string {
-  return duration === undefined ? en.nav2.moved(toText(distance ?? null), toText(angle ?? null)) : en.nav2.lasted(toText(duration));
+  return duration === undefined ? en.nav2.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : en.nav2.lasted(formatNumber(duration));
 }
 
 /** Returns the table of the α's, and the reason for the inflation. */
@@ -120,7 +120,7 @@ function alphaTable({ alphas, intervals, recommended }: any, model: string): str
     alpha === null ? 'not identifiable' : alphaOrBound(alpha, intervals[i]),
     formatInterval(intervals[i]),
     recommended && alpha !== null ? alphaOrBound(alpha, intervals[i], recommended.inflation) : '–',
-    shared.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i],
+    sharedTexts.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i],
   ]);
   return [...alignRows([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...(recommended ? [recommended.reason] : [])];
 }
@@ -129,7 +129,7 @@ function noiseRows({ referenceNoise }: any, options: CalibrationResult['options'
   const noiseRow = (name: string, key: 'positionStd' | 'yawStd', unit: string) => {
     const { value, interval } = referenceNoise[key];
     const isStated = options[key] !== undefined;
-    return [name, `${fixed(value, interval)} ${unit}`, isStated ? '' : formatInterval(interval), isStated ? 'as stated' : 'estimated'];
+    return [name, `${formatEstimate(value, interval)} ${unit}`, isStated ? '' : formatInterval(interval), isStated ? 'as stated' : 'estimated'];
   };
   return [noiseRow('reference position σ', 'positionStd', 'm'), noiseRow('reference yaw σ', 'yawStd', 'rad')];
 }
@@ -138,36 +138,36 @@ function systematicRow([key, name, unit]: [string, string, string], { systematic
   const { value, interval, constant, corrected } = systematicErrors[key];
   const [values, intervals] = Array.isArray(value) ? [value, interval] : [[value], [interval]];
   if (values.includes(null)) return [name, 'not identifiable'];
-  const list = (print: (value: any, interval: Interval) => string) => values.map((value: any, i: number) => print(value, intervals[i])).join(', ');
+  const listValues = (print: (value: any, interval: Interval) => string) => values.map((value: any, i: number) => print(value, intervals[i])).join(', ');
   return [
     name,
-    list((value, interval) => fixed(value, interval) + (unit && ` ${unit}`)),
-    list((_, interval) => formatInterval(interval)),
+    listValues((value, interval) => formatEstimate(value, interval) + (unit && ` ${unit}`)),
+    listValues((_, interval) => formatInterval(interval)),
     `${corrected ? 'corrected' : 'not corrected'}${constant ? '' : ', not a constant'}`,
   ];
 }
 
 function persistenceRow({ persistence: { correlation: { value, interval }, length } }: any): string[] {
-  return ['correlation of neighbouring legs', fixed(value, interval), formatInterval(interval), length > 0 ? `errors persist over ${toText(length, 2)} m` : ''];
+  return ['correlation of neighbouring legs', formatEstimate(value, interval), formatInterval(interval), length > 0 ? `errors persist over ${formatNumber(length, 2)} m` : ''];
 }
 
 function checkRow({ name, value, expected: [low, high], passed }: any): string[] {
-  // A value that fails must not round to a bound.
-  const digits = [3, 4, 6, 17].find((count) => passed || [low, high].every((bound) => toText(value, count) !== toText(bound, count)));
-  const bounds = low === -Infinity ? `≤ ${toText(high, digits)}` : high === Infinity ? `≥ ${toText(low, digits)}` : `${toText(low, digits)} to ${toText(high, digits)}`;
-  return [name, value === Infinity ? '∞' : toText(value, digits), bounds, passed ? 'ok' : 'FAILED'];
+  // A failing value is printed with more digits if it would round to a bound.
+  const digits = [3, 4, 6, 17].find((count) => passed || [low, high].every((bound) => formatNumber(value, count) !== formatNumber(bound, count)));
+  const bounds = low === -Infinity ? `≤ ${formatNumber(high, digits)}` : high === Infinity ? `≥ ${formatNumber(low, digits)}` : `${formatNumber(low, digits)} to ${formatNumber(high, digits)}`;
+  return [name, value === Infinity ? '∞' : formatNumber(value, digits), bounds, passed ? 'ok' : 'FAILED'];
 }
 
 function windowRow({ length, count, coverage, nees }: any): string[] {
-  return [`of ${toText(length)} m`, String(count), percent(coverage), toText(nees)];
+  return [`of ${formatNumber(length)} m`, String(count), percent(coverage), formatNumber(nees)];
 }
 
 /** Lists outliers by their times after the start of the odometry. */
-function outlierLines({ count, times, outliers }: any, begins: number[]): string[] {
+function outlierLines({ count, times, outliers }: any, driveStarts: number[]): string[] {
   const outlierLegs = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
   const timeTexts = outlierLegs.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
-    const driveBegin = Math.max(...begins.filter((begin) => begin <= times[2 * leg]));
-    return `${(times[2 * leg] - driveBegin).toFixed(2)} s${begins.length > 1 ? ` of drive ${begins.indexOf(driveBegin) + 1}` : ''}`;
+    const driveStart = Math.max(...driveStarts.filter((begin) => begin <= times[2 * leg]));
+    return `${(times[2 * leg] - driveStart).toFixed(2)} s${driveStarts.length > 1 ? ` of drive ${driveStarts.indexOf(driveStart) + 1}` : ''}`;
   }).join(', ');
   return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${count} legs, at ${timeTexts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
 }
@@ -177,7 +177,7 @@ function nav2Section(result: CalibrationResult): string[] {
   return reason ? [reason] : [...ruleWarning(result), '# nav2_params.yaml', yaml.trimEnd()];
 }
 
-/** Returns a warning if the α's are of another rule than that of Nav2's AMCL. */
+/** Returns a warning if the α's were fitted by another rule than that of Nav2's AMCL. */
 export const ruleWarning = ({ options: { model = 'odometry', rule = 'thrun' } }: Pick<CalibrationResult, 'options'>): string[] =>
   (isOfNav2(model, rule) ? [] : ['Warning: fitted by another rule than Nav2’s; give --rule nav2.']);
 

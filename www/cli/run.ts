@@ -3,13 +3,13 @@
 import { writeFile } from 'node:fs/promises';
 import { planDrives, readDrives, type Drive } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
-import { LogError, cut } from '../logs/log-error.ts';
-import { logOf } from '../logs/pairs.ts';
+import { LogError, truncate } from '../logs/log-error.ts';
+import { calibrationLogOf } from '../logs/pairs.ts';
 import { summarySentences } from '../logs/summary.ts';
 import { optionAdvice } from './advice.ts';
 import { recordingsOf } from './files.ts';
-import { byOrder, inspect, inspectionText, type GivenRecording } from './inspect.ts';
-import { HELP, UsageError, optionsOf, withOption, type CalibrateArguments } from './options.ts';
+import { roleOrderSentence, inspect, inspectionText, type GivenRecording } from './inspect.ts';
+import { HELP, UsageError, parseOptions, replaceFieldByOption, type CalibrateArguments } from './options.ts';
 import { drivesSvg } from './plot.ts';
 import { resultJson, logSummaries, nav2Yaml, ruleWarning, reportText, verdictLines, type CalibrationResult } from './report.ts';
 
@@ -28,12 +28,12 @@ interface CliEnvironment {
 /** Exit codes of a shell. */
 const [SUCCESS, BAD_INPUT, UNUSABLE] = [0, 2, 3];
 
-/** Runs a command, and returns the exit code; rejects only because of a defect of the program. */
+/** Runs a command, and returns the exit code; rejects only for defects of the program. */
 export async function run(args: string[], environment: CliEnvironment): Promise<number> {
   const { print, complain, onProgress } = environment;
   const onSkip = ({ message }: LogError) => complain(`skipped: ${message}\n`);
   try {
-    const options = optionsOf(args);
+    const options = parseOptions(args);
     if (options === 'help') print(HELP);
     else if (options === 'version') print(`${environment.version}\n`);
     else if (options.command === 'inspect') {
@@ -52,9 +52,9 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
   }
 }
 
-async function calibrate({ inputs, wishes, fit, output, plot }: CalibrateArguments, { load, print, complain, onProgress, isColored = false, now = new Date() }: CliEnvironment, onSkip: (error: LogError) => void): Promise<number> {
+async function calibrate({ inputs, userChoices, fit, output, plot }: CalibrateArguments, { load, print, complain, onProgress, isColored = false, now = new Date() }: CliEnvironment, onSkip: (error: LogError) => void): Promise<number> {
   const motion = await load();
-  // The core checks the options first. Errors in options are reported before the files are read.
+  // A call without drives checks the options, so that their errors are reported before files are read.
   calibrateDrives(motion, fit, []);
   const roleByRecording = new Map();
   const recordings = [];
@@ -65,9 +65,9 @@ async function calibrate({ inputs, wishes, fit, output, plot }: CalibrateArgumen
       if (kind !== 'recording') for (const recording of openedRecordings) roleByRecording.set(recording, kind);
     }
   }
-  const plan = planDrives(recordings, { ...wishes, roles: roleByRecording });
+  const plan = planDrives(recordings, { ...userChoices, roles: roleByRecording });
   plan.unused.forEach(onSkip);
-  if (plan.isByOrder) complain(`${byOrder(plan)}\n`);
+  if (plan.hasRolesByOrder) complain(`${roleOrderSentence(plan)}\n`);
   const drives = await readDrives(plan, onProgress);
   onProgress?.(undefined);
   const [{ odometry: { start } }] = drives;
@@ -76,7 +76,7 @@ async function calibrate({ inputs, wishes, fit, output, plot }: CalibrateArgumen
   if (output === 'text') print(logSummaries(logs));
   if (output === 'yaml') complain(logSummaries(logs));
   const calibration = calibrateDrives(motion, fit, drives);
-  const result: CalibrationResult = { calibration, options: fit, logs, start, begins: drives.map(({ odometry }) => odometry.data.t[0]), date: now.toISOString().slice(0, 10) };
+  const result: CalibrationResult = { calibration, options: fit, logs, start, driveStarts: drives.map(({ odometry }) => odometry.data.t[0]), date: now.toISOString().slice(0, 10) };
   if (plot !== undefined) await saveFile(plot, drivesSvg(drives, calibration));
   const isUnusableLog = calibration.recommended === null;
   if (output === 'yaml') {
@@ -91,16 +91,16 @@ async function calibrate({ inputs, wishes, fit, output, plot }: CalibrateArgumen
 
 async function saveFile(path: string, text: string): Promise<void> {
   await writeFile(path, text).catch(({ code }: NodeJS.ErrnoException) => {
-    throw new UsageError(`--plot ${cut(path)} cannot be written (${code}).`);
+    throw new UsageError(`--plot ${truncate(path)} cannot be written (${code}).`);
   });
 }
 
 function calibrateDrives(motion: any, fit: CalibrateArguments['fit'], drives: Drive[]): any {
   try {
-    return motion.calibrate({ ...fit, ...logOf(drives) });
+    return motion.calibrate({ ...fit, ...calibrationLogOf(drives) });
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
-    const optionError = withOption(error.message);
+    const optionError = replaceFieldByOption(error.message);
     if (optionError === undefined && drives.length === 0) return undefined;
     const logNames = drives.flatMap(({ odometry, reference }) => [odometry.name, reference.name]);
     throw new UsageError(optionError ?? `${new Intl.ListFormat('en').format(logNames)}: ${error.message}.`);

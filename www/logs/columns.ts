@@ -1,6 +1,6 @@
 /** Columns of a table, recognized by their names, in groups with a common prefix. */
 
-import { LogError, cut, listing, type Place } from './log-error.ts';
+import { LogError, truncate, listNames, type ErrorPlace } from './log-error.ts';
 import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
 
 export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
@@ -28,38 +28,38 @@ export interface Group {
   kind: Series['kind'];
   hasCommands: boolean;
   columns: Partial<Record<Field, Column>>;
-  /** Second column that fits a field as well as the first one. */
-  twice: Partial<Record<Field, Column>>;
+  /** Second column that matches a field as well as the first one, which makes the field ambiguous. */
+  duplicateColumns: Partial<Record<Field, Column>>;
   /** Columns of times, best first. */
-  times: Column[];
-  /** Clock of the rows, and another one that is used if the first is mostly 0, or never changes. */
+  timeColumns: Column[];
+  /** Clock of the rows, and a fallback clock for times that are mostly 0, or never change. */
   clocks: Clock[];
-  /** Cell that the group's rows have in a column, in a file with rows of several topics or robots. */
+  /** Column and cell that identify the rows of the group, in a file with rows of several topics or robots. */
   source?: { at: number; name: string };
 }
 
-/** Pattern of the names of messages that contain a pose. */
-const POSE = '(?:(?:pose|transform|odometry)\\.)*';
-const TWIST = '(?:(?:twist|velocity|vel|cmd)\\.)*';
-const HEADER = '(?:header\\.)?';
+/** Patterns of the fields of ROS messages that contain a pose, a twist and a stamp. */
+const POSE_PREFIX = '(?:(?:pose|transform|odometry)\\.)*';
+const TWIST_PREFIX = '(?:(?:twist|velocity|vel|cmd)\\.)*';
+const HEADER_PREFIX = '(?:header\\.)?';
 
 /**
- * Patterns of the names of each field, best first, in lower case with dots between their parts. A part before the pattern is the prefix of a
- * group. The first pattern that matches a name determines its field.
+ * Patterns of the names of each field, best first. Names are in lower case, with dots between their parts. The first pattern that matches the
+ * end of a name determines its field, and the rest of the name is the prefix of a group.
  */
 const FIELD_PATTERNS: [Field, string[]][] = [
   ['child', ['child\\.frame\\.id']],
-  ['frame', [`${HEADER}frame\\.id`]],
+  ['frame', [`${HEADER_PREFIX}frame\\.id`]],
   ['source', ['(?:topic|robot|agent|vehicle|(?:rigid\\.?)?body|subject|tracker)(?:\\.?(?:id|name))?']],
-  ['subseconds', [`${HEADER}(?:time\\.?)?stamp\\.n(?:ano)?(?:secs?|seconds?)`, '(?:n(?:ano)?|micro|u|m(?:illi)?)(?:secs?|seconds?)']],
-  ['seconds', [`${HEADER}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
-  ['t', [`${HEADER}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)|millis|micros|nanos', 't']],
-  ...Array.from('xyzw', (axis): [Field, string[]] => [`q${axis}` as Field, [`q\\..*\\.${axis}`, `${POSE}(?:orientation|rotation|quaternion|quat|rot|q)\\.?${axis}`]]),
-  ['omega', [`${TWIST}(?:angular|ang)\\.(?:vel(?:ocity)?\\.)?z`, 'omega(?:\\.z)?|ω', '(?:yaw|turn|heading)\\.?(?:rate|vel(?:ocity)?)|wz?', '(?:angular|ang)(?:\\.?(?:vel(?:ocity)?|speed|rate))?', 'vel(?:ocity)?\\.(?:yaw|theta)']],
-  ['v', [`${TWIST}(?:linear|lin)\\.(?:vel(?:ocity)?\\.)?x`, 'vx?', '(?:linear|lin|forward|fwd)?\\.?(?:vel(?:ocity)?|speed)(?:\\.x)?|linear|lin']],
-  ['yaw', [`${POSE}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading|gier(?:winkel)?)(?:\\.angle)?`, 'θ|ψ|psi|phi|orientation']],
+  ['subseconds', [`${HEADER_PREFIX}(?:time\\.?)?stamp\\.n(?:ano)?(?:secs?|seconds?)`, '(?:n(?:ano)?|micro|u|m(?:illi)?)(?:secs?|seconds?)']],
+  ['seconds', [`${HEADER_PREFIX}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
+  ['t', [`${HEADER_PREFIX}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)|millis|micros|nanos', 't']],
+  ...Array.from('xyzw', (axis): [Field, string[]] => [`q${axis}` as Field, [`q\\..*\\.${axis}`, `${POSE_PREFIX}(?:orientation|rotation|quaternion|quat|rot|q)\\.?${axis}`]]),
+  ['omega', [`${TWIST_PREFIX}(?:angular|ang)\\.(?:vel(?:ocity)?\\.)?z`, 'omega(?:\\.z)?|ω', '(?:yaw|turn|heading)\\.?(?:rate|vel(?:ocity)?)|wz?', '(?:angular|ang)(?:\\.?(?:vel(?:ocity)?|speed|rate))?', 'vel(?:ocity)?\\.(?:yaw|theta)']],
+  ['v', [`${TWIST_PREFIX}(?:linear|lin)\\.(?:vel(?:ocity)?\\.)?x`, 'vx?', '(?:linear|lin|forward|fwd)?\\.?(?:vel(?:ocity)?|speed)(?:\\.x)?|linear|lin']],
+  ['yaw', [`${POSE_PREFIX}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading|gier(?:winkel)?)(?:\\.angle)?`, 'θ|ψ|psi|phi|orientation']],
   ['x', ['east(?:ing)?']], ['y', ['north(?:ing)?']],
-  ...Array.from('xyz', (axis): [Field, string[]] => [axis as Field, [`p\\..*\\.${axis}`, `${POSE}(?:position|translation|location|pos|loc|trans|[pt])\\.?${axis}`, `${POSE}${axis}(?:\\.?pos(?:ition)?)?`]]),
+  ...Array.from('xyz', (axis): [Field, string[]] => [axis as Field, [`p\\..*\\.${axis}`, `${POSE_PREFIX}(?:position|translation|location|pos|loc|trans|[pt])\\.?${axis}`, `${POSE_PREFIX}${axis}(?:\\.?pos(?:ition)?)?`]]),
 ];
 
 /**
@@ -70,12 +70,12 @@ const PREFIXED_PATTERNS = FIELD_PATTERNS.flatMap(([field, names]) => names.map((
 /** Name in which the field comes before the group: x_gt, yaw_odom, x1. */
 const SUFFIXED_NAME = /^((?:pos\.|position\.)?[xy]|yaw|theta|heading|q\.?[xyzw]|t|time|v|omega)\.?(\d+|(?<=\.)(?!rate|dot)\p{L}.*)$/u;
 
-/** Parts of the names of columns without a pose, velocity or time: uncertainty, acceleration, vectors of an IMU, goals. */
+/** Words in prefixes of columns that are not read: uncertainty, acceleration, vectors of an IMU, goals. */
 const OTHER_QUANTITIES = /(^|\.)(cov(ariance)?|std(dev)?|sigma|var(iance)?|err(or)?|residual|acc(el(eration)?)?|force|torque|effort|bias|mag(netic)?|dot|linear|angular|lin|ang|vel(ocity)?|twist|goal|setpoint|euler|rpy)(\.|\d|$)|^[vabw]\./;
 
-type ParsedUnit = { of: 'time' | 'length' | 'angle'; unit: TimeUnit | 'min' | 'h' | LengthUnit | AngleUnit; isRate: boolean };
+type ParsedUnit = { quantity: 'time' | 'length' | 'angle'; unit: TimeUnit | 'min' | 'h' | LengthUnit | AngleUnit; isRate: boolean };
 
-const UNIT_WORDS: [RegExp, ParsedUnit['of'], ParsedUnit['unit']][] = [
+const UNIT_WORDS: [RegExp, ParsedUnit['quantity'], ParsedUnit['unit']][] = [
   [/^(min|minutes?)$/, 'time', 'min'],
   [/^(h|hrs?|hours?)$/, 'time', 'h'],
   [/^(s|secs?|seconds?)$/, 'time', 's'],
@@ -92,10 +92,10 @@ const UNIT_WORDS: [RegExp, ParsedUnit['of'], ParsedUnit['unit']][] = [
 /** Division by a second: "m/s", "m s^-1", "m_s", "mps". */
 const PER_SECOND = /(\/|[ ._*]|p|per)\.?s(ec(ond)?)?(\^?-1)?$/;
 
-/** Texts in brackets that are not a unit. */
+/** Texts in brackets that stand for no unit. */
 const EMPTY_UNIT = /^(|-|1|quat(ernion)?|unitless|none)$/;
 
-/** Unit at the end of a name: in brackets, or as MATLAB converts a name such as "x [m]". */
+/** Unit at the end of a name: in brackets ("x [m]"), or after a separator ("x_m"). */
 const UNIT_IN_BRACKETS = /\s*[[({]([^\])}]*)[\])}]\s*$/;
 const UNIT_AT_END = /(?:[._ ]+|\s*\/\s*|\s+in\s+)((?:m|mm|cm|rad|deg)[._ /]s|[^._ /]+)_?$/;
 
@@ -104,13 +104,13 @@ function unitOf(text: string): ParsedUnit | undefined {
   const withoutPerSecond = lowerText.replace(PER_SECOND, '');
   const isRate = withoutPerSecond !== lowerText && withoutPerSecond !== '' && !/^(p|m|u|n)$/.test(lowerText.replace(/s$/, ''));
   const [, quantity, unit] = UNIT_WORDS.find(([pattern]) => pattern.test(isRate ? withoutPerSecond : lowerText)) ?? [];
-  return quantity && unit ? { of: quantity, unit, isRate } : undefined;
+  return quantity && unit ? { quantity, unit, isRate } : undefined;
 }
 
 export const isUnit = (text: string) => unitOf(text) !== undefined;
 
-/** Quantity of each field, and true if it is a rate. */
-const UNITS_OF: Partial<Record<Field, [ParsedUnit['of'], boolean]>> = {
+/** Quantity of each field, with true for a rate of it. */
+const QUANTITY_OF_FIELD: Partial<Record<Field, [ParsedUnit['quantity'], boolean]>> = {
   t: ['time', false], seconds: ['time', false], subseconds: ['time', false], x: ['length', false], y: ['length', false], z: ['length', false], yaw: ['angle', false], v: ['length', true], omega: ['angle', true],
 };
 
@@ -122,37 +122,37 @@ function dottedName(name: string): string {
 
 interface ColumnMeaning { field: Field; rank: number; prefix: string; unit?: string }
 
-/** Returns the field of a column, or undefined for another quantity. */
-function readName(name: string): ColumnMeaning | undefined {
-  const [bracket, unitText] = UNIT_IN_BRACKETS.exec(name) ?? [];
-  if (bracket !== undefined && unitText !== undefined && !EMPTY_UNIT.test(unitText.trim())) {
+/** Returns the field, prefix and unit that a column's name means; undefined for other quantities. */
+function parseColumnName(name: string): ColumnMeaning | undefined {
+  const [bracketedUnit, unitText] = UNIT_IN_BRACKETS.exec(name) ?? [];
+  if (bracketedUnit !== undefined && unitText !== undefined && !EMPTY_UNIT.test(unitText.trim())) {
     const unit = unitOf(unitText);
-    const reading = fieldOf(dottedName(name.slice(0, -bracket.length)));
-    return reading && canHaveUnit(reading.field, unit) ? { ...reading, unit: unit?.unit ?? unitText.trim() } : undefined;
+    const meaning = fieldOf(dottedName(name.slice(0, -bracketedUnit.length)));
+    return meaning && canHaveUnit(meaning.field, unit) ? { ...meaning, unit: unit?.unit ?? unitText.trim() } : undefined;
   }
-  const bare = bracket === undefined ? name : name.slice(0, -bracket.length);
-  const dottedPath = dottedName(bare);
-  const wholeMeaning = fieldOf(dottedPath);
+  const nameWithoutUnit = bracketedUnit === undefined ? name : name.slice(0, -bracketedUnit.length);
+  const dottedPath = dottedName(nameWithoutUnit);
+  const fullNameMeaning = fieldOf(dottedPath);
   // Times of rostopic are always in nanoseconds, also the small times of a simulation.
-  if (wholeMeaning?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...wholeMeaning, unit: 'ns' };
-  if (wholeMeaning) {
+  if (fullNameMeaning?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...fullNameMeaning, unit: 'ns' };
+  if (fullNameMeaning) {
     // Clocks of microcontrollers are named after their unit.
     const unit = unitOf(dottedPath.replace(/.*\./, ''));
-    return { ...wholeMeaning, ...(unit && canHaveUnit(wholeMeaning.field, unit) && { unit: unit.unit }) };
+    return { ...fullNameMeaning, ...(unit && canHaveUnit(fullNameMeaning.field, unit) && { unit: unit.unit }) };
   }
-  const [unitSuffix, word] = UNIT_AT_END.exec(bare) ?? [];
-  const unit = word === undefined ? undefined : unitOf(word.replace(/[. ]/, '_'));
-  const reading = unitSuffix !== undefined && unit ? fieldOf(dottedName(bare.slice(0, -unitSuffix.length))) : undefined;
-  if (reading && unit && canHaveUnit(reading.field, unit)) return { ...reading, unit: unit.unit };
+  const [unitSuffix, unitWord] = UNIT_AT_END.exec(nameWithoutUnit) ?? [];
+  const unit = unitWord === undefined ? undefined : unitOf(unitWord.replace(/[. ]/, '_'));
+  const meaning = unitSuffix !== undefined && unit ? fieldOf(dottedName(nameWithoutUnit.slice(0, -unitSuffix.length))) : undefined;
+  if (meaning && unit && canHaveUnit(meaning.field, unit)) return { ...meaning, unit: unit.unit };
   const [, baseName, suffix] = SUFFIXED_NAME.exec(dottedPath) ?? [];
   const baseMeaning = baseName === undefined ? undefined : fieldOf(baseName);
   return baseMeaning && suffix !== undefined && !OTHER_QUANTITIES.test(suffix) ? { ...baseMeaning, prefix: suffix } : undefined;
 }
 
-/** Checks that a field can have a unit. Unknown units pass, and are refused when the column is read. */
+/** Checks that a field can have a unit. Unknown units pass here. `layoutOf` refuses them. */
 function canHaveUnit(field: Field, unit: ParsedUnit | undefined): boolean {
-  const [of, isRate] = UNITS_OF[field] ?? [];
-  return unit === undefined || (unit.of === of && unit.isRate === isRate);
+  const [quantity, isRate] = QUANTITY_OF_FIELD[field] ?? [];
+  return unit === undefined || (unit.quantity === quantity && unit.isRate === isRate);
 }
 
 function fieldOf(path: string): ColumnMeaning | undefined {
@@ -174,20 +174,20 @@ function fieldOf(path: string): ColumnMeaning | undefined {
 export function groupsOf(names: string[], isTime: (index: number) => boolean = () => false): Group[] {
   const groups = new Map<string, Group>();
   for (const [index, name] of names.entries()) {
-    const isIndex = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
-    const reading: ColumnMeaning | undefined = isIndex ? (isTime(index) ? { field: 't', rank: 9, prefix: '' } : undefined) : readName(name);
-    if (!reading) continue;
-    const { field, rank, prefix, unit } = reading;
-    const group = groups.get(prefix) ?? { name: prefix, kind: null, hasCommands: false, columns: {}, twice: {}, times: [], clocks: [] };
+    const isUnnamed = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
+    const meaning: ColumnMeaning | undefined = isUnnamed ? (isTime(index) ? { field: 't', rank: 9, prefix: '' } : undefined) : parseColumnName(name);
+    if (!meaning) continue;
+    const { field, rank, prefix, unit } = meaning;
+    const group = groups.get(prefix) ?? { name: prefix, kind: null, hasCommands: false, columns: {}, duplicateColumns: {}, timeColumns: [], clocks: [] };
     groups.set(prefix, group);
-    // If there are headings in radians and degrees, those in radians were recorded, and those in degrees are derived.
+    // Headings in radians are preferred. Headings in degrees beside them are usually derived.
     const column = { at: index, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
-    if (field === 't') group.times.push(column);
+    if (field === 't') group.timeColumns.push(column);
     const knownColumn = group.columns[field];
     if (!knownColumn || column.rank < knownColumn.rank) {
       group.columns[field] = column;
-      delete group.twice[field];
-    } else if (column.rank === knownColumn.rank) group.twice[field] ??= column;
+      delete group.duplicateColumns[field];
+    } else if (column.rank === knownColumn.rank) group.duplicateColumns[field] ??= column;
   }
   const allGroups = [...groups.values()];
   const clocksByGroup = new Map(allGroups.map((group) => [group, clocksOf(group)]));
@@ -199,9 +199,9 @@ export function groupsOf(names: string[], isTime: (index: number) => boolean = (
     group.clocks = [...new Set([...(clocksByGroup.get(group) ?? []), ...sharedClocks])].slice(0, 2);
     // If a table has only one clock, all of its groups use it.
     if (group.clocks.length === 0 && allClocks.length === 1) group.clocks = allClocks;
-    const has = (...fields: Field[]) => fields.every((field) => group.columns[field]);
-    group.hasCommands = has('v', 'omega');
-    group.kind = has('x', 'y') ? (has('yaw') || has('qz', 'qw') ? 'poses' : 'positions') : group.hasCommands ? 'commands' : null;
+    const hasFields = (...fields: Field[]) => fields.every((field) => group.columns[field]);
+    group.hasCommands = hasFields('v', 'omega');
+    group.kind = hasFields('x', 'y') ? (hasFields('yaw') || hasFields('qz', 'qw') ? 'poses' : 'positions') : group.hasCommands ? 'commands' : null;
     if (group.clocks.length === 0) group.kind = null;
     if (group.kind === 'positions' && group.hasCommands) group.kind = 'commands';
   }
@@ -210,12 +210,12 @@ export function groupsOf(names: string[], isTime: (index: number) => boolean = (
 
 const clockOf = (column: Column): Clock => ({ name: column.name, columns: [column], ...(column.unit !== undefined && { unit: column.unit as TimeUnit }) });
 
-/** Returns the clocks of a group. The stamp of the message comes first, because the other clock may be the time of recording. */
-function clocksOf({ columns: { seconds, subseconds }, times }: Group): Clock[] {
-  const singleClocks = times.toSorted((one, other) => one.rank - other.rank).map(clockOf);
-  if (seconds && subseconds) return [{ name: `${seconds.name}, ${subseconds.name}`, columns: [seconds, subseconds], unit: 's' }, ...singleClocks];
-  const partOfTime = seconds ?? subseconds;
-  return singleClocks.length > 0 || !partOfTime ? singleClocks : [clockOf(partOfTime)];
+/** Returns the clocks of a group. The stamp of the message comes first. Another clock may be the time of recording. */
+function clocksOf({ columns: { seconds, subseconds }, timeColumns }: Group): Clock[] {
+  const singleColumnClocks = timeColumns.toSorted((one, other) => one.rank - other.rank).map(clockOf);
+  if (seconds && subseconds) return [{ name: `${seconds.name}, ${subseconds.name}`, columns: [seconds, subseconds], unit: 's' }, ...singleColumnClocks];
+  const timePartColumn = seconds ?? subseconds;
+  return singleColumnClocks.length > 0 || !timePartColumn ? singleColumnClocks : [clockOf(timePartColumn)];
 }
 
 /** Returns the common prefix or suffix of a group's columns, as written in the table. Without either, returns the names of the columns. */
@@ -223,11 +223,11 @@ function groupName({ name, columns }: Group, names: string[]): string {
   if (name === '') return '';
   const { x, v, yaw, omega } = columns;
   const [first] = [x, v, yaw, omega].filter((column) => column !== undefined);
-  const raw = names[first?.at ?? 0].trim().replace(/^%?(field\.)?/, '');
-  for (let end = 1; end < raw.length; end++) {
-    if (/[^\p{L}\p{N}]/u.test(raw[end]) && dottedName(raw.slice(0, end)) === name) return raw.slice(0, raw[end] === '_' ? end + 1 : end);
+  const columnName = names[first?.at ?? 0].trim().replace(/^%?(field\.)?/, '');
+  for (let end = 1; end < columnName.length; end++) {
+    if (/[^\p{L}\p{N}]/u.test(columnName[end]) && dottedName(columnName.slice(0, end)) === name) return columnName.slice(0, columnName[end] === '_' ? end + 1 : end);
   }
-  for (let start = 1; start < raw.length; start++) if (dottedName(raw.slice(start)) === name) return raw.slice(start);
+  for (let start = 1; start < columnName.length; start++) if (dottedName(columnName.slice(start)) === name) return columnName.slice(start);
   return name;
 }
 
@@ -248,31 +248,31 @@ export interface Layout {
  * @param wantedKind kind of the log: `commands` prefers commands to poses, and `poses` excludes commands; by default poses come first
  * @throws {LogError} if a field is missing, or two columns can be the same field
  */
-export function layoutOf(group: Group | undefined, names: string[], place: Place, wantedKind: LogKind | undefined): Layout {
-  const columnNames = listing(names.map((name) => name.trim()));
+export function layoutOf(group: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined): Layout {
+  const columnNames = listNames(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };
   if (!group) throw new LogError(place, (say) => say.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
-  const { columns, twice, clocks } = group;
-  const has = (...fields: Field[]) => fields.every((field) => columns[field]);
+  const { columns, duplicateColumns, clocks } = group;
+  const hasFields = (...fields: Field[]) => fields.every((field) => columns[field]);
   if (clocks.length === 0) throw new LogError(place, (say) => say.noTime(columnNames), ask);
   const takesCommands = group.hasCommands && wantedKind !== 'poses' && (wantedKind === 'commands' || group.kind === 'commands');
-  if (!takesCommands && !has('x', 'y')) throw new LogError(place, (say) => say.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
-  const headingFields: Field[] = has('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : has('yaw') ? ['yaw'] : has('qz', 'qw') ? ['qz', 'qw'] : [];
+  if (!takesCommands && !hasFields('x', 'y')) throw new LogError(place, (say) => say.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
+  const headingFields: Field[] = hasFields('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : hasFields('yaw') ? ['yaw'] : hasFields('qz', 'qw') ? ['qz', 'qw'] : [];
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {
-    const [firstColumn, secondColumn] = [columns[field], twice[field]];
-    if (firstColumn && secondColumn) throw new LogError(place, (say) => say.twice(field, cut(firstColumn.name), cut(secondColumn.name)), ask);
+    const [firstColumn, secondColumn] = [columns[field], duplicateColumns[field]];
+    if (firstColumn && secondColumn) throw new LogError(place, (say) => say.twice(field, truncate(firstColumn.name), truncate(secondColumn.name)), ask);
   }
-  const readColumns = fields.map((field) => columns[field] as Column);
-  const [lengthUnit, ...others] = new Set((takesCommands ? readColumns.slice(0, 1) : readColumns.slice(0, 2)).map(({ unit }) => unit));
+  const usedColumns = fields.map((field) => columns[field] as Column);
+  const [lengthUnit, ...otherUnits] = new Set((takesCommands ? usedColumns.slice(0, 1) : usedColumns.slice(0, 2)).map(({ unit }) => unit));
   const angleUnit = takesCommands ? columns.omega?.unit : headingFields[0] === 'yaw' ? columns.yaw?.unit : undefined;
   const isUnknownUnit = (unit: string | undefined, known: readonly string[]) => unit !== undefined && !known.includes(unit);
-  const unknownUnit = [lengthUnit, ...others].find((unit) => isUnknownUnit(unit, UNITS.lengthUnit)) ?? (isUnknownUnit(angleUnit, UNITS.angleUnit) ? angleUnit : undefined);
-  if (unknownUnit !== undefined) throw new LogError(place, (say) => say.unknownUnit(cut(unknownUnit)));
-  if (others.length > 0) throw new LogError(place, (say) => say.unknownUnit([lengthUnit, ...others].map((unit) => unit ?? '–').join(', ')));
+  const unknownUnit = [lengthUnit, ...otherUnits].find((unit) => isUnknownUnit(unit, UNITS.lengthUnit)) ?? (isUnknownUnit(angleUnit, UNITS.angleUnit) ? angleUnit : undefined);
+  if (unknownUnit !== undefined) throw new LogError(place, (say) => say.unknownUnit(truncate(unknownUnit)));
+  if (otherUnits.length > 0) throw new LogError(place, (say) => say.unknownUnit([lengthUnit, ...otherUnits].map((unit) => unit ?? '–').join(', ')));
   return {
     kind: takesCommands ? 'commands' : headingFields.length > 0 ? 'poses' : 'positions',
-    clocks, columns: readColumns, fields, length: lengthUnit as LengthUnit | undefined, angle: angleUnit as AngleUnit | undefined,
+    clocks, columns: usedColumns, fields, length: lengthUnit as LengthUnit | undefined, angle: angleUnit as AngleUnit | undefined,
   };
 }
 

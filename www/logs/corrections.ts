@@ -5,7 +5,7 @@ import { ROLES, type Log, type Role } from './log.ts';
 import { pathOf, poseAt, wrapAngle, type Pose } from './path.ts';
 import { quantile } from './quantile.ts';
 
-/** Motion in a step in the frame of the robot, in m and rad. */
+/** Motion of the robot in one step, in the frame of the robot, in m and rad. */
 type Motion = [forward: number, left: number, turn: number];
 
 const DEGREE = Math.PI / 180;
@@ -31,26 +31,26 @@ export interface Correction {
   at: Role;
   /** Correlation of the corrected motions. */
   score: number;
-  /** Ratio of the lengths of the odometry to those of the reference. */
+  /** Scale of the reference's lengths: length of the odometry over that of the reference. */
   factor: number;
 }
 
 /** Maximum number of steps of a drive, minimum duration of a step (s), and minimum number of steps for a comparison. */
-const [MAX_STEPS, MIN_DURATION, MIN_STEPS] = [4000, 0.25, 40];
+const [MAX_STEPS, MIN_STEP_SECONDS, MIN_STEPS] = [4000, 0.25, 40];
 
 /** Maximum offset of the clocks (s) that is tried, as in the first scan of the core. */
 const MAX_CLOCK_OFFSET = 10;
 
-/** Score above which logs agree, minimum score after a correction, and maximum fraction of the disagreement that may remain after it. */
-const [AGREEMENT, MIN_SCORE, MAX_REMAINING_FRACTION] = [0.9, 0.8, 0.3];
+/** Scores are correlations: minimum of logs that agree, minimum after a correction, and maximum ratio of 1 − score after and before it. */
+const [MIN_AGREEMENT_SCORE, MIN_CORRECTED_SCORE, MAX_REMAINING_FRACTION] = [0.9, 0.8, 0.3];
 
-/** Returns true for a scale that wheels can have, as in the core. */
-const isPlausible = (scale: number) => scale >= 0.5 && scale <= 2;
+/** Returns true for a scale that an error of the wheels' size can explain. The core has the same limits. */
+const isPlausibleScale = (scale: number) => scale >= 0.5 && scale <= 2;
 
 /** Mean motion of a step, m or rad, below which the robot counts as standing. */
-const STANDSTILL = 1e-4;
+const MAX_STANDSTILL_MOTION = 1e-4;
 
-/** Motion beyond which a step is a jump, in units of the 90 % quantile. */
+/** Ratio of a motion to the 90 % quantile of all motions, above which the step is a jump. */
 const JUMP_FACTOR = 4;
 
 /** Agreement of two logs: correlation of their motions (−1 to 1), and best scales of the reference's lengths and angles. */
@@ -61,26 +61,26 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   const logs = { odometry, reference };
   const timesByRole = ROLES.map((role) => logs[role].data.t);
   const [from, to] = [Math.max(...timesByRole.map((t) => t[0])), Math.min(...timesByRole.map((t) => t[t.length - 1]))];
-  const step = Math.max(MIN_DURATION, (to - from) / MAX_STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
+  const step = Math.max(MIN_STEP_SECONDS, (to - from) / MAX_STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
   const stepCount = Math.floor((to - from) / step);
   if (!(stepCount >= MIN_STEPS)) return undefined;
-  const plainMotions = { odometry: motionsOf(odometry, from, step, stepCount), reference: motionsOf(reference, from, step, stepCount) };
-  const { score, length: factor, angle } = bestAgreementOf(plainMotions, step, true);
-  const triedCorrections = score >= AGREEMENT ? [] : ALL_CORRECTIONS.map(([name, at]) => {
-    const correctedMotions = { ...plainMotions, [at]: motionsOf(logs[at], from, step, stepCount, POSE_CORRECTIONS[name]) };
-    // A correction of the wrong log can give both logs the same error. The robot then drives in all directions in both logs.
-    // Mirrored headings are those of a compass, which grow clockwise from north: they may also have any offset.
-    return { name, at, factor, ...bestAgreementOf(correctedMotions, step, name === 'mirroredYaw'), straight: forwardness(correctedMotions.odometry) + forwardness(correctedMotions.reference) };
+  const uncorrectedMotions = { odometry: motionsOf(odometry, from, step, stepCount), reference: motionsOf(reference, from, step, stepCount) };
+  const { score, length: factor, angle } = bestAgreementOf(uncorrectedMotions, step, true);
+  const triedCorrections = score >= MIN_AGREEMENT_SCORE ? [] : ALL_CORRECTIONS.map(([name, at]) => {
+    const correctedMotions = { ...uncorrectedMotions, [at]: motionsOf(logs[at], from, step, stepCount, POSE_CORRECTIONS[name]) };
+    // A correction of the wrong log can give both logs the same error. In both the robot then seems to drive sideways.
+    // Compass headings grow clockwise from north. They are mirrored, and may also have any offset.
+    return { name, at, factor, ...bestAgreementOf(correctedMotions, step, name === 'mirroredYaw'), forwardness: forwardness(correctedMotions.odometry) + forwardness(correctedMotions.reference) };
   });
-  const minScore = Math.max(MIN_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
-  const best = greatest(triedCorrections.filter((tried) => tried.score >= minScore && isPlausible(tried.length) && isPlausible(tried.angle)), (tried) => tried.score + tried.straight);
+  const minScore = Math.max(MIN_CORRECTED_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
+  const best = greatest(triedCorrections.filter((candidate) => candidate.score >= minScore && isPlausibleScale(candidate.length) && isPlausibleScale(candidate.angle)), (candidate) => candidate.score + candidate.forwardness);
   if (best) return best;
-  if (score < MIN_SCORE) return undefined;
-  if (!isPlausible(factor)) return { name: 'lengths', at: 'reference', score, factor };
-  return isPlausible(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor };
+  if (score < MIN_CORRECTED_SCORE) return undefined;
+  if (!isPlausibleScale(factor)) return { name: 'lengths', at: 'reference', score, factor };
+  return isPlausibleScale(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor };
 }
 
-/** Returns the motions of a log in steps after a time. */
+/** Returns the motions of a log in equal steps, from a start time on. */
 function motionsOf({ data }: Log, from: number, step: number, count: number, correct = (pose: Pose) => pose): Motion[] {
   const path = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
   const correctedPath = { ...path, poses: path.poses.map(correct) };
@@ -95,13 +95,13 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
 /**
  * Returns the agreement of two logs at the smallest clock offset at which they agree, or at the best offset if they do not agree.
  *
- * @param anyYaw true if the reference may have any mount yaw
+ * @param anyYaw true if the headings of the logs may differ by any constant angle
  */
 function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
   const maxLag = Math.round(MAX_CLOCK_OFFSET / step);
   const [odo, ref] = [withoutJumps(odometry), withoutJumps(reference)];
   let best: Agreement = { score: -1, length: 1, angle: 1 };
-  for (let i = 0; i <= 2 * maxLag && best.score < AGREEMENT; i++) {
+  for (let i = 0; i <= 2 * maxLag && best.score < MIN_AGREEMENT_SCORE; i++) {
     const agreement = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag, anyYaw);
     if (agreement.score > best.score) best = agreement;
   }
@@ -110,30 +110,30 @@ function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: 
 
 /** Returns motions with jumps replaced by zeros. */
 function withoutJumps(motions: Motion[]): Motion[] {
-  const limitOf = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(STANDSTILL, quantile(Float64Array.from(motions, size), 0.9));
-  const [maxDrive, maxTurn] = [limitOf(([forward, left]) => Math.hypot(forward, left)), limitOf(([, , turn]) => Math.abs(turn))];
+  const jumpLimit = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(MAX_STANDSTILL_MOTION, quantile(Float64Array.from(motions, size), 0.9));
+  const [maxDrive, maxTurn] = [jumpLimit(([forward, left]) => Math.hypot(forward, left)), jumpLimit(([, , turn]) => Math.abs(turn))];
   return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= maxDrive && Math.abs(motion[2]) <= maxTurn ? motion : [0, 0, 0]));
 }
 
 /** Returns the agreement at a clock offset of `lag` steps. Its score is −1 if fewer than half of `count` steps overlap. */
 function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count: number, anyYaw: boolean): Agreement {
-  // Sums of products of the motions: odometry squared, odometry times reference (`across`: turned by 90°), reference squared.
-  let [drives, bothDrives, across, refDrives, turns, bothTurns, refTurns] = [0, 0, 0, 0, 0, 0, 0];
+  // Sums of squares and products of the motions. `across` is the cross product of the displacements, and `driveProducts` their dot product.
+  let [odoDriveSquares, driveProducts, across, refDriveSquares, odoTurnSquares, turnProducts, refTurnSquares] = [0, 0, 0, 0, 0, 0, 0];
   const [first, end] = [Math.max(0, -lag), Math.min(odometry.length, reference.length - lag)];
   for (let i = first; i < end; i++) {
     const [odo, ref] = [odometry[i], reference[i + lag]];
-    drives += odo[0] * odo[0] + odo[1] * odo[1];
-    bothDrives += odo[0] * ref[0] + odo[1] * ref[1];
+    odoDriveSquares += odo[0] * odo[0] + odo[1] * odo[1];
+    driveProducts += odo[0] * ref[0] + odo[1] * ref[1];
     across += odo[0] * ref[1] - odo[1] * ref[0];
-    refDrives += ref[0] * ref[0] + ref[1] * ref[1];
-    turns += odo[2] * odo[2];
-    bothTurns += odo[2] * ref[2];
-    refTurns += ref[2] * ref[2];
+    refDriveSquares += ref[0] * ref[0] + ref[1] * ref[1];
+    odoTurnSquares += odo[2] * odo[2];
+    turnProducts += odo[2] * ref[2];
+    refTurnSquares += ref[2] * ref[2];
   }
   if (2 * (end - first) < count) return { score: -1, length: 1, angle: 1 };
   // For a robot that only drives straight or only turns on the spot, one of the two correlations is undefined.
-  const [drive, turn] = [[drives, anyYaw ? Math.hypot(bothDrives, across) : bothDrives, refDrives], [turns, bothTurns, refTurns]].map(([odo, both, ref]) =>
-    (Math.sqrt(Math.max(odo, ref) / (end - first)) < STANDSTILL ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(odo * ref || 1), scale: odo / both }));
+  const [drive, turn] = [[odoDriveSquares, anyYaw ? Math.hypot(driveProducts, across) : driveProducts, refDriveSquares], [odoTurnSquares, turnProducts, refTurnSquares]].map(([odo, both, ref]) =>
+    (Math.sqrt(Math.max(odo, ref) / (end - first)) < MAX_STANDSTILL_MOTION ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(odo * ref || 1), scale: odo / both }));
   return { score: Math.min(drive.correlation, turn.correlation), length: drive.scale, angle: turn.scale };
 }
 

@@ -1,31 +1,31 @@
 /** Sentences about logs, in German. */
 
 import type { Correction } from './corrections.ts';
-import { REPAIRS } from './en.ts';
+import { REPAIR_COMMANDS } from './en.ts';
 import type { Words } from './log-error.ts';
-import type { Basis, Cause, Summary } from './log.ts';
+import type { UnitBasis, DropCause, Summary } from './log.ts';
 
-const FIELDS: Record<string, string> = { t: 'Zeit', x: 'x', y: 'y', yaw: 'Gierwinkel', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'Geschwindigkeit v', omega: 'Drehrate ω' };
+const FIELD_NAMES: Record<string, string> = { t: 'Zeit', x: 'x', y: 'y', yaw: 'Gierwinkel', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'Geschwindigkeit v', omega: 'Drehrate ω' };
 
-const NEEDED = {
+const NEEDED_COLUMNS = {
   poses: 'x, y und yaw (oder qx, qy, qz und qw)',
   either: 'x, y und yaw (oder qx, qy, qz und qw), oder v und omega',
 };
 
 const POSE_TYPES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose, Pose2D oder tf2_msgs/TFMessage';
 const COMMAND_TYPES = 'geometry_msgs/Twist, TwistStamped oder TwistWithCovarianceStamped';
-const TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, oder ${COMMAND_TYPES}`, transforms: 'tf2_msgs/TFMessage, worin Koordinatensysteme sind' };
+const MESSAGE_TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, oder ${COMMAND_TYPES}`, transforms: 'tf2_msgs/TFMessage, worin Koordinatensysteme sind' };
 
-const ROLES = { odometry: 'Odometrie', reference: 'Referenz' };
+const ROLE_NAMES = { odometry: 'Odometrie', reference: 'Referenz' };
 
-const withNoun = (count: number, one: string, more: string) => `${count} ${count === 1 ? one : more}`;
-const comma = (value: number, digits: number) => value.toFixed(digits).replace('.', ',');
+const countWithNoun = (count: number, one: string, more: string) => `${count} ${count === 1 ? one : more}`;
+const withDecimalComma = (value: number, digits: number) => value.toFixed(digits).replace('.', ',');
 
-const BY: Record<Basis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', date: ' (aus Datumsangaben)', option: ' (wie angegeben)', usage: '' };
+const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', date: ' (aus Datumsangaben)', option: ' (wie angegeben)', usage: '' };
 
-const ANGLES: Record<Summary['units']['angle']['unit'], string> = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
+const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
 
-const REASONS: Record<Cause, string> = {
+const DROP_REASONS: Record<DropCause, string> = {
   damaged: 'beschädigte Nachrichten',
   notFinite: 'keine endliche Zahl',
   noRotation: 'ein Quaternion, das keine Drehung ist',
@@ -55,7 +55,7 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
   parquet: 'eine Parquet-Tabelle; als CSV exportieren.',
 };
 
-const CORRECTIONS: Record<Correction['name'], (other: string, factor: number) => string> = {
+const CORRECTION_TEXTS: Record<Correction['name'], (other: string, factor: number) => string> = {
   mirroredX: (other) => `ihre x-Achse ist gegenüber ihrer Richtung und ${other} gespiegelt; x negieren`,
   mirroredY: (other) => `ihre y-Achse ist gegenüber ihrer Richtung und ${other} gespiegelt; y negieren`,
   mirroredYaw: (other) => `ihre Richtung hat das falsche Vorzeichen, verglichen mit ihrer Bahn und ${other}; die Richtung negieren: Sie wächst gegen den Uhrzeigersinn`,
@@ -76,12 +76,12 @@ export const german: Words = {
     noLog: 'sie sieht nicht wie ein Log aus, denn sie hat keine Zeilen mit Zahlen; erwartet wird eine Tabelle mit einer Kopfzeile wie „t,x,y,yaw“ und darunter einer Zeile je Zeitpunkt, oder eine Aufzeichnung von ROS.',
     noTime: (columns) =>
       `keine der Spalten ${columns} ist die Zeit; erwartet wird eine mit dem Namen t, time, timestamp oder stamp, oder zwei mit sec und nanosec, oder eine Auswahl der Spalten.`,
-    noColumns: (neededFields, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED[neededFields]}, oder eine Auswahl der Spalten.`,
-    twice: (field, column, otherColumn) => `sowohl „${column}“ als auch „${otherColumn}“ kann die Spalte „${FIELDS[field]}“ sein; erwartet wird eines davon.`,
-    cells: (count, needed) => `die Zeile hat ${withNoun(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
+    noColumns: (neededFields, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED_COLUMNS[neededFields]}, oder eine Auswahl der Spalten.`,
+    twice: (field, column, otherColumn) => `sowohl „${column}“ als auch „${otherColumn}“ kann die Spalte „${FIELD_NAMES[field]}“ sein; erwartet wird eines davon.`,
+    cells: (count, needed) => `die Zeile hat ${countWithNoun(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
     wide: (count, needed, header) =>
-      `die Zeile hat ${withNoun(count, 'Feld', 'Felder')} und der Kopf in Zeile ${header} ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen oder Semikolons zwischen Feldern.`,
-    given: (cellCount, nameCount) => `die Zeile hat ${withNoun(cellCount, 'Feld', 'Felder')}, und --columns nennt ${nameCount}; alle Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden.`,
+      `die Zeile hat ${countWithNoun(count, 'Feld', 'Felder')} und der Kopf in Zeile ${header} ${needed}; erwartet werden gleich viele, mit Dezimalpunkten in Zahlen oder Semikolons zwischen Feldern.`,
+    given: (cellCount, nameCount) => `die Zeile hat ${countWithNoun(cellCount, 'Feld', 'Felder')}, und --columns nennt ${nameCount}; alle Spalten der Reihe nach nennen, mit - für die, die nicht gelesen werden.`,
     noHeader: (count, row) =>
       `die Tabelle hat keinen Kopf, und ihre erste Zeile ist „${row}“; ihre ${count} Spalten benennen.`,
     noTable: (notation) => `das ist ${notation} und keine Tabelle; eine Zeile je Zeitpunkt schreiben, wie mit ros2 topic echo --csv, rostopic echo -p oder pandas, oder die Aufzeichnung selbst angeben.`,
@@ -93,7 +93,7 @@ export const german: Words = {
     tilted: 'die Posen drehen sich nicht um eine senkrechte Z-Achse; erwartet werden Quaternionen in der Reihenfolge des Kopfs auf einer Ebene mit Z nach oben. Mit Z nach oben exportieren, oder die Spalten auswählen.',
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${frames}); nur die eines davon behalten.`,
     unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird s, ms, us oder ns, m, cm oder mm, und rad oder deg.`,
-    turns: (metres) => `Posen zweier Wege wechseln sich ab, ${comma(metres, 2)} m auseinander: Sie sind von zwei Robotern, oder von zwei Knoten, die auf einem Topic senden; nur die eines davon behalten.`,
+    turns: (metres) => `Posen zweier Wege wechseln sich ab, ${withDecimalComma(metres, 2)} m auseinander: Sie sind von zwei Robotern, oder von zwei Knoten, die auf einem Topic senden; nur die eines davon behalten.`,
     manyBad: (bad, rows, percent) => `${bad} von ${rows} Zeilen haben Text statt einer Zahl oder zu wenige Zellen; erlaubt sind ${percent} % solcher Zeilen.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' ohne Tausendertrennung' : /^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : /\d[/:-]\d/.test(value) ? ', oder ein Datum wie 2024-01-31 12:00:00.5' : ''}.`,
     rows: (max) => `es sind mehr Zeilen; erwartet werden höchstens ${max}.`,
@@ -104,7 +104,7 @@ export const german: Words = {
       `in ${time} und anderen Zeiten fehlen die führenden Nullen nach dem Punkt; Sekunden und Nanosekunden in zwei Spalten schreiben, oder als %d.%09d.`,
     sameTimes: (count, rows, message) =>
       `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation oder ein Format wie %.9e kann sie gerundet haben).`,
-    few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,
+    few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${DROP_REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,
     timeUnit: (rate, unit, choices) =>
       `in ${unit} wären es ${rate.toPrecision(3)} Zeilen je Sekunde; ${choices.length ? `die Einheit der Zeiten angeben: ${choices.join(' oder ')}` : 'sie in s schreiben, oder als Datum wie 2024-01-31 12:00:00.5 (Tabellenprogramme zählen Tage)'}.`,
     lengthUnit: (speed, unit, choices) =>
@@ -112,19 +112,19 @@ export const german: Words = {
     angleUnit: (turn, unit, choices) =>
       `Richtungen in ${unit} drehten sich mit ${turn.toPrecision(3)} rad/s und passen nicht zur Bahn oder zu ihrem Bereich; ihre Einheit angeben: ${choices.join(' oder ')}.`,
     damaged: (reason) => `keine der Nachrichten lässt sich lesen (${reason}); erwartet wird eine unbeschädigte Aufzeichnung.`,
-    incomplete: (format) => `sie ist unvollständig und endet vor ihrem ersten ganzen Block von Nachrichten; noch einmal vom Roboter kopieren, oder „${REPAIRS[format]}“ versuchen, wenn sie auch dort so endet.`,
+    incomplete: (format) => `sie ist unvollständig und endet vor ihrem ersten ganzen Block von Nachrichten; noch einmal vom Roboter kopieren, oder „${REPAIR_COMMANDS[format]}“ versuchen, wenn sie auch dort so endet.`,
     largeFile: (command, max) => `sie hat dekomprimiert mehr als ${max} Bytes; mit „${command}“ dekomprimieren und das Ergebnis angeben.`,
     noRosbag2: 'das ist eine SQLite-Datenbank ohne die Tabellen „topics“ und „messages“ von rosbag2; erwartet wird eine Aufzeichnung von „ros2 bag record“.',
     notRosbag2: 'sie steht in der metadata.yaml einer Aufzeichnung und ist keine; erwartet wird eine MCAP- oder .db3-Datei.',
     notRead: (format) => `das ist ${UNSUPPORTED_FORMATS[format]}`,
     noFiles: (files) => `sie beschreibt eine Aufzeichnung in ${files}; auch diese Datei angeben, oder den ganzen Ordner.`,
     noTopic: (topics) => `dieses Topic gibt es nicht; erwartet wird eines von ${topics}.`,
-    noTopics: (topics) => `die Topics sind ${topics}; erwartet wird eines vom Typ ${TYPES.either}.`,
+    noTopics: (topics) => `die Topics sind ${topics}; erwartet wird eines vom Typ ${MESSAGE_TYPES.either}.`,
     alone: (series, role) =>
-      `es ist nur ${role ? `die ${ROLES[role]}` : 'ein Log'} darin, ${series}; gebraucht ${role ? `wird auch die ${ROLES[role === 'odometry' ? 'reference' : 'odometry']}` : 'werden Odometrie und Referenz'}.`,
-    lacks: (role, series) => `nach Namen und Typen ist keine ${ROLES[role]} darin, sondern ${series}; eines davon auswählen, oder auch eine Datei mit der ${ROLES[role]} angeben.`,
-    choose: (role, series) => `es ist nicht klar, was die ${ROLES[role]} ist: ${series}.`,
-    type: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${TYPES[neededType]}.`,
+      `es ist nur ${role ? `die ${ROLE_NAMES[role]}` : 'ein Log'} darin, ${series}; gebraucht ${role ? `wird auch die ${ROLE_NAMES[role === 'odometry' ? 'reference' : 'odometry']}` : 'werden Odometrie und Referenz'}.`,
+    lacks: (role, series) => `nach Namen und Typen ist keine ${ROLE_NAMES[role]} darin, sondern ${series}; eines davon auswählen, oder auch eine Datei mit der ${ROLE_NAMES[role]} angeben.`,
+    choose: (role, series) => `es ist nicht klar, was die ${ROLE_NAMES[role]} ist: ${series}.`,
+    type: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${MESSAGE_TYPES[neededType]}.`,
     encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr von ROS 2, oder ros1.`,
     types: (types) => `seine Nachrichten haben die Typen ${types}; erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
     publishers: (nodes) => `mehrere Knoten senden abwechselnd darauf (${nodes}); erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
@@ -138,7 +138,7 @@ export const german: Words = {
     same: (other) => `sie hat dieselbe Bewegung wie ${other}; gebraucht werden zwei unabhängige Messungen einer Fahrt.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     ownReference: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
-    correction: (name, other, score, factor) => `${CORRECTIONS[name](other, factor)}. Damit stimmen die Bewegungen überein (Korrelation ${comma(score, 2)}).`,
+    correction: (name, other, score, factor) => `${CORRECTION_TEXTS[name](other, factor)}. Damit stimmen die Bewegungen überein (Korrelation ${withDecimalComma(score, 2)}).`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; Namen wie odom1.csv, truth1.csv, odom2.csv, … sagen es, oder eine Auswahl.',
     unpaired: (odometry, reference) => `die Odometrie ist in ${odometry || 'keiner Datei'}, und die Referenz in ${reference || 'keiner Datei'}; gebraucht wird je eines für eine Fahrt.`,
@@ -148,7 +148,7 @@ export const german: Words = {
     noTransforms: (series) => `es gibt keine Transformationen zwischen Frames; es gibt ${series}.`,
   },
   choose: {
-    roles: ROLES,
+    roles: ROLE_NAMES,
     open: 'auswählen',
     skipped: (reason) => `Nicht verwendet: ${reason}`,
     byOrder: 'Kein Name sagt, was welche ist: Stimmt das?',
@@ -158,7 +158,7 @@ export const german: Words = {
     units: { s: 'Sekunden (s)', ms: 'Millisekunden (ms)', us: 'Mikrosekunden (µs)', ns: 'Nanosekunden (ns)', m: 'Meter (m)', cm: 'Zentimeter (cm)', mm: 'Millimeter (mm)', rad: 'Radiant (rad)', deg: 'Grad (°)' },
     columns: (file) => `Spalten von ${file}`,
     column: (number, cell) => `Spalte ${number}: ${cell}`,
-    fields: FIELDS,
+    fields: FIELD_NAMES,
     none: 'keine',
     read: 'Lesen',
     other: 'Die andere Datei auch hierher ziehen oder wählen, oder beide zugleich.',
@@ -168,23 +168,23 @@ export const german: Words = {
     drive: (number) => `Fahrt ${number}`,
     paths: (width, height) => `Bahnen von oben: Referenz (durchgezogen) und Odometrie (gestrichelt), an ihr ausgerichtet; ${width} m mal ${height} m.`,
     labels: { rows: 'gelesen', columns: 'Spalten', units: 'Einheiten', frames: 'Koordinatensysteme', clock: 'Zeiten', dropped: 'weggelassen', gaps: 'Lücken', jumps: 'Sprünge', notes: 'Hinweise' },
-    rows: (used, rows, seconds, rate, distance) => `${used} von ${rows} Zeilen, ${comma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz, ${comma(distance, 1)} m gefahren`,
+    rows: (used, rows, seconds, rate, distance) => `${used} von ${rows} Zeilen, ${withDecimalComma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz, ${withDecimalComma(distance, 1)} m gefahren`,
     units: ({ time, length, angle }) =>
-      `Zeit in ${time.unit}${BY[time.by]}, Längen in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
-    dropped: (reason, count, line) => `${withNoun(count, 'Zeile', 'Zeilen')}${line ? ` ${count === 1 ? 'in' : 'ab'} Zeile ${line}` : ''}: ${REASONS[reason]}`,
+      `Zeit in ${time.unit}${UNIT_BASIS_TEXTS[time.by]}, Längen in ${length.unit}${UNIT_BASIS_TEXTS[length.by]}${ANGLE_UNIT_TEXTS[angle.unit] ? `, ${ANGLE_UNIT_TEXTS[angle.unit]}${UNIT_BASIS_TEXTS[angle.by]}` : ''}`,
+    dropped: (reason, count, line) => `${countWithNoun(count, 'Zeile', 'Zeilen')}${line ? ` ${count === 1 ? 'in' : 'ab'} Zeile ${line}` : ''}: ${DROP_REASONS[reason]}`,
     noGaps: 'keine',
-    gaps: (count, first, longest) => `${count}, die erste ${comma(first, 2)} s nach dem Start, die längste von ${comma(longest, 2)} s`,
-    jumps: (count, first) => `${count}, der erste ${comma(first, 2)} s nach dem Start`,
+    gaps: (count, first, longest) => `${count}, die erste ${withDecimalComma(first, 2)} s nach dem Start, die längste von ${withDecimalComma(longest, 2)} s`,
+    jumps: (count, first) => `${count}, der erste ${withDecimalComma(first, 2)} s nach dem Start`,
     recorded: 'die der Aufzeichnung, da die Header keine oder immer dieselben haben',
     notes: {
       missing: (files) => `die Dateien ${files} der Aufzeichnung fehlen`,
-      damaged: (count, reason) => `${withNoun(count, 'beschädigter Block', 'beschädigte Blöcke')} übersprungen (${reason})`,
+      damaged: (count, reason) => `${countWithNoun(count, 'beschädigter Block', 'beschädigte Blöcke')} übersprungen (${reason})`,
       cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
       noZone: 'Datumsangaben ohne Zeitzone gelten als UTC',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
-      clockSet: (time, seconds) => `${comma(time, 2)} s nach dem Beginn springen die Zeiten um ${comma(seconds, 2)} s, und der Roboter fährt von derselben Stelle weiter, als wäre die Uhr gestellt worden: das Log dort teilen, oder Zeiten einer anderen Uhr verwenden`,
+      clockSet: (time, seconds) => `${withDecimalComma(time, 2)} s nach dem Beginn springen die Zeiten um ${withDecimalComma(seconds, 2)} s, und der Roboter fährt von derselben Stelle weiter, als wäre die Uhr gestellt worden: das Log dort teilen, oder Zeiten einer anderen Uhr verwenden`,
       rollover: (line) => `die Uhr beginnt in Zeile ${line} wieder bei 0; Zeiten ab dort setzen die vorigen fort`,
-      sorted: (count) => `${withNoun(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
+      sorted: (count) => `${countWithNoun(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       swapped: (odometry, by) =>
         `${by === 'name' ? `sie heißt wie eine Odometrie, und ${odometry} nicht` : `sie wiederholt im Stand genau ihre Pose, wie die Odometrie von Rädern, und ${odometry} nicht`}: Ist die Odometrie als Referenz angegeben?`,
       apart: (name, period, otherPeriod) => `keine Zeit gemeinsam mit ${name} (${period}, und ${otherPeriod}): Die Uhren werden nach den Drehungen des Roboters gestellt`,

@@ -1,92 +1,92 @@
 /** Search for the odometry and the reference of each drive in recordings. */
 
-import { GOAL_NAMES, candidates, isTable, likeliestFrames, seriesNamesFor, roleByName, seriesNamed, readableSeries } from './candidates.ts';
-import { LogError, listing } from './log-error.ts';
-import { ROLES, framesOption, framesText, type Choice, type Frames, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
-import { isSamePath, pairLogs, pairedByTime, withStart, type Drive } from './pairs.ts';
+import { GOAL_NAMES, findCandidates, isTable, likeliestFrames, seriesNamesFor, roleByName, seriesNamed, readableSeries } from './candidates.ts';
+import { LogError, listNames } from './log-error.ts';
+import { ROLES, framesOption, framesText, type LogChoice, type FramePair, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
+import { isSamePath, pairLogs, matchLogs, withStart, type Drive } from './pairs.ts';
 
 export type { Drive };
 
-/** Recording, and the choice of a log in it. */
-export interface RecordingChoice { recording: Recording; choice: Choice }
+/** Recording, and the log that is chosen in it. */
+export interface RecordingChoice { recording: Recording; choice: LogChoice }
 
-/** Plan of reading: drives with both logs, and single logs that are paired by their times after they are read. */
+/** Plan of the logs to read: drives with both logs, and single logs that are paired after they are read. */
 export interface LogPlan {
   drives: Record<Role, RecordingChoice>[];
   unpaired: Record<Role, RecordingChoice[]>;
-  /** True if neither the names nor the contents of two files show their roles. The first file is then the odometry. */
-  isByOrder: boolean;
+  /** True if the roles of two files follow only from their order, odometry first: neither names nor contents show them. */
+  hasRolesByOrder: boolean;
   /** Errors of recordings that are left out, because none of their topics can be read. */
   unused: LogError[];
 }
 
 /** Choices of the user. Missing ones are guessed. */
-export interface Wishes {
+export interface UserChoices {
   /** `series` is the name of a series, or a prefix of names without the separator that follows. `frames` selects among transforms. */
-  odometry?: { series?: string; frames?: Frames };
-  reference?: { series?: string; frames?: Frames };
+  odometry?: { series?: string; frames?: FramePair };
+  reference?: { series?: string; frames?: FramePair };
   /** Kind of odometry: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
   kind?: LogKind;
-  /** Roles that the user gave to recordings with one log. */
+  /** Roles that the user chose for recordings with one log. */
   roles?: ReadonlyMap<Recording, Role>;
 }
 
-/** Returns the series with their types, for a sentence. */
-const describeSeries = (series: Series[]) => listing(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+( as |$))/, '')})` : type)));
+/** Returns the names and types of series, for a sentence. */
+const describeSeries = (series: Series[]) => listNames(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+( as |$))/, '')})` : type)));
 
-const isSame = (one: Choice, other?: Choice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
+const isSameChoice = (one: LogChoice, other?: LogChoice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
 
 /** Assigns the logs of recordings to drives. Throws a LogError, which has a question if the choice is ambiguous. */
-export function planDrives(all: Recording[], wishes: Wishes = {}): LogPlan {
-  const usableRecordings = all.filter((recording) => wishes.roles?.has(recording) || readableSeries(recording).length > 0);
+export function planDrives(all: Recording[], userChoices: UserChoices = {}): LogPlan {
+  const usableRecordings = all.filter((recording) => userChoices.roles?.has(recording) || readableSeries(recording).length > 0);
   const recordings = usableRecordings.length > 0 ? usableRecordings : all;
   const unpaired: LogPlan['unpaired'] = { odometry: [], reference: [] };
-  const plan: LogPlan = { drives: [], unpaired, isByOrder: false, unused: all.filter((recording) => !recordings.includes(recording)).map(unusable) };
+  const plan: LogPlan = { drives: [], unpaired, hasRolesByOrder: false, unused: all.filter((recording) => !recordings.includes(recording)).map(unusable) };
   const unnamedRecordings: Recording[] = [];
   for (const recording of recordings) {
-    const role = wishes.roles?.get(recording) ?? (recordings.length > 1 ? onlyRole(recording, wishes) : 'both');
-    if (role === 'both') plan.drives.push(bothLogsOf(recording, wishes));
-    else if (role) plan.unpaired[role].push({ recording, choice: chooseLog(recording, role, wishes) });
+    const role = userChoices.roles?.get(recording) ?? (recordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both');
+    if (role === 'both') plan.drives.push(chooseBothLogs(recording, userChoices));
+    else if (role) plan.unpaired[role].push({ recording, choice: chooseLog(recording, role, userChoices) });
     else unnamedRecordings.push(recording);
   }
   const { odometry, reference } = unpaired;
-  plan.isByOrder = odometry.length + reference.length === 0 && unnamedRecordings.length === 2;
+  plan.hasRolesByOrder = odometry.length + reference.length === 0 && unnamedRecordings.length === 2;
   for (const [i, recording] of unnamedRecordings.entries()) {
     // If no name shows a role, the order of two files or the roles of the other files determine it.
-    const role = plan.isByOrder ? ROLES[i]
+    const role = plan.hasRolesByOrder ? ROLES[i]
       : 2 * odometry.length >= recordings.length ? 'reference'
         : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
     if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole, { what: 'roles', choices: [] });
-    plan.unpaired[role].push({ recording, choice: chooseLog(recording, role, wishes) });
+    plan.unpaired[role].push({ recording, choice: chooseLog(recording, role, userChoices) });
   }
   // A separate file of one role replaces the log of that role in a recording that has both.
   const missingRole = odometry.length < reference.length ? 'odometry' : 'reference';
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[missingRole].push(...plan.drives.splice(0).map((drive) => drive[missingRole]));
   if (odometry.length !== reference.length) {
-    const longer = odometry.length > reference.length ? odometry : reference;
-    // If a recording also has the missing log, but it is not clear which one it is, the error about that choice is more helpful.
-    for (const { recording } of longer) attempt(() => bothLogsOf(recording, wishes), ({ ask }) => ask?.what !== 'series');
-    const [first] = longer;
-    const namesOf = (parts: RecordingChoice[]) => listing(parts.map(({ recording }) => recording.name));
+    const longerList = odometry.length > reference.length ? odometry : reference;
+    // The missing log may be ambiguous in a recording that has both. The error about that choice is then more helpful.
+    for (const { recording } of longerList) valueUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ ask }) => ask?.what !== 'series');
+    const [first] = longerList;
+    const recordingNames = (parts: RecordingChoice[]) => listNames(parts.map(({ recording }) => recording.name));
     const isSameFile = recordings.length === 2 && recordings[0].name === recordings[1].name;
-    throw new LogError({ file: first.recording.name }, (say) => (isSameFile ? say.givenTwice : say.unpaired(namesOf(odometry), namesOf(reference))), isSameFile ? undefined : { what: 'roles', choices: [] });
+    throw new LogError({ file: first.recording.name }, (say) => (isSameFile ? say.givenTwice : say.unpaired(recordingNames(odometry), recordingNames(reference))), isSameFile ? undefined : { what: 'roles', choices: [] });
   }
   return plan;
 }
 
-/** Returns the role of a recording among several, by its name or contents; undefined if it has one log and nothing shows its role. */
-function onlyRole(recording: Recording, wishes: Wishes): Role | 'both' | undefined {
-  if (attempt(() => bothLogsOf(recording, wishes))) return 'both';
-  const [isOdometry, isReference] = ROLES.map((role) => attempt(() => chooseLog(recording, role, wishes)) !== undefined);
+/** Returns the role of one of several recordings, by its name or contents; undefined if it has one log and nothing shows the role. */
+function roleOfRecording(recording: Recording, userChoices: UserChoices): Role | 'both' | undefined {
+  if (valueUnlessLogError(() => chooseBothLogs(recording, userChoices))) return 'both';
+  const [isOdometry, isReference] = ROLES.map((role) => valueUnlessLogError(() => chooseLog(recording, role, userChoices)) !== undefined);
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
   // Several bodies of one file are ambiguous in both roles.
-  const hasLogs = isOdometry || ROLES.every((role) => candidates(recording, role, wishes).some(({ length }) => length > 0));
+  const hasLogs = isOdometry || ROLES.every((role) => findCandidates(recording, role, userChoices).some(({ length }) => length > 0));
   if (!hasLogs) return 'both';
   return roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);
 }
 
 /** Returns the result of a function, or undefined if it throws an expected LogError. */
-function attempt<Result>(work: () => Result, isExpected: (error: LogError) => boolean = () => true): Result | undefined {
+function valueUnlessLogError<Result>(work: () => Result, isExpected: (error: LogError) => boolean = () => true): Result | undefined {
   try {
     return work();
   } catch (error) {
@@ -96,13 +96,13 @@ function attempt<Result>(work: () => Result, isExpected: (error: LogError) => bo
 }
 
 /** Returns both logs of one recording. */
-function bothLogsOf(recording: Recording, wishes: Wishes): Record<Role, RecordingChoice> {
+function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<Role, RecordingChoice> {
   // A series that the user chose as the reference is not guessed as the odometry.
-  const { series, frames } = wishes.reference ?? {};
-  const chosenReference = series !== undefined || frames ? chooseLog(recording, 'reference', wishes) : undefined;
-  const odometry = attempt(() => chooseLog(recording, 'odometry', wishes, chosenReference)) ?? chooseLog(recording, 'odometry', wishes);
-  const reference = chosenReference ?? chooseLog(recording, 'reference', wishes, odometry);
-  if (isSame(odometry, reference)) {
+  const { series, frames } = userChoices.reference ?? {};
+  const chosenReference = series !== undefined || frames ? chooseLog(recording, 'reference', userChoices) : undefined;
+  const odometry = valueUnlessLogError(() => chooseLog(recording, 'odometry', userChoices, chosenReference)) ?? chooseLog(recording, 'odometry', userChoices);
+  const reference = chosenReference ?? chooseLog(recording, 'reference', userChoices, odometry);
+  if (isSameChoice(odometry, reference)) {
     const ask = { what: 'series' as const, role: 'reference' as const, choices: seriesNamesFor(recording, 'reference').filter((name) => name !== reference.series) };
     throw new LogError({ file: recording.name, topic: reference.series }, (say) => say.ownReference(reference.frames ? framesText(reference.frames) : reference.series), ask);
   }
@@ -110,14 +110,14 @@ function bothLogsOf(recording: Recording, wishes: Wishes): Record<Role, Recordin
 }
 
 /** Returns the choice of a log for a role, different from `other`, the choice for the other role. */
-function chooseLog(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
-  const { series, frames } = wishes[role] ?? {};
-  return series !== undefined || frames ? wishedChoice(recording, role, wishes) : guessedChoice(recording, role, wishes, other);
+function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, other?: LogChoice): LogChoice {
+  const { series, frames } = userChoices[role] ?? {};
+  return series !== undefined || frames ? resolveRequestedChoice(recording, role, userChoices) : guessChoice(recording, role, userChoices, other);
 }
 
-function wishedChoice(recording: Recording, role: Role, wishes: Wishes): Choice {
-  const { series, frames } = wishes[role] ?? {};
-  const kind = role === 'reference' ? 'poses' : wishes.kind;
+function resolveRequestedChoice(recording: Recording, role: Role, userChoices: UserChoices): LogChoice {
+  const { series, frames } = userChoices[role] ?? {};
+  const kind = role === 'reference' ? 'poses' : userChoices.kind;
   const namedSeries = series === undefined
     ? recording.series.find((entry) => entry.frames)
     : seriesNamed(recording.series, series);
@@ -125,23 +125,23 @@ function wishedChoice(recording: Recording, role: Role, wishes: Wishes): Choice 
     const names = seriesNamesFor(recording, role);
     throw new LogError(
       { file: recording.name, topic: series },
-      (say) => (isTable(recording) ? say.noGroup(describeSeries(recording.series)) : series === undefined ? say.noTransforms(describeSeries(readableSeries(recording))) : say.noTopic(listing(names))),
+      (say) => (isTable(recording) ? say.noGroup(describeSeries(recording.series)) : series === undefined ? say.noTransforms(describeSeries(readableSeries(recording))) : say.noTopic(listNames(names))),
       { what: 'series', role, choices: names },
     );
   }
   if (namedSeries.kind !== 'transforms' || frames) return { series: namedSeries.name, ...(kind && { kind }), ...(frames && { frames }) };
-  const [chains = []] = candidates(recording, role, wishes).map((tier) => tier.filter((choice) => choice.series === namedSeries.name)).filter(({ length }) => length);
+  const [chains = []] = findCandidates(recording, role, userChoices).map((tier) => tier.filter((choice) => choice.series === namedSeries.name)).filter(({ length }) => length);
   if (chains.length === 1) return chains[0];
   throw framesError(recording, namedSeries, role);
 }
 
 function framesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
   const frameTexts = [...new Set([...likeliestFrames(frames, role), ...frames])].map(framesOption);
-  return new LogError({ file, topic }, (say) => say.frames(listing(frames.map(framesText))), { what: 'frames', role, choices: frameTexts });
+  return new LogError({ file, topic }, (say) => say.frames(listNames(frames.map(framesText))), { what: 'frames', role, choices: frameTexts });
 }
 
-function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?: Choice): Choice {
-  const [bestChoices = []] = candidates(recording, role, wishes).map((tier) => tier.filter((choice) => !isSame(choice, other))).filter(({ length }) => length);
+function guessChoice(recording: Recording, role: Role, userChoices: UserChoices, other?: LogChoice): LogChoice {
+  const [bestChoices = []] = findCandidates(recording, role, userChoices).map((tier) => tier.filter((choice) => !isSameChoice(choice, other))).filter(({ length }) => length);
   // Among the best choices, those with the robot frame of the other log are preferred.
   const choicesOfSameRobot = bestChoices.filter(({ frames }) => frames && frames.child === other?.frames?.child);
   if (choicesOfSameRobot.length === 1) return choicesOfSameRobot[0];
@@ -150,15 +150,15 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   const usableSeries = readableSeries(recording);
   if (usableSeries.length === 0) throw unusable(recording);
   const chains = usableSeries.filter(({ kind }) => kind === 'transforms');
-  const isOnlyOther = other && chains.every(({ name: series, frames = [] }) => frames.every((ends) => isSame({ series, frames: ends }, other)));
-  if (chains.length === usableSeries.length && !isOnlyOther) throw framesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
+  const hasOnlyOtherChoice = other && chains.every(({ name: series, frames = [] }) => frames.every((ends) => isSameChoice({ series, frames: ends }, other)));
+  if (chains.length === usableSeries.length && !hasOnlyOtherChoice) throw framesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
   if (role === 'reference' && usableSeries.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (say) => say.noPoses(describeSeries(usableSeries)));
   const positionSeries = usableSeries.filter(({ name, kind }) => kind === 'positions' && !GOAL_NAMES.test(name));
   if (positionSeries.length === usableSeries.length || (role === 'reference' && bestChoices.length === 0 && positionSeries.length > 0)) {
     throw new LogError({ file }, (say) => say.positions(describeSeries(positionSeries)));
   }
   if (usableSeries.length === 1) {
-    const ownRole = knownRole(recording, usableSeries[0]) ?? (other?.frames && ROLES.find((otherRole) => otherRole !== role));
+    const ownRole = roleOfSeries(recording, usableSeries[0]) ?? (other?.frames && ROLES.find((otherRole) => otherRole !== role));
     throw new LogError({ file }, (say) => say.alone(describeSeries(usableSeries), ownRole), { what: 'other', role: ownRole, choices: [] });
   }
   throw new LogError(
@@ -168,30 +168,30 @@ function guessedChoice(recording: Recording, role: Role, wishes: Wishes, other?:
   );
 }
 
-/** Returns the error of a recording of which no series can be read. */
+/** Returns the error of a recording without a readable series. */
 function unusable({ name: file, series }: Recording): LogError {
   const shortSeries = series.find(({ kind }) => kind !== null);
   return new LogError({ file, topic: shortSeries?.name }, (say) => (shortSeries ? say.noMessages : say.noTopics(describeSeries(series))));
 }
 
 /** Returns the role of the only series of a recording by its contents or by the name of the file; undefined if neither shows it. */
-function knownRole({ name: file }: Recording, { name, type, kind, hasCommands }: Series): Role | undefined {
+function roleOfSeries({ name: file }: Recording, { name, type, kind, hasCommands }: Series): Role | undefined {
   if (kind === 'commands') return 'odometry';
   return roleByName(name) ?? (hasCommands || /Odometry$/.test(type) ? 'odometry' : roleByName(file));
 }
 
 /** Reads the logs of a plan and pairs them. Their times are relative to one start. Rejects with a LogError. */
 export async function readDrives({ drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>, onProgress?: (share: number) => void): Promise<Drive[]> {
-  const logReads = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...unpaired.odometry, ...unpaired.reference].map((part) => [part])];
+  const readGroups = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...unpaired.odometry, ...unpaired.reference].map((part) => [part])];
   const logs: Log[] = [];
-  for (const [i, parts] of logReads.entries()) {
+  for (const [i, parts] of readGroups.entries()) {
     const [{ recording }] = parts;
-    logs.push(...(await recording.read(parts.map(({ choice }) => choice), (share) => onProgress?.((i + share) / logReads.length))));
+    logs.push(...(await recording.read(parts.map(({ choice }) => choice), (share) => onProgress?.((i + share) / readGroups.length))));
   }
   const unpairedLogs = logs.splice(2 * drives.length);
   const logPairs: [Log, Log][] = [
     ...drives.map((_, i): [Log, Log] => [logs[2 * i], logs[2 * i + 1]]),
-    ...pairedByTime(unpairedLogs.slice(0, unpaired.odometry.length), unpairedLogs.slice(unpaired.odometry.length)),
+    ...matchLogs(unpairedLogs.slice(0, unpaired.odometry.length), unpairedLogs.slice(unpaired.odometry.length)),
   ];
   const pairedDrives = logPairs.map(([odometry, reference]) => pairLogs(odometry, reference));
   const [{ odometry: { start } }] = pairedDrives;

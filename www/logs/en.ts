@@ -1,12 +1,12 @@
 /** Sentences about logs, in English. */
 
 import type { Correction } from './corrections.ts';
-import type { Basis, Cause, Recording, Role, Summary } from './log.ts';
+import type { UnitBasis, DropCause, Recording, Role, Summary } from './log.ts';
 
 /** Fields of a table, as labels and sentences name them. */
-const FIELDS: Record<string, string> = { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' };
+const FIELD_NAMES: Record<string, string> = { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' };
 
-const NEEDED = {
+const NEEDED_COLUMNS = {
   poses: 'x, y and yaw (or qx, qy, qz and qw)',
   either: 'x, y and yaw (or qx, qy, qz and qw), or v and omega',
 };
@@ -14,15 +14,15 @@ const NEEDED = {
 /** ROS message types that a log of poses or commands can be read from. */
 const POSE_TYPES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose, Pose2D or tf2_msgs/TFMessage';
 const COMMAND_TYPES = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
-const TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, or ${COMMAND_TYPES}`, transforms: 'tf2_msgs/TFMessage, which has frames' };
+const MESSAGE_TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, or ${COMMAND_TYPES}`, transforms: 'tf2_msgs/TFMessage, which has frames' };
 
 /** Bases of decisions about units. */
-const BY: Record<Basis, string> = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', date: ' (from dates)', option: ' (as stated)', usage: '' };
+const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', date: ' (from dates)', option: ' (as stated)', usage: '' };
 
-const ANGLES: Record<Summary['units']['angle']['unit'], string> = { rad: 'yaw in rad', deg: 'yaw in degrees', quaternion: 'yaw from a quaternion', none: '' };
+const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { rad: 'yaw in rad', deg: 'yaw in degrees', quaternion: 'yaw from a quaternion', none: '' };
 
 /** Reasons for leaving rows out. */
-const REASONS = {
+const DROP_REASONS = {
   damaged: 'damaged messages',
   notFinite: 'a value that is not finite',
   noRotation: 'a quaternion that is no rotation',
@@ -37,7 +37,7 @@ const REASONS = {
 };
 
 /** Errors of a log and their corrections, found by comparing it with the other log. */
-const CORRECTIONS: Record<Correction['name'], (other: string, factor: number) => string> = {
+const CORRECTION_TEXTS: Record<Correction['name'], (other: string, factor: number) => string> = {
   mirroredX: (other) => `its x axis is mirrored relative to its heading and to ${other}; negate x`,
   mirroredY: (other) => `its y axis is mirrored relative to its heading and to ${other}; negate y`,
   mirroredYaw: (other) => `its heading has the wrong sign, compared with its path and ${other}; negate it: headings increase counterclockwise`,
@@ -66,7 +66,7 @@ export const UNSUPPORTED_FORMATS = {
 };
 
 /** Tools that repair a recording. */
-export const REPAIRS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover | sqlite3 NEW.db3', csv: '', tum: '' };
+export const REPAIR_COMMANDS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover | sqlite3 NEW.db3', csv: '', tum: '' };
 
 export const english = {
   place: (file: string, line: number, topic: string) =>
@@ -80,10 +80,10 @@ export const english = {
     noLog: 'it does not look like a log, as it has no rows of numbers; expected is a table with a header such as “t,x,y,yaw” and below it one row a time, or a recording of ROS.',
     noTime: (columns: string) =>
       `none of the columns ${columns} is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec, or a choice of columns.`,
-    noColumns: (neededFields: keyof typeof NEEDED, columns: string) =>
-      `the columns are ${columns}; expected are ${NEEDED[neededFields]} among them, or a choice of columns.`,
+    noColumns: (neededFields: keyof typeof NEEDED_COLUMNS, columns: string) =>
+      `the columns are ${columns}; expected are ${NEEDED_COLUMNS[neededFields]} among them, or a choice of columns.`,
     twice: (field: string, column: string, otherColumn: string) =>
-      `both “${column}” and “${otherColumn}” may be the column of ${FIELDS[field]}; expected is one of them.`,
+      `both “${column}” and “${otherColumn}” may be the column of ${FIELD_NAMES[field]}; expected is one of them.`,
     cells: (count: number, needed: number) => `the row has ${count} ${count === 1 ? 'cell' : 'cells'}; expected are at least ${needed}.`,
     wide: (count: number, needed: number, header: number) =>
       `the row has ${count} cells, and the header in line ${header} ${needed}; expected are as many, with decimal points in numbers, or semicolons between cells.`,
@@ -111,8 +111,8 @@ export const english = {
       `in ${time} and other times the digits after the point lack their leading zeros; write seconds and nanoseconds in two columns, or as %d.%09d.`,
     sameTimes: (count: number, rows: number, message: number) =>
       `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet, or a format such as %.9e, may have rounded them).`,
-    few: (kept: number, rows: number, reason: Cause | undefined) =>
-      `${kept} of ${rows} rows can be used${reason ? ` (${REASONS[reason]})` : ''}; expected are at least 2.`,
+    few: (kept: number, rows: number, reason: DropCause | undefined) =>
+      `${kept} of ${rows} rows can be used${reason ? ` (${DROP_REASONS[reason]})` : ''}; expected are at least 2.`,
     timeUnit: (rate: number, unit: string, choices: string[]) =>
       `in ${unit}, the times would mean ${rate.toPrecision(3)} rows a second; ${choices.length ? `state their unit: ${choices.join(' or ')}` : 'write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days)'}.`,
     lengthUnit: (speed: number, unit: string, choices: string[]) =>
@@ -121,19 +121,19 @@ export const english = {
       `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s, and do not agree with the path or with their range; state their unit: ${choices.join(' or ')}.`,
     /** Errors of recordings. */
     damaged: (reason: string) => `none of its messages can be read (${reason}); expected is an undamaged recording.`,
-    incomplete: (format: Recording['format']) => `it is incomplete and ends before its first whole block of messages; copy it again from the robot, or try “${REPAIRS[format]}” if it ends there too.`,
+    incomplete: (format: Recording['format']) => `it is incomplete and ends before its first whole block of messages; copy it again from the robot, or try “${REPAIR_COMMANDS[format]}” if it ends there too.`,
     largeFile: (command: string, max: number) => `it has more than ${max} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
     noRosbag2: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
     notRosbag2: 'it is listed in the metadata.yaml of a recording, and is none; expected is an MCAP or .db3 file.',
     notRead: (format: keyof typeof UNSUPPORTED_FORMATS) => `it is ${UNSUPPORTED_FORMATS[format]}`,
     noFiles: (files: string) => `it describes a recording in ${files}; give that file too, or the whole folder.`,
     noTopic: (topics: string) => `there is no such topic; expected is one of ${topics}.`,
-    noTopics: (topics: string) => `the topics are ${topics}; expected is one of type ${TYPES.either}.`,
+    noTopics: (topics: string) => `the topics are ${topics}; expected is one of type ${MESSAGE_TYPES.either}.`,
     alone: (series: string, role: Role | undefined) =>
       `it has ${role ? `the ${role}` : 'one log'} only, ${series}; give ${role ? `the ${role === 'odometry' ? 'reference' : 'odometry'} too` : 'odometry and reference'}.`,
     lacks: (role: Role, series: string) => `by its names and types it has no ${role}, but ${series}; choose one of these, or give a file with the ${role} too.`,
     choose: (role: Role, series: string) => `it is not clear what the ${role} is: ${series}.`,
-    type: (type: string, neededType: keyof typeof TYPES) => `its type is “${type}”; expected is ${TYPES[neededType]}.`,
+    type: (type: string, neededType: keyof typeof MESSAGE_TYPES) => `its type is “${type}”; expected is ${MESSAGE_TYPES[neededType]}.`,
     encoding: (value: string) => `its messages are encoded as “${value}”; expected is cdr of ROS 2, or ros1.`,
     types: (types: string) => `its messages have the types ${types}; expected is one: rename the topic of one node, and record again.`,
     publishers: (nodes: string) => `several nodes publish it in turns (${nodes}); expected is one: rename the topic of one node, and record again.`,
@@ -149,7 +149,7 @@ export const english = {
     same: (other: string) => `it has the same motion as ${other}; give two independent measurements of one drive.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
-    correction: (name: Correction['name'], other: string, score: number, factor: number) => `${CORRECTIONS[name](other, factor)}. The motions then agree (correlation ${score.toFixed(2)}).`,
+    correction: (name: Correction['name'], other: string, score: number, factor: number) => `${CORRECTION_TEXTS[name](other, factor)}. The motions then agree (correlation ${score.toFixed(2)}).`,
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
     /** Errors of several recordings. */
     noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
@@ -171,7 +171,7 @@ export const english = {
     units: { s: 'seconds (s)', ms: 'milliseconds (ms)', us: 'microseconds (µs)', ns: 'nanoseconds (ns)', m: 'metres (m)', cm: 'centimetres (cm)', mm: 'millimetres (mm)', rad: 'radians (rad)', deg: 'degrees (°)' },
     columns: (file: string) => `Columns of ${file}`,
     column: (number: number, cell: string) => `column ${number}: ${cell}`,
-    fields: FIELDS,
+    fields: FIELD_NAMES,
     none: 'none',
     read: 'Read',
     other: 'Drop or choose the other file too, or both at once.',
@@ -185,9 +185,9 @@ export const english = {
     rows: (used: number, rows: number, seconds: number, rate: number, distance: number) =>
       `${used} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz, ${distance.toFixed(1)} m driven`,
     units: ({ time, length, angle }: Summary['units']) =>
-      `time in ${time.unit}${BY[time.by]}, lengths in ${length.unit}${BY[length.by]}${ANGLES[angle.unit] ? `, ${ANGLES[angle.unit]}${BY[angle.by]}` : ''}`,
-    dropped: (reason: Cause, count: number, line: number) =>
-      `${count} ${count === 1 ? 'row' : 'rows'}${line ? (count === 1 ? `, line ${line}` : `, from line ${line} on`) : ''}: ${REASONS[reason]}`,
+      `time in ${time.unit}${UNIT_BASIS_TEXTS[time.by]}, lengths in ${length.unit}${UNIT_BASIS_TEXTS[length.by]}${ANGLE_UNIT_TEXTS[angle.unit] ? `, ${ANGLE_UNIT_TEXTS[angle.unit]}${UNIT_BASIS_TEXTS[angle.by]}` : ''}`,
+    dropped: (reason: DropCause, count: number, line: number) =>
+      `${count} ${count === 1 ? 'row' : 'rows'}${line ? (count === 1 ? `, line ${line}` : `, from line ${line} on`) : ''}: ${DROP_REASONS[reason]}`,
     noGaps: 'none',
     gaps: (count: number, first: number, longest: number) => `${count}, the first ${first.toFixed(2)} s after the start, the longest of ${longest.toFixed(2)} s`,
     jumps: (count: number, first: number) => `${count}, the first ${first.toFixed(2)} s after the start`,

@@ -3,16 +3,16 @@
 import { bisectRight } from 'd3-array';
 import type { Commands, Log, Poses } from './log.ts';
 
-/** Duration (s) at both ends of a standstill that is ignored, because the clocks may differ by this much. */
+/** Margin (s) at both ends of a run of equal poses that is ignored, because the clocks may differ by this much. */
 const END_MARGIN_SECONDS = 1;
 
-/** Minimum motion of the odometry during a frozen pose, in metres or radians. At rest it may count a pulse or two. */
+/** Minimum motion of the odometry during a frozen pose, in metres or radians. Encoders at rest may count a pulse or two. */
 const MIN_ODOMETRY_MOTION = 0.05;
 
-/** Removes rows of the reference that repeat a pose while the odometry, which has the same start, moves on. */
+/** Removes rows of the reference that repeat a pose while the odometry moves on. Both logs must have the same start time. */
 export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
   const { t, x, y, theta, breaks: knownBreaks } = reference.data as Poses;
-  const odometryLengthAt = pathLength(odometry.data);
+  const odometryLengthAt = pathLengthAt(odometry.data);
   const isKept = new Uint8Array(t.length).fill(1);
   const breaks = new Set(knownBreaks);
   for (let from = 0, to; from < t.length; from = to) {
@@ -24,11 +24,11 @@ export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
   }
   if (!isKept.includes(0)) return reference;
   const isKeptRow = (_: unknown, i: number) => isKept[i] === 1;
-  // Indices of later rows change when earlier ones are removed.
+  // Index of each row after the removal of rows.
   const newIndices = new Uint32Array(t.length + 1);
   for (let i = 0; i < t.length; i++) newIndices[i + 1] = newIndices[i] + isKept[i];
   const keptCount = newIndices[t.length];
-  const movedBreaks = new Set([...breaks].map((row) => newIndices[row]));
+  const newBreaks = new Set([...breaks].map((row) => newIndices[row]));
   return {
     ...reference,
     data: {
@@ -36,14 +36,14 @@ export function withoutFrozenPoses(reference: Log, odometry: Log): Log {
       x: x.filter(isKeptRow),
       y: y.filter(isKeptRow),
       theta: theta.filter(isKeptRow),
-      breaks: Uint32Array.from(movedBreaks).filter((row) => row < keptCount).sort(),
+      breaks: Uint32Array.from(newBreaks).filter((row) => row < keptCount).sort(),
     },
     summary: { ...reference.summary, used: keptCount, dropped: { ...reference.summary.dropped, held: { count: t.length - keptCount, first: 0 } } },
   };
 }
 
-/** Returns a function from time to the path length of a robot so far, the sum of metres and radians. */
-function pathLength(data: Poses | Commands): (time: number) => number {
+/** Returns a function of time: the path length of the robot up to then, with metres and radians added up. */
+function pathLengthAt(data: Poses | Commands): (time: number) => number {
   const { t } = data;
   const lengths = new Float64Array(t.length);
   const stepLength = (i: number) => {

@@ -5,8 +5,8 @@ import type { Question, Source } from './log.ts';
 
 export type Words = typeof english;
 
-/** Position of an error: a line of a table, or a topic of a recording. */
-export interface Place {
+/** Location of an error: a line of a table, or a topic of a recording. */
+export interface ErrorPlace {
   file: string;
   /** Line from 1. */
   line?: number;
@@ -14,20 +14,20 @@ export interface Place {
   topic?: string;
 }
 
-/** Maximum number of characters that a sentence quotes of a name or value, and of a library's message. */
+/** Maximum number of quoted characters in a sentence: of a name or value, and of a library's message. */
 const [MAX_QUOTED, MAX_REASON] = [40, 100];
 
 /** Error of a log. Its message is one sentence that names the file, the line or topic, the value, and what is expected. */
 export class LogError extends Error {
-  place: Place;
+  place: ErrorPlace;
   /** Question whose answer resolves the error. */
   ask?: Question;
-  /** Returns the sentence in a language. */
+  /** Returns the message in the language of the given words. */
   sentence: (say: Words) => string;
 
   /** @param reason returns the end of the sentence in the language of the given words */
-  constructor(place: Place, reason: (say: Words['refused']) => string, ask?: Question) {
-    const sentenceOf = (say: Words) => `${say.place(cut(place.file), place.line ?? 0, cut(place.topic ?? ''))}: ${reason(say.refused)}`;
+  constructor(place: ErrorPlace, reason: (say: Words['refused']) => string, ask?: Question) {
+    const sentenceOf = (say: Words) => `${say.place(truncate(place.file), place.line ?? 0, truncate(place.topic ?? ''))}: ${reason(say.refused)}`;
     super(sentenceOf(english));
     this.name = 'LogError';
     this.place = place;
@@ -37,7 +37,7 @@ export class LogError extends Error {
 }
 
 /** Shortens a text to one line for quotation in a sentence. */
-export function cut(text: string, maxLength = MAX_QUOTED): string {
+export function truncate(text: string, maxLength = MAX_QUOTED): string {
   // oxlint-disable-next-line no-control-regex
   const shortLine = text.slice(0, maxLength + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
   return shortLine.length > maxLength ? `${shortLine.slice(0, maxLength)}…` : shortLine;
@@ -46,17 +46,17 @@ export function cut(text: string, maxLength = MAX_QUOTED): string {
 /** Returns the message of a library's error, for a sentence. */
 export function reasonOf(error: unknown): string {
   const message = error instanceof Error ? error.message : String(error);
-  return cut(message.replace(/ \[(library=[^\]]*|no header)\]$/, ''), MAX_REASON);
+  return truncate(message.replace(/ \[(library=[^\]]*|no header)\]$/, ''), MAX_REASON);
 }
 
-/** Returns the first few names of a list, for a sentence. */
-export function listing(names: string[]): string {
+/** Returns a text with the first eight names of a list, for a sentence. */
+export function listNames(names: string[]): string {
   const maxNames = 8;
-  return [...names.slice(0, maxNames).map((name) => cut(name)), ...(names.length > maxNames ? ['…'] : [])].join(', ');
+  return [...names.slice(0, maxNames).map((name) => truncate(name)), ...(names.length > maxNames ? ['…'] : [])].join(', ');
 }
 
 /** Reads bytes of a source; rejects with a LogError if the file has been moved or changed since it was chosen. */
-export async function bytesOf(source: Source, from: number, to: number): Promise<Uint8Array<ArrayBuffer>> {
+export async function readBytes(source: Source, from: number, to: number): Promise<Uint8Array<ArrayBuffer>> {
   try {
     return new Uint8Array(await source.slice(from, to).arrayBuffer());
   } catch (error) {

@@ -1,6 +1,6 @@
 /** Logs of robots, the recordings that they are read from, and their summaries. */
 
-/** File, or other bytes with a name. A file of a dropped folder has its path in the folder. */
+/** File, or other bytes with a name. `path` is the path of a file in a dropped folder. */
 export type Source = Pick<File, 'name' | 'size' | 'slice'> & { path?: string };
 
 /** Contents of a log: poses of the robot, or velocity commands. */
@@ -17,34 +17,34 @@ export interface Series {
   name: string;
   /** Message type of a topic, or the names of the columns of a table. */
   type: string;
-  /** Null if no log can be read from the series. */
+  /** Kind of log that can be read from the series; null if none. `positions` have no heading. */
   kind: LogKind | 'positions' | 'transforms' | null;
-  /** True if a table has speeds too. They are read if commands are preferred. */
+  /** True if a table also has columns of commands. They are read if commands are preferred. */
   hasCommands?: boolean;
   /** Number of messages; 0 for a table, whose rows are counted when it is read. */
   count: number;
-  /** Pairs of frames whose chain of transforms may be a pose of the robot; undefined for static transforms. */
-  frames?: Frames[];
+  /** Pairs of frames between which the transform may be the pose of the robot; undefined for static transforms. */
+  frames?: FramePair[];
 }
 
-export interface Frames {
+export interface FramePair {
   parent: string;
   child: string;
 }
 
 /** Returns a pair of frames as text. */
-export const framesText = ({ parent, child }: Frames) => `${parent} → ${child}`;
+export const framesText = ({ parent, child }: FramePair) => `${parent} → ${child}`;
 
 /** Returns frames in the form of an option. */
-export const framesOption = ({ parent, child }: Frames) => `${parent},${child}`;
+export const framesOption = ({ parent, child }: FramePair) => `${parent},${child}`;
 
-export interface Choice {
+export interface LogChoice {
   /** Name of the series. */
   series: string;
   /** Kind of log: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
   kind?: LogKind;
   /** Ends of a chain of transforms. */
-  frames?: Frames;
+  frames?: FramePair;
 }
 
 /** File, or folder of files, from which logs are read. */
@@ -54,7 +54,7 @@ export interface Recording {
   /** Series in the order of their names, or of their columns. */
   series: Series[];
   /** Reads the logs of all choices in one pass; rejects with a LogError. */
-  read(choices: Choice[], onProgress?: (share: number) => void): Promise<Log[]>;
+  read(choices: LogChoice[], onProgress?: (share: number) => void): Promise<Log[]>;
 }
 
 /** Units that logs may have, by the name of the option for the unit. */
@@ -79,7 +79,7 @@ export interface Question {
   /** Role of the log that has to be chosen. For `other`, the role of the log that was found. */
   role?: Role;
   choices: string[];
-  /** Unit that was assumed, and is in doubt. */
+  /** Unit that was assumed, and may be wrong. */
   doubted?: string;
   /** Columns of the table: their names, or the cells of its first row. */
   columns?: string[];
@@ -108,11 +108,11 @@ export interface Log {
   summary: Summary;
 }
 
-/** Cause for dropping a row. */
-export type Cause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'stray' | 'setBack' | 'held';
+/** Reason for dropping a row. */
+export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'stray' | 'setBack' | 'held';
 
-/** Basis of a decision about a unit: a name, the size of the numbers, rate and speed, the format's definition, dates, an option, or else the usual unit. */
-export type Basis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
+/** Evidence for a unit: a name, the size of the numbers, rate and speed, the format, dates, an option, or (`usage`) only that it is usual. */
+export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Notes that make the α's doubtful even if all checks pass. */
 export type Warning = Extract<Note['name'], 'localizer' | 'swapped' | 'clockSet'>;
@@ -129,7 +129,7 @@ export interface Summary {
   rows: number;
   used: number;
   /** Number of dropped rows by cause. `first` is the line or the message number of the first dropped row; 0 if unknown. */
-  dropped: Partial<Record<Cause, { count: number; first: number }>>;
+  dropped: Partial<Record<DropCause, { count: number; first: number }>>;
   /** Duration. */
   seconds: number;
   /** Rate in Hz, from the median time between rows. */
@@ -141,13 +141,13 @@ export interface Summary {
   /** Jumps: steps that are much faster than the others. `first` is a time in s after the first row. */
   jumps: { count: number; first: number };
   units: {
-    time: { unit: TimeUnit; by: Basis };
-    length: { unit: LengthUnit; by: Basis };
-    angle: { unit: AngleUnit | 'quaternion' | 'none'; by: Basis };
+    time: { unit: TimeUnit; by: UnitBasis };
+    length: { unit: LengthUnit; by: UnitBasis };
+    angle: { unit: AngleUnit | 'quaternion' | 'none'; by: UnitBasis };
   };
   /** Source of the times: "header.stamp", "log time", or the column. */
   clock: string;
-  frames?: Frames;
+  frames?: FramePair;
   /** Columns by field. */
   columns?: Record<string, string>;
   notes: Note[];

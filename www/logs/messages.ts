@@ -26,19 +26,19 @@ export interface Sample extends Stamp {
 export type Transform = [x: number, y: number, z: number, qx: number, qy: number, qz: number, qw: number];
 
 /** Transform of the child's frame in the parent's. */
-export interface Edge extends Stamp {
+export interface StampedTransform extends Stamp {
   parent: string;
   child: string;
   transform: Transform;
 }
 
-/** Identifiers of encodings in the CDR header, of version 1 and of version 2, which aligns values to at most four bytes. */
+/** Identifiers of encodings in the CDR header: of version 1, and of version 2, which aligns values to at most four bytes. */
 const [CDR, CDR_2] = [[0, 1], [6, 7, 16, 17]];
 
 /** Number of bytes of the CDR header. Values are aligned relative to its end. */
-const CDR_HEADER = 4;
+const CDR_HEADER_BYTES = 4;
 
-type Bytes = Pick<Message, 'block' | 'from' | 'to'>;
+type MessageBytes = Pick<Message, 'block' | 'from' | 'to'>;
 
 /** Reader of the values of a message: packed in ROS 1, aligned to their size in ROS 2. */
 class MessageReader {
@@ -50,13 +50,13 @@ class MessageReader {
   #isLittle = true;
   #alignment = 1;
 
-  constructor({ encoding }: Channel, { block, from, to }: Bytes) {
+  constructor({ encoding }: Channel, { block, from, to }: MessageBytes) {
     this.#view = block;
     this.#at = this.#start = from;
     this.#end = to;
     if (encoding === 'ros1') return;
-    this.#start += CDR_HEADER;
-    const encodingKind = this.#view.getUint8(this.#next(CDR_HEADER) + 1);
+    this.#start += CDR_HEADER_BYTES;
+    const encodingKind = this.#view.getUint8(this.#next(CDR_HEADER_BYTES) + 1);
     if (!CDR.includes(encodingKind) && !CDR_2.includes(encodingKind)) throw new RangeError(`CDR of kind ${encodingKind}`);
     this.#isLittle = encodingKind % 2 === 1;
     this.#alignment = CDR.includes(encodingKind) ? 8 : 4;
@@ -64,12 +64,12 @@ class MessageReader {
 
   /** Reads the stamp of a header. In ROS 1 a sequence number comes first. */
   stamp(): Stamp {
-    if (this.#alignment === 1) this.seek(4);
+    if (this.#alignment === 1) this.skip(4);
     return { seconds: this.#view.getInt32(this.#next(4), this.#isLittle), nanoseconds: this.uint32() };
   }
 
   /** Skips bytes; throws a RangeError at the end of the message. */
-  seek(bytes: number): void {
+  skip(bytes: number): void {
     this.#at += bytes;
     if (this.#at > this.#end) throw new RangeError('the message is too short');
   }
@@ -84,7 +84,7 @@ class MessageReader {
 
   string(): string {
     const length = this.uint32();
-    this.seek(length);
+    this.skip(length);
     return new TextDecoder().decode(bytesOf(this.#view, this.#at - length, this.#at)).replace(/\0$/, '');
   }
 
@@ -92,7 +92,7 @@ class MessageReader {
   #next(size: number): number {
     const valueAlignment = Math.min(size, this.#alignment);
     const at = this.#at + ((this.#start - this.#at) & (valueAlignment - 1));
-    this.seek(at + size - this.#at);
+    this.skip(at + size - this.#at);
     return at;
   }
 }
@@ -103,7 +103,7 @@ const NO_STAMP: Stamp = { seconds: 0, nanoseconds: 0 };
 
 /** Skips a string. Decoding it would take as long as reading the rest of the message. */
 function skipString(reader: MessageReader): void {
-  reader.seek(reader.uint32());
+  reader.skip(reader.uint32());
 }
 
 function readHeader(reader: MessageReader): Stamp {
@@ -123,11 +123,11 @@ export function sampleOfPose({ seconds, nanoseconds }: Stamp, [x, y, , qx, qy, q
 function readTwist({ seconds, nanoseconds }: Stamp, reader: MessageReader): Sample {
   const v = reader.float64();
   // Skips speeds in other directions and turn rates about other axes.
-  reader.seek(4 * 8);
+  reader.skip(4 * 8);
   return { seconds, nanoseconds, a: v, b: reader.float64(), c: 0, isRotation: true };
 }
 
-/** Returns stamp and pose of a frame in another. */
+/** Reads the stamp and the pose of a child frame relative to its parent. */
 function readFrameTransform(reader: MessageReader): Sample {
   const stamp = readHeader(reader);
   skipString(reader);
@@ -154,7 +154,7 @@ const TRANSFORM_TYPES = ['tf2_msgs/TFMessage', 'tf/tfMessage'];
 /** Types of positions without a heading, which are refused. */
 const POSITION_TYPES = ['geometry_msgs/PointStamped', 'sensor_msgs/NavSatFix'];
 
-/** Returns the name of a type in ROS 1. */
+/** Returns the ROS 1 name of a message type. */
 const ros1TypeName = (type: string) => type.replace('/msg/', '/');
 
 /** Returns the kind of log that can be read from messages of a type. */
@@ -172,7 +172,7 @@ export const isReadable = ({ encoding }: Channel) => encoding === 'cdr' || encod
 /** Magic number of a message that rosbag2 compressed. Other messages of ROS 2 start with 0. */
 const ZSTD_MAGIC = 0x28b52ffd;
 
-function readerOf(channel: Channel, message: Bytes): MessageReader {
+function readerOf(channel: Channel, message: MessageBytes): MessageReader {
   const { block, from, to } = message;
   if (channel.encoding === 'ros1' || block.getUint32(from) !== ZSTD_MAGIC) return new MessageReader(channel, message);
   const bytes = unzstdMessage(bytesOf(block, from, to));
@@ -180,7 +180,7 @@ function readerOf(channel: Channel, message: Bytes): MessageReader {
 }
 
 /** Returns a reader of poses or commands, which throws an error for bytes of another message type. */
-export function poseReader(channel: Channel): (message: Bytes) => Sample {
+export function poseReader(channel: Channel): (message: MessageBytes) => Sample {
   const type = ros1TypeName(channel.type);
   const readSample = POSE_READERS[type] ?? COMMAND_READERS[type];
   return (message) => readSample(readerOf(channel, message));
@@ -190,13 +190,13 @@ export function poseReader(channel: Channel): (message: Bytes) => Sample {
 export const withoutSlash = (name: string) => name.replace(/^\/+/, '');
 
 /** Reads transforms; throws an error for bytes of another message type. */
-export function edgesOf(message: Message): Edge[] {
+export function readTransforms(message: Message): StampedTransform[] {
   const reader = readerOf(message.channel, message);
-  const transformEdges: Edge[] = [];
-  for (let remainingEdges = reader.uint32(); remainingEdges > 0; remainingEdges--) {
+  const transforms: StampedTransform[] = [];
+  for (let remainingCount = reader.uint32(); remainingCount > 0; remainingCount--) {
     const { seconds, nanoseconds } = reader.stamp();
     const [parent, child] = [withoutSlash(reader.string()), withoutSlash(reader.string())];
-    transformEdges.push({ seconds, nanoseconds, parent, child, transform: readTransform(reader) });
+    transforms.push({ seconds, nanoseconds, parent, child, transform: readTransform(reader) });
   }
-  return transformEdges;
+  return transforms;
 }

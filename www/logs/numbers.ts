@@ -1,9 +1,9 @@
-/** Numbers and times in text. */
+/** Parsers of numbers and times in text. */
 
 /** Time as whole seconds and a fraction of a second, so that nanoseconds since 1970 keep their digits. */
-export type Time = [seconds: number, rest: number];
+export type SplitTime = [seconds: number, rest: number];
 
-/** Words for a missing or infinite number. */
+/** Pattern of texts for a missing or infinite number. */
 const NOT_FINITE_WORDS = /^(?:[+-]?(?:nan|inf(?:inity)?)|null|none|nat|na|n\/a|-)?$/i;
 
 const DECIMAL_NUMBER = /^\s*([+-]?)(\d+)(?:\.(\d*))?(?:[eE]([+-]?\d{1,3}))?\s*$/;
@@ -20,7 +20,7 @@ const SECONDS_TEXT = /^\s*(\d+)(?:[.,](\d+))?\s*s(?:ec(?:onds?)?)?\s*$/i;
 const DURATION_TEXT = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
-export function numberOf(cell: string): number | undefined {
+export function parseNumber(cell: string): number | undefined {
   const value = Number(cell);
   // `Number` parses an empty cell as 0, and hexadecimal digits. `parseFloat` returns other numbers for both.
   if (value === value && (Math.trunc(value) !== value || value === parseFloat(cell))) return value;
@@ -31,12 +31,12 @@ export function numberOf(cell: string): number | undefined {
  * Parses a time.
  *
  * @param power decimal exponent of the number of units in a second: 9 for nanoseconds
- * @returns NaN or undefined as `numberOf`
+ * @returns NaN or undefined as `parseNumber`
  */
-export function timeOf(cell: string, power: number): Time | undefined {
+export function parseTime(cell: string, power: number): SplitTime | undefined {
   const decimal = DECIMAL_NUMBER.exec(cell);
   if (!decimal) {
-    const number = numberOf(cell);
+    const number = parseNumber(cell);
     if (number === undefined) return undefined;
     const time = number / 10 ** power;
     return [Math.floor(time), time - Math.floor(time)];
@@ -51,7 +51,7 @@ export function timeOf(cell: string, power: number): Time | undefined {
 }
 
 /** Parses an ISO 8601 date or a duration; undefined for any other text. A date without a time zone is in UTC. */
-export function dateOf(cell: string): { time: Time; hasZone: boolean } | undefined {
+export function parseDate(cell: string): { time: SplitTime; hasZone: boolean } | undefined {
   const date = ISO_DATE.exec(cell.replace(GERMAN_DATE, '$3-$2-$1'));
   if (date) {
     const [, year, month, day, hour = '0', minute = '0', second = '0', fraction = '', zone] = date;
@@ -60,8 +60,8 @@ export function dateOf(cell: string): { time: Time; hasZone: boolean } | undefin
     const seconds = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute), Number(second)) / 1000 - offset;
     return { time: [seconds, Number(`.${fraction}0`)], hasZone: zone !== undefined };
   }
-  const [short, whole, part = ''] = SECONDS_TEXT.exec(cell) ?? [];
-  if (short !== undefined) return { time: [Number(whole), Number(`.${part}0`)], hasZone: true };
+  const [secondsText, wholeSeconds, fractionDigits = ''] = SECONDS_TEXT.exec(cell) ?? [];
+  if (secondsText !== undefined) return { time: [Number(wholeSeconds), Number(`.${fractionDigits}0`)], hasZone: true };
   const duration = DURATION_TEXT.exec(cell);
   if (!duration) return undefined;
   const [days = '0', hours, minutes, seconds, fraction = ''] = duration.slice(1);

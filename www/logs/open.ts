@@ -2,14 +2,14 @@
 
 import type { UNSUPPORTED_FORMATS } from './en.ts';
 import type { Container } from './formats/container.ts';
-import { LogError, bytesOf } from './log-error.ts';
+import { LogError, readBytes } from './log-error.ts';
 import type { OpenOptions, Recording, Source } from './log.ts';
 import { openTable } from './table.ts';
 
-type Format = 'mcap' | 'rosbag' | 'sqlite' | 'zstd' | 'metadata';
+type FileFormat = 'mcap' | 'rosbag' | 'sqlite' | 'zstd' | 'metadata';
 
 /** First bytes of formats that are read. */
-const FORMAT_MAGIC: Record<Format, string> = {
+const FORMAT_MAGIC: Record<FileFormat, string> = {
   mcap: '\x89MCAP0\r\n',
   rosbag: '#ROSBAG V2.0\n',
   sqlite: 'SQLite format 3\0',
@@ -25,25 +25,25 @@ const UNSUPPORTED_MAGIC: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
   ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['hdf5', 'MATLAB 5.0 MAT-file'], ['parquet', 'PAR1'],
 ];
 
-/** Number of bytes that identify a format. */
+/** Number of bytes from which the format is identified. */
 const MAX_MAGIC_BYTES = 32;
 
 /**
  * Opens files; rejects with a LogError that names the file, the line or topic, and what to do. Files that a metadata.yaml of rosbag2
  * lists become one recording.
  *
- * @param options of all files, or of each by its name
- * @param onSkip is called with the error of each file that is not a log, which is then skipped; without it, the first error rejects
+ * @param options options of all files, or a function from the name of a file to its options
+ * @param onSkip called with the error of each file that is not a log, and is skipped; without `onSkip` the first error rejects
  */
 export async function openRecordings(files: Source[], options: OpenOptions | ((file: string) => OpenOptions | undefined) = {}, onSkip?: (error: LogError) => void): Promise<Recording[]> {
   const optionsOf = (file: string) => (typeof options === 'function' ? options(file) : options) ?? {};
-  const attempt = (work: () => Promise<void>) => work().catch((error) => {
+  const reportSkipped = (work: () => Promise<void>) => work().catch((error) => {
     if (!(error instanceof LogError) || !onSkip) throw error;
     onSkip(error);
   });
-  const formatByFile = new Map<Source, Format | undefined>();
+  const formatByFile = new Map<Source, FileFormat | undefined>();
   for (const file of files) {
-    await attempt(async () => {
+    await reportSkipped(async () => {
       const fileFormat = await detectFormat(file);
       const openedSource = fileFormat === 'zstd' ? await (await import('./formats/zstd.ts')).unzstdFile(file) : file;
       formatByFile.set(openedSource, fileFormat === 'zstd' ? await detectFormat(openedSource) : fileFormat);
@@ -52,18 +52,18 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
   const openedSources = [...formatByFile.keys()];
   const recordings: Recording[] = [];
   for (const metadata of openedSources.filter((source) => formatByFile.get(source) === 'metadata')) {
-    await attempt(async () => {
+    await reportSkipped(async () => {
       const { listedFiles, joinedContainer } = await import('./formats/folder.ts');
       formatByFile.delete(metadata);
-      const { name, found, missing } = await listedFiles(metadata, openedSources);
+      const { name, found, missingFiles } = await listedFiles(metadata, openedSources);
       const parts = Promise.all(found.map((source) => openContainer(source, formatByFile.get(source))));
       for (const source of found) formatByFile.delete(source);
-      const container = joinedContainer(await parts, missing);
+      const container = joinedContainer(await parts, missingFiles);
       recordings.push(await (await import('./topics.ts')).recordingOf(name, container, optionsOf(name)));
     });
   }
   for (const [source, format] of formatByFile) {
-    await attempt(async () => {
+    await reportSkipped(async () => {
       if (!format) recordings.push(await openTable(source, optionsOf(source.name)));
       else recordings.push(await (await import('./topics.ts')).recordingOf(source.name, await openContainer(source, format), optionsOf(source.name)));
     });
@@ -72,15 +72,15 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
 }
 
 /** Returns the format according to the first bytes; undefined for a table. */
-async function detectFormat(source: Source): Promise<Format | undefined> {
-  const firstBytes = String.fromCharCode(...(await bytesOf(source, 0, MAX_MAGIC_BYTES)));
+async function detectFormat(source: Source): Promise<FileFormat | undefined> {
+  const firstBytes = String.fromCharCode(...(await readBytes(source, 0, MAX_MAGIC_BYTES)));
   const unsupportedFormat = UNSUPPORTED_MAGIC.find(([, magic]) => firstBytes.startsWith(magic));
   if (unsupportedFormat) throw new LogError({ file: source.name }, (say) => say.notRead(unsupportedFormat[0]));
-  return (Object.keys(FORMAT_MAGIC) as Format[]).find((format) => firstBytes.startsWith(FORMAT_MAGIC[format]));
+  return (Object.keys(FORMAT_MAGIC) as FileFormat[]).find((format) => firstBytes.startsWith(FORMAT_MAGIC[format]));
 }
 
-/** Opens a container. The readers are loaded when they are needed. */
-async function openContainer(source: Source, format: Format | undefined): Promise<Container> {
+/** Opens a container. The module of its format is loaded only now. */
+async function openContainer(source: Source, format: FileFormat | undefined): Promise<Container> {
   if (format === 'mcap') return (await import('./formats/mcap.ts')).openMcap(source);
   if (format === 'rosbag') return (await import('./formats/rosbag.ts')).openRosbag(source);
   if (format === 'sqlite') return (await import('./formats/sqlite.ts')).openSqlite(source);

@@ -1,54 +1,54 @@
 /** Order of rows in time. */
 
-import { quantile, sample } from './quantile.ts';
+import { quantile, sampleEvenly } from './quantile.ts';
 
-/** Maximum difference of neighbouring times, in median steps. */
+/** Maximum difference between the times of neighbouring rows, in median steps. */
 const MAX_GAP_STEPS = 5;
 
 /** Maximum difference of times that count as equal, in median steps. */
 const SAME_TIME_STEPS = 0.75;
 
-/** Minimum number of rows with the times of earlier rows from which the clock counts as set back. Fewer such rows count as late. */
+/** Minimum number of rows that repeat times of earlier rows, for a clock that was set back. Fewer such rows count as late. */
 const MIN_OVERLAP = 3;
 
-/** Maximum fraction of steps back in time in a log that consists of parts. Above it, the log is out of order everywhere. */
-const MAX_STEPS_BACK = 0.1;
+/** Maximum fraction of rows that are earlier than the row before. Above it, the whole log counts as out of order. */
+const MAX_BACKWARD_FRACTION = 0.1;
 
 /** Classes of rows: kept, kept although late, dropped because their time is far from all others, or because the clock was set back. */
 export const [KEPT, LATE, STRAY, SET_BACK] = [0, 1, 2, 3];
 
-interface Order {
+interface RowOrder {
   /** Kept rows, sorted by time. Rows of equal time are in the order of the file. */
   order: Uint32Array;
   /** Class of each row. */
   classes: Uint8Array;
   /** First row after the clock was set back; −1 if it never was. */
-  setBack: number;
+  firstSetBackRow: number;
   /** Number of rows in the largest part of the log between resets of the clock. */
-  largest: number;
+  largestPartSize: number;
 }
 
 /**
  * Sorts rows by their times, and drops single rows whose times are far from all others. If the clock was set back, later rows repeat the
  * times of earlier ones. Such resets divide the rows into parts, of which only the largest is kept.
  *
- * @param t in the order of the file
+ * @param t times of the rows, in the order of the file
  * @param isSame checks whether two rows have the same values
  */
-export function sortRows(t: Float64Array, isSame: (one: number, other: number) => boolean): Order {
+export function sortRows(t: Float64Array, isSame: (one: number, other: number) => boolean): RowOrder {
   const classes = new Uint8Array(t.length);
   const allRows = new Uint32Array(t.length);
-  let stepsBack = 0;
+  let backwardSteps = 0;
   for (let i = 0; i < t.length; i++) {
     allRows[i] = i;
-    if (t[i] < t[i - 1]) stepsBack += 1;
+    if (t[i] < t[i - 1]) backwardSteps += 1;
   }
-  if (stepsBack === 0) return { order: allRows, classes, setBack: -1, largest: t.length };
+  if (backwardSteps === 0) return { order: allRows, classes, firstSetBackRow: -1, largestPartSize: t.length };
 
   const sortedRows = allRows.toSorted((one, other) => t[one] - t[other] || one - other);
   // Parts of the log may have the same times, so that sorting makes the steps shorter. A log that is out of order everywhere has no parts.
-  const orderedRows = stepsBack > MAX_STEPS_BACK * t.length ? sortedRows : allRows;
-  const medianStep = quantile(sample(t.length - 1, (i) => t[orderedRows[i + 1]] - t[orderedRows[i]]).filter((step) => step > 0), 0.5);
+  const orderedRows = backwardSteps > MAX_BACKWARD_FRACTION * t.length ? sortedRows : allRows;
+  const medianStep = quantile(sampleEvenly(t.length - 1, (i) => t[orderedRows[i + 1]] - t[orderedRows[i]]).filter((step) => step > 0), 0.5);
   const rankOfRow = new Uint32Array(t.length);
   for (let rank = 0; rank < t.length; rank++) rankOfRow[sortedRows[rank]] = rank;
   const isFarFromOthers = (i: number) => [t[sortedRows[rankOfRow[i] - 1]], t[sortedRows[rankOfRow[i] + 1]]].every((other) => !(Math.abs(other - t[i]) <= MAX_GAP_STEPS * medianStep));
@@ -75,17 +75,17 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
   }
   const partOfRow = new Uint32Array(t.length);
   const partSizes = [0];
-  let setBack = -1;
+  let firstSetBackRow = -1;
   for (let i = 0; i < t.length; i++) {
     if (i > 0 && runOfRow[i] !== runOfRow[i - 1] && overlapCounts[runOfRow[i]] >= MIN_OVERLAP) {
-      if (setBack < 0) setBack = i;
+      if (firstSetBackRow < 0) firstSetBackRow = i;
       partSizes.push(0);
     }
     partOfRow[i] = partSizes.length - 1;
     if (classes[i] !== STRAY) partSizes[partOfRow[i]] += 1;
   }
-  const largest = Math.max(...partSizes);
-  const largestPart = partSizes.indexOf(largest);
+  const largestPartSize = Math.max(...partSizes);
+  const largestPart = partSizes.indexOf(largestPartSize);
   let newestTime = -Infinity;
   for (let i = 0; i < t.length; i++) {
     if (classes[i] === STRAY) continue;
@@ -93,11 +93,11 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
     else if (t[i] < newestTime) classes[i] = LATE;
     else newestTime = t[i];
   }
-  return { order: sortedRows.filter((i) => classes[i] < STRAY), classes, setBack, largest };
+  return { order: sortedRows.filter((i) => classes[i] < STRAY), classes, firstSetBackRow, largestPartSize };
 }
 
 /** Repeated poses of a moving robot: maximum duration in s of a run of equal rows, and minimum number of such runs. */
-const [MAX_HOLD, MIN_HOLDS] = [1, 20];
+const [MAX_HOLD_SECONDS, MIN_HOLD_RUNS] = [1, 20];
 
 /** Minimum fraction of rows in such runs, for a recorder that repeats poses. */
 const MIN_HELD_FRACTION = 0.8;
@@ -108,17 +108,17 @@ const MIN_HELD_FRACTION = 0.8;
  *
  * @param isRepeated checks whether a row has the pose of the row before
  */
-export function repeatFactor(t: Float64Array, isRepeated: (i: number) => boolean): number {
+export function rowsPerPose(t: Float64Array, isRepeated: (i: number) => boolean): number {
   const runLengths: number[] = [];
   let [singleRows, heldRows] = [0, 0];
   for (let from = 0, to; from < t.length; from = to) {
     for (to = from + 1; to < t.length && isRepeated(to); ) to += 1;
     if (to - from === 1) singleRows += 1;
-    else if (t[to - 1] - t[from] <= MAX_HOLD) {
+    else if (t[to - 1] - t[from] <= MAX_HOLD_SECONDS) {
       heldRows += to - from;
       runLengths.push(to - from);
     }
   }
-  if (runLengths.length < MIN_HOLDS || heldRows < MIN_HELD_FRACTION * (heldRows + singleRows)) return 1;
+  if (runLengths.length < MIN_HOLD_RUNS || heldRows < MIN_HELD_FRACTION * (heldRows + singleRows)) return 1;
   return quantile(Float64Array.from(runLengths), 0.5);
 }

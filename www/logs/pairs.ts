@@ -14,16 +14,16 @@ export interface Drive { odometry: Log; reference: Log }
 /** Minimum overlap in time of two logs of one drive, as a fraction of the shorter log's duration. */
 const MIN_OVERLAP = 0.5;
 
-/** Number of rows that are compared to detect one path in two files, and minimum number of equal rows that proves it. */
+/** Number of rows that are compared to detect copies of one path, and minimum number of equal rows of a copy. */
 const [COMPARED_ROWS, MIN_EQUAL_ROWS] = [500, 10];
 
 /** Maximum difference (m and rad) between copies of one path, due to rounding to six digits. */
 const COPY_TOLERANCE = 1e-5;
 
-/** Steps in m to which positions of a file may be rounded, and minimum length of such a path, in steps. No odometry stays within half a step that far. */
+/** Steps (m) to which positions may be rounded, and minimum path length in steps. Independent paths that long differ by more than a step. */
 const [ROUNDING_STEPS, MIN_ROUNDED_LENGTH] = [[1e-2, 1e-3, 1e-4], 2000];
 
-/** Minimum motion, in m and rad, of paths that are compared. */
+/** Minimum motion (m or rad) of paths that are compared. */
 const MIN_MOTION = 0.1;
 
 /**
@@ -36,22 +36,22 @@ const [MIN_WHEEL_REPEATS, MAX_MEASURED_REPEATS] = [0.02, 0.001];
 const UNIT_OPTIONS: { [Name in Correction['name']]?: 'angleUnit' | 'lengthUnit' } = { degrees: 'angleUnit', radians: 'angleUnit', lengths: 'lengthUnit' };
 
 /** Returns the absolute times of the first and the last row. */
-const spanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
+const timeSpanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
 
-const spanText = (log: Log) => spanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
+const spanText = (log: Log) => timeSpanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
 
 /** Returns the duration of the overlap of two logs; negative if there is a gap between them. */
-function overlap(one: Log, other: Log): number {
-  const [[a, b], [c, d]] = [spanOf(one), spanOf(other)];
+function overlapSeconds(one: Log, other: Log): number {
+  const [[a, b], [c, d]] = [timeSpanOf(one), timeSpanOf(other)];
   return Math.min(b, d) - Math.max(a, c);
 }
 
-/** Returns the name of a file without its extension and words for a role: the part that both files of a drive have in common. */
+/** Returns the part of a file's name that both files of a drive share: without its extension and words for a role. */
 const fileStem = (name: string) => name.toLowerCase().replace(/\.\w+$/, '').replace(/odom(etry)?|wheels?|encoders?|cmd(_vel)?|(ground)?[_-]?truth|gt|reference|ref|mocap|vicon|optitrack|poses?/g, '').replace(/[^a-z0-9]+/g, '');
 
 /** Pairs logs of several drives: by their times, by the names of their files, or in their order. */
-export function pairedByTime(odometry: Log[], reference: Log[]): [Log, Log][] {
-  const overlapsMostly = (one: Log, other: Log) => overlap(one, other) > MIN_OVERLAP * Math.min(one.summary.seconds, other.summary.seconds);
+export function matchLogs(odometry: Log[], reference: Log[]): [Log, Log][] {
+  const overlapsMostly = (one: Log, other: Log) => overlapSeconds(one, other) > MIN_OVERLAP * Math.min(one.summary.seconds, other.summary.seconds);
   const hasSameStem = (one: Log, other: Log) => fileStem(one.name) === fileStem(other.name);
   for (const isMatch of [overlapsMostly, hasSameStem]) {
     const partnersOfEach = odometry.map((one) => reference.filter((other) => isMatch(one, other)));
@@ -70,27 +70,27 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   const { frames } = reference.summary;
   if (frames?.parent === 'odom') throw new LogError(place, (say) => say.ownReference(framesText(frames)));
   const commonStart = Math.min(odometry.start, reference.start);
-  const [first, second] = [withStart(odometry, commonStart), withStart(reference, commonStart)];
-  if (isSamePath(first, second)) throw new LogError(place, (say) => (reference.name === odometry.name ? say.givenTwice : say.same(odometry.name)));
-  const reliableReference = withoutFrozenPoses(second, first);
+  const [commonOdometry, commonReference] = [withStart(odometry, commonStart), withStart(reference, commonStart)];
+  if (isSamePath(commonOdometry, commonReference)) throw new LogError(place, (say) => (reference.name === odometry.name ? say.givenTwice : say.same(odometry.name)));
+  const reliableReference = withoutFrozenPoses(commonReference, commonOdometry);
   if (reliableReference.data.t.length < 2) throw new LogError(place, (say) => say.held);
-  const correction = correctionOf(first, reliableReference);
+  const correction = correctionOf(commonOdometry, reliableReference);
   if (correction) {
     const unitOption = UNIT_OPTIONS[correction.name];
     const [log, otherLog] = correction.at === 'odometry' ? [odometry, reference] : [reference, odometry];
     throw new LogError({ file: log.name }, (say) => say.correction(correction.name, otherLog.name, correction.score, correction.factor), unitOption && { what: unitOption, choices: [] });
   }
-  const swapSign = signOfSwap(first, second);
+  const swapSign = signOfSwap(commonOdometry, commonReference);
   const notes: Note[] = [
     ...reliableReference.summary.notes,
     ...(swapSign ? [{ name: 'swapped' as const, values: [odometry.name, swapSign] }] : []),
     ...(isLocalizer(reference.name, reference.summary.frames) ? [{ name: 'localizer' as const, values: [] }] : []),
-    ...(overlap(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, spanText(reference), spanText(odometry)] }] : []),
+    ...(overlapSeconds(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, spanText(reference), spanText(odometry)] }] : []),
   ];
-  return { odometry: first, reference: { ...reliableReference, summary: { ...reliableReference.summary, notes } } };
+  return { odometry: commonOdometry, reference: { ...reliableReference, summary: { ...reliableReference.summary, notes } } };
 }
 
-/** Returns the sign that the logs are swapped: their names, or that only the reference repeats poses at rest, as wheel odometry does. */
+/** Returns the evidence that the logs are swapped: `name` for their names, `rest` if only the reference repeats poses at rest, as wheel odometry does. */
 function signOfSwap(odometry: Log, reference: Log): 'name' | 'rest' | undefined {
   const rolesByName = [odometry, reference].map(({ name }) => roleByName(name));
   if (rolesByName[0] !== 'odometry' && rolesByName[1] === 'odometry') return 'name';
@@ -101,8 +101,8 @@ function signOfSwap(odometry: Log, reference: Log): 'name' | 'rest' | undefined 
 const WARNING_NAMES: Warning[] = ['localizer', 'swapped', 'clockSet'];
 
 /**
- * Returns the notes that make the α's doubtful. The logs are those of drives, the odometry of each before its reference. A clock that was set
- * for both makes nothing doubtful: a simulator may have paused.
+ * Returns the warnings of logs, in which the odometry of each drive precedes its reference. A clock that was set in both logs of a drive gives
+ * no warning: a simulator may have paused.
  */
 export function warningsOf(logs: Pick<Log, 'summary'>[]): Warning[] {
   const hasNote = (i: number, warning: Warning) => logs[i].summary.notes.some(({ name }) => name === warning);
@@ -116,7 +116,7 @@ export function withStart(log: Log, start: number): Log {
 }
 
 /** Returns the logs of drives in the form that the core takes: arrays if there are several drives. */
-export function logOf(drives: Drive[]): Pick<CalibrationLog, Role> {
+export function calibrationLogOf(drives: Drive[]): Pick<CalibrationLog, Role> {
   const odometry = drives.map((drive) => drive.odometry.data);
   const reference = drives.map((drive) => drive.reference.data as Poses);
   return drives.length === 1 ? { odometry: odometry[0], reference: reference[0] } : { odometry, reference };
@@ -140,7 +140,7 @@ export function isSamePath(one: Log, two: Log): boolean {
   };
   const isRoundedTo = (step: number) => [poses, other].some(({ x, y }) => [x, y].every((coordinates) => coordinates.every((value) => Math.abs(value / step - Math.round(value / step)) < 1e-6)));
   const step = ROUNDING_STEPS.find((candidate) => one.summary.distance > MIN_ROUNDED_LENGTH * candidate && isRoundedTo(candidate)) ?? 0;
-  let [isMoved, isRounded] = [true, step > 0];
+  let [hasSameMotion, hasSameRoundedPositions] = [true, step > 0];
   let firstRows: [number, number] | undefined;
   let [comparedRows, motion] = [0, 0];
   for (let i = 0; i < t.length; i += rowStride) {
@@ -150,9 +150,9 @@ export function isSamePath(one: Log, two: Log): boolean {
     const [motionOfOne, motionOfTwo] = [motionBetween(poses, firstRows[0], i), motionBetween(other, firstRows[1], j)];
     const distance = Math.hypot(motionOfOne[0], motionOfOne[1]);
     const turn = Math.abs(Math.sin((motionOfOne[2] - motionOfTwo[2]) / 2));
-    isMoved &&= Math.hypot(motionOfOne[0] - motionOfTwo[0], motionOfOne[1] - motionOfTwo[1]) <= COPY_TOLERANCE * (1 + distance) && turn <= COPY_TOLERANCE;
-    isRounded &&= Math.max(Math.abs(poses.x[i] - other.x[j]), Math.abs(poses.y[i] - other.y[j])) < 0.5 * step + COPY_TOLERANCE;
-    if (!isMoved && !isRounded) return false;
+    hasSameMotion &&= Math.hypot(motionOfOne[0] - motionOfTwo[0], motionOfOne[1] - motionOfTwo[1]) <= COPY_TOLERANCE * (1 + distance) && turn <= COPY_TOLERANCE;
+    hasSameRoundedPositions &&= Math.max(Math.abs(poses.x[i] - other.x[j]), Math.abs(poses.y[i] - other.y[j])) < 0.5 * step + COPY_TOLERANCE;
+    if (!hasSameMotion && !hasSameRoundedPositions) return false;
     comparedRows += 1;
     motion = Math.max(motion, distance, Math.abs(Math.sin(motionOfOne[2] / 2)));
   }

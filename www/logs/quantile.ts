@@ -4,7 +4,7 @@
 const MAX_ITEMS = 10_000;
 
 /** Evaluates `value` at evenly spaced indices below `count`, at most `MAX_ITEMS` of them. */
-export function sample(count: number, value: (i: number) => number): Float64Array {
+export function sampleEvenly(count: number, value: (i: number) => number): Float64Array {
   const stride = Math.max(1, Math.ceil(count / MAX_ITEMS));
   const values = new Float64Array(Math.max(0, Math.ceil(count / stride)));
   for (let i = 0; i < values.length; i++) values[i] = value(i * stride);
@@ -12,4 +12,4 @@ export function sample(count: number, value: (i: number) => number): Float64Arra
 }
 
 /** Sorts the values in place and returns a quantile of them; NaN of no values. */
-export const quantile = (values: Float64Array, share: number) => values.sort()[Math.floor(share * (values.length - 1))] ?? NaN;
+export const quantile = (values: Float64Array, fraction: number) => values.sort()[Math.floor(fraction * (values.length - 1))] ?? NaN;

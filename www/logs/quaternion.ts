@@ -1,4 +1,4 @@
-/** Quaternions of recorded poses. */
+/** Arithmetic of the quaternions of recorded poses. */
 
 interface Vector { x: number; y: number; z: number }
 export interface Quaternion extends Vector { w: number }
@@ -11,7 +11,7 @@ const HEADING_STEPS = 1e12;
 
 /** Returns the angle about the vertical axis, for quaternions of any length. */
 export function headingOf(qx: number, qy: number, qz: number, qw: number): number {
-  // Engines differ in the last bits of the arc tangent, and one bit can decide where a leg of a simulated log ends.
+  // The arc tangent differs between engines in its last bits. Rounding makes results equal everywhere.
   return Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * HEADING_STEPS) / HEADING_STEPS;
 }
 

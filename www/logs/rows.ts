@@ -1,15 +1,15 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
 import { max, min, range, sum } from 'd3-array';
-import { LogError, type Place } from './log-error.ts';
-import type { Cause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
-import { LATE, SET_BACK, STRAY, repeatFactor, sortRows } from './order.ts';
+import { LogError, type ErrorPlace } from './log-error.ts';
+import type { DropCause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
+import { LATE, SET_BACK, STRAY, rowsPerPose, sortRows } from './order.ts';
 import { wrapAngle } from './path.ts';
-import { quantile, sample } from './quantile.ts';
+import { quantile, sampleEvenly } from './quantile.ts';
 import { distanceOf } from './summary.ts';
 import { type Units, judgeUnits } from './units.ts';
 
-/** Facts about a log that the format's reader knows. */
+/** Facts about a log that the reader of its format provides. */
 interface LogFacts {
   /** Units that a name or the format states. */
   units: Units;
@@ -35,16 +35,15 @@ const JUMP_FACTOR = 8;
 /** Number of rows of a motion. Two motions before a gap and two after it show whether the robot drove on steadily. */
 const MOTION_ROWS = 4;
 
-/** Periods (s) after which clocks begin at 0 again: a day, a week of GPS, and 32-bit counters of an unstated unit, ms or µs. */
+/** Periods (s) after which clocks wrap around: a day, a GPS week, and 2³² counts of 1 s, 1 ms or 1 µs. */
 const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
 
 /** Minimum period of a clock that wraps around, in median steps of its times. A clock that was set back might match a shorter period by chance. */
 const MIN_PERIOD_STEPS = 500;
 
 /**
- * Limits for two paths whose poses alternate. The distance (m) has a minimum, as shorter steps may be vibrations. So has the number of poses
- * far from the next one, as fewer may be jumps. The rows and seconds until a path continues have maxima, as a robot that drives rounds comes
- * back later. The fraction of poses that are still far then has a maximum.
+ * Limits for two paths whose poses alternate: minimum distance (m) of the paths, and minimum number of steps between them. Shorter steps may
+ * be vibrations, and fewer may be jumps. Then maximum rows and seconds until a path continues, and maximum fraction of poses far from there.
  */
 const [MIN_PATH_DISTANCE, MIN_LONG_STEPS, MAX_RETURN_ROWS, MAX_RETURN_SECONDS, MAX_LONG_FRACTION] = [0.05, 20, 8, 1, 0.2];
 
@@ -54,21 +53,21 @@ const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
 /** Minimum speed of a moving robot, in m/s or rad/s. */
 const MIN_MOVING_SPEED = 0.01;
 
-/** Minimum of times since 1970, s: the year 1973. Smaller times count from the start of a program. */
+/** Minimum time (s) that counts as a time since 1970: in 1973. Smaller times are relative to the start of a program. */
 const MIN_EPOCH_TIME = 1e8;
 
-/** Minimum fraction of rows that remain if the clock was set back, and minimum fraction of rows with different times. */
-const MIN_FRACTION = 0.6;
+/** Minimum fraction of rows in the largest part of a log whose clock was set back, and of rows that do not contradict another row of their time. */
+const MIN_KEPT_FRACTION = 0.6;
 
-/** Indices of the numbers of a row. The whole seconds of a time have one index, and the rest has the next. */
-const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, IS_BROKEN, WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
+/** Offsets of the numbers of a row. A time is stored as its whole seconds and, at the next offset, the fraction. */
+const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, IS_BROKEN, ROW_WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
 
 export class Rows {
-  #logPlace: Place;
+  #logPlace: ErrorPlace;
   /** Numbers of the rows that were added, row by row. */
-  #numbers = new Float64Array(1024 * WIDTH);
+  #numbers = new Float64Array(1024 * ROW_WIDTH);
   #addedCount = 0;
-  /** Index of the seconds of the clock that is used. */
+  /** Offset of the whole seconds of the clock that is used. */
   #clock = SECONDS;
   /** True if the path before the next row is unknown, because an unusable row was dropped. */
   #isBroken = false;
@@ -78,12 +77,12 @@ export class Rows {
   count = 0;
 
   /** @param place for errors */
-  constructor(place: Place) {
+  constructor(place: ErrorPlace) {
     this.#logPlace = place;
   }
 
   /** Drops an unusable row. */
-  drop(cause: Cause, line: number): void {
+  drop(cause: DropCause, line: number): void {
     this.count += 1;
     this.#countDropped(cause, line);
     this.#isBroken = true;
@@ -110,7 +109,7 @@ export class Rows {
       const tooLargeValue = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE) ?? NaN;
       throw new LogError(this.#placeOf(line), (say) => say.far(tooLargeValue, MAX_VALUE, this.#messageNumber(line)));
     }
-    const at = WIDTH * this.#addedCount++;
+    const at = ROW_WIDTH * this.#addedCount++;
     if (at === this.#numbers.length) {
       const largerNumbers = new Float64Array(2 * at);
       largerNumbers.set(this.#numbers);
@@ -138,13 +137,13 @@ export class Rows {
   end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
     if (clocks[1] !== undefined) this.#sortByOtherClock();
     const usesOtherClock = this.#chooseClock(clocks[1] !== undefined);
-    const rollover = this.#continueClock();
-    const { rows, late, causes, ...times } = this.#inOrder(kind);
+    const rolloverLine = this.#continueClock();
+    const { rows, lateCount, causes, ...times } = this.#sortAndFilter(kind);
     const brokenRows = this.#brokenRows(causes);
     const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
     const { count } = this;
     if (rows.length < 2) {
-      const [cause, firstDrop] = (Object.entries(this.#dropped) as [Cause, { first: number }][])[0] ?? [];
+      const [cause, firstDrop] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
       throw new LogError(this.#placeOf(firstDrop?.first ?? 0), (say) => say.few(rows.length, count, cause));
     }
     const columns = { ...times, a, b, c };
@@ -152,13 +151,13 @@ export class Rows {
     const { start, t } = columns;
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (say) => say.turns(pathDistance));
-    const { breaks, jumpRows, clockSet, ...foundGaps } = this.#events(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
+    const { breaks, jumpRows, clockSet, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = [
       ...decisions.notes,
       ...(clockSet ? [{ name: 'clockSet' as const, values: clockSet }] : []),
-      ...(rollover > 0 ? [{ name: 'rollover' as const, values: [rollover] }] : []),
-      ...(late > 0 ? [{ name: 'sorted' as const, values: [late] }] : []),
+      ...(rolloverLine > 0 ? [{ name: 'rollover' as const, values: [rolloverLine] }] : []),
+      ...(lateCount > 0 ? [{ name: 'sorted' as const, values: [lateCount] }] : []),
     ];
     const seconds = t[t.length - 1] - t[0];
     const clock = clocks[usesOtherClock ? 1 : 0] ?? '';
@@ -179,7 +178,7 @@ export class Rows {
     if (row >= this.#addedCount) return;
     const order = this.#rows.sort(compareTimes);
     this.#numbers = new Float64Array(numbers.length);
-    for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(WIDTH * from, WIDTH * (from + 1)), WIDTH * rank);
+    for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(ROW_WIDTH * from, ROW_WIDTH * (from + 1)), ROW_WIDTH * rank);
   }
 
   /** Switches to the other clock if the first one is mostly 0, or never changes. Returns true if it did. */
@@ -191,24 +190,24 @@ export class Rows {
   }
 
   /**
-   * Adds the periods that have passed to the times of a clock that begins at 0 again. Returns the number, as counted in the file, of the
-   * first row after such a reset; 0 if there is none.
+   * Unwraps a clock that begins at 0 again after a period. Returns the line or message number of the first row after a wrap; 0 if there is
+   * none.
    */
   #continueClock(): number {
     const numbers = this.#numbers;
     const steps = new Float64Array(this.#addedCount).map((_, row) => (row > 0 ? this.#time(row, this.#number(row - 1, this.#clock)) - this.#number(row - 1, this.#clock + 1) : 0));
-    const medianStep = quantile(sample(steps.length - 1, (i) => Math.abs(steps[i + 1])), 0.5);
+    const medianStep = quantile(sampleEvenly(steps.length - 1, (i) => Math.abs(steps[i + 1])), 0.5);
     const periods = CLOCK_PERIODS.filter((period) => period > MIN_PERIOD_STEPS * medianStep);
     let [passedTime, firstLine] = [0, 0];
     for (const [row, step] of steps.entries()) {
-      // A late row from before the reset leads back over it.
+      // A late row from before the wrap is a forward step, and subtracts the period again.
       const period = step < 0 || passedTime > 0 ? periods.find((clockPeriod) => Math.abs(Math.abs(step) - clockPeriod) <= MIN_GAP_STEPS * medianStep) : undefined;
       if (period) {
         passedTime -= Math.sign(step) * period;
         firstLine ||= this.#number(row, LINE);
       }
-      numbers[WIDTH * row + this.#clock] += Math.floor(passedTime);
-      numbers[WIDTH * row + this.#clock + 1] += passedTime - Math.floor(passedTime);
+      numbers[ROW_WIDTH * row + this.#clock] += Math.floor(passedTime);
+      numbers[ROW_WIDTH * row + this.#clock + 1] += passedTime - Math.floor(passedTime);
     }
     return firstLine;
   }
@@ -219,10 +218,10 @@ export class Rows {
   }
 
   #number(row: number, index: number): number {
-    return this.#numbers[WIDTH * row + index];
+    return this.#numbers[ROW_WIDTH * row + index];
   }
 
-  /** Returns the values of a function of rows. The `from` of typed arrays would take ten times as long. */
+  /** Returns the values of a function of rows. `Float64Array.from` would take ten times as long. */
   #column(rows: Uint32Array, numberOf: (row: number) => number): Float64Array {
     return new Float64Array(rows.length).map((_, i) => numberOf(rows[i]));
   }
@@ -241,19 +240,19 @@ export class Rows {
     return this.#number(one, A) === this.#number(other, A) && this.#number(one, B) === this.#number(other, B) && this.#number(one, C) === this.#number(other, C);
   }
 
-  /** Returns the kept rows in the order of their (distinct) times, the number of late rows, and the causes for dropping rows. */
-  #inOrder(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; late: number; causes: Map<number, Cause> } {
-    const causes = new Map<number, Cause>();
+  /** Returns the kept rows in the order of their times, the number of late rows, and the causes for dropping rows. */
+  #sortAndFilter(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; lateCount: number; causes: Map<number, DropCause> } {
+    const causes = new Map<number, DropCause>();
     // If all other times are since 1970, a stamp of 0 was not set.
     const rowsWithStamp = this.#rows.filter((row) => !this.#isUnset(row));
     const isSince1970 = rowsWithStamp.every((row) => this.#number(row, this.#clock) > MIN_EPOCH_TIME);
     const usedRows = isSince1970 ? rowsWithStamp : this.#rows;
     const baseSecond = Math.floor(this.#number(usedRows[0], this.#clock));
     const times = this.#column(usedRows, (row) => this.#time(row, baseSecond));
-    const { order, classes, setBack, largest } = sortRows(times, (one, other) => this.#isSame(usedRows[one], usedRows[other]));
-    if (setBack >= 0 && largest < MIN_FRACTION * times.length) {
-      const line = this.#number(usedRows[setBack], LINE);
-      throw new LogError(this.#placeOf(line), (say) => say.setBack(times[setBack - 1] - times[setBack], this.#messageNumber(line)));
+    const { order, classes, firstSetBackRow, largestPartSize } = sortRows(times, (one, other) => this.#isSame(usedRows[one], usedRows[other]));
+    if (firstSetBackRow >= 0 && largestPartSize < MIN_KEPT_FRACTION * times.length) {
+      const line = this.#number(usedRows[firstSetBackRow], LINE);
+      throw new LogError(this.#placeOf(line), (say) => say.setBack(times[firstSetBackRow - 1] - times[firstSetBackRow], this.#messageNumber(line)));
     }
 
     // The start is computed from the first row in time. A difference to the first row in the file might be too large to be exact.
@@ -271,18 +270,18 @@ export class Rows {
       if (!this.#isSame(sortedRows[i - 1], row)) differentRows += 1;
       return false;
     });
-    if (sortedRows.length > 3 && differentRows > (1 - MIN_FRACTION) * sortedRows.length) {
+    if (sortedRows.length > 3 && differentRows > (1 - MIN_KEPT_FRACTION) * sortedRows.length) {
       const line = this.#number(min(causes.keys()) as number, LINE);
       throw new LogError(this.#placeOf(line), (say) => say.sameTimes(differentRows, sortedRows.length, this.#messageNumber(line)));
     }
     const timesOf = (chosen: Uint32Array) => this.#column(chosen, (row) => this.#time(row, start));
-    const distinct = rows;
-    const isRepeated = (i: number) => i > 0 && this.#isSame(distinct[i - 1], distinct[i]);
-    const repeatsPerPose = kind === 'poses' ? repeatFactor(timesOf(distinct), isRepeated) : 1;
+    const rowsOfDistinctTime = rows;
+    const isRepeated = (i: number) => i > 0 && this.#isSame(rowsOfDistinctTime[i - 1], rowsOfDistinctTime[i]);
+    const repeatsPerPose = kind === 'poses' ? rowsPerPose(timesOf(rowsOfDistinctTime), isRepeated) : 1;
     let repeatCount = 0;
     // Every `repeatsPerPose`-th of repeated poses is kept, so that the log has the same rate while the robot stands.
     if (repeatsPerPose > 1) {
-      rows = distinct.filter((row, i) => {
+      rows = rowsOfDistinctTime.filter((row, i) => {
         repeatCount = isRepeated(i) ? repeatCount + 1 : 0;
         if (repeatCount % repeatsPerPose !== 0) causes.set(row, 'repeated');
         return repeatCount % repeatsPerPose === 0;
@@ -292,11 +291,11 @@ export class Rows {
       if (classes[i] === STRAY || classes[i] === SET_BACK) causes.set(row, classes[i] === STRAY ? 'stray' : 'setBack');
     });
     if (usedRows.length < this.#addedCount) for (const row of this.#rows) if (this.#isUnset(row)) causes.set(row, 'noStamp');
-    return { start, t: timesOf(rows), rows, late: classes.reduce((count, rowClass) => count + Number(rowClass === LATE), 0), causes };
+    return { start, t: timesOf(rows), rows, lateCount: classes.reduce((count, rowClass) => count + Number(rowClass === LATE), 0), causes };
   }
 
   /** Returns the rows before which the path is unknown: after unusable rows, and where the clock was set back. Counts the dropped rows. */
-  #brokenRows(causes: Map<number, Cause>): Set<number> {
+  #brokenRows(causes: Map<number, DropCause>): Set<number> {
     const rowsAfterBreak = new Set<number>();
     let isAfterBreak = false;
     for (let row = 0; row < this.#addedCount; row++) {
@@ -311,9 +310,9 @@ export class Rows {
     return rowsAfterBreak;
   }
 
-  /** Returns the rate, the gaps, the jumps, and the rows to which the path from the row before is unknown. */
-  #events(kind: LogKind, [t, a, b, c]: Float64Array[], isBroken: (i: number) => boolean) {
-    const medianStep = quantile(sample(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
+  /** Returns the rate, the gaps, the jumps, and the breaks: rows before which the path is unknown. */
+  #findEvents(kind: LogKind, [t, a, b, c]: Float64Array[], isBroken: (i: number) => boolean) {
+    const medianStep = quantile(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     const [gapRows, jumpRows, breaks]: number[][] = [[], [], []];
     const isJump = kind === 'poses' ? jumpChecker(t, a, b, c) : () => false;
     for (let i = 1; i < t.length; i++) {
@@ -321,7 +320,7 @@ export class Rows {
       if (isJump(i)) jumpRows.push(i);
       if (jumpRows.at(-1) === i || isBroken(i)) breaks.push(i);
     }
-    // Several such gaps are those of a node that publishes only while the robot moves, as localizers do.
+    // Several such gaps are not a clock: some localizers publish only while the robot moves.
     const [setRow, ...moreRows] = kind === 'poses' ? gapRows.filter((i) => isSetForward(t, a, b, i, medianStep)) : [];
     return {
       rate: 1 / medianStep, breaks: Uint32Array.from(breaks), jumpRows,
@@ -331,7 +330,7 @@ export class Rows {
     };
   }
 
-  #placeOf(line: number): Place {
+  #placeOf(line: number): ErrorPlace {
     return line && !this.#messageNumber(line) ? { ...this.#logPlace, line } : this.#logPlace;
   }
 
@@ -340,35 +339,35 @@ export class Rows {
     return this.#logPlace.topic === undefined ? 0 : line;
   }
 
-  #countDropped(cause: Cause, line: number): void {
+  #countDropped(cause: DropCause, line: number): void {
     const dropped = (this.#dropped[cause] ??= { count: 0, first: line });
     dropped.count += 1;
   }
 }
 
 /**
- * Returns the distance (m) of two paths whose poses alternate, as of two robots in one log; 0 for a single path. Paths alternate if many poses
+ * Returns the distance (m) of two paths whose poses alternate, as of two robots in one log; 0 for a single path. Of alternating paths many poses
  * are far from the next one, and near one a few rows later.
  */
 function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): number {
-  const distancesOver = (rows: number) => sample(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
+  const distancesOver = (rows: number) => sampleEvenly(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
   const longStep = quantile(distancesOver(1), 0.9);
-  const countOfLong = (rows: number) => distancesOver(rows).filter((distance) => distance > longStep / 2).length;
-  const returnsAfter = (rows: number) => countOfLong(rows) < MAX_LONG_FRACTION * countOfLong(1);
+  const countLongSteps = (rows: number) => distancesOver(rows).filter((distance) => distance > longStep / 2).length;
+  const hasReturnedAfter = (rows: number) => countLongSteps(rows) < MAX_LONG_FRACTION * countLongSteps(1);
   const maxRows = Math.min(MAX_RETURN_ROWS, (MAX_RETURN_SECONDS * t.length) / (t[t.length - 1] - t[0]));
-  return longStep > MIN_PATH_DISTANCE && countOfLong(1) >= MIN_LONG_STEPS && range(2, maxRows + 1).some(returnsAfter) ? longStep : 0;
+  return longStep > MIN_PATH_DISTANCE && countLongSteps(1) >= MIN_LONG_STEPS && range(2, maxRows + 1).some(hasReturnedAfter) ? longStep : 0;
 }
 
-/** Returns true if a robot drives on after a gap in the times from where it was before, steadily: its clock was set forward. */
+/** Returns true if the clock was set forward in a gap: after it a robot drives on steadily from its last pose. */
 function isSetForward(t: Float64Array, x: Float64Array, y: Float64Array, i: number, medianStep: number): boolean {
   const motion = (from: number, to: number) => [x[to] - x[from], y[to] - y[from]];
   const motions = [i - 1 - 2 * MOTION_ROWS, i - 1 - MOTION_ROWS, i, i + MOTION_ROWS].map((from) => motion(from, from + MOTION_ROWS));
   const lengths = motions.map(([dx, dy]) => Math.hypot(dx, dy));
-  const slowest = Math.min(...lengths);
+  const minLength = Math.min(...lengths);
   const isStraight = Math.hypot(sum(motions, ([dx]) => dx), sum(motions, ([, dy]) => dy)) > 0.95 * sum(lengths);
-  const isSteady = slowest > 0.7 * Math.max(...lengths);
-  // Messages that were held up in the gap come in quick succession after it.
-  return isStraight && isSteady && MOTION_ROWS * Math.hypot(...motion(i - 1, i)) < 2 * slowest && t[i + MOTION_ROWS] - t[i] > 0.5 * MOTION_ROWS * medianStep;
+  const isSteady = minLength > 0.7 * Math.max(...lengths);
+  // After delayed messages, the next rows would follow in quick succession.
+  return isStraight && isSteady && MOTION_ROWS * Math.hypot(...motion(i - 1, i)) < 2 * minLength && t[i + MOTION_ROWS] - t[i] > 0.5 * MOTION_ROWS * medianStep;
 }
 
 /** Returns a function that checks for a jump between a row and the one before it. */
@@ -376,7 +375,7 @@ function jumpChecker(t: Float64Array, x: Float64Array, y: Float64Array, theta: F
   const distance = (i: number) => Math.sqrt((x[i] - x[i - 1]) ** 2 + (y[i] - y[i - 1]) ** 2);
   const turn = (i: number) => Math.abs(wrapAngle(theta[i] - theta[i - 1]));
   const motionTests = ([[distance, MIN_JUMP], [turn, MIN_JUMP_TURN]] as const).map(([length, minLength]) => {
-    const stepRates = sample(t.length - 1, (i) => length(i + 1) / (t[i + 1] - t[i]));
+    const stepRates = sampleEvenly(t.length - 1, (i) => length(i + 1) / (t[i + 1] - t[i]));
     const jumpLimit = JUMP_FACTOR * quantile(stepRates.filter((rate) => rate > MIN_MOVING_SPEED), 0.9);
     // For a robot that never moves the limit is NaN.
     return (i: number) => length(i) > Math.max(minLength, (jumpLimit || 0) * (t[i] - t[i - 1]));

@@ -1,12 +1,12 @@
 /** Sentences that summarize logs. */
 
 import type { Words } from './log-error.ts';
-import { LOG_TIME, framesText, type Cause, type Commands, type Log, type Poses } from './log.ts';
+import { LOG_TIME, framesText, type DropCause, type Commands, type Log, type Poses } from './log.ts';
 
-/** Minimum distance in m between two points of the path, so that the noise of poses at rest does not add up. */
+/** Minimum distance (m) between points whose distances are added up, so that the noise of poses at rest is left out. */
 const MIN_STEP = 0.05;
 
-/** Returns the distance driven, m. `jumps` are the rows before which the pose jumped; the jumps do not count. */
+/** Returns the distance driven (m), without the jumps before the rows `jumps`. */
 export function distanceOf(data: Poses | Commands, jumps: number[]): number {
   const { t } = data;
   let distance = 0;
@@ -28,7 +28,7 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
 
 type Label = keyof Words['found']['labels'];
 
-/** Returns the lines about a log by their labels. */
+/** Returns the lines of a log's summary by their labels. */
 export function summaryLines({ summary }: Log, say: Words['found']): Partial<Record<Label, string[]>> {
   const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames, gaps, jumps, notes } = summary;
   return {
@@ -36,7 +36,7 @@ export function summaryLines({ summary }: Log, say: Words['found']): Partial<Rec
     ...(columns && { columns: [Object.values(columns).join(', ')], units: [say.units(units)] }),
     ...(frames && { frames: [framesText(frames)] }),
     ...(clock === LOG_TIME && { clock: [say.recorded] }),
-    dropped: (Object.entries(dropped) as [Cause, { count: number; first: number }][]).map(([cause, { count, first }]) => say.dropped(cause, count, columns ? first : 0)),
+    dropped: (Object.entries(dropped) as [DropCause, { count: number; first: number }][]).map(([cause, { count, first }]) => say.dropped(cause, count, columns ? first : 0)),
     gaps: [gaps.count ? say.gaps(gaps.count, gaps.first, gaps.longest) : say.noGaps],
     ...(jumps.count && { jumps: [say.jumps(jumps.count, jumps.first)] }),
     notes: notes.map(({ name, values }) => {
@@ -46,8 +46,8 @@ export function summaryLines({ summary }: Log, say: Words['found']): Partial<Rec
   };
 }
 
-/** Returns a sentence about the rows of a log, and one for each further line. */
+/** Returns the summary of a log as sentences, the one about its rows first. */
 export function summarySentences(log: Log, say: Words['found']): string[] {
-  const { rows = [], ...others } = summaryLines(log, say);
-  return [...rows, ...Object.entries(others).flatMap(([label, lines]) => lines.map((line) => `${say.labels[label as Label]}: ${line}`))];
+  const { rows = [], ...otherLines } = summaryLines(log, say);
+  return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${say.labels[label as Label]}: ${line}`))];
 }

@@ -1,12 +1,12 @@
-/** Logs in text: tables of robots, recorders and spreadsheets. */
+/** Reader of logs in text tables of robots, recorders and spreadsheets. */
 
 import { least } from 'd3-array';
 import { type Clock, type Group, type Layout, layoutOf } from './columns.ts';
 import { type Format, cellsOf, formatOf } from './format.ts';
-import { LogError, bytesOf, cut, listing, type Place } from './log-error.ts';
+import { LogError, readBytes, truncate, listNames, type ErrorPlace } from './log-error.ts';
 import type { Log, Note, OpenOptions, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
-import { type Time, dateOf, numberOf, timeOf } from './numbers.ts';
-import { quantile, sample } from './quantile.ts';
+import { type SplitTime, parseDate, parseNumber, parseTime } from './numbers.ts';
+import { quantile, sampleEvenly } from './quantile.ts';
 import { headingOf, isRotation } from './quaternion.ts';
 import { Rows } from './rows.ts';
 import { UNIT_EXPONENTS, unitOfSize } from './units.ts';
@@ -14,33 +14,33 @@ import { UNIT_EXPONENTS, unitOfSize } from './units.ts';
 /** Number of bytes that are read and parsed at a time. */
 const BLOCK_BYTES = 2 ** 22;
 
-/** Number of bytes at the beginning, with a preamble and some rows, from which the format is detected. */
+/** Number of first bytes, with a preamble and some rows, from which the format is detected. */
 const HEAD_BYTES = 2 ** 18;
 
-/** Number of characters at the beginning that must not contain a zero. Later zeros are a block that was never written. */
+/** Number of first characters that must not contain a NUL. Later NULs are a block that was never written to disk. */
 const CHECKED_CHARACTERS = 4096;
 
-/** Maximum number of characters of a line: a row of a thousand columns. */
+/** Maximum number of characters of a line. A row of a thousand columns is shorter. */
 const MAX_LINE_LENGTH = 2 ** 16;
 
-/** Maximum fraction of damaged rows. Above it, the table has another format than assumed, or comes from a broken disk. */
+/** Maximum fraction of damaged rows. Above it, the log is refused. */
 const MAX_DAMAGED_FRACTION = 0.1;
 
-/** Minimum number of short fractions that end in 0 from which fractions count as nanoseconds without leading zeros. */
-const MIN_UNPADDED = 5;
+/** Minimum number of short fractions ending in 0 from which fractions count as nanoseconds without leading zeros. */
+const MIN_UNPADDED_TIMES = 5;
 
 type ErrorReason = ConstructorParameters<typeof LogError>[1];
 
 /** Maximum number of frames that a sentence lists. */
 const MAX_LISTED_FRAMES = 4;
 
-/** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
+/** Maximum spread of the cosine of the tilt. Above it, the assumed vertical axis is wrong. */
 const MAX_TILT_SPREAD = 0.5;
 
 /** Opens a table; rejects with a LogError. */
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
   const encoding = await detectEncoding(source);
-  const headText = joinZeros(new TextDecoder(encoding).decode(await bytesOf(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true }));
+  const headText = joinZeros(new TextDecoder(encoding).decode(await readBytes(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true }));
   if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
   const lineEnd = lineEndOf(headText);
   const headLines = headText.split(lineEnd);
@@ -54,8 +54,8 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   // If no group can be read, `layoutOf` throws the reason for the group with most columns.
   if (readableGroups.length === 0) layoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, headerPlace, undefined);
   const seriesOfGroup = (group: Group): Series => ({
-    name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listing(columnNames(group)),
-    type: listing(columnNames(group)),
+    name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listNames(columnNames(group)),
+    type: listNames(columnNames(group)),
     kind: group.kind,
     hasCommands: group.hasCommands,
     count: 0,
@@ -74,11 +74,11 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
         return format.hasUnknownAxis ? [readerOf(withYAxisUp(chosenGroup), 'Y'), readerOf(chosenGroup, 'Z')] : [readerOf(chosenGroup)];
       });
       const allReaders = readersOfChoices.flat();
-      await readLines(source, encoding, lineEnd, format.firstLine, onProgress, (line, number, isOpen) => {
-        for (const reader of allReaders) reader.take(line, number, isOpen);
+      await readLines(source, encoding, lineEnd, format.firstLine, onProgress, (line, number, isUnterminated) => {
+        for (const reader of allReaders) reader.addLine(line, number, isUnterminated);
       });
       // The vertical axis is the one about which the robot turns, and along which it hardly moves.
-      return readersOfChoices.map((readers) => (least(readers.filter(({ isTilted }) => !isTilted), ({ rise }) => rise) ?? readers[0]).end());
+      return readersOfChoices.map((readers) => (least(readers.filter(({ isTilted }) => !isTilted), ({ heightSpread }) => heightSpread) ?? readers[0]).end());
     },
   };
 }
@@ -87,7 +87,7 @@ const columnNames = ({ columns }: Group) => Object.values(columns).toSorted((a, 
 
 /** Returns the encoding of a text. Signs are a byte order mark, the zeros of UTF-16, and bytes that UTF-8 does not have. */
 async function detectEncoding(source: Source): Promise<string> {
-  const bytes = await bytesOf(source, 0, Math.min(HEAD_BYTES, source.size));
+  const bytes = await readBytes(source, 0, Math.min(HEAD_BYTES, source.size));
   const [first, second, third, fourth] = bytes;
   if ((first === 0xff && second === 0xfe) || (first !== 0 && second === 0 && third !== 0 && fourth === 0)) return 'utf-16le';
   if (first === 0xfe && second === 0xff) return 'utf-16be';
@@ -99,31 +99,29 @@ async function detectEncoding(source: Source): Promise<string> {
   }
 }
 
-/**
- * Replaces each block of zeros by a single zero, so that its row is damaged. A file has such a block if the computer lost its power.
- */
+/** Replaces each block of NULs by a single one, which makes its row damaged. A file has such a block after a loss of power. */
 const joinZeros = (text: string) => (text.includes('\0') ? text.replaceAll(/\0+/g, '\0') : text);
 
 /** Returns the character that ends lines: a line feed, or in files of old spreadsheets a carriage return. */
 const lineEndOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '\n' : '\r');
 
-/** Calls `take` for each line from number `from` on. `isOpen` is true for text after the last line feed: the file may be cut off there. */
-async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, take: (line: string, number: number, isOpen: boolean) => void) {
+/** Calls `addLine` for each line from number `from` on. `isUnterminated` is true for text after the last line feed: the file may be cut off there. */
+async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, addLine: (line: string, number: number, isUnterminated: boolean) => void) {
   const decoder = new TextDecoder(encoding);
-  let [tail, number] = ['', 0];
-  const takeLine = (line: string, isOpen: boolean) => {
+  let [incompleteLine, number] = ['', 0];
+  const takeLine = (line: string, isUnterminated: boolean) => {
     number += 1;
-    if (number >= from) take(line, number, isOpen);
+    if (number >= from) addLine(line, number, isUnterminated);
   };
   for (let at = 0; at < source.size; at += BLOCK_BYTES) {
     onProgress?.(at / source.size);
-    const text = tail + joinZeros(decoder.decode(await bytesOf(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
+    const text = incompleteLine + joinZeros(decoder.decode(await readBytes(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
     const lines = text.split(end);
-    tail = lines.pop() ?? '';
+    incompleteLine = lines.pop() ?? '';
     for (const line of lines) takeLine(line, false);
-    if (tail.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
+    if (incompleteLine.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   }
-  takeLine(tail + decoder.decode(), true);
+  takeLine(incompleteLine + decoder.decode(), true);
 }
 
 /** Returns a group of columns with Y as the vertical axis: X of the robot's plane is Z, and Y is X. */
@@ -132,7 +130,7 @@ function withYAxisUp(group: Group): Group {
   return { ...group, columns: { ...group.columns, x: z, y: x, z: y, qx: qz, qy: qx, qz: qy } };
 }
 
-/** Reader of the times of a table. If no unit is stated, it is judged by the first time that is not 0. */
+/** Reader of the times of a table. If no unit is stated, the first time that is not 0 determines it. */
 class ClockReader {
   #clock: Clock;
   #textOf: (cell: string) => string;
@@ -145,7 +143,7 @@ class ClockReader {
   #hasLeadingZero = false;
   /** Number of digits of the longest fraction. */
   #maxDigits = 0;
-  /** Times whose fractions end in 0, by the number of digits of the fraction. */
+  /** Examples of times whose fractions end in 0, by the number of digits of the fraction. */
   #endingInZero = new Map<number, string[]>();
 
   /** @param textOf returns the text of a cell with a decimal point */
@@ -157,29 +155,29 @@ class ClockReader {
   }
 
   /** Returns the time of a row; undefined if its cell is neither a number nor a date. */
-  read(cells: string[]): Time | undefined {
+  read(cells: string[]): SplitTime | undefined {
     const [{ at }, subseconds] = this.#clock.columns;
     const text = this.#textOf(cells[at]);
     if (subseconds) {
-      const [seconds, rest] = [timeOf(text, 0), numberOf(cells[subseconds.at])];
+      const [seconds, rest] = [parseTime(text, 0), parseNumber(cells[subseconds.at])];
       return seconds && rest !== undefined ? [seconds[0], seconds[1] + rest / 10 ** UNIT_EXPONENTS[subseconds.unit as TimeUnit]] : undefined;
     }
     if (text.trim() === '') return [NaN, NaN];
     if (this.#isDate === undefined) {
-      const dateTime = dateOf(cells[at]);
+      const dateTime = parseDate(cells[at]);
       this.#isDate = dateTime !== undefined;
       if (dateTime) [this.unit, this.by, this.hasZone] = ['s', 'date', dateTime.hasZone];
     }
-    if (this.#isDate) return dateOf(cells[at])?.time;
+    if (this.#isDate) return parseDate(cells[at])?.time;
     if (this.unit === undefined) {
-      const timeNumber = numberOf(text);
+      const timeNumber = parseNumber(text);
       if (timeNumber && Number.isFinite(timeNumber)) {
         this.unit = unitOfSize(timeNumber) ?? 's';
         if (unitOfSize(timeNumber)) this.by = 'size';
       }
     }
     this.#noteFraction(text);
-    return timeOf(text, UNIT_EXPONENTS[this.unit ?? 's']);
+    return parseTime(text, UNIT_EXPONENTS[this.unit ?? 's']);
   }
 
   #noteFraction(text: string): void {
@@ -191,23 +189,23 @@ class ClockReader {
     if (!text.endsWith('0')) return;
     const sameDigitTimes = this.#endingInZero.get(digitCount) ?? [];
     if (sameDigitTimes.length === 0) this.#endingInZero.set(digitCount, sameDigitTimes);
-    if (sameDigitTimes.length < MIN_UNPADDED) sameDigitTimes.push(text);
+    if (sameDigitTimes.length < MIN_UNPADDED_TIMES) sameDigitTimes.push(text);
   }
 
   /**
    * Example of a time whose nanoseconds were written after the point without leading zeros ("5.70" for 5 s and 70 ns); undefined if there is
-   * none. Short fractions that end in 0 give it away: a program that drops trailing zeros would not write them.
+   * none. Its evidence is short fractions that end in 0. A program that drops trailing zeros would not write them.
    */
-  get unpadded(): string | undefined {
+  get unpaddedTime(): string | undefined {
     if (this.#hasLeadingZero) return undefined;
-    return [...this.#endingInZero].find(([digits, { length }]) => digits < this.#maxDigits && length === MIN_UNPADDED)?.[1][0];
+    return [...this.#endingInZero].find(([digits, { length }]) => digits < this.#maxDigits && length === MIN_UNPADDED_TIMES)?.[1][0];
   }
 }
 
-/** Reader of the rows of one series. */
+/** Reader of the log of one series, line by line. */
 class LogReader {
   #name: string;
-  #place: Place;
+  #place: ErrorPlace;
   #format: Format;
   #group: Group;
   #layout: Layout;
@@ -237,14 +235,14 @@ class LogReader {
     this.#options = options;
     this.#upAxis = upAxis;
     this.#rows = new Rows(this.#place);
-    this.#textOf = format.hasCommas ? withDecimalPoint : (cell) => cell;
+    this.#textOf = format.hasDecimalCommas ? withDecimalPoint : (cell) => cell;
     this.#clocks = layout.clocks.map((clock, i) => new ClockReader(clock, i === 0 ? options.timeUnit : undefined, this.#textOf));
     const { z, frame, child, source } = group.columns;
     const columns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...[upAxis && z, frame, child, source].filter((column) => column !== undefined)];
     this.#neededCells = Math.max(...columns.map(({ at }) => at)) + 1;
   }
 
-  take(line: string, number: number, isOpen: boolean): void {
+  addLine(line: string, number: number, isUnterminated: boolean): void {
     if (line.length > MAX_LINE_LENGTH) this.#refuse(number, (say) => say.longLine(MAX_LINE_LENGTH));
     const { separator, isSparse, header } = this.#format;
     const { source } = this.#group;
@@ -253,18 +251,18 @@ class LogReader {
     const cells = cellsOf(line, separator, this.#neededCells);
     if (source && cells[source.at]?.trim() !== source.name) return;
     if (cells.length < this.#neededCells) {
-      if (!isOpen) return this.#dropDamaged('short', number, (say) => say.cells(cells.length, this.#neededCells));
+      if (!isUnterminated) return this.#dropDamaged('short', number, (say) => say.cells(cells.length, this.#neededCells));
       this.#notes.push({ name: 'cutShort', values: [] });
       return this.#rows.drop('short', number);
     }
-    // In a row of another topic the cells of this one are empty.
-    if (isSparse && this.#layout.columns.every(({ at }) => Number.isNaN(numberOf(cells[at])))) return;
+    // A row of another topic has empty cells in the columns of this one.
+    if (isSparse && this.#layout.columns.every(({ at }) => Number.isNaN(parseNumber(cells[at])))) return;
     this.#add(cells, number);
   }
 
   #add(cells: string[], line: number): void {
     const { clocks, columns, fields } = this.#layout;
-    const times: Time[] = [];
+    const times: SplitTime[] = [];
     for (let i = 0; i < clocks.length; i++) {
       const time = this.#clocks[i].read(cells);
       if (!time) return this.#dropText(line, clocks[i].name, cells[clocks[i].columns[0].at]);
@@ -272,7 +270,7 @@ class LogReader {
     }
     const values: number[] = [];
     for (const { at, name } of columns) {
-      const value = numberOf(this.#textOf(cells[at]));
+      const value = parseNumber(this.#textOf(cells[at]));
       if (value === undefined) return this.#dropText(line, name, cells[at]);
       values.push(value);
     }
@@ -284,7 +282,7 @@ class LogReader {
       const [qx, qy, qz, qw] = fields.length === 6 ? values.slice(2) : [0, 0, ...values.slice(2)];
       if (!isRotation(qx, qy, qz, qw)) return this.#rows.drop('noRotation', line);
       this.#tiltCosines.push(1 - 2 * (qx * qx + qy * qy));
-      if (this.#upAxis && z) this.#robotHeights.push(numberOf(this.#textOf(cells[z.at])) ?? NaN);
+      if (this.#upAxis && z) this.#robotHeights.push(parseNumber(this.#textOf(cells[z.at])) ?? NaN);
       heading = headingOf(qx, qy, qz, qw);
     }
     const [[seconds, fraction], [otherSeconds, otherFraction] = [0, 0]] = times;
@@ -299,7 +297,7 @@ class LogReader {
   }
 
   #dropText(line: number, name: string, cell: string): void {
-    this.#dropDamaged('text', line, (say) => say.number(cut(name), cut(cell.trim())));
+    this.#dropDamaged('text', line, (say) => say.number(truncate(name), truncate(cell.trim())));
   }
 
   /** Returns true if the robot does not drive on a plane. */
@@ -308,24 +306,24 @@ class LogReader {
   }
 
   /** Spread of the robot's heights. It is small along the vertical axis. */
-  get rise(): number {
+  get heightSpread(): number {
     return quantileSpread(this.#robotHeights);
   }
 
   end(): Log {
     const { clocks, columns, fields, kind, length, angle } = this.#layout;
-    if (kind === 'positions') throw new LogError(this.#place, (say) => say.positions(listing(columns.map(({ name }) => name))));
+    if (kind === 'positions') throw new LogError(this.#place, (say) => say.positions(listNames(columns.map(({ name }) => name))));
     if (this.#firstDamaged && this.#damagedRows > MAX_DAMAGED_FRACTION * this.#rows.count) {
       const [line, reason] = this.#firstDamaged;
       this.#refuse(line, (say) => [reason(say), ...(this.#damagedRows > 1 && this.#damagedRows < this.#rows.count ? [say.manyBad(this.#damagedRows, this.#rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])].join(' '));
     }
-    if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listing([...this.#frames])));
-    const { unpadded } = this.#clocks[0];
-    if (unpadded !== undefined) throw new LogError(this.#place, (say) => say.unpadded(cut(unpadded)));
+    if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listNames([...this.#frames])));
+    const { unpaddedTime } = this.#clocks[0];
+    if (unpaddedTime !== undefined) throw new LogError(this.#place, (say) => say.unpadded(truncate(unpaddedTime)));
     if (this.isTilted) throw new LogError(this.#place, (say) => say.tilted, { what: 'columns', choices: [], columns: this.#format.names });
     if (this.#upAxis) this.#notes.push({ name: 'upAxis', values: [this.#upAxis] });
     const [{ unit = 's', by, hasZone }] = this.#clocks;
-    if (!(unit in UNIT_EXPONENTS)) throw new LogError(this.#place, (say) => say.unknownUnit(cut(unit)));
+    if (!(unit in UNIT_EXPONENTS)) throw new LogError(this.#place, (say) => say.unknownUnit(truncate(unit)));
     if (!hasZone) this.#notes.push({ name: 'noZone', values: [] });
     const isQuaternion = fields.at(-1) === 'qw';
     return this.#rows.end(this.#name, kind, {
@@ -350,6 +348,6 @@ const withDecimalPoint = (cell: string) => (cell.includes('.') && !cell.includes
 
 /** Returns the difference of the 95 % and the 5 % quantile. */
 const quantileSpread = (values: number[]) => {
-  const sampledValues = sample(values.length, (i) => values[i]).filter(Number.isFinite);
+  const sampledValues = sampleEvenly(values.length, (i) => values[i]).filter(Number.isFinite);
   return quantile(sampledValues, 0.95) - quantile(sampledValues, 0.05);
 };

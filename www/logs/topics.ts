@@ -1,44 +1,44 @@
-/** Logs of the topics of a recording. */
+/** Reader of logs from the topics of a recording. */
 
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
-import { LogError, cut, listing, reasonOf, type Words } from './log-error.ts';
-import { LOG_TIME, framesOption, framesText, type Choice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
-import { edgesOf, isReadable, kindOf, poseReader, type Sample } from './messages.ts';
+import { LogError, truncate, listNames, reasonOf, type Words } from './log-error.ts';
+import { LOG_TIME, framesOption, framesText, type LogChoice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
+import { readTransforms, isReadable, kindOf, poseReader, type Sample } from './messages.ts';
 import { MAX_VALUE, Rows } from './rows.ts';
 
 /** Maximum number of messages with transforms that are read to find the frames. */
 const MAX_FRAME_MESSAGES = 2000;
 
 /**
- * Maximum number of times that a publisher of a topic comes back after another node published it. More times mean that two nodes publish at
- * the same time. A restarted node counts as a new publisher.
+ * Maximum number of returns to an earlier publisher of a topic. More returns mean that two nodes publish at the same time. A restarted node
+ * counts as a new publisher.
  */
 const MAX_ALTERNATIONS = 2;
 
 /** Returns true for a topic of static transforms. */
 const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => kindOf(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
-/** Returns the recording that a container holds. */
+/** Returns the recording of a container of messages. */
 export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
-  const { format, cutShort, damage, channels } = container;
+  const { format, isCutShort, damage, channels } = container;
   const [reason] = damage.values();
-  if (channels.every(({ count }) => count === 0)) throw new LogError({ file: name }, (say) => (reason ? say.damaged(reason) : cutShort ? say.incomplete(format) : say.noMessages));
+  if (channels.every(({ count }) => count === 0)) throw new LogError({ file: name }, (say) => (reason ? say.damaged(reason) : isCutShort ? say.incomplete(format) : say.noMessages));
   const series = await listSeries(container);
   return { name, format, series, read };
 
   /** Reads several logs in one pass. */
-  async function read(choices: Choice[], onProgress?: (share: number) => void): Promise<Log[]> {
-    const topicReaders = choices.map((choice) => new TopicReader(name, container, choice, series));
-    const readers = new Map(container.channels.map((channel) => [channel, topicReaders.filter((topic) => topic.wants(channel))]));
-    const takeMessage = (message: Message) => {
-      for (const topic of readers.get(message.channel) ?? []) topic.take(message);
+  async function read(choices: LogChoice[], onProgress?: (share: number) => void): Promise<Log[]> {
+    const choiceReaders = choices.map((choice) => new TopicReader(name, container, choice, series));
+    const readersByChannel = new Map(container.channels.map((channel) => [channel, choiceReaders.filter((reader) => reader.wants(channel))]));
+    const passMessage = (message: Message) => {
+      for (const reader of readersByChannel.get(message.channel) ?? []) reader.addMessage(message);
     };
-    const wantedChannels = new Set(container.channels.filter((channel) => readers.get(channel)?.length && !isStaticTopic(channel)));
+    const wantedChannels = new Set(container.channels.filter((channel) => readersByChannel.get(channel)?.length && !isStaticTopic(channel)));
     // Static transforms are read first, because they also hold before the time of their recording.
-    if (choices.some(({ frames }) => frames)) await container.read(isStaticTopic, takeMessage);
-    await container.read((channel) => wantedChannels.has(channel), takeMessage, onProgress);
-    return topicReaders.map((topic) => topic.end(options));
+    if (choices.some(({ frames }) => frames)) await container.read(isStaticTopic, passMessage);
+    await container.read((channel) => wantedChannels.has(channel), passMessage, onProgress);
+    return choiceReaders.map((reader) => reader.end(options));
   }
 }
 
@@ -46,26 +46,26 @@ async function listSeries(container: Container): Promise<Series[]> {
   const channelsByTopic = new Map<string, Channel[]>();
   for (const channel of container.channels) channelsByTopic.set(channel.topic, [...(channelsByTopic.get(channel.topic) ?? []), channel]);
   const series: Series[] = [...channelsByTopic].map(([topic, channels]) => {
-    const readable = channels.filter((channel) => isReadable(channel) && kindOf(channel.type) !== null);
-    const types = new Set((readable.length ? readable : channels).map((channel) => (isReadable(channel) ? channel.type : `${channel.type} as ${channel.encoding}`)));
-    const count = (readable.length ? readable : channels).reduce((sum, channel) => sum + channel.count, 0);
-    return { name: topic, type: [...types].join(', '), kind: readable.length && types.size === 1 ? kindOf([...types][0]) : null, count };
+    const readableChannels = channels.filter((channel) => isReadable(channel) && kindOf(channel.type) !== null);
+    const types = new Set((readableChannels.length ? readableChannels : channels).map((channel) => (isReadable(channel) ? channel.type : `${channel.type} as ${channel.encoding}`)));
+    const count = (readableChannels.length ? readableChannels : channels).reduce((sum, channel) => sum + channel.count, 0);
+    return { name: topic, type: [...types].join(', '), kind: readableChannels.length && types.size === 1 ? kindOf([...types][0]) : null, count };
   });
   for (const entry of series) {
     if (entry.kind !== 'transforms' || isStaticTopic({ topic: entry.name, type: entry.type })) continue;
     const frameTree = new FrameTree();
     let messageCount = 0;
-    const take = (message: Message) => {
+    const addMessage = (message: Message) => {
       messageCount += 1;
       try {
-        for (const edge of edgesOf(message)) frameTree.take(edge, isStaticTopic(message.channel));
+        for (const transform of readTransforms(message)) frameTree.add(transform, isStaticTopic(message.channel));
       } catch {
         // A damaged message is counted when the log is read.
       }
     };
-    await container.read(isStaticTopic, take);
-    await container.read(({ topic }) => topic === entry.name, take, () => messageCount >= MAX_FRAME_MESSAGES);
-    entry.frames = frameTree.candidates();
+    await container.read(isStaticTopic, addMessage);
+    await container.read(({ topic }) => topic === entry.name, addMessage, () => messageCount >= MAX_FRAME_MESSAGES);
+    entry.frames = frameTree.findPoseFrames();
   }
   return series.sort((one, other) => (one.name < other.name ? -1 : 1));
 }
@@ -91,7 +91,7 @@ class TopicReader {
   /** Number of times that a node published again after another one. */
   #alternations = 0;
 
-  constructor(file: string, container: Container, choice: Choice, series: Series[]) {
+  constructor(file: string, container: Container, choice: LogChoice, series: Series[]) {
     this.#file = file;
     this.#container = container;
     this.#choice = choice;
@@ -101,7 +101,7 @@ class TopicReader {
     const frameCandidates = series.find(({ name }) => name === choice.series)?.frames ?? [];
     if (!choice.frames) {
       const ask = { what: 'frames' as const, choices: frameCandidates.map(framesOption) };
-      this.#refuse((say) => say.frames(listing(frameCandidates.map(framesText))), ask);
+      this.#refuse((say) => say.frames(listNames(frameCandidates.map(framesText))), ask);
     }
     this.#chain = new Chain(choice.frames);
   }
@@ -121,14 +121,14 @@ class TopicReader {
     };
     const fittingChannels = channels.filter(isWantedType);
     const typeNames = [...new Set((fittingChannels.length ? fittingChannels : channels).map(({ type }) => type))];
-    if (fittingChannels.length === 0) this.#refuse((say) => say.type(cut(typeNames.join(', ')), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
-    if (typeNames.length > 1) this.#refuse((say) => say.types(listing(typeNames)));
+    if (fittingChannels.length === 0) this.#refuse((say) => say.type(truncate(typeNames.join(', ')), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
+    if (typeNames.length > 1) this.#refuse((say) => say.types(listNames(typeNames)));
     if (kindOf(typeNames[0]) === 'positions') this.#refuse((say) => say.positions(typeNames[0]));
-    if (!isReadable(fittingChannels[0])) this.#refuse((say) => say.encoding(cut(fittingChannels[0].encoding)));
+    if (!isReadable(fittingChannels[0])) this.#refuse((say) => say.encoding(truncate(fittingChannels[0].encoding)));
     return kindOf(typeNames[0]);
   }
 
-  take(message: Message): void {
+  addMessage(message: Message): void {
     const { channel } = message;
     let readMessage = this.#readers.get(channel);
     if (!readMessage) this.#readers.set(channel, (readMessage = this.#readerOf(channel)));
@@ -153,7 +153,7 @@ class TopicReader {
     }
     const isStaticChannel = isStaticTopic(channel);
     return (message) => {
-      for (const edge of edgesOf(message)) chain.take(edge, isStaticChannel, message, this.#messageCount);
+      for (const transform of readTransforms(message)) chain.add(transform, isStaticChannel, message, this.#messageCount);
     };
   }
 
@@ -173,17 +173,17 @@ class TopicReader {
   /** Returns the log; throws a LogError if the messages do not form a log. */
   end(options: OpenOptions): Log {
     const { series, frames } = this.#choice;
-    const { damage, cutShort, missing } = this.#container;
+    const { damage, isCutShort, missingFiles } = this.#container;
     const [reason] = damage.values();
     if (this.#messageCount === 0) this.#refuse((say) => (reason ? say.damaged(reason) : say.noMessages));
-    if (this.#alternations > MAX_ALTERNATIONS) this.#refuse((say) => say.publishers(listing(this.#publishers)));
+    if (this.#alternations > MAX_ALTERNATIONS) this.#refuse((say) => say.publishers(listNames(this.#publishers)));
     if (this.#chain) this.#addPoses(this.#chain);
     if (this.#damagedCount === this.#messageCount) this.#refuse((say) => say.message(1, this.#reason));
     const kind = this.#kind === 'commands' ? 'commands' : 'poses';
     const notes: Note[] = [
-      ...(missing.length ? [{ name: 'missing' as const, values: [listing(missing)] }] : []),
+      ...(missingFiles.length ? [{ name: 'missing' as const, values: [listNames(missingFiles)] }] : []),
       ...(damage.size ? [{ name: 'damaged' as const, values: [damage.size, reason] }] : []),
-      ...(cutShort ? [{ name: 'cutShort' as const, values: [] }] : []),
+      ...(isCutShort ? [{ name: 'cutShort' as const, values: [] }] : []),
     ];
     return this.#rows.end(`${this.#file}, ${series}${frames ? ` (${framesText(frames)})` : ''}`, kind, {
       units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: kind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
@@ -194,11 +194,11 @@ class TopicReader {
   }
 
   #addPoses(chain: Chain): void {
-    const frames = this.#choice.frames as NonNullable<Choice['frames']>;
+    const frames = this.#choice.frames as NonNullable<LogChoice['frames']>;
     if (this.#damagedCount === this.#messageCount) return;
-    if (!chain.isConnected) this.#refuse((say) => say.noChain(framesText(frames), listing(chain.tree.links.map(framesText))));
+    if (!chain.isConnected) this.#refuse((say) => say.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
     const hasChanged = chain.poses((pose, { message, number }) => this.#add(pose, message, number));
-    if (!hasChanged) this.#refuse((say) => say.constant(framesText(frames), listing(chain.tree.candidates().map(framesText))));
+    if (!hasChanged) this.#refuse((say) => say.constant(framesText(frames), listNames(chain.tree.findPoseFrames().map(framesText))));
   }
 
   #refuse(reason: (say: Words['refused']) => string, ask?: Question): never {

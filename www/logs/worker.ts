@@ -1,6 +1,6 @@
 /**
- * Answers of the worker that opens recordings, reads logs and calibrates. If the page cannot have a worker, `serveRequests` answers on a port
- * in the page's thread.
+ * Worker that opens recordings, reads logs and calibrates. If the page cannot start a worker, `serveRequests` runs on a port in the page's
+ * thread.
  */
 
 import type { SharedCore } from '../core.ts';
@@ -11,9 +11,9 @@ import { english } from './en.ts';
 import { LogError } from './log-error.ts';
 import type { OpenOptions, Question, Recording, Source } from './log.ts';
 import { openRecordings } from './open.ts';
-import { logOf } from './pairs.ts';
+import { calibrationLogOf } from './pairs.ts';
 
-/** Recording as the page gets it: without the method `read`, but with its index (`place`) among the opened recordings. */
+/** Recording as posted to the page: without its methods, but with its index (`place`) among the opened recordings. */
 export type OpenedRecording = Recording & { place: number };
 
 /** Error for the page. A LogError has its sentence in each language. */
@@ -28,14 +28,14 @@ export interface PostedFailure {
 export type OnProgress = (share: number) => void;
 
 /** Request of the page: a method of `LogSession`, and its parameters. */
-export interface Request {
+export interface WorkerRequest {
   number: number;
   method: 'open' | 'read' | 'calibrate';
   parameters: unknown[];
 }
 
 /** Answer to the request with this number. Answers with progress precede the result or the failure. */
-export type Answer = { number: number } & ({ progress: number } | { result: unknown } | { failure: PostedFailure });
+export type WorkerAnswer = { number: number } & ({ progress: number } | { result: unknown } | { failure: PostedFailure });
 
 /** Opened recordings, and the log that was read last. */
 class LogSession {
@@ -56,24 +56,24 @@ class LogSession {
 
   /** Reads the logs of a plan of the page, and keeps them for `calibrate`. */
   async read(onProgress: OnProgress, { drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>): Promise<Drive[]> {
-    const openedPart = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).place], choice });
+    const openedChoice = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).place], choice });
     const plan = {
-      drives: drives.map(({ odometry, reference }) => ({ odometry: openedPart(odometry), reference: openedPart(reference) })),
-      unpaired: { odometry: unpaired.odometry.map(openedPart), reference: unpaired.reference.map(openedPart) },
+      drives: drives.map(({ odometry, reference }) => ({ odometry: openedChoice(odometry), reference: openedChoice(reference) })),
+      unpaired: { odometry: unpaired.odometry.map(openedChoice), reference: unpaired.reference.map(openedChoice) },
     };
-    const readLogs = await readDrives(plan, onProgress);
-    this.#takeLog(logOf(readLogs));
-    return readLogs;
+    const loadedDrives = await readDrives(plan, onProgress);
+    this.#setLog(calibrationLogOf(loadedDrives));
+    return loadedDrives;
   }
 
   /** Returns the fit to `log`, or to the log that was read last, for `AlphaCalibrator.restored`. */
   calibrate(_: OnProgress, config: AlphaCalibratorSettings, log?: CalibrationLog): Uint8Array {
-    if (log) this.#takeLog(log);
+    if (log) this.#setLog(log);
     this.#machine.configure(config);
     return this.#machine.save();
   }
 
-  #takeLog({ odometry, reference }: CalibrationLog) {
+  #setLog({ odometry, reference }: CalibrationLog) {
     this.#machine.setLog(odometry, reference);
   }
 }
@@ -94,13 +94,13 @@ function buffersOf(result: unknown): ArrayBuffer[] {
 const PROGRESS_INTERVAL = 50;
 
 /**
- * Answers the requests on a port. The first message has the core. `instantiate` is a parameter, as an import would slow down a script that
- * is one file. esbuild wraps modules that a dynamic import reaches in functions, and a browser parses functions twice.
+ * Answers the requests on a port. The first message has the core. `instantiate` is a parameter, because esbuild would wrap an imported module
+ * in a function, which browsers parse twice.
  */
 export function serveRequests(port: Pick<MessagePort, 'onmessage' | 'postMessage'>, instantiate: (core: SharedCore) => Promise<Motion>) {
   let session: LogSession;
-  const postAnswer = (message: Answer, buffers: ArrayBuffer[] = []) => port.postMessage(message, buffers);
-  port.onmessage = async ({ data }: MessageEvent<Request & { core?: SharedCore }>) => {
+  const postAnswer = (message: WorkerAnswer, buffers: ArrayBuffer[] = []) => port.postMessage(message, buffers);
+  port.onmessage = async ({ data }: MessageEvent<WorkerRequest & { core?: SharedCore }>) => {
     const { core, number = 0, method, parameters } = data;
     try {
       if (core) session = new LogSession(await instantiate(core));

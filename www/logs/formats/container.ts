@@ -1,7 +1,7 @@
 /** Containers of messages: the interface that the readers of all formats share. */
 
 import type { Recording, Source } from '../log.ts';
-import { LogError, bytesOf, reasonOf } from '../log-error.ts';
+import { LogError, readBytes, reasonOf } from '../log-error.ts';
 
 /** Topic of one publishing node. */
 export interface Channel {
@@ -21,8 +21,9 @@ export interface Message {
   /** Time of recording. */
   seconds: number;
   nanoseconds: number;
-  /** Block with the serialized message, and its range there. Messages share views, because creating one takes as long as reading a message. */
+  /** View of the block that contains the serialized message. Messages share it, because creating a view takes as long as reading a message. */
   block: DataView;
+  /** Range of the message in the block. */
   from: number;
   to: number;
 }
@@ -36,18 +37,18 @@ export interface Container {
   /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
   damage: Map<number, string>;
   /** True if the end of the file is missing. */
-  cutShort: boolean;
+  isCutShort: boolean;
   /** Names of missing split files of the recording. */
-  missing: string[];
+  missingFiles: string[];
   /** Passes on the messages of channels, block by block. Stops after a block if `onProgress` returns true. */
   read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void>;
 }
 
-/** File of messages, with its channels by their ids. */
+/** Base class of files of messages, with their channels by id. */
 export abstract class MessageFile<Id> {
   readonly damage = new Map<number, string>();
-  readonly missing = [];
-  cutShort = false;
+  readonly missingFiles = [];
+  isCutShort = false;
   protected readonly source: Source;
   protected readonly channelsById = new Map<Id, Channel>();
 
@@ -69,31 +70,31 @@ export abstract class MessageFile<Id> {
 /** Maximum size of a block in bytes. Recorders write one to four million. */
 export const MAX_BLOCK_BYTES = 2 ** 26;
 
-/** Number of bytes that are read at once, and number of such pieces that are read in advance. */
+/** Size of the pieces that are read at once, and number of pieces that are read in advance. */
 const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
 
 /**
- * Returns a function that reads bytes of a source. Positions must increase from call to call. While positions follow each other, the next
- * pieces are read during the work on the present one.
+ * Returns a function that reads bytes of a source. Positions must increase from call to call. During sequential reads the next pieces are
+ * requested in advance.
  */
 export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
   const pieces = new Map<number, Uint8Array | Promise<Uint8Array>>();
-  let last = -1;
+  let lastPiece = -1;
   const requestPiece = (i: number) => {
     if (pieces.has(i) || i * PIECE_BYTES >= source.size) return;
-    const bytes = bytesOf(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
+    const bytes = readBytes(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
     pieces.set(i, bytes);
-    // If the piece is never needed, an error of its read has no effect.
+    // An error of reading is reported only when the piece is needed.
     bytes.then((read) => pieces.has(i) && pieces.set(i, read), () => {});
   };
   return async (from, to) => {
     const firstPiece = Math.floor(from / PIECE_BYTES);
-    const piecesAhead = firstPiece <= last + 1 ? PIECES_AHEAD : 0;
-    last = Math.max(firstPiece, Math.floor((to - 1) / PIECE_BYTES));
+    const piecesAhead = firstPiece <= lastPiece + 1 ? PIECES_AHEAD : 0;
+    lastPiece = Math.max(firstPiece, Math.floor((to - 1) / PIECE_BYTES));
     for (const i of pieces.keys()) if (i < firstPiece) pieces.delete(i);
-    for (let i = firstPiece; i <= last + piecesAhead; i++) requestPiece(i);
+    for (let i = firstPiece; i <= lastPiece + piecesAhead; i++) requestPiece(i);
     let bytes: Uint8Array = new Uint8Array();
-    for (let i = firstPiece; i <= last; i++) {
+    for (let i = firstPiece; i <= lastPiece; i++) {
       const piece = pieces.get(i) ?? bytes;
       const pieceStart = i * PIECE_BYTES;
       // Awaiting a piece that has already been read would take longer than reading a record.
@@ -113,10 +114,10 @@ function joinBytes(first: Uint8Array, second: Uint8Array): Uint8Array {
 
 export const viewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);
 
-/** Returns a number of eight bytes. It is exact below 2^53, and rounded above. */
+/** Returns an unsigned number of eight bytes. It is exact below 2^53, and rounded above. */
 export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
 
-/** Splits a time in nanoseconds into seconds and nanoseconds. Reading a BigInt takes as long as the rest of the message. */
+/** Reads a time in nanoseconds as seconds and nanoseconds. A BigInt would take as long as the rest of the message. */
 export function stampAt(view: DataView, at: number) {
   // The number may be rounded up to the next second. The remainder, whose lower 32 bits are exact, is then negative.
   const seconds = Math.floor(uint53(view, at) / 1e9);

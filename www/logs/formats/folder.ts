@@ -1,19 +1,19 @@
-/** Recordings of rosbag2 that consist of several files, which a metadata.yaml lists. */
+/** Recordings of rosbag2 that consist of several files. Their metadata.yaml lists the files. */
 
 import { load } from 'js-yaml';
-import { LogError, bytesOf, listing, reasonOf } from '../log-error.ts';
+import { LogError, readBytes, listNames, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import type { Channel, Container, Message } from './container.ts';
 
 /** Maximum size of a metadata.yaml, bytes. */
 const MAX_METADATA_BYTES = 2 ** 24;
 
-/** Files of a recording. */
+/** Files of a recording, as listed in its metadata.yaml. */
 interface Folder {
   name: string;
   /** Files in the order of recording. */
   found: Source[];
-  missing: string[];
+  missingFiles: string[];
 }
 
 const folderOf = ({ path = '' }: Source) => path.replace(/[^/]*$/, '');
@@ -24,7 +24,7 @@ export async function listedFiles(metadata: Source, sources: Source[]): Promise<
   const errorPlace = { file: metadata.path || metadata.name };
   const fileNames: string[] = [];
   try {
-    const text = new TextDecoder().decode(await bytesOf(metadata, 0, Math.min(metadata.size, MAX_METADATA_BYTES)));
+    const text = new TextDecoder().decode(await readBytes(metadata, 0, Math.min(metadata.size, MAX_METADATA_BYTES)));
     const { rosbag2_bagfile_information: { relative_file_paths: paths } } = load(text) as { rosbag2_bagfile_information: { relative_file_paths: unknown[] } };
     fileNames.push(...paths.map((path) => baseName(String(path))));
   } catch (error) {
@@ -36,22 +36,22 @@ export async function listedFiles(metadata: Source, sources: Source[]): Promise<
   const files = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
   const foundFiles = files.filter((file) => file !== undefined);
   const missingNames = fileNames.filter((_, i) => !files[i]);
-  if (foundFiles.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listing(fileNames)));
+  if (foundFiles.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listNames(fileNames)));
   const folder = baseName(folderOf(metadata).replace(/\/$/, ''));
-  return { name: folder || foundFiles[0].name, found: foundFiles, missing: missingNames };
+  return { name: folder || foundFiles[0].name, found: foundFiles, missingFiles: missingNames };
 }
 
 /** Returns a container with the messages of several containers, one after the other. */
-export function joinedContainer(parts: Container[], missing: string[]): Container {
+export function joinedContainer(parts: Container[], missingFiles: string[]): Container {
   return {
     format: parts[0].format,
     channels: parts.flatMap(({ channels }) => channels),
-    missing,
+    missingFiles,
     get damage() {
       return new Map(parts.flatMap(({ damage }, i) => [...damage].map(([position, reason]) => [2 ** 48 * i + position, reason])));
     },
-    get cutShort() {
-      return parts.some(({ cutShort }) => cutShort);
+    get isCutShort() {
+      return parts.some(({ isCutShort }) => isCutShort);
     },
     async read(isWanted: (channel: Channel) => boolean, onMessage: (message: Message) => void, onProgress?: (share: number) => boolean | void) {
       for (const [i, part] of parts.entries()) {

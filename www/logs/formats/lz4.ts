@@ -1,8 +1,8 @@
-/** LZ4 frames: https://github.com/lz4/lz4/blob/dev/doc/lz4_Frame_format.md. */
+/** Decompression of LZ4 frames: https://github.com/lz4/lz4/blob/dev/doc/lz4_Frame_format.md. */
 
 const LZ4_MAGIC = 0x184d2204;
 
-/** Bits of the flags. */
+/** Bits of a frame's flags. */
 const [VERSION, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, CHECKSUM, DICTIONARY] = [0xc0, 0x40, 0x10, 0x08, 0x04, 0x01];
 
 /** Bit in the length of a block that is not compressed. */
@@ -15,16 +15,16 @@ function assertValid(condition: boolean): void {
   if (!condition) throw new RangeError('a damaged LZ4 frame');
 }
 
-/** Hash of checksums, loaded with the first frame that has one. */
-let checksumHash: ((bytes: Uint8Array) => number) | undefined;
+/** Hash function xxHash32, loaded with the first frame that has a checksum. */
+let xxhash32: ((bytes: Uint8Array) => number) | undefined;
 
 /** Decompresses a frame; rejects with a RangeError if it is damaged, its content has another size than `size`, or a checksum is wrong. */
 export async function unlz4(bytes: Uint8Array, size: number): Promise<Uint8Array<ArrayBuffer>> {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const flags = view.getUint8(4);
   assertValid(view.getUint32(0, true) === LZ4_MAGIC && (flags & VERSION) === VERSION_1 && !(flags & DICTIONARY));
-  if (flags & (BLOCK_CHECKSUMS | CHECKSUM)) checksumHash ??= (await (await import('xxhash-wasm')).default()).h32Raw;
-  const verifyChecksum = (part: Uint8Array, at: number) => assertValid(checksumHash?.(part) === view.getUint32(at, true));
+  if (flags & (BLOCK_CHECKSUMS | CHECKSUM)) xxhash32 ??= (await (await import('xxhash-wasm')).default()).h32Raw;
+  const verifyChecksum = (part: Uint8Array, at: number) => assertValid(xxhash32?.(part) === view.getUint32(at, true));
   const output = new Uint8Array(size);
   let filledBytes = 0;
   // Magic number, two bytes of flags, the size if there is one, and a checksum come first.
@@ -53,7 +53,7 @@ export async function unlz4(bytes: Uint8Array, size: number): Promise<Uint8Array
 /** Appends a decompressed block to `output`, which has `filled` bytes, and returns the new number. */
 function decompressBlock(block: Uint8Array, output: Uint8Array, filled: number): number {
   let at = 0;
-  /** Reads the rest of a length of four bits. */
+  /** Returns a length from its first four bits. If they are 15, bytes are added up to the first one below 255. */
   const lengthFrom = (length: number) => {
     if (length < 15) return length;
     for (let byte = 255; byte === 255; length += byte) {
@@ -75,7 +75,7 @@ function decompressBlock(block: Uint8Array, output: Uint8Array, filled: number):
     at += 2;
     const end = filled + lengthFrom(lengthsToken & 15) + MIN_MATCH;
     assertValid(matchDistance > 0 && matchDistance <= filled && end <= output.length);
-    // A match longer than its distance repeats bytes that it has just written.
+    // A match that is longer than its distance also copies bytes that it has just written.
     for (const from = filled - matchDistance; filled < end; ) {
       const copyLength = Math.min(end - filled, filled - from);
       output.copyWithin(filled, from, from + copyLength);

@@ -2,13 +2,13 @@
 
 import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
-import { bytesOf } from '../log-error.ts';
+import { readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import { MAX_BLOCK_BYTES, MessageFile, readAhead, stampAt, uint53, viewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
-/** Codes of records, and the number of bytes of code and length before each record. */
+/** Opcodes of records, and the number of bytes of opcode and length before the content of a record. */
 const [SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END] = [3, 4, 5, 6, 15];
 const RECORD_HEAD_BYTES = 9;
 
@@ -23,7 +23,7 @@ export async function openMcap(source: Source): Promise<Container> {
     size: async () => size,
     read: async (offset: bigint, length: bigint) => {
       if (offset + length > size) throw new RangeError('it ends before what it refers to');
-      return bytesOf(source, Number(offset), Number(offset + length));
+      return readBytes(source, Number(offset), Number(offset + length));
     },
   };
   const indexReader = await McapIndexedReader.Initialize({ readable }).catch(() => undefined);
@@ -33,7 +33,7 @@ export async function openMcap(source: Source): Promise<Container> {
   return mcap;
 }
 
-/** Checks that an index has all chunks and messages. */
+/** Checks that an index lists all chunks, and the channels of each chunk with messages. */
 const isCompleteIndex = ({ chunkIndexes, statistics }: McapIndexedReader) =>
   statistics?.chunkCount === chunkIndexes.length &&
   (chunkIndexes.length > 0 || statistics.messageCount === 0n) &&
@@ -62,7 +62,7 @@ class Mcap extends MessageFile<number> implements Container {
     const bytesAt = readAhead(this.source);
     for (const [i, { chunkStartOffset, chunkLength }] of wantedChunks.entries()) {
       const from = Number(chunkStartOffset);
-      await this.#attempt(from, async () => {
+      await this.#skipIfDamaged(from, async () => {
         if (chunkLength > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${chunkLength} bytes`);
         const bytes = await bytesAt(from, from + Number(chunkLength));
         if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
@@ -75,32 +75,32 @@ class Mcap extends MessageFile<number> implements Container {
   async #readFromStart(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.source;
     const bytesAt = readAhead(this.source);
-    this.cutShort = true;
-    for (let at = MAGIC_BYTES, reported = 0; at + RECORD_HEAD_BYTES <= size; ) {
+    this.isCutShort = true;
+    for (let at = MAGIC_BYTES, nextReport = 0; at + RECORD_HEAD_BYTES <= size; ) {
       const recordHead = await bytesAt(at, at + RECORD_HEAD_BYTES);
       const recordLength = uint53(viewOf(recordHead), 1);
       const nextRecord = at + RECORD_HEAD_BYTES + recordLength;
       if (nextRecord > size) return;
       if (recordHead[0] === DATA_END) {
-        this.cutShort = false;
+        this.isCutShort = false;
         return;
       }
       if ([SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(recordHead[0])) {
-        await this.#attempt(at, async () => {
+        await this.#skipIfDamaged(at, async () => {
           if (recordLength > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${recordLength} bytes`);
           const record = await bytesAt(at, nextRecord);
           this.#readRecords(recordHead[0] === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
         });
       }
       at = nextRecord;
-      if (at < reported) continue;
+      if (at < nextReport) continue;
       if (onProgress?.(at / size)) return;
-      reported = at + size / 100;
+      nextReport = at + size / 100;
     }
   }
 
   /** Runs work on a block. Damage is recorded, and the rest of the block is skipped. */
-  async #attempt(position: number, work: () => Promise<void>): Promise<void> {
+  async #skipIfDamaged(position: number, work: () => Promise<void>): Promise<void> {
     await work().catch((error) => this.noteDamage(position, error));
   }
 

@@ -1,6 +1,6 @@
 /** Connections and messages of ROS 1 bags. http://wiki.ros.org/Bags/Format/2.0 */
 
-import { LogError, bytesOf } from '../log-error.ts';
+import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import { MAX_BLOCK_BYTES, MessageFile, readAhead, viewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
@@ -21,7 +21,7 @@ export async function openRosbag(source: Source): Promise<Container> {
   return bag;
 }
 
-/** Header of a record as a range of a block. It contains named fields, each after its length. */
+/** Fields of a record's header, which is a range of a block. Each field is "name=value" after its length. */
 class HeaderFields {
   #bytes;
   #view;
@@ -62,16 +62,16 @@ class HeaderFields {
     return from;
   }
 
-  /** Returns start and end of a value; zeros if there is none. */
+  /** Returns start and end of the value of a field; zeros if there is none. */
   #find(name: string): [number, number] {
     const bytes = this.#bytes;
     for (let at = this.#from, end; at < this.#to; at = end) {
       end = at + 4 + this.#view.getUint32(at, true);
-      const equalsSign = at + 4 + name.length;
-      if (bytes[equalsSign] !== 0x3d) continue;
+      const equalsSignIndex = at + 4 + name.length;
+      if (bytes[equalsSignIndex] !== 0x3d) continue;
       let matchingBytes = 0;
       while (matchingBytes < name.length && bytes[at + 4 + matchingBytes] === name.charCodeAt(matchingBytes)) matchingBytes += 1;
-      if (matchingBytes === name.length) return [equalsSign + 1, end];
+      if (matchingBytes === name.length) return [equalsSignIndex + 1, end];
     }
     return [0, 0];
   }
@@ -79,10 +79,10 @@ class HeaderFields {
 
 /** Returns the header of a record and the range of its data, which ends at the next record. Throws a RangeError if it is cut short. */
 function recordAt(bytes: Uint8Array, view: DataView, at: number): { fields: HeaderFields; from: number; next: number } {
-  const header = at + 4 + view.getUint32(at, true);
-  const nextRecord = header + 4 + view.getUint32(header, true);
+  const headerEnd = at + 4 + view.getUint32(at, true);
+  const nextRecord = headerEnd + 4 + view.getUint32(headerEnd, true);
   if (nextRecord > bytes.length) throw new RangeError('a record is cut short');
-  return { fields: new HeaderFields(bytes, view, at + 4, header), from: header + 4, next: nextRecord };
+  return { fields: new HeaderFields(bytes, view, at + 4, headerEnd), from: headerEnd + 4, next: nextRecord };
 }
 
 class Rosbag extends MessageFile<number> implements Container {
@@ -94,11 +94,11 @@ class Rosbag extends MessageFile<number> implements Container {
   async readIndex(): Promise<boolean> {
     const { size } = this.source;
     try {
-      const bagHeader = await bytesOf(this.source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES);
+      const bagHeader = await readBytes(this.source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES);
       const { fields } = recordAt(bagHeader, viewOf(bagHeader), 0);
       const [start, count] = [fields.uint64('index_pos'), fields.uint32('chunk_count')];
       if (fields.byte('op') !== BAG || start === 0 || start > size) return false;
-      const bytes = await bytesOf(this.source, start, size);
+      const bytes = await readBytes(this.source, start, size);
       const view = viewOf(bytes);
       const chunks = [];
       for (let at = 0; at < bytes.length; ) {
@@ -137,7 +137,7 @@ class Rosbag extends MessageFile<number> implements Container {
     const bytesAt = readAhead(this.source);
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wantedIds.has(id)));
-    this.cutShort = !wantedChunks;
+    this.isCutShort = !wantedChunks;
     for (let i = 0, at = MAGIC_BYTES; wantedChunks ? i < wantedChunks.length : at + 8 <= size; i++) {
       if (wantedChunks) at = wantedChunks[i].position;
       const recordStart = at;

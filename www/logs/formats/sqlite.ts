@@ -1,17 +1,17 @@
 /** Topics and messages of rosbag2's SQLite databases. https://www.sqlite.org/fileformat.html */
 
-import { LogError, bytesOf } from '../log-error.ts';
+import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import { MessageFile, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
 import { loadZstd } from './zstd.ts';
 
-/** Types of the pages of a table. */
-const [INTERIOR, LEAF] = [5, 13];
+/** Types of the pages of a table's B-tree. */
+const [INTERIOR_PAGE, LEAF_PAGE] = [5, 13];
 
-/** Bytes of the database's header, on the first page. */
+/** Number of bytes of the database's header, on the first page. */
 const HEADER_BYTES = 100;
 
-/** Maximum number of levels of a table. Tables with 2³² pages have fewer. */
+/** Maximum number of levels of a B-tree. Tables with 2³² pages have fewer. */
 const MAX_DEPTH = 20;
 
 /** Maximum size of a row, bytes. The largest messages are point clouds and images. */
@@ -25,7 +25,7 @@ type SqliteValue = number | bigint | Uint8Array;
 /** Row of a table. */
 interface Row {
   id: number;
-  /** Bytes of the row on the leaf page; all other bytes are on overflow pages. */
+  /** Bytes of the row on the leaf page. All other bytes are on overflow pages. */
   bytes: Uint8Array;
   /** Number of all bytes of the row. */
   length: number;
@@ -56,15 +56,15 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
   #bytesAt = readAhead(this.source);
 
   async open(): Promise<void> {
-    const view = viewOf(await bytesOf(this.source, 0, HEADER_BYTES));
+    const view = viewOf(await readBytes(this.source, 0, HEADER_BYTES));
     const notRosbag2 = () => new LogError({ file: this.source.name }, (say) => say.noRosbag2);
-    this.cutShort = view.byteLength < HEADER_BYTES;
-    if (this.cutShort) return;
+    this.isCutShort = view.byteLength < HEADER_BYTES;
+    if (this.isCutShort) return;
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
     this.#usableBytes = this.#pageSize - view.getUint8(20);
     if (this.#usableBytes < 480) throw notRosbag2();
-    // Behind the stated end are pages of a transaction that was never finished.
-    this.cutShort = view.getUint32(28) > 0 && view.getUint32(28) * this.#pageSize !== this.source.size;
+    // The header states the number of pages. Pages beyond it belong to an unfinished transaction.
+    this.isCutShort = view.getUint32(28) > 0 && view.getUint32(28) * this.#pageSize !== this.source.size;
     const tablesByName = new Map<string, Table>();
     await this.#eachRow({ root: 1, columns: [] }, async (row) => {
       const bytes = await this.#wholeRow(row);
@@ -74,7 +74,7 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     });
     const [topics, messages] = ['topics', 'messages'].map((name) => tablesByName.get(name));
     if (!topics || !messages) {
-      if (this.cutShort) return;
+      if (this.isCutShort) return;
       throw notRosbag2();
     }
     this.#messages = messages;
@@ -105,21 +105,21 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     }, onProgress);
   }
 
-  /** Passes on the rows of a table in the order of their numbers. Damaged pages are skipped. */
+  /** Calls `onRow` for the rows of a table in the order of their ids. Damaged pages are skipped. */
   async #eachRow({ root }: Table, onRow: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
-    // In an incomplete file the pages that lead to the messages may be missing. Pages of other tables fail then.
-    const isSearched = this.cutShort && root === this.#messages.root;
-    const leafPages = isSearched ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
+    // In an incomplete file interior pages may be missing, so all pages are tried. Pages of other tables then fail without a note.
+    const searchesAllPages = this.isCutShort && root === this.#messages.root;
+    const leafPages = searchesAllPages ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
     for (const [i, number] of leafPages.entries()) {
       if (!this.#hasPage(number)) continue;
       try {
         const pageBytes = await this.#page(number);
-        for (const cell of cellsOf(pageBytes, number, LEAF)) {
+        for (const cell of cellsOf(pageBytes, number, LEAF_PAGE)) {
           const pendingRow = onRow(this.#rowAt(pageBytes, cell));
           if (pendingRow) await pendingRow;
         }
       } catch (error) {
-        if (!isSearched || error instanceof LogError) this.noteDamage(number, error);
+        if (!searchesAllPages || error instanceof LogError) this.noteDamage(number, error);
       }
       if (onProgress?.((i + 1) / leafPages.length)) return;
     }
@@ -128,24 +128,24 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
   /** Returns the numbers of a table's leaf pages, which have its rows, in the order of the rows. */
   async #leavesOf(root: number): Promise<number[]> {
     const { size } = this.source;
-    let levelPages = [root];
+    let pagesOfLevel = [root];
     for (let depth = 0; depth < MAX_DEPTH; depth++) {
-      const nextLevel: number[] = [];
-      for (const number of levelPages.filter((page) => this.#hasPage(page))) {
-        // These pages are far from each other, so that reading ahead would be slow.
-        const page = await bytesOf(this.source, (number - 1) * this.#pageSize, number * this.#pageSize);
-        if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF && nextLevel.length === 0) return levelPages;
+      const pagesOfNextLevel: number[] = [];
+      for (const number of pagesOfLevel.filter((page) => this.#hasPage(page))) {
+        // Interior pages are far from each other, so that reading ahead would be slow.
+        const page = await readBytes(this.source, (number - 1) * this.#pageSize, number * this.#pageSize);
+        if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF_PAGE && pagesOfNextLevel.length === 0) return pagesOfLevel;
         try {
           const view = viewOf(page);
-          for (const cell of cellsOf(page, number, INTERIOR)) nextLevel.push(view.getUint32(cell));
-          nextLevel.push(view.getUint32((number === 1 ? HEADER_BYTES : 0) + 8));
+          for (const cell of cellsOf(page, number, INTERIOR_PAGE)) pagesOfNextLevel.push(view.getUint32(cell));
+          pagesOfNextLevel.push(view.getUint32((number === 1 ? HEADER_BYTES : 0) + 8));
         } catch (error) {
           this.noteDamage(number, error);
         }
       }
       // A file that was cut short has no pages behind its end.
-      levelPages = nextLevel.filter((number) => number * this.#pageSize <= size);
-      if (levelPages.length * this.#pageSize > 2 * size) break;
+      pagesOfLevel = pagesOfNextLevel.filter((number) => number * this.#pageSize <= size);
+      if (pagesOfLevel.length * this.#pageSize > 2 * size) break;
     }
     return [];
   }
@@ -153,7 +153,7 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
   /** Returns true if the file has a page. Otherwise the file was cut short. */
   #hasPage(number: number): boolean {
     const hasPage = number * this.#pageSize <= this.source.size;
-    this.cutShort ||= !hasPage;
+    this.isCutShort ||= !hasPage;
     return hasPage;
   }
 
@@ -201,11 +201,11 @@ function cellsOf(page: Uint8Array, number: number, type: number): number[] {
   const view = viewOf(page);
   const start = number === 1 ? HEADER_BYTES : 0;
   if (view.getUint8(start) !== type) throw new RangeError('a page is damaged');
-  const cellPointers = start + (type === LEAF ? 8 : 12);
+  const cellPointers = start + (type === LEAF_PAGE ? 8 : 12);
   return Array.from({ length: view.getUint16(start + 3) }, (_, i) => view.getUint16(cellPointers + 2 * i));
 }
 
-/** Returns a number of one to nine bytes, and the position behind it. */
+/** Returns a variable-length integer of one to nine bytes, and the position after it. */
 function varintAt(bytes: Uint8Array, at: number): [value: number, next: number] {
   let value = 0;
   for (let i = 0; i < 9; i++) {
@@ -217,7 +217,7 @@ function varintAt(bytes: Uint8Array, at: number): [value: number, next: number] 
   throw new RangeError('a row is damaged');
 }
 
-/** Sizes of integers in bytes, by their type from 0 to 9. */
+/** Sizes in bytes of values, by their serial type from 0 to 9. Larger types are texts and blobs. */
 const INTEGER_SIZES = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
 
 /** Returns the value of a column; throws a RangeError if the bytes end before it. */

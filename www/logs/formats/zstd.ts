@@ -1,7 +1,7 @@
-/** Zstandard: blocks of recordings, single messages, and whole files. */
+/** Zstandard decompression of blocks, single messages, and whole files. */
 
 import { ZSTDDecoder } from 'zstddec/stream';
-import { LogError, bytesOf, reasonOf } from '../log-error.ts';
+import { LogError, readBytes, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import { MAX_BLOCK_BYTES, viewOf } from './container.ts';
 
@@ -10,10 +10,10 @@ const zstdDecoder = new ZSTDDecoder();
 /** Maximum size of a file that is decompressed in memory, bytes. */
 const MAX_FILE_BYTES = 2 ** 30;
 
-/** Number of bytes that are decompressed at once. */
+/** Size of the pieces of input that are decompressed at once, bytes. */
 const INPUT_PIECE_BYTES = 2 ** 20;
 
-/** Maximum number of successive empty parts. There is an empty part at the end of each piece or frame. */
+/** Maximum number of successive empty parts of the output. The end of each piece of input or frame gives one. */
 const MAX_EMPTY_PARTS = 100;
 
 /** Loads the decoder; the other functions need it. */
@@ -48,19 +48,19 @@ function contentSize(frame: Uint8Array): number {
   }
 }
 
-/** Returns a decompressed file with the same name. The contents up to a damage are kept. */
+/** Returns a decompressed file with the same name. Of a damaged file, the contents before the damage are kept. */
 export async function unzstdFile(source: Source): Promise<Source> {
   await loadZstd();
   const tooLargeError = () => new LogError({ file: source.name }, (say) => say.largeFile('zstd -d', MAX_FILE_BYTES));
   if (source.size > MAX_FILE_BYTES) throw tooLargeError();
-  const bytes = await bytesOf(source, 0, source.size);
+  const bytes = await readBytes(source, 0, source.size);
   const outputParts: Uint8Array<ArrayBuffer>[] = [];
-  let [size, empty] = [0, 0];
+  let [size, emptyParts] = [0, 0];
   try {
     for (const part of zstdDecoder.decodeStreaming(piecesOf(bytes))) {
       // The decoder does not stop at damage, but returns empty parts.
-      empty = part.length === 0 ? empty + 1 : 0;
-      if (empty > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
+      emptyParts = part.length === 0 ? emptyParts + 1 : 0;
+      if (emptyParts > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
       outputParts.push(part.slice());
       size += part.length;
       if (size > MAX_FILE_BYTES) throw tooLargeError();

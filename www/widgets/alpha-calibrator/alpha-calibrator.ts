@@ -29,7 +29,7 @@ import { captionOf, judgementOf, legText, reasonOf, pathText } from './words.ts'
 import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
-/** Log of the user or of the page, with the fit by the service, and the settings of the fit. */
+/** Log of the user or of the page, with its fit as computed by the service, and the settings of the fit. */
 interface OpenedLog {
   log: CalibrationLog;
   /** Notes on the logs that make the α's doubtful. */
@@ -74,7 +74,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   read(machine: Machine) {
     const reading = readingOf(machine, this.log, this.reading);
-    if (reading.isPending) this.#follow();
+    if (reading.isPending) this.#refit();
     return reading;
   }
 
@@ -99,7 +99,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     return chosen < 0 || !machine ? null : this.#predictedLeg.get([config, chosen], () => machine.leg(chosen));
   }
 
-  /** Bins of squared residuals against the chosen regressor; empty without legs. */
+  /** Squared residuals, binned by the chosen regressor; empty without legs. */
   get panels() {
     const { machine, reading: { stats, legs }, state: { elementState: { regressor } } } = this;
     return legs.count > 0 && machine ? this.#panels.get([stats, regressor], () => machine.panels(regressor)) : [];
@@ -111,7 +111,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   /** Shows the leg that was clicked in the picture. */
-  #press = (event: MouseEvent) => {
+  #chooseLegAt = (event: MouseEvent) => {
     this.runtime.attempt(() => {
       const { machine } = this;
       if (!machine || !(event.target instanceof HTMLCanvasElement)) return;
@@ -153,8 +153,8 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   };
 
   /**
-   * Replaces the log after it has been fitted; null is the simulated log. If `check` throws, the present log stays. `warnings` are notes on
-   * the log that make the α's doubtful.
+   * Fits a log, and then replaces the present log by it; null is the simulated log. If `check` throws, the present log stays. `warnings` are
+   * notes on the new log that make its α's doubtful.
    */
   async open(log: CalibrationLog | null, warnings: Warning[], check?: (machine: Machine) => void) {
     const config = this.settings.pick(this.settings.current) as Machine['config'];
@@ -175,19 +175,19 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   /** Fits the present log with the pending settings. The figure shows the previous fit until then. */
-  async #follow() {
+  async #refit() {
     const { log, service } = this;
     if (!log || service.isBusy) return;
     try {
-      await this.notice.showDuring(this.open(log, this.warnings), () => this.#giveUp());
+      await this.notice.showDuring(this.open(log, this.warnings), () => this.#revertSettings());
     } catch (error) {
-      if (!isStopped(error)) this.#giveUp();
+      if (!isStopped(error)) this.#revertSettings();
       this.#report(error);
     }
   }
 
   /** Returns to the settings of the fit that is shown. */
-  #giveUp() {
+  #revertSettings() {
     this.service.stop();
     this.settings.assign(this.reading.fitted);
   }
@@ -205,18 +205,18 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   get exportData() {
     const { fitted, legs } = this.currentReading;
     const missingNote = this.log ? words.calibrator.logNotInCopies : '';
-    const entryOf = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
-    const columns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`));
+    const legEntries = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
+    const poseColumns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`));
     return {
       description: [pathText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
       settings: { ...(this.log && { log: this.log.name }), ...fitted },
       columns: [
-        'begins_s', 'ends_s', ...columns('odometry'), ...columns('reference'), 'reading_1', 'reading_2', 'reading_3',
+        'begins_s', 'ends_s', ...poseColumns('odometry'), ...poseColumns('reference'), 'reading_1', 'reading_2', 'reading_3',
         ...['residual', 'standardized', 'std'].flatMap((statistic) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`)), 'squared_mahalanobis', 'outlier',
       ],
       row: (i: number) => [
-        ...entryOf(legs.times, i, 2), ...entryOf(legs.odometry, i, 6), ...entryOf(legs.reference, i, 6), ...entryOf(legs.readings, i, 3),
-        ...entryOf(legs.residuals, i, 3), ...entryOf(legs.standardized, i, 3), ...entryOf(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
+        ...legEntries(legs.times, i, 2), ...legEntries(legs.odometry, i, 6), ...legEntries(legs.reference, i, 6), ...legEntries(legs.readings, i, 3),
+        ...legEntries(legs.residuals, i, 3), ...legEntries(legs.standardized, i, 3), ...legEntries(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
       ],
       count: legs.count,
       linkNote: missingNote,
@@ -235,7 +235,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
       ${dropZone(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictLine(this))}</p>
-        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#press}>${pictureCanvas(this, this.#pathPicture, pathText(reading, chosen))}</div>`)}
+        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvas(this, this.#pathPicture, pathText(reading, chosen))}</div>`)}
         <div class="one">
           ${titledPicture(say.oneLeg(integer(chosen + 1)), html`<div class="stage">${pictureCanvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
           ${this.renderer.afterFirstPicture(() => html`<div class="looked">${legControls(this)}</div>`)}
@@ -267,7 +267,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
           ${group(say.nav2.title, nav2Exports(this, this.#opener.otherResults))}`,
         csvTitle: say.csvTitle,
       })}
-      ${this.#opener.reader?.logSummary(this.#opener)}`)}
+      ${this.#opener.logModules?.logSummary(this.#opener)}`)}
     `;
   }
 }

@@ -9,7 +9,7 @@ import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
 import { NOISE_COMPONENTS, type Regressor } from './settings.ts';
-import { checkText, expectedOf, messageOf, localized, powerOf1000 } from './words.ts';
+import { checkText, expectedOf, messageOf, localized, scaleByPowerOf1000 } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -76,10 +76,10 @@ function largestResiduals(figure: Figure) {
   </div>`;
 }
 
-/** Minimum squared distance or rotation at the end of an axis: the square of a millimetre, or of a thousandth of a radian. */
+/** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */
 const MIN_REGRESSOR = 1e-6;
 
-/** Returns the plots of the squared residuals of the three noises against their regressors. */
+/** Returns a plot for each noise component: its squared residuals against the regressor. */
 export function regressionPanels(figure: Figure) {
   const { reading, reading: { fitted: { model } }, state: { elementState: { regressor } }, gesture } = figure;
   const say = words.calibrator.panels;
@@ -96,7 +96,7 @@ export function regressionPanels(figure: Figure) {
     <figcaption>${formatMarkup(say.caption)}</figcaption></figure>`;
 }
 
-/** Returns the plot of a panel, with the names of its noise component and of its regressor axis. */
+/** Returns the plot of a panel. `kind` is the name of its noise component, and `axis` that of its regressor. */
 function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): import('../../ui/plot.ts').Plot {
   const say = words.calibrator.panels;
   const maxRegressor = Math.max(0, ...x);
@@ -104,7 +104,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   const axisEnd = maxRegressor > MIN_REGRESSOR ? 1.06 * maxRegressor : 1;
   const { from, to } = axisOfSquares(y, error, (slope ?? 0) * axisEnd);
   const axisTop = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
-  const { scaled, unit } = powerOf1000(Math.max(axisTop, -from));
+  const { scaled, unit } = scaleByPowerOf1000(Math.max(axisTop, -from));
   const sub = subscriptOf(alpha);
   const [low, high] = interval ?? [NaN, NaN];
   const slopeMiddle = (low + high) / 2;
@@ -130,15 +130,15 @@ function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fit
 }
 
 /**
- * Returns the range of an axis of squares. It contains all bins, the highest point of the line, and up to half as much again for error
- * bars: the long error bar of a single leg must not compress all others.
+ * Returns the range of an axis of squares. It contains all bins and the highest point of the line. Error bars extend it by at most half of
+ * that at each end, so that one long error bar does not compress all others.
  */
 function axisOfSquares(squares: number[], error: number[], line: number): { from: number, to: number } {
   const [lowestValue, highestValue] = [Math.min(0, ...squares), Math.max(0, line, ...squares)];
   const errorBarEnds = (side: number) => squares.map((square, i) => square + side * error[i]);
-  const errorBarRoom = (highestValue - lowestValue) / 2;
+  const maxErrorBarLength = (highestValue - lowestValue) / 2;
   return {
-    from: Math.max(lowestValue - errorBarRoom, Math.min(lowestValue, ...errorBarEnds(-1))),
-    to: Math.min(highestValue + errorBarRoom, Math.max(highestValue, ...errorBarEnds(1))),
+    from: Math.max(lowestValue - maxErrorBarLength, Math.min(lowestValue, ...errorBarEnds(-1))),
+    to: Math.min(highestValue + maxErrorBarLength, Math.max(highestValue, ...errorBarEnds(1))),
   };
 }

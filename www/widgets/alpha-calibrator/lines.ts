@@ -1,4 +1,4 @@
-/** Lines for nav2_params.yaml. Their numbers have a decimal point in every language. */
+/** Lines for nav2_params.yaml, and the formats of their numbers, which have a decimal point in every language. */
 
 import type { Warning } from '../../logs/log.ts';
 
@@ -23,12 +23,12 @@ export type Words = typeof import('./en.ts').en.nav2;
 /** Significant digits of an interval's width, and of values without an interval. */
 const [WIDTH_DIGITS, VALUE_DIGITS] = [2, 3];
 
-/** Magnitude below which values are printed with an exponent. */
+/** Absolute value below which numbers are printed with an exponent. */
 const MIN_PLAIN_NUMBER = 1e-6;
 
-const MOST_DECIMALS = 12;
+const MAX_DECIMALS = 12;
 
-/** Magnitude from which whole numbers are printed with an exponent. Times since 1970 are below it. */
+/** Absolute value from which numbers are printed with an exponent. Times since 1970 are below it. */
 const MAX_PLAIN_NUMBER = 1e15;
 
 /** Largest plausible α. With it the error is as large as the motion, or one radian per metre. */
@@ -49,41 +49,41 @@ export const NAV2_RULES = ['nav2', 'omni'];
 /** Returns true if Nav2 can use α's that were fitted with a model and a noise rule. */
 export const isOfNav2 = (model: string, rule: string): boolean => model !== 'odometry' || NAV2_RULES.includes(rule);
 
-export const toText = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? withPointInMantissa(String(Number(value.toPrecision(digits)))) : NO_NUMBER);
+export const formatNumber = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? withPointInMantissa(String(Number(value.toPrecision(digits)))) : NO_NUMBER);
 
-/** Adds a decimal point before an exponent. Without the point, YAML 1.1 would read a string. */
+/** Adds a decimal point to a number with an exponent. YAML 1.1 parses a number without the point as a string. */
 const withPointInMantissa = (number: string) => number.replace(/^(-?\d)e/, '$1.0e');
 
-/** Adds decimals to a whole number, which Nav2 refuses for its doubles. */
+/** Adds a decimal to a whole number, because Nav2 refuses integers for parameters of type double. */
 const withDecimals = (number: string) => (number.includes('.') ? number : `${number}.0`);
 
 /** Prints a value with the decimals that are significant for its interval. */
-export function fixed(value: number | null, interval: Interval | undefined) {
+export function formatEstimate(value: number | null, interval: Interval | undefined) {
   const intervalWidth = interval ? interval[1] - interval[0] : 0;
-  if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return toText(value);
+  if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return formatNumber(value);
   const decimals = WIDTH_DIGITS - 1 - Math.floor(Math.log10(intervalWidth));
-  if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MOST_DECIMALS, decimals)));
+  if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MAX_DECIMALS, decimals)));
   const digits = decimals + Math.floor(Math.log10(Math.abs(value)));
-  return digits < 0 ? '0' : withPointInMantissa(value.toExponential(Math.min(MOST_DECIMALS, digits)));
+  return digits < 0 ? '0' : withPointInMantissa(value.toExponential(Math.min(MAX_DECIMALS, digits)));
 }
 
 /** Prints an interval; empty if an end is not finite. */
-export const formatInterval = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((end) => fixed(end, interval)).join(' to ') : '');
+export const formatInterval = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((end) => formatEstimate(end, interval)).join(' to ') : '');
 
 /** Returns true if an α prints as 0 with the digits that its interval allows. A printed 0 would look like a result. */
-export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(fixed(alpha, interval)) === 0;
+export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
 
-export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${toText(100 * fraction)} %` : NO_NUMBER);
+export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${formatNumber(100 * fraction)} %` : NO_NUMBER);
 
 /** Prints the upper end of an interval. */
-const upperEnd = (interval: Interval | undefined) => toText(interval?.[1] ?? null, WIDTH_DIGITS);
+const upperEnd = (interval: Interval | undefined) => formatNumber(interval?.[1] ?? null, WIDTH_DIGITS);
 
 const scaledInterval = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];
 
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
-export const alphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${upperEnd(scaledInterval(interval, factor))}` : fixed(alpha && factor * alpha, scaledInterval(interval, factor)));
+export const alphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${upperEnd(scaledInterval(interval, factor))}` : formatEstimate(alpha && factor * alpha, scaledInterval(interval, factor)));
 
-/** Returns why an α is not identifiable, and the drive that would identify it. */
+/** Returns texts for a reason: what the log lacks, and the drive that would identify the α. */
 export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, model: string, reason: keyof typeof lacking) {
   const { lack, drive, byCommands } = lacking[reason];
   return { lack, drive: model === 'velocity' ? byCommands : drive };
@@ -92,17 +92,17 @@ export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, mo
 /** Returns the α's (indices from 0) that are not identifiable by each reason, and the drive that would identify them. */
 export function missingAlphas(lacking: typeof import('./en.ts').en.alphas.lacking, model: string, { notIdentifiable, diagnostics: { checks } }: any) {
   // Driving differently does not help if the reference is of another drive, or has other units.
-  if (failedOf(checks).some(({ name }) => name === 'reference-matches')) return [];
+  if (failedChecksOf(checks).some(({ name }) => name === 'reference-matches')) return [];
   return (Object.keys(lacking) as (keyof typeof lacking)[]).flatMap((reason) => {
     const indices: number[] = notIdentifiable.flatMap((reasonOfAlpha: string | null, i: number) => (reasonOfAlpha === reason ? [i] : []));
     return indices.length ? [{ indices, ...adviceOf(lacking, model, reason) }] : [];
   });
 }
 
-/** Returns the kind of motion of which a log has too little to distinguish an α (index from 0) from 0. */
+/** Returns the kind of motion that identifies an α (index from 0), as the reason for an α that is not identifiable. */
 export function missingMotion(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
-  const isOfRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;
-  return isOfRotation ? 'insufficient-rotation' : 'insufficient-translation';
+  const needsRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;
+  return needsRotation ? 'insufficient-rotation' : 'insufficient-translation';
 }
 
 /**
@@ -114,13 +114,13 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return [];
   const { inflation } = recommended;
   const { distance, angle, duration } = legs;
-  const failedNames = failedOf(checks).map(({ name }) => name).join(', ');
+  const failedNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
   const noteTexts = [
-    say.of(String(count), duration === undefined ? say.moved(toText(distance ?? null), toText(angle ?? null)) : say.lasted(toText(duration)), log, date),
-    say.recommended(toText(inflation), percent(window.coverage), String(window.count)),
+    say.of(String(count), duration === undefined ? say.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : say.lasted(formatNumber(duration)), log, date),
+    say.recommended(formatNumber(inflation), percent(window.coverage), String(window.count)),
     ...(isOfNav2(model, rule) ? [] : [say.otherRule]),
-    ...correctionOf(systematicErrors).map((errors) => say.corrected(errors)),
-    ...correctFirst(calibration, say),
+    ...correctedErrorsText(systematicErrors).map((errors) => say.corrected(errors)),
+    ...correctionAdvice(calibration, say),
     ...(failedNames ? [say.failed(failedNames)] : []),
     ...warnings.map((name) => say[name]),
   ];
@@ -128,19 +128,19 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
     const interval = intervals[i];
     if (alpha === null) return `# alpha${i + 1}: ${say.notIdentifiable}`;
     if (isZero(alpha, interval)) return `# alpha${i + 1}: ${say.zero(upperEnd(scaledInterval(interval, inflation)))}`;
-    const formattedAlpha = fixed(inflation * alpha, scaledInterval(interval, inflation));
+    const formattedAlpha = formatEstimate(inflation * alpha, scaledInterval(interval, inflation));
     if (inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${say.tooLarge}`;
-    return `alpha${i + 1}: ${withDecimals(formattedAlpha)}  # ${say.fitted(fixed(alpha, interval), formatInterval(interval))}`;
+    return `alpha${i + 1}: ${withDecimals(formattedAlpha)}  # ${say.fitted(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });
   // A line break in a file's name would end the comment.
   const commentLines = noteTexts.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
   const fifthAlphaNote = alphas.length < 5 ? [`# ${say.fifth}`] : [];
-  const updateTriggers = duration === undefined ? [`update_min_d: ${withDecimals(toText(distance ?? null))}`, `update_min_a: ${withDecimals(toText(angle ?? null))}`] : [];
+  const updateTriggers = duration === undefined ? [`update_min_d: ${withDecimals(formatNumber(distance ?? null))}`, `update_min_a: ${withDecimals(formatNumber(angle ?? null))}`] : [];
   const parameterLines = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaNote, ...updateTriggers];
   return ['amcl:', '  ros__parameters:', ...parameterLines.map((line) => `    ${line}`)];
 }
 
-export const failedOf = <Check extends { name: string, passed: boolean, message: string }>(checks: Check[]) => checks.filter(({ passed }) => !passed);
+export const failedChecksOf = <Check extends { name: string, passed: boolean, message: string }>(checks: Check[]) => checks.filter(({ passed }) => !passed);
 
 /**
  * Returns a sentence that says how to correct the robot's odometry, because AMCL gets the odometry as the robot reports it. The sentence
@@ -148,18 +148,18 @@ export const failedOf = <Check extends { name: string, passed: boolean, message:
  *
  * @param print formats numbers
  */
-export function correctFirst({ recommended, systematicErrors }: any, say: Words, print = (number: string) => number): string[] {
+export function correctionAdvice({ recommended, systematicErrors }: any, say: Words, print = (number: string) => number): string[] {
   if (!recommended) return [];
   const [distance, turn] = ['distanceScale', 'turnScale'].map((key) => {
     const { value, interval, corrected } = systematicErrors[key];
-    return corrected && interval && (interval[0] > 1 || interval[1] < 1) ? print(fixed(value, interval)) : '';
+    return corrected && interval && (interval[0] > 1 || interval[1] < 1) ? print(formatEstimate(value, interval)) : '';
   });
   return distance || turn ? [say.correctFirst(distance, turn)] : [];
 }
 
 /** Lists the systematic errors that were corrected, in one text or none. */
-function correctionOf(systematicErrors: any): string[] {
+function correctedErrorsText(systematicErrors: any): string[] {
   const correctedErrors = Object.entries<any>(systematicErrors).filter(([, error]) => error.corrected);
-  const errorList = correctedErrors.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => fixed(one, Array.isArray(value) ? interval[i] : interval)).join(', ')}`);
+  const errorList = correctedErrors.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => formatEstimate(one, Array.isArray(value) ? interval[i] : interval)).join(', ')}`);
   return errorList.length ? [errorList.join('; ')] : [];
 }

@@ -1,10 +1,10 @@
-/** Forms that ask what to read, and the summary of what was read: numbers and decisions about each log, and both paths. Loaded with the first log. */
+/** Forms that ask which logs to read, and the summary of the logs that were read. This module is loaded with the first log. */
 
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import { live } from 'lit/directives/live.js';
-import { candidates, readableSeries } from '../../logs/candidates.ts';
-import { ROLES, UNITS, framesText, type Choice, type Question, type Recording, type Role } from '../../logs/log.ts';
+import { findCandidates, readableSeries } from '../../logs/candidates.ts';
+import { ROLES, UNITS, framesText, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
 import { alignedPath, pathOf, type Path } from '../../logs/path.ts';
 import { summaryLines } from '../../logs/summary.ts';
 import { language } from '../../messages/registry.ts';
@@ -20,16 +20,16 @@ const COLUMN_FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega
 const MAX_CELL_LENGTH = 16;
 
 /** Returns the name of a choice: its series, with the frames of transforms. */
-export const labelOf = ({ series, frames }: Choice) => (frames ? `${series}: ${framesText(frames)}` : series);
+export const labelOf = ({ series, frames }: LogChoice) => (frames ? `${series}: ${framesText(frames)}` : series);
 
-/** Returns all options for a role. Each chain of transforms is a separate option. */
-function optionsOf(recording: Recording, role?: Role): [label: string, Choice][] {
+/** Returns all logs that can be chosen for a role, with labels. Each pair of frames is a separate choice. */
+function optionsOf(recording: Recording, role?: Role): [label: string, LogChoice][] {
   const usableSeries = readableSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
-  const choices = usableSeries.flatMap(({ name: series, kind, frames = [] }): Choice[] => (kind === 'transforms' ? frames.map((pair) => ({ series, frames: pair })) : [{ series }]));
+  const choices = usableSeries.flatMap(({ name: series, kind, frames = [] }): LogChoice[] => (kind === 'transforms' ? frames.map((pair) => ({ series, frames: pair })) : [{ series }]));
   return choices.map((choice) => [labelOf(choice) || recording.name, choice]);
 }
 
-/** Returns the choosers for the present files; nothing where there is nothing to choose. */
+/** Returns the form controls for the open choices about the present files. */
 export function logChoosers(opener: LogOpener) {
   const { chosen, say } = opener;
   if (!chosen || !say) return nothing;
@@ -40,7 +40,7 @@ export function logChoosers(opener: LogOpener) {
     ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (hasOneLog(recording) ? [roleSelect(opener, chosen, index, say)] : [])) : []),
   ];
   return html`<div class="choosers">
-    ${roleChoosers.length ? html`<div class="topics">${roleChoosers} ${plan?.isByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
+    ${roleChoosers.length ? html`<div class="topics">${roleChoosers} ${plan?.hasRolesByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
     ${questions.map((question) => questionOf(opener, chosen, question, say))}
     ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${say.choose.skipped(opener.explain(failure))}</p>`)}
   </div>`;
@@ -56,19 +56,19 @@ function selectField(id: string, label: string, value: string, options: [value: 
   </label>`;
 }
 
-function seriesSelect(opener: LogOpener, { recordings, wishes, plan }: ChosenFiles, role: Role, { choose: say }: LogWords) {
+function seriesSelect(opener: LogOpener, { recordings, userChoices, plan }: ChosenFiles, role: Role, { choose: say }: LogWords) {
   const choiceByLabel = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
   const [plannedLog] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
-  const currentChoice = (wishes[role] as Choice | undefined) ?? plannedLog?.choice ?? guessOf(recordings[0], role, opener.kind);
+  const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedLog?.choice ?? likeliestChoice(recordings[0], role, opener.kind);
   return selectField(`log-${role}`, say.roles[role], currentChoice ? labelOf(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
-    if (choice) opener.change({ wishes: { ...wishes, [role]: choice } });
+    if (choice) opener.change({ userChoices: { ...userChoices, [role]: choice } });
   }, say.open);
 }
 
 /** Returns the likeliest choice; undefined if there are several. */
-function guessOf(recording: Recording, role: Role, kind: 'commands' | undefined): Choice | undefined {
-  const likeliest = candidates(recording, role, { kind }).find(({ length }) => length > 0);
+function likeliestChoice(recording: Recording, role: Role, kind: 'commands' | undefined): LogChoice | undefined {
+  const likeliest = findCandidates(recording, role, { kind }).find(({ length }) => length > 0);
   return likeliest?.length === 1 ? likeliest[0] : undefined;
 }
 
@@ -89,8 +89,8 @@ function questionOf(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQues
   if (what === 'columns') return columnsForm(opener, asked, answers[file]?.columns, say);
   if (what !== 'timeUnit' && what !== 'lengthUnit' && what !== 'angleUnit') return nothing;
   const labels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[what]).map((unit) => [unit, say.units[unit as keyof typeof say.units]]));
-  return html`<div id=${idOf(asked)}>
-    ${radioGroup(say[what](file), idOf(asked), labels, answers[file]?.[what] ?? '', (unit) => opener.answer(asked, { [what]: unit }))}
+  return html`<div id=${questionId(asked)}>
+    ${radioGroup(say[what](file), questionId(asked), labels, answers[file]?.[what] ?? '', (unit) => opener.answer(asked, { [what]: unit }))}
   </div>`;
 }
 
@@ -105,7 +105,7 @@ function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | 
     for (const [field, index] of new FormData(event.target as HTMLFormElement)) if (index !== '') fieldNames[Number(index)] = String(field);
     opener.answer(asked, { columns: fieldNames });
   };
-  return html`<form id=${idOf(asked)} @submit=${takeColumns}>
+  return html`<form id=${questionId(asked)} @submit=${takeColumns}>
     <fieldset>
       <legend>${say.columns(file)}</legend>
       <div class="topics">
@@ -122,13 +122,13 @@ function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | 
   </form>`;
 }
 
-const idOf = ({ file, ask: { what } }: OpenQuestion) => `log-${what}-${file.replaceAll(/[^\w-]/g, '_')}`;
+const questionId = ({ file, ask: { what } }: OpenQuestion) => `log-${what}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
-/** Moves the focus to the chooser of a question, unless a chooser already has the focus. Returns true if there is a chooser. */
+/** Moves the focus to the control that answers a question, unless such a control already has it. Returns true if there is a control. */
 export function focusChooser({ renderRoot }: AlphaCalibratorElement, asked: OpenQuestion): boolean {
   const { what, role = 'odometry' }: Question = asked.ask;
-  const targets = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['what'], string>>;
-  const chooserElement = renderRoot.querySelector<HTMLElement>(targets[what] ?? `#${idOf(asked)}`);
+  const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['what'], string>>;
+  const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[what] ?? `#${questionId(asked)}`);
   const firstControl = chooserElement?.matches('select') ? chooserElement : chooserElement?.querySelector<HTMLElement>('select, input');
   if (!firstControl) return false;
   if (!firstControl.closest('.choosers')?.contains((renderRoot as ShadowRoot).activeElement)) firstControl.focus();
@@ -138,10 +138,10 @@ export function focusChooser({ renderRoot }: AlphaCalibratorElement, asked: Open
 /** Size of the picture, CSS pixels, and its margin for the width of lines. */
 const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
 
-/** Maximum number of points of a path, several for each pixel. */
+/** Maximum number of points of a path. More than one per pixel would be invisible. */
 const MAX_POINTS = 1500;
 
-/** Returns what was read of each drive, shown while it is fitted and below the result. */
+/** Returns the summary of the logs of each drive. It is shown while the logs are fitted, and below the result. */
 export function logSummary({ chosen, say, host }: LogOpener) {
   // The page may have set another log in the meantime.
   if (!chosen?.drives || !say || (chosen.log && chosen.log !== host.log)) return nothing;
@@ -158,7 +158,7 @@ export function logSummary({ chosen, say, host }: LogOpener) {
 function tableOf({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
   const lines = logs.map((log) => summaryLines(log, found));
-  const cell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
+  const tableCell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
   const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => lines.some((line) => line[label]?.length));
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
@@ -166,7 +166,7 @@ function tableOf({ odometry, reference }: Drive, caption: string, { choose, foun
       <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
     </thead>
     <tbody>
-      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((line) => cell(line[label]))}</tr>`)}
+      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((line) => tableCell(line[label]))}</tr>`)}
     </tbody>
   </table>`;
 }

@@ -1,9 +1,9 @@
-/** Reading and calibration of logs, in a worker or, if the page cannot start one, in the page's thread. */
+/** Client of the worker that reads and calibrates logs. If the page cannot start a worker, the same module runs in the page's thread. */
 
 import { instantiateShared, sharedCore, startWorker, type SharedCore } from '../../core.ts';
 import type { Drive, LogPlan } from '../../logs/drives.ts';
 import type { OpenOptions, Source } from '../../logs/log.ts';
-import type { Answer, PostedFailure, OnProgress, OpenedRecording, Request } from '../../logs/worker.ts';
+import type { WorkerAnswer, PostedFailure, OnProgress, OpenedRecording, WorkerRequest } from '../../logs/worker.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 
 type Trajectory = Exclude<CalibrationLog['odometry'], unknown[]>;
@@ -14,7 +14,7 @@ interface WorkerLink {
   end(): void;
 }
 
-/** Error of a log, in the languages of the page. */
+/** Error of a log that the worker posted, with its sentence in each language. */
 export class LogFailure extends Error {
   sentences: PostedFailure['sentences'];
   file: PostedFailure['file'];
@@ -29,25 +29,25 @@ export class LogFailure extends Error {
 /** Returns true if a request was aborted, which needs no message. */
 export const isStopped = (error: unknown) => error instanceof DOMException && error.name === 'AbortError';
 
-/** Client of the worker: one request at a time. */
+/** Client of the worker. It makes one request at a time. */
 export class LogService {
   #tag: string;
   #workerLink: Promise<WorkerLink> | undefined;
   /** Number of the latest request. Answers to earlier requests are ignored. */
   #requestNumber = 0;
-  #fail: ((error: unknown) => void) | undefined;
+  #rejectRequest: ((error: unknown) => void) | undefined;
   /** True while the worker holds the recordings that were opened last. */
   isOpen = false;
-  /** Odometry of the drives that the worker holds. */
+  /** Odometry of the drives whose logs the worker has in memory. */
   #heldOdometry: Trajectory[] | undefined;
 
-  /** Creates the service for a tag. The worker shares the module of that tag. */
+  /** @param tag tag of the element; the worker gets the WebAssembly module that the page has loaded for it */
   constructor(tag: string) {
     this.#tag = tag;
   }
 
   get isBusy() {
-    return this.#fail !== undefined;
+    return this.#rejectRequest !== undefined;
   }
 
   /** Starts the worker before it is needed. If it does not start, a later request reports the reason. */
@@ -69,7 +69,7 @@ export class LogService {
     return { recordings, skipped: skipped.map((failure) => new LogFailure(failure)) };
   }
 
-  /** Reads the drives of a plan for the opened recordings. The worker then has their logs. */
+  /** Reads the drives of a plan for the opened recordings. The worker keeps their logs for `calibrate`. */
   async read({ drives: planned, unpaired }: LogPlan, onProgress: OnProgress): Promise<Drive[]> {
     this.#heldOdometry = undefined;
     const drives = await this.#ask<Drive[]>('read', [{ drives: planned, unpaired }], onProgress);
@@ -99,23 +99,23 @@ export class LogService {
     this.#workerLink = this.#heldOdometry = undefined;
     this.isOpen = false;
     this.#requestNumber++;
-    this.#fail?.(new DOMException('', 'AbortError'));
+    this.#rejectRequest?.(new DOMException('', 'AbortError'));
   }
 
-  #ask<Result>(method: Request['method'], parameters: unknown[], onProgress?: OnProgress): Promise<Result> {
+  #ask<Result>(method: WorkerRequest['method'], parameters: unknown[], onProgress?: OnProgress): Promise<Result> {
     const number = ++this.#requestNumber;
     const answerPromise = new Promise<Result>((resolve, reject) => {
-      this.#fail = reject;
+      this.#rejectRequest = reject;
       const postRequest = async () => {
         const { port } = await this.#connected;
         if (number !== this.#requestNumber) return;
-        port.onmessage = ({ data }: MessageEvent<Answer>) => {
+        port.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => {
           if (data.number !== this.#requestNumber) return;
           if ('progress' in data) onProgress?.(data.progress);
           else if ('failure' in data) reject(new LogFailure(data.failure));
           else resolve(data.result as Result);
         };
-        port.postMessage({ number, method, parameters } satisfies Request);
+        port.postMessage({ number, method, parameters } satisfies WorkerRequest);
       };
       postRequest().catch((error) => {
         this.#workerLink = undefined;
@@ -123,14 +123,14 @@ export class LogService {
       });
     });
     return answerPromise.finally(() => {
-      if (number === this.#requestNumber) this.#fail = undefined;
+      if (number === this.#requestNumber) this.#rejectRequest = undefined;
     });
   }
 }
 
 async function connectService(tag: string): Promise<WorkerLink> {
   const core = await sharedCore(tag);
-  return (await startLogWorker(core)) ?? linkInPage(core);
+  return (await startLogWorker(core)) ?? connectInPage(core);
 }
 
 /** Starts a worker; returns undefined if the browser has no workers, or if the page's policy or origin forbids them. */
@@ -139,7 +139,7 @@ async function startLogWorker(core: SharedCore): Promise<WorkerLink | undefined>
     const worker = startWorker();
     if (!worker) return undefined;
     const isReady = await new Promise<boolean>((resolve) => {
-      worker.onmessage = ({ data }: MessageEvent<Answer>) => resolve('result' in data);
+      worker.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => resolve('result' in data);
       worker.onerror = (event: ErrorEvent) => {
         event.preventDefault();
         resolve(false);
@@ -154,12 +154,12 @@ async function startLogWorker(core: SharedCore): Promise<WorkerLink | undefined>
   return undefined;
 }
 
-async function linkInPage(core: SharedCore): Promise<WorkerLink> {
+async function connectInPage(core: SharedCore): Promise<WorkerLink> {
   const { serveRequests } = await import('../../logs/worker.ts');
   const { port1, port2 } = new MessageChannel();
   serveRequests(port2, instantiateShared);
   await new Promise<void>((resolve, reject) => {
-    port1.onmessage = ({ data }: MessageEvent<Answer>) => ('failure' in data ? reject(new LogFailure(data.failure)) : resolve());
+    port1.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => ('failure' in data ? reject(new LogFailure(data.failure)) : resolve());
     port1.postMessage({ core });
   });
   return { port: port1, end: () => port1.close() };

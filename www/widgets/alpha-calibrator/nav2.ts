@@ -23,7 +23,10 @@ function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
   return JSON.stringify(allResults, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 }
 
-/** Returns the button that copies the lines, or that which fits the model of Nav2 where the α's are of another one. `obstacle` disables it. */
+/**
+ * Returns the button that copies the lines. For α's of another rule than Nav2's, it is a button that fits Nav2's rule. `obstacle` is the
+ * reason why the button is disabled; empty if it is enabled.
+ */
 export function copyButton(figure: Figure, obstacle: string) {
   const say = words.calibrator.nav2;
   if (!NAV2_RULES.includes(modelRuleOf(figure.reading.fitted))) return button(say.fit, () => figure.gesture.decide(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || say.fitTitle });
@@ -34,7 +37,7 @@ export function copyButton(figure: Figure, obstacle: string) {
 /** Returns the message of the button, which stands where it moves neither the button nor the table. */
 export const copyMessage = (figure: Figure) => figure.copyMenu.messageHtml('nav2', yamlOf(figure));
 
-/** Returns the lines, and the button that saves all results. `obstacle` disables it. */
+/** Returns the lines, and the button that saves all results. `obstacle` is the reason why it is disabled, or empty. */
 export function nav2Exports(figure: Figure, obstacle: string) {
   const say = words.calibrator.nav2;
   const yaml = yamlOf(figure);

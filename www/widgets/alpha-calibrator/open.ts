@@ -1,4 +1,4 @@
-/** Logs of the user: chosen or dropped files, and reading them. */
+/** Opener of the user's logs, from chosen or dropped files. */
 
 import { html, nothing } from 'lit';
 import { language, words } from '../../messages/registry.ts';
@@ -6,7 +6,7 @@ import { button } from '../../ui/controls.ts';
 import { FileOpener } from '../shared/files.ts';
 import { referenceNoise } from './controls.ts';
 import { isStopped, type LogFailure } from './log-service.ts';
-import type { Drive, LogPlan, Wishes } from '../../logs/drives.ts';
+import type { Drive, LogPlan, UserChoices } from '../../logs/drives.ts';
 import type { OpenOptions, Question, Recording, Role } from '../../logs/log.ts';
 import type { CalibrationLog } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
@@ -15,9 +15,9 @@ export type LogWords = typeof import('../../logs/en.ts').english;
 
 type LogError = import('../../logs/log-error.ts').LogError;
 
-type Reader = Awaited<ReturnType<typeof loadReader>>;
+type LogModules = Awaited<ReturnType<typeof loadLogModules>>;
 
-/** Question about a file, which the user has answered or has to answer. */
+/** Question about a file that the user has answered, or still has to answer. */
 export interface OpenQuestion { file: string; ask: Question }
 
 /** Files with their recordings, the user's choices, and the drives that were read by these choices. */
@@ -30,13 +30,13 @@ export interface ChosenFiles {
   answers: Record<string, OpenOptions>;
   questions: OpenQuestion[];
   /** Choices of the user. Missing choices are guessed. */
-  wishes: Pick<Wishes, Role>;
+  userChoices: Pick<UserChoices, Role>;
   /** Roles that the user chose for recordings with one log, by the index of the recording. */
   roles: Map<number, Role>;
   /** Plan for reading the drives; undefined while a question is open. */
   plan?: LogPlan;
   drives?: Drive[];
-  /** Log that the figure has taken. */
+  /** Log that the figure shows; undefined until the logs have been read and fitted. */
   log?: CalibrationLog;
 }
 
@@ -51,11 +51,11 @@ export class LogOpener extends FileOpener<Figure> {
   chosen: ChosenFiles | undefined;
   /** Files with only one log of a drive. The next file may contain the other log. */
   #loneLogFiles: ChosenFiles | undefined;
-  /** Module that reads and shows logs, and its words; undefined until a file is chosen. */
-  reader: Reader | undefined;
+  /** Modules that plan and show logs, with their texts. They are loaded when a file is chosen. */
+  logModules: LogModules | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
   share: number | undefined;
-  /** Odometry that the model preferred when the log was read. */
+  /** Value of `kind` when the log was read. */
   #preferredKind: 'commands' | undefined;
 
   /** Kind of odometry that is preferred if a log has several: commands for the velocity model. */
@@ -65,7 +65,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Words of logs in the present language. */
   get say(): LogWords | undefined {
-    return this.reader?.[language === 'de' ? 'de' : 'en'];
+    return this.logModules?.[language === 'de' ? 'de' : 'en'];
   }
 
   /** Reads the files again if the model has changed and prefers another odometry in them. */
@@ -73,13 +73,13 @@ export class LogOpener extends FileOpener<Figure> {
     const { chosen } = this;
     if (!chosen?.log || chosen.log !== this.host.log || this.share !== undefined || this.#preferredKind === this.kind) return;
     const choicesBefore = choicesOf(chosen.plan);
-    this.#restart(async (reader) => {
-      const plan = planOf(reader, chosen, this.kind);
-      if (choicesOf(plan) !== choicesBefore) await this.#read(chosen, plan, reader);
+    this.#restart(async (logModules) => {
+      const plan = planOf(logModules, chosen, this.kind);
+      if (choicesOf(plan) !== choicesBefore) await this.#read(chosen, plan, logModules);
     });
   }
 
-  /** Drops the chosen files, and shows a log of the page or, by default, the simulated one. */
+  /** Forgets the chosen files, and shows a log of the page or, by default, the simulated one. */
   async close(log: CalibrationLog | null = null) {
     this.#end();
     this.forget();
@@ -87,14 +87,14 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.gesture.complete();
   }
 
-  /** Drops the chosen files, as the user asked. */
+  /** Forgets the chosen files. */
   forget() {
     this.chosen = this.#loneLogFiles = this.refusal = undefined;
     this.#dropZone.style.minHeight = '';
     this.host.requestUpdate();
   }
 
-  /** Text that says whose results are shown while the chosen files are refused; empty otherwise. */
+  /** Sentence that the results are those of another log, while the chosen files are refused; empty otherwise. */
   get otherResults() {
     return this.refusal === undefined || isStopped(this.refusal) ? '' : words.calibrator.own.still(this.host.logName);
   }
@@ -122,15 +122,15 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.requestUpdate();
   }
 
-  /** Loads the module that reads logs, while the user chooses files or drags them here. */
+  /** Preloads the modules and the worker, while the user chooses files or drags them here. */
   enter = () => {
-    loadReader().catch(() => {});
+    loadLogModules().catch(() => {});
     this.host.service.start();
   };
 
   choose(files: File[]) {
     const logFiles = files.filter(isLog);
-    if (files.length > 0) this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], wishes: {}, roles: new Map() });
+    if (files.length > 0) this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {}, roles: new Map() });
   }
 
   /** Stores an answer to a question, and opens the files with it. */
@@ -141,40 +141,40 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Stores a choice of logs. */
-  change(change: Pick<ChosenFiles, 'wishes'> | Pick<ChosenFiles, 'roles'>) {
+  change(change: Pick<ChosenFiles, 'userChoices'> | Pick<ChosenFiles, 'roles'>) {
     if (this.chosen) this.#open({ ...this.chosen, ...change });
   }
 
   #open(chosen: ChosenFiles) {
     this.chosen = { ...chosen, plan: undefined, drives: undefined, log: undefined };
     const openedFiles = this.chosen;
-    this.#restart(async (reader) => {
+    this.#restart(async (logModules) => {
       if (openedFiles.recordings.length === 0) Object.assign(openedFiles, await this.host.service.open(openedFiles.files, openedFiles.answers));
-      await this.#read(openedFiles, await this.#plan(openedFiles, reader), reader);
+      await this.#read(openedFiles, await this.#plan(openedFiles, logModules), logModules);
     });
   }
 
   /** Plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
-  async #plan(chosen: ChosenFiles, reader: Reader): Promise<LogPlan> {
+  async #plan(chosen: ChosenFiles, logModules: LogModules): Promise<LogPlan> {
     try {
       if (chosen.recordings.length === 0) throw chosen.skipped[0];
-      return planOf(reader, chosen, this.kind);
+      return planOf(logModules, chosen, this.kind);
     } catch (error) {
       // A skipped file may be the missing log, so its question comes first.
       const skipped = chosen.skipped.find(({ ask }) => ask);
       if (skipped) throw skipped;
-      const lone = this.#loneLogFiles;
+      const loneLogFiles = this.#loneLogFiles;
       const isLoneLog = chosen.recordings.length === 1 && (error as LogError).ask !== undefined;
       if (isLoneLog) this.#loneLogFiles = { ...chosen };
-      if (!isLoneLog || !lone || lone.files === chosen.files) throw error;
-      const [files, questions] = [[...lone.files, ...chosen.files], [...lone.questions, ...chosen.questions]];
-      Object.assign(chosen, { files, questions, answers: { ...lone.answers, ...chosen.answers } });
+      if (!isLoneLog || !loneLogFiles || loneLogFiles.files === chosen.files) throw error;
+      const [files, questions] = [[...loneLogFiles.files, ...chosen.files], [...loneLogFiles.questions, ...chosen.questions]];
+      Object.assign(chosen, { files, questions, answers: { ...loneLogFiles.answers, ...chosen.answers } });
       Object.assign(chosen, await this.host.service.open(files, chosen.answers));
-      return planOf(reader, chosen, this.kind);
+      return planOf(logModules, chosen, this.kind);
     }
   }
 
-  async #read(chosen: ChosenFiles, plan: LogPlan, reader: Reader) {
+  async #read(chosen: ChosenFiles, plan: LogPlan, logModules: LogModules) {
     const { service } = this.host;
     chosen.plan = plan;
     if (!service.isOpen) await service.open(chosen.files, chosen.answers);
@@ -182,8 +182,8 @@ export class LogOpener extends FileOpener<Figure> {
       this.share = share;
       this.host.requestUpdate();
     });
-    const log = { name: nameOf(plan, reader), ...reader.logOf(drives) };
-    const fitPromise = this.host.open(log, reader.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
+    const log = { name: nameOf(plan, logModules), ...logModules.calibrationLogOf(drives) };
+    const fitPromise = this.host.open(log, logModules.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
     // The summary of logs is shown while they are fitted.
@@ -209,17 +209,17 @@ export class LogOpener extends FileOpener<Figure> {
     const { chosen } = this;
     const newQuestion = ask && chosen && { file: file ?? place?.file ?? '', ask };
     if (newQuestion && !chosen.questions.some((question) => question.file === newQuestion.file && question.ask.what === ask.what)) chosen.questions.push(newQuestion);
-    await super.refuse(error, () => newQuestion && this.reader?.focusChooser(this.host, newQuestion));
+    await super.refuse(error, () => newQuestion && this.logModules?.focusChooser(this.host, newQuestion));
   }
 
-  /** Cancels reading, and starts again. */
-  async #restart(work: (reader: Reader) => Promise<void>) {
+  /** Cancels reading, and starts new work. */
+  async #restart(work: (logModules: LogModules) => Promise<void>) {
     this.host.service.stop();
     this.#preferredKind = this.kind;
     this.share = 0;
     // An answered question keeps its height, so that the figure does not move up.
     this.#dropZone.style.minHeight = `${this.#dropZone.offsetHeight}px`;
-    const isLatest = await this.run(async () => work(this.reader ??= await loadReader()));
+    const isLatest = await this.run(async () => work(this.logModules ??= await loadLogModules()));
     if (isLatest) this.#setIdle();
   }
 }
@@ -227,38 +227,38 @@ export class LogOpener extends FileOpener<Figure> {
 /** Checks whether a file may be a log, because folders also have other files. */
 const isLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
 
-function planOf(reader: Reader, { recordings, wishes, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
-  return reader.planDrives(recordings, { ...wishes, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
+function planOf(logModules: LogModules, { recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
+  return logModules.planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
 }
 
 /** Returns the choices of a plan as a text, to compare plans. */
 const choicesOf = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
 
-/** Returns the files of a log, and the topics of both where one recording has them. */
-function nameOf({ drives, unpaired }: LogPlan, reader: Reader) {
+/** Returns the name of a log: its files, and the topics if one recording has both. */
+function nameOf({ drives, unpaired }: LogPlan, logModules: LogModules) {
   const planParts = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
   const names = planParts.map(({ recording }) => recording.name);
   const [onlyDrive] = planParts.length === 1 ? drives : [];
-  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => reader.labelOf(choice)) : [])].filter(Boolean).join(', ');
+  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => logModules.labelOf(choice)) : [])].filter(Boolean).join(', ');
 }
 
-async function loadReader() {
+async function loadLogModules() {
   const [candidates, drives, pairs, choice, { english: en }, { german: de }] = await Promise.all([
     import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),
   ]);
   return { ...candidates, ...drives, ...pairs, ...choice, en, de };
 }
 
-/** Returns the line that logs are dropped on, and below it the choosers, the progress or name of a log, and the reason for a refusal. */
+/** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */
 export function dropZone(figure: Figure, opener: LogOpener) {
   const say = words.calibrator.own;
-  const { share, reader } = opener;
+  const { share, logModules } = opener;
   return html`<div class="drop-zone" id=${opener.id} part="drop">
     <p title=${say.dropTitle}>
       ${say.drop}
       ${opener.button('log-files', say.files, EXTENSIONS)}
     </p>
-    ${reader?.logChoosers(opener)}
+    ${logModules?.logChoosers(opener)}
     ${share !== undefined
       ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.close())}</p>` : nothing}

@@ -1,6 +1,6 @@
 /**
- * Path of the robot, leg by leg. There may be a hundred thousand legs. They are drawn on a cached layer, because they change only with the
- * log, the view or the colours.
+ * Layer with the path of the robot, leg by leg. It is cached, because there may be a hundred thousand legs, which change only with the log, the
+ * view or the colours.
  */
 
 import { strokePath, type Brush } from '../../scene/canvas.ts';
@@ -13,16 +13,16 @@ import type { CalibrationLegs } from '../../types.d.ts';
 
 export type PathStyle = { colour: string, width: number, dash: number[] };
 
-/** Maximum number of legs that are drawn directly. The drawing of more legs is cached in another canvas, which takes memory. */
+/** Maximum number of legs that are drawn without a cache. The cache is another canvas, which takes memory. */
 const MAX_UNCACHED_LEGS = 2000;
 
 /** Number of strokes of a new log that are drawn in a frame, in about 10 ms. */
 const STROKES_PER_FRAME = 4;
 
-/** Side of grid squares, CSS pixels. Of the steps that end in one square only one is drawn, because others would not be visible. */
+/** Side of the squares of a grid, CSS pixels. Of the short lines that end in one square only one is drawn, because all look equal. */
 const FINE_SQUARE = 1;
 
-/** Side of the squares in which overlapping legs are counted, CSS pixels. */
+/** Side of the squares by which the coverage of the picture is measured, CSS pixels. */
 const COARSE_SQUARE = 8;
 
 /** Returns the key of the grid square that contains a point in CSS pixels. */
@@ -50,7 +50,7 @@ export class PathLayer {
   #legs: CalibrationLegs | undefined;
   #odometry: Memo<Float64Array> = new Memo();
 
-  /** Returns the ends of the legs by odometry (x, y pairs), from the first pose of the reference on. The path drifts away from the reference. */
+  /** Returns the ends of the legs by odometry (x, y pairs). The path starts at the first pose of the reference, and drifts away from it. */
   odometryOf(legs: CalibrationLegs): Float64Array {
     return this.#odometry.get([legs], () => {
       const { count, odometry, reference } = legs;
@@ -73,11 +73,11 @@ export class PathLayer {
   draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]): boolean {
     const { context, highlight, handles } = brush;
     if ('vector' in context || legs.count <= MAX_UNCACHED_LEGS) return drawStrokes(drawPath(brush, legs, this.odometryOf(legs), classes, overlays));
-    const isOtherLog = legs !== this.#legs;
+    const isNewLog = legs !== this.#legs;
     this.#legs = legs;
     return this.#layer.draw(brush, [legs, overlays, highlight], (painter) => {
       const strokes = drawPath(painter, legs, this.odometryOf(legs), classes, overlays);
-      if (!isOtherLog) drawStrokes(strokes);
+      if (!isNewLog) drawStrokes(strokes);
       return strokes;
     }, handles ? Infinity : STROKES_PER_FRAME);
   }
@@ -85,13 +85,13 @@ export class PathLayer {
 
 function* drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
   if (overlays.includes('odometry')) yield* strokeMany(brush.context, odometryLines(brush.view, odometry), pathStyle(brush, 'odometry'));
-  // While the coverage by legs grows from 1 to 2, lines get gradually thinner, so that nothing jumps when the picture is resized.
-  const thickening = Math.max(0, Math.min(1, 2 - pathCoverage(brush.view, legs.reference)));
+  // Lines get thinner gradually while the coverage grows from 1 to 2, so that nothing jumps when the picture is resized.
+  const thickness = Math.max(0, Math.min(1, 2 - pathCoverage(brush.view, legs.reference)));
   for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
     const style = pathStyle(brush, name);
     const legLines = visibleLegs(brush.view, legs.reference, (leg) => classes[leg] === index);
-    yield* strokeMany(brush.context, legLines, { ...style, width: HAIRLINE_WIDTH + thickening * (style.width - HAIRLINE_WIDTH) });
+    yield* strokeMany(brush.context, legLines, { ...style, width: HAIRLINE_WIDTH + thickness * (style.width - HAIRLINE_WIDTH) });
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }
@@ -122,7 +122,7 @@ function pathCoverage(view: Painter['view'], reference: Float64Array) {
   for (let at = 0; at < reference.length; at += 6) {
     const [x, y] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
     occupiedSquares.add(squareOf(x, y, COARSE_SQUARE));
-    // Only one square's length of a leg counts for the square in which it ends.
+    // A leg counts only for the square in which it ends, with at most the side of the square.
     coveredLength += Math.min(COARSE_SQUARE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
   }
   return (coveredLength * LINE_STYLES.likely.width) / (occupiedSquares.size * COARSE_SQUARE ** 2);

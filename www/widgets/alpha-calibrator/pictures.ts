@@ -10,29 +10,29 @@ import { PathLayer, drawRings, pathStyle } from './path-layer.ts';
 import type { LegView } from '../../types.d.ts';
 import type { Reading } from './reading.ts';
 
-/** Scene with the leg that is shown. */
+/** View model of the pictures: the fit, and the leg that is shown. */
 export type Scene = Reading & { chosen: number, leg: LegView | null, overlays: LineName[] };
 
 /** Width of the lines of a single leg, CSS pixels. */
 const LEG_LINE_WIDTH = 2.25;
 
-/** Space around the mark of an end, as a share of the leg. */
-const MARK_ROOM = 0.08;
+/** Margin around the mark of a leg's end, as a fraction of the leg's length. */
+const MARK_MARGIN = 0.08;
 
 /**
- * Returns the corners of an area around both paths. Where the odometry drifts far away, the reference still has at least half of the width.
+ * Returns the corners of a box around both paths. If the odometry drifts far away, the box is cut so that the reference fills half of it.
  *
  * @param reference poses
  * @param odometry points
  */
 export function cornersOf(reference: ArrayLike<number>, odometry: ArrayLike<number>): number[] {
   const box = extentAround(reference, 3);
-  const bothPaths = extentAround(odometry, 2, box);
-  const room = Math.max(box.xMax - box.xMin, box.yMax - box.yMin) / 2;
-  return [Math.max(bothPaths.xMin, box.xMin - room), Math.max(bothPaths.yMin, box.yMin - room), Math.min(bothPaths.xMax, box.xMax + room), Math.min(bothPaths.yMax, box.yMax + room)];
+  const boxOfBothPaths = extentAround(odometry, 2, box);
+  const margin = Math.max(box.xMax - box.xMin, box.yMax - box.yMin) / 2;
+  return [Math.max(boxOfBothPaths.xMin, box.xMin - margin), Math.max(boxOfBothPaths.yMin, box.yMin - margin), Math.min(boxOfBothPaths.xMax, box.xMax + margin), Math.min(boxOfBothPaths.yMax, box.yMax + margin)];
 }
 
-/** The floor from above, in the frame of the reference. */
+/** Picture of the path from above, in the frame of the reference. */
 export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
   view: View;
@@ -71,7 +71,7 @@ export class PathPicture extends SamplesPicture<Scene> {
   };
 }
 
-/** One leg in the frame of the robot at its start: predicted ends, and the ends by odometry and reference. */
+/** Picture of one leg in the frame of its start: the predicted ends, and the ends by odometry and reference. */
 export class LegPicture extends Picture<Scene> {
   name = 'leg';
   view: View = new View({ left: 50 });
@@ -80,8 +80,8 @@ export class LegPicture extends Picture<Scene> {
     if (!leg) return;
     const { outline, read, ended } = leg;
     this.view.release();
-    const markRoom = MARK_ROOM * Math.hypot(ended[0], ended[1]);
-    const markCorners = [read, ended].flatMap(([x, y]) => [x - markRoom, y - markRoom, x + markRoom, y + markRoom]);
+    const markMargin = MARK_MARGIN * Math.hypot(ended[0], ended[1]);
+    const markCorners = [read, ended].flatMap(([x, y]) => [x - markMargin, y - markMargin, x + markMargin, y + markMargin]);
     this.view.fit(extentOf([0, 0, ...outline, ...markCorners], 0.05));
   }
 

@@ -16,7 +16,7 @@ export type Reading = ReturnType<typeof fitOf> & {
   isPending: boolean;
 };
 
-/** Reads the machine for pictures and readouts, once per change. The fit and the true values are copied only if they have changed. */
+/** Returns the view model of a machine. The fit and the true values are read again only if they have changed. */
 export function readingOf(machine: Machine, log: CalibrationLog | null, before: Reading | undefined): Reading {
   const { config, fittedConfig: fitted, fits, isPending } = machine.read();
   const isSameMachine = before?.machine === machine;
@@ -25,7 +25,7 @@ export function readingOf(machine: Machine, log: CalibrationLog | null, before: 
   return { ...fit, truth, log, config, fitted, isPending };
 }
 
-/** Returns the fit of a machine with its number, and the legs to show. */
+/** Returns the fit of a machine, and the legs to show. `fits` is the revision number of the fit. */
 function fitOf(machine: Machine, fits: number, { duration, distance }: Machine['config']) {
   const { stats, legs } = machine;
   return {
@@ -33,7 +33,7 @@ function fitOf(machine: Machine, fits: number, { duration, distance }: Machine['
     fits,
     stats,
     legs,
-    /** Class of each leg, as an index of `CLASSES`. */
+    /** Class of each leg, as an index of `LEG_CLASSES`. */
     classes: classesOf(legs),
     /** Legs with the largest residuals, the largest first. */
     worst: worstLegsOf(legs),
@@ -70,8 +70,8 @@ function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
 }
 
 /**
- * Returns the leg with the largest residual that is not an outlier and has at least the length `distance`; −1 if there is none. An outlier
- * is no evidence against the model, and a turn on the spot shows no cloud.
+ * Returns the leg with the largest residual that is not an outlier and has at least the length `distance`. An outlier is no evidence against
+ * the model, and a turn on the spot shows no cloud. Returns leg 0 if there is no such leg, and −1 if there are no legs.
  */
 function openingLegOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
   const isFullLeg = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;

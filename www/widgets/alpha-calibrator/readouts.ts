@@ -1,16 +1,16 @@
-/** Judgement and α's of the Alpha Calibrator, each α with its interval. */
+/** Readouts of the Alpha Calibrator: the verdict, and the table of the α's with their intervals. */
 
 import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, formatPowerOfTen, tick } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
-import { adviceOf, alphaOrBound, fixed } from './lines.ts';
+import { adviceOf, alphaOrBound, formatEstimate } from './lines.ts';
 import { truthApplies, type Reading } from './reading.ts';
 import { judgementOf, legsText, localized, noiseNames } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-/** Size of a whisker's row. */
+/** Size of the plot of one α's interval (a whisker) in the table. */
 const WHISKER_ROW = { width: 200, height: 24, middle: 12, inset: 12 };
 
 /** Maximum number of intervals between labels of the axis. */
@@ -62,7 +62,7 @@ function recommendedOf({ stats: { recommended, alphas, intervals } }: Reading, i
 
 const fittedText = ({ stats: { alphas, intervals } }: Reading, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
 
-/** Returns why an α is not determined, and which drive would determine it. */
+/** Returns the reason why an α is not identifiable, and the drive that would identify it. */
 function missingText({ stats: { notIdentifiable }, fitted: { model } }: Reading, index: number) {
   const say = words.calibrator.alphas;
   const reason = notIdentifiable[index];
@@ -83,27 +83,27 @@ export function alphaTexts(reading: Reading) {
 
 function intervalText({ stats: { intervals } }: Reading, index: number) {
   const interval = intervals[index];
-  return interval ? words.calibrator.alphas.between(localized(fixed(interval[0], interval)), localized(fixed(interval[1], interval))) : NO_VALUE;
+  return interval ? words.calibrator.alphas.between(localized(formatEstimate(interval[0], interval)), localized(formatEstimate(interval[1], interval))) : NO_VALUE;
 }
 
-/** Returns the head of the column of noises, with the symbol of the simulated value. */
+/** Returns the header of the column of noises, with the symbol of the true value in simulated logs. */
 function noiseColumnHead() {
   const [textBefore, textAfter] = words.calibrator.alphas.noiseTrue.split('|');
   return html`${textBefore}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path class="true" d="M3 1V11" /></svg>${textAfter}`;
 }
 
-/** Returns a logarithmic axis over the decades of some values. */
+/** Returns a logarithmic axis over whole decades that contain the values. */
 function axisOf(values: (number | null)[]) {
-  const log10 = values.filter((value) => value !== null && value > 0 && Number.isFinite(value)).map((value) => Math.log10(value as number));
-  const from = Math.floor(Math.min(0, ...(log10.length ? [Math.max(Math.min(...log10), Math.max(...log10) - 4)] : [-3])));
-  const to = Math.max(from + 1, Math.ceil(log10.length ? Math.max(...log10) : 0));
+  const logarithms = values.filter((value) => value !== null && value > 0 && Number.isFinite(value)).map((value) => Math.log10(value as number));
+  const from = Math.floor(Math.min(0, ...(logarithms.length ? [Math.max(Math.min(...logarithms), Math.max(...logarithms) - 4)] : [-3])));
+  const to = Math.max(from + 1, Math.ceil(logarithms.length ? Math.max(...logarithms) : 0));
   const { width, inset } = WHISKER_ROW;
   const at = (value: number) => {
     const axisFraction = (Math.log10(Math.max(value, 0)) - from) / (to - from);
     // A mark outside the axis is drawn at its edge.
     return Math.max(inset / 3, Math.min(width - inset / 3, inset + axisFraction * (width - 2 * inset)));
   };
-  // More labels would touch.
+  // At most MAX_AXIS_INTERVALS + 1 labels fit without touching.
   const labelStep = Math.ceil((to - from) / MAX_AXIS_INTERVALS);
   return { at, decades: Array.from({ length: Math.floor((to - from) / labelStep) + 1 }, (_, i) => 10 ** (from + i * labelStep)) };
 }

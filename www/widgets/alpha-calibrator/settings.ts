@@ -1,4 +1,4 @@
-/** The Alpha Calibrator's settings: their attributes, their part of the state, and their sliders. */
+/** Settings of the Alpha Calibrator: attributes, shared state and sliders. */
 
 import { checkedInteger, checkedWord } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
@@ -39,7 +39,7 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
   },
 };
 
-/** Models with their rules: two settings, but one choice. */
+/** Combinations of model and rule, which are one choice on screen but two settings. */
 const MODEL_RULES = ['thrun', 'nav2', 'beluga', 'omni', 'velocity'] as const;
 
 /** Leg length to which the true α's of the simulated log apply, and with which the element opens. */

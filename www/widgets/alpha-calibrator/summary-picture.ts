@@ -10,14 +10,14 @@ import { systematicTexts } from './systematic.ts';
 import { captionOf, reasonOf } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-/** Size in pixels. The path is at the left, the α's are next to it, and sentences below. */
+/** Size in pixels. The path is at the left with the α's beside it, and sentences are below. */
 const [WIDTH, HEIGHT] = [720, 560];
 const PATH_SIZE = { width: 430, height: 344 };
 
-/** Room for a key in two lines, CSS pixels. */
+/** Height of a legend in two lines, CSS pixels. */
 const KEY_HEIGHT = 42;
 
-/** Line height. */
+/** Line height, pixels. */
 const LINE_HEIGHT = 18;
 
 export class SummaryPicture extends Picture<Scene> {
@@ -49,17 +49,17 @@ export class SummaryPicture extends Picture<Scene> {
     context.textBaseline = 'top';
     const alphasLeft = PATH_SIZE.width + 20;
     let y = 2;
-    for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = print(context, text, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
+    for (const sentence of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = writeText(context, sentence, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
     y = Math.max(PATH_SIZE.height, y) + LINE_HEIGHT;
-    for (const text of [captionOf(this.#figure), reasonOf(reading), ...systematicTexts(reading)]) y = print(context, text, 2, y, WIDTH - 2);
+    for (const sentence of [captionOf(this.#figure), reasonOf(reading), ...systematicTexts(reading)]) y = writeText(context, sentence, 2, y, WIDTH - 2);
     return false;
   }
 }
 
 /** Writes a text in lines that are not longer than the width, and returns the y of the next line. */
-function print(context: CanvasRenderingContext2D, text: string, x: number, y: number, width: number): number {
+function writeText(context: CanvasRenderingContext2D, sentence: string, x: number, y: number, width: number): number {
   let textLine = '';
-  for (const nextWord of text.split(' ')) {
+  for (const nextWord of sentence.split(' ')) {
     const extendedLine = textLine && `${textLine} ${nextWord}`;
     if (extendedLine && context.measureText(extendedLine).width <= width) {
       textLine = extendedLine;

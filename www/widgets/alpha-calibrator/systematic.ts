@@ -12,7 +12,7 @@ import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 type SystematicError = Reading['stats']['systematicErrors']['mountYaw' | 'leverArm'];
 
-/** Maximum number of decimals of a systematic error: a micrometre. */
+/** Maximum number of decimals of a systematic error. */
 const MAX_DECIMALS = 6;
 
 /** Returns two sentences: one on the systematic errors that were corrected, and one on those that the α's include as noise. */
@@ -38,7 +38,7 @@ function isSignificant(key: string, { interval }: SystematicError) {
 
 /** Returns an error as text, with its name; an empty array if the error is not identifiable. */
 function textOf(key: typeof SYSTEMATIC_ERRORS[number], error: SystematicError): string[] {
-  const { values, halves } = printedError(error);
+  const { values, halves } = formatError(error);
   return values.length ? [`${words.calibrator.systematic.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];
 }
 
@@ -53,7 +53,7 @@ export function systematicTable(figure: Figure) {
   const say = words.calibrator.systematic;
   const { requested } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((key) => {
-    const { values, halves } = printedError(errors[key]);
+    const { values, halves } = formatError(errors[key]);
     const correctCheckbox = toggle({ label: say.names[key], checked: requested[key], change: (on) => figure.gesture.decide({ [key]: on }) });
     if (values.length === 0) return [correctCheckbox, say.unknown];
     return [
@@ -70,8 +70,8 @@ export function systematicTable(figure: Figure) {
 
 const stackedTexts = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
-/** Formats an error with its significant digits: its values (two for a lever arm), and half the width of each interval. */
-function printedError({ value, interval }: SystematicError) {
+/** Formats the values of an error (two for a lever arm) and half the width of each interval, with significant digits. */
+function formatError({ value, interval }: SystematicError) {
   const halfWidths = intervalsOf(interval).map((limits) => limits && (limits[1] - limits[0]) / 2);
   return {
     values: [value].flat().flatMap((component, i) => (component === null ? [] : [fixed(component, decimalsOf(halfWidths[i]))])),

@@ -4,7 +4,7 @@ import { addEnglish, words } from '../../messages/registry.ts';
 import { integer, fixed, percent, formatPowerOfTen } from '../../ui/format.ts';
 import { en } from './en.ts';
 import { subscriptOf } from '../shared/sliders.ts';
-import { correctFirst, failedOf, missingAlphas } from './lines.ts';
+import { correctionAdvice, failedChecksOf, missingAlphas } from './lines.ts';
 import { uncorrectedText } from './systematic.ts';
 import type { CalibrationCheck, LegView } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -18,23 +18,23 @@ type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'read
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
 /**
- * Returns the rating of the α's, the finding in a sentence, and a text on what to do. A missing α or a warning makes consistent α's
- * questionable, for example that the reference is a localizer.
+ * Returns the rating of the α's, the finding in a sentence, and the advice. A missing α, or a warning such as a localizer as the reference,
+ * makes consistent α's questionable.
  */
-export function judgementOf(reading: Reading, given: Warning[]) {
+export function judgementOf(reading: Reading, logWarnings: Warning[]) {
   const { stats, legs, fitted } = reading;
   const { verdict, checks } = stats.diagnostics;
   const say = words.calibrator;
   const missing = missingAlphas(say.alphas.lacking, fitted.model, stats).map(({ indices, drive }) => say.missing(indices.map((i) => `α${subscriptOf(i)}`).join(', '), drive));
-  const warnings = [...missing, uncorrectedText(reading), ...given.map((name) => say.nav2[name])].filter(Boolean);
+  const warnings = [...missing, uncorrectedText(reading), ...logWarnings.map((name) => say.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
-  const judgement = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: [...toDo, ...(rating === 'questionable' ? [say.useAnyway] : [])].join(' ') });
-  if (legs.count === 0) return judgement(say.none, say.longer, ...warnings);
-  const failedChecks = failedOf(checks);
-  const correction = correctFirst(stats, say.nav2, localized);
-  if (failedChecks.length > 0) return judgement(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, messageOf(failedChecks[0]));
-  if (verdict === 'unusable') return judgement(say.noAlpha, ...warnings);
-  return warnings.length > 0 ? judgement(warnings[0], ...warnings.slice(1), ...correction) : judgement(say.passed(integer(checks.length)), say.use, ...correction);
+  const judgementWith = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: [...toDo, ...(rating === 'questionable' ? [say.useAnyway] : [])].join(' ') });
+  if (legs.count === 0) return judgementWith(say.none, say.longer, ...warnings);
+  const failedChecks = failedChecksOf(checks);
+  const correction = correctionAdvice(stats, say.nav2, localized);
+  if (failedChecks.length > 0) return judgementWith(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, messageOf(failedChecks[0]));
+  if (verdict === 'unusable') return judgementWith(say.noAlpha, ...warnings);
+  return warnings.length > 0 ? judgementWith(warnings[0], ...warnings.slice(1), ...correction) : judgementWith(say.passed(integer(checks.length)), say.use, ...correction);
 }
 
 /** Returns what a failed check means and what to do. A reference that matches too closely has its own message. */
@@ -46,7 +46,7 @@ export function checkText(name: CalibrationCheck['name'], value: number) {
   return name === 'enough-legs' ? integer(value) : FRACTION_CHECKS.test(name) ? percent(value) : fixed(value, 3);
 }
 
-/** Prints the values of a check that pass. */
+/** Prints the range of values with which a check passes. */
 export function expectedOf({ name, expected: [low, high] }: CalibrationCheck) {
   if (high === Infinity) return `≥ ${checkText(name, low)}`;
   return low === 0 ? `≤ ${checkText(name, high)}` : words.calibrator.alphas.between(checkText(name, low), checkText(name, high));
@@ -68,7 +68,7 @@ export const noiseNames = (model: Reading['config']['model']) => words.alphas[mo
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
 
 /** Scales small numbers by a power of 1000, so that labels fit next to an axis. The unit is empty for the power 1. */
-export function powerOf1000(highest: number): { scaled: (value: number) => number, unit: string } {
+export function scaleByPowerOf1000(highest: number): { scaled: (value: number) => number, unit: string } {
   const exponent = Math.min(0, 3 * Math.floor(Math.log10(highest) / 3));
   return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? formatPowerOfTen(exponent) : '' };
 }

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { wallContact, wallGrips, movedWalls } from '../../www/widgets/map-squeeze/walls.ts';
+import { wallContact, wallGrips, wallsAfterMove } from '../../www/widgets/map-squeeze/walls.ts';
 
 /** Room of 6 m × 4 m with a wall at x = 3 that has a doorway, and a wall that ends at its lower part. */
 const BOUNDS = Float64Array.of(0, 0, 6, 4);
@@ -25,13 +25,13 @@ test('a jamb goes along its wall, up to the other jamb and down to a stub', () =
   assert.ok(grip);
   assert.deepEqual(grip.axis, [0, 1]);
   assert.deepEqual(grip.range.map((limit) => Number(limit.toFixed(9))), [-1.45, 0.95]);
-  assert.deepEqual([...movedWalls(WALLS, grip, 0.5).subarray(LOWER_WALL, LOWER_WALL + 4)], [3, 0, 3, 2]);
+  assert.deepEqual([...wallsAfterMove(WALLS, grip, 0.5).subarray(LOWER_WALL, LOWER_WALL + 4)], [3, 0, 3, 2]);
 });
 
 test('a wall goes across, and the wall that ends at it follows', () => {
   const grip = gripOf('side');
   assert.ok(grip);
-  const wallsAfter = movedWalls(WALLS, grip, grip.axis[0] * 0.5);
+  const wallsAfter = wallsAfterMove(WALLS, grip, grip.axis[0] * 0.5);
   assert.deepEqual([...wallsAfter.subarray(LOWER_WALL)], [3.5, 0, 3.5, 1.5, 3, 2.5, 3, 4, 0, 1, 3.5, 1]);
   assert.deepEqual([...wallsAfter.subarray(0, LOWER_WALL)], OUTER_WALLS);
 });

@@ -2,10 +2,10 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { stretchesOf } from '../../www/widgets/dead-reckoning/pictures.ts';
+import { scaleRatioTexts } from '../../www/widgets/dead-reckoning/pictures.ts';
 
 test('the stretched axis has the factor of the scales, and none that is not seen', () => {
-  assert.deepEqual(stretchesOf({ scaleX: 100, scaleY: 720 }), ['', '7.2']);
-  assert.deepEqual(stretchesOf({ scaleX: 1230, scaleY: 100 }), ['10', '']);
-  assert.deepEqual(stretchesOf({ scaleX: 100, scaleY: 104 }), ['', '']);
+  assert.deepEqual(scaleRatioTexts({ scaleX: 100, scaleY: 720 }), ['', '7.2']);
+  assert.deepEqual(scaleRatioTexts({ scaleX: 1230, scaleY: 100 }), ['10', '']);
+  assert.deepEqual(scaleRatioTexts({ scaleX: 100, scaleY: 104 }), ['', '']);
 });

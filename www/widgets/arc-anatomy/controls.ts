@@ -26,15 +26,15 @@ export function likelihoodControls(figure: Figure) {
 }
 
 /** Returns an icon, with a text for screen readers. */
-const icon = (seen: string, heard: string) => html`<span aria-hidden="true">${seen}</span><span class="visually-hidden">${heard}</span>`;
+const iconWithText = (visibleSymbol: string, spokenText: string) => html`<span aria-hidden="true">${visibleSymbol}</span><span class="visually-hidden">${spokenText}</span>`;
 
 export function lineStepper(figure: Figure) {
   const say = words.anatomy.table;
   const { line } = figure.state.elementState;
   const chooseLine = (to: number) => () => figure.gesture.choose('line', to);
   return html`<div class="stepper" role="group" aria-label=${say.label}>
-    ${button(icon('‹', say.back), chooseLine(line - 1), { disabled: line === 0, title: say.back })}
-    ${button(icon('›', say.on), chooseLine(line + 1), { disabled: line === TABLE_LINES, title: say.on })}
+    ${button(iconWithText('‹', say.back), chooseLine(line - 1), { disabled: line === 0, title: say.back })}
+    ${button(iconWithText('›', say.on), chooseLine(line + 1), { disabled: line === TABLE_LINES, title: say.on })}
     <p role="status">${line === 0 ? say.begin : formatMarkup(lineText(figure.reading, line))}</p>
   </div>`;
 }

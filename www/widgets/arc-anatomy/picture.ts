@@ -22,29 +22,29 @@ export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line:
 /** Radius of the robots, m. */
 export const ROBOT_RADIUS = 0.06;
 
-/** Maximum radius at which the centre is shown: a multiple of the length of the path, but at least some metres. */
-const MAX_RADIUS = { ways: 3, metres: 1.5 };
+/** Maximum radius of an arc whose centre is in the picture: the larger of a multiple of the path length, and a length in metres. */
+const MAX_RADIUS = { pathLengths: 3, metres: 1.5 };
 
-/** Margin around everything, m. */
+/** Margin around the paths, m. */
 const MARGIN_METRES = 0.15;
 
 /** Maximum radius of the arcs that mark angles, CSS pixels. */
 const MAX_ANGLE_RADIUS = 40;
 
-/** Radius of the wedge, CSS pixels. */
+/** Radius of the wedge that shows the last turn, CSS pixels. */
 const WEDGE_RADIUS = 64;
 
-/** Half of the cross at a centre, CSS pixels. */
-const CROSS_HALF = 4;
+/** Half the size of the cross at the centre of an arc, CSS pixels. */
+const CROSS_HALF_SIZE = 4;
 
-/** Length of the line in the heading at the commanded end, CSS pixels. */
+/** Length of the heading line at the commanded end, CSS pixels. */
 const HEADING_LENGTH = 24;
 
 /** Length of the arrow towards a centre outside the picture, CSS pixels. */
 const ARROW_LENGTH = 9;
 
-/** Constructions in the picture that each line of Table 5.1 highlights. */
-const CONSTRUCTIONS: Record<number, string[]> = {
+/** Constructions in the picture that are highlighted with a line of Table 5.1. */
+const CONSTRUCTIONS_BY_LINE: Record<number, string[]> = {
   1: ['bisector'],
   2: ['bisector', 'centre'],
   3: ['bisector', 'centre'],
@@ -65,14 +65,14 @@ export class ArcPicture extends Picture<Scene> {
     for (const path of [paths.commanded, paths.inverted, paths.driven]) box = extentAround(path, 2, box);
     const pathExtent = Math.hypot(box.xMax - box.xMin, box.yMax - box.yMin);
     for (const { center, radius } of [commanded, inverted]) {
-      if (center && Math.abs(radius) < Math.max(MAX_RADIUS.metres, MAX_RADIUS.ways * pathExtent)) box = extentAround(center, 2, box);
+      if (center && Math.abs(radius) < Math.max(MAX_RADIUS.metres, MAX_RADIUS.pathLengths * pathExtent)) box = extentAround(center, 2, box);
     }
     const { xMin, yMin, xMax, yMax } = box;
-    const padded = { xMin: xMin - MARGIN_METRES, yMin: yMin - MARGIN_METRES, xMax: xMax + MARGIN_METRES, yMax: yMax + MARGIN_METRES };
+    const extentWithMargin = { xMin: xMin - MARGIN_METRES, yMin: yMin - MARGIN_METRES, xMax: xMax + MARGIN_METRES, yMax: yMax + MARGIN_METRES };
     // The view's own margin makes up for the scale that the wedge itself reduces.
-    const wedgeRadius = WEDGE_RADIUS / this.view.scaleFor(padded);
-    const sides = overlays.includes('wedge') ? [next.theta, next.theta - lastTurn] : [];
-    this.view.fit(extentAround(sides.flatMap((theta) => [next.x + wedgeRadius * Math.cos(theta), next.y + wedgeRadius * Math.sin(theta)]), 2, padded));
+    const wedgeRadius = WEDGE_RADIUS / this.view.scaleFor(extentWithMargin);
+    const wedgeHeadings = overlays.includes('wedge') ? [next.theta, next.theta - lastTurn] : [];
+    this.view.fit(extentAround(wedgeHeadings.flatMap((theta) => [next.x + wedgeRadius * Math.cos(theta), next.y + wedgeRadius * Math.sin(theta)]), 2, extentWithMargin));
   }
 
   paint: Picture<Scene>['paint'] = (brush, scene) => {
@@ -106,7 +106,7 @@ export class ArcPicture extends Picture<Scene> {
       if (showsLine('inverted') && driven.arcLength !== inverted.arcLength) {
         drawOutlines(brush, [{ points: paths.inverted, colour: styles.inverted.colour, width: 1, dash: [2, 3] }]);
       }
-      markLine(brush, scene);
+      drawTableLineConstruction(brush, scene);
       if (showsLine('commanded')) {
         const [endX, endY, endTheta] = commanded.end;
         drawRobotOutline(brush, endX, endY, ROBOT_RADIUS, styles.commanded.colour);
@@ -146,8 +146,8 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
     addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
   });
   strokePath(context, { colour, width: 2 }, () => {
-    addLine(context, [[x - CROSS_HALF, y], [x + CROSS_HALF, y]]);
-    addLine(context, [[x, y - CROSS_HALF], [x, y + CROSS_HALF]]);
+    addLine(context, [[x - CROSS_HALF_SIZE, y], [x + CROSS_HALF_SIZE, y]]);
+    addLine(context, [[x, y - CROSS_HALF_SIZE], [x, y + CROSS_HALF_SIZE]]);
   });
   strokeAngle(context, [x, y], [fromX, fromY], turn, { colour, width: 1.5 });
   // The labels are behind the robot, away from the arc. If the centre is outside the picture, they are ahead of the robot, because the
@@ -169,9 +169,9 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
 }
 
 /** Draws an arrow at a point in a direction (rad, clockwise from the right). */
-function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], way: number) {
+function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], direction: number) {
   strokePath(context, { colour, width: 2.25 }, () => {
-    for (const wingAngle of [2.6, -2.6]) addLine(context, [[x + ARROW_LENGTH * Math.cos(way + wingAngle), y + ARROW_LENGTH * Math.sin(way + wingAngle)], [x, y]]);
+    for (const wingAngle of [2.6, -2.6]) addLine(context, [[x + ARROW_LENGTH * Math.cos(direction + wingAngle), y + ARROW_LENGTH * Math.sin(direction + wingAngle)], [x, y]]);
   });
 }
 
@@ -193,7 +193,7 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
   context.globalAlpha = 0.32;
   context.fill();
   context.globalAlpha = 1;
-  // Side of the wedge in the direction of the heading at the end of the arc.
+  // Edge of the wedge along the heading at the end of the arc.
   strokeLine(context, view.ray({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
 }
 
@@ -221,25 +221,25 @@ function drawTwistTicks(brush: Brush, ticks: Float64Array, colour: string) {
 }
 
 /** Draws the construction of the highlighted line of Table 5.1. */
-function markLine(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: number }: Scene) {
-  const lit = CONSTRUCTIONS[number] ?? [];
+function drawTableLineConstruction(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: number }: Scene) {
+  const highlightedConstructions = CONSTRUCTIONS_BY_LINE[number] ?? [];
   const { context, view, palette: { accent } } = brush;
   const toPixel = ([x, y]: number[]) => view.toPixel(x, y);
   const drawAccentLine = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });
   const startPixel = toPixel([start.x, start.y]);
   const endPixel = toPixel([next.x, next.y]);
-  if (lit.includes('arc')) drawOutlines(brush, [{ points: paths.driven, colour: accent, width: 5, dash: [] }]);
-  if (lit.includes('wedge')) drawWedge(brush, next, lastTurn, accent);
+  if (highlightedConstructions.includes('arc')) drawOutlines(brush, [{ points: paths.driven, colour: accent, width: 5, dash: [] }]);
+  if (highlightedConstructions.includes('wedge')) drawWedge(brush, next, lastTurn, accent);
   if (!inverted.center) return;
   const centrePixel = toPixel(inverted.center);
-  if (lit.includes('bisector')) {
+  if (highlightedConstructions.includes('bisector')) {
     strokeLine(context, [toPixel(middle), centrePixel], { colour: accent, width: 2.5, dash: [6, 4] });
     drawAccentLine(2.5, startPixel, centrePixel);
     drawAccentLine(2.5, startPixel, endPixel);
   }
-  if (lit.includes('radius')) drawAccentLine(3, startPixel, centrePixel, endPixel);
-  if (lit.includes('centre')) drawDisc(context, centrePixel, 8, undefined, { colour: accent, width: 3 });
-  if (lit.includes('angle')) strokeAngle(context, centrePixel, startPixel, inverted.turn, { colour: accent, width: 4 });
+  if (highlightedConstructions.includes('radius')) drawAccentLine(3, startPixel, centrePixel, endPixel);
+  if (highlightedConstructions.includes('centre')) drawDisc(context, centrePixel, 8, undefined, { colour: accent, width: 3 });
+  if (highlightedConstructions.includes('angle')) strokeAngle(context, centrePixel, startPixel, inverted.turn, { colour: accent, width: 4 });
 }
 
 /** Strokes an arc about a centre that marks a turn in radians from the direction of a point; both in pixels. */

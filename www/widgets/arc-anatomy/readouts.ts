@@ -11,7 +11,7 @@ import { TABLE_LINES } from './settings.ts';
 import { densityText, isTiny, shareText, type Reading } from './words.ts';
 import type { Factor, FormErrors, Motion } from '../../types.d.ts';
 
-/** Scale of the bars: number of standard deviations to either side, and pixels per standard deviation. */
+/** Scale of the bars: maximum number of standard deviations to either side, and pixels per standard deviation. */
 const BAR_SCALE = { max: 4, pixels: 22 };
 const BAR_MIDDLE = BAR_SCALE.max * BAR_SCALE.pixels + 4;
 
@@ -100,7 +100,7 @@ export function tableLines(reading: Reading, lit: number) {
     <p class="about">${formatMarkup(say.sign)}</p>`;
 }
 
-/** Range of errors in the plot, m: from less than the last digit of the distance to more than the whole distance. */
+/** Range of errors in the plot, m: from below the rounding of the distance to above the whole distance. */
 const ERROR_RANGE = { from: 1e-18, to: 1 };
 
 /** Cache of the errors of the forms, which depend on no setting. */

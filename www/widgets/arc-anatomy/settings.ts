@@ -49,5 +49,5 @@ export const definition = definitionOf('arc-anatomy', {
   },
 });
 
-/** Largest coordinates of a pose that is dragged, m. */
+/** Maximum absolute coordinate of a pose that is dragged, m. */
 export const MAX_COORDINATE = 4;

@@ -90,7 +90,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const pinned = this.#pinned;
     const { overlays, morph } = this.state.elementState;
     const shownOverlays = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
-    // There are no callouts while a cloud grows or is dragged, because outlines move. During a morph their sentences would be wrong.
+    // Callouts are hidden while a cloud grows or is dragged, because outlines move. During a morph their texts would be wrong.
     const isMoving = this.cloud.playing || (this.gesture.isPressed && reading !== this.gesture.previousReading);
     const otherOverlays = OVERLAYS.filter((name) => name !== 'command' && shownOverlays[name] && hasLength(reading.contours[name]));
     const callouts = isMoving || morph > 0 || otherOverlays.join() !== 'ellipse,exponential' ? [] : calloutsOf(reading);
@@ -116,7 +116,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     this.#readingOfPinned(pinned);
   }
 
-  /** Reading that the current cloud is compared with: that of the pinned settings. */
+  /** View model of the pinned settings, with which the current cloud is compared. */
   get #pinned() {
     return this.#readingOfPinned(this.state.elementState.pinned);
   }
@@ -125,7 +125,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     return pinned ? this.#pinnedReading.get([pinned], () => readingOfSettings(this.motion, pinned)) : undefined;
   }
 
-  /** Pins the outlines and numbers for comparison, or removes those that are pinned. Those of a growing cloud are of the complete cloud. */
+  /** Pins the current settings for comparison, or unpins them. The pinned outlines and numbers are those of the complete cloud. */
   #pin() {
     const { config } = this.currentReading;
     this.gesture.choose('pinned', this.state.elementState.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
@@ -264,7 +264,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
     const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
     const say = words.banana;
     const { min, max, step } = sliderSpecs.omega;
-    // The curve depends only on some of the settings.
+    // The curve is cached by the settings on which it depends.
     const curve = this.#skewCurve.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
     const maxSkew = curve.reduce((largest, value) => Math.max(largest, Math.abs(value) || 0), 0);
     const chartHeight = CHART_HEIGHTS.find((height) => height >= maxSkew) ?? maxSkew;

@@ -16,7 +16,7 @@ export function commandControls(figure: Figure) {
 export function modelControls(figure: Figure) {
   const { model, alphas, isolate } = figure.reading.config;
   const say = words.banana;
-  // The number of the α counts from 1; the other model may have fewer α's.
+  // The choice counts from 1. It may be larger than the number of α's, because it was made under the other model.
   const isolatedAlpha = Math.min(figure.state.elementState.isolateChoice, alphas.length);
   return group(say.modelGroup, html`${settingRadios(figure, 'model', say.models)} ${settingRadios(figure, 'noise', words.noises)}
     ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', say.reverseAware) : nothing}
@@ -27,7 +27,7 @@ export function modelControls(figure: Figure) {
     })}`);
 }
 
-/** Index of the α, by model, that adds turn noise to a straight drive. It bends the cloud, and its slider is always visible. */
+/** Index of the α that adds turn noise to a straight drive, by model. It bends the cloud, so its slider is always visible. */
 const BENDING_ALPHAS: Record<string, number> = { velocity: 2, odometry: 1 };
 
 export const bendingControl = (figure: Figure) => alphaGroup(figure, (index) => index === BENDING_ALPHAS[figure.reading.config.model], 'single');

@@ -1,4 +1,4 @@
-/** Ring at the end of the commanded arc, which is dragged with a pointer or moved with keys. */
+/** Handle at the end of the commanded arc: a ring that is dragged with a pointer, or moved with keys. */
 
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOfKey } from '../../scene/handle.ts';
@@ -6,7 +6,7 @@ import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
 import { sliderSpecs } from './settings.ts';
 
-/** Distance that an arrow key moves the end of the arc by, metres. */
+/** Displacement of the end of the arc per press of an arrow key, metres. */
 const KEY_STEP = 0.02;
 
 export class ArcHandle extends Handle {

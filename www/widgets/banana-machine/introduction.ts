@@ -2,8 +2,8 @@
 
 import { Cloud } from '../../figure/cloud.ts';
 
-/** Duration of the drive of one robot, and of the drive of all, ms. With the growth of the cloud they take less than four seconds. */
-const DRIVE_MS = 650;
+/** Duration of each of two drives, ms: of one robot, and then of all. Drives and growth of the cloud take less than four seconds. */
+const DRIVE_DURATION_MS = 650;
 
 /** Number of robots that drive. */
 const DRIVING_ROBOTS = 10;
@@ -27,7 +27,7 @@ function isFirstInSession() {
 export class IntroducedCloud extends Cloud {
   /** Time at which the first robot started, ms. */
   #startTime: number | undefined;
-  /** Phase of the introduction: first robots drive, then the ring of the handle pulses while the cloud grows. */
+  /** Phase of the introduction: `driving` robots, then a pulsing handle (`asking`) while the cloud grows. */
   #phase: 'none' | 'driving' | 'asking' = 'none';
 
   /** True while the ring asks to be dragged. */
@@ -35,11 +35,11 @@ export class IntroducedCloud extends Cloud {
     return this.#phase === 'asking';
   }
 
-  /** Driving robots, and the completed fraction of their path. */
+  /** Number of driving robots, and the completed fraction of their path. */
   get driving(): { robots: number, share: number } | undefined {
     if (this.#phase !== 'driving') return undefined;
     const elapsed = performance.now() - (this.#startTime ?? performance.now());
-    return { robots: elapsed < DRIVE_MS ? 1 : DRIVING_ROBOTS, share: Math.min(1, (elapsed % DRIVE_MS) / DRIVE_MS) };
+    return { robots: elapsed < DRIVE_DURATION_MS ? 1 : DRIVING_ROBOTS, share: Math.min(1, (elapsed % DRIVE_DURATION_MS) / DRIVE_DURATION_MS) };
   }
 
   introduce(state: Parameters<Cloud['introduce']>[0]) {
@@ -68,7 +68,7 @@ export class IntroducedCloud extends Cloud {
     if (this.#phase === 'driving') {
       // It starts when the figure is visible.
       this.#startTime ??= performance.now();
-      if (performance.now() - this.#startTime < 2 * DRIVE_MS) return;
+      if (performance.now() - this.#startTime < 2 * DRIVE_DURATION_MS) return;
       this.#phase = 'asking';
     }
     super.grow();

@@ -20,7 +20,7 @@ export const MORPH_MS = 5000;
 const MORPH_STEP = 0.01;
 
 /**
- * Returns the point to which a morph takes a twist (m, m, rad), as `geom::unbend` of the core does. The morph runs from 0, the floor, to 1,
+ * Returns the point in a morphed picture for a twist (m, m, rad), like `geom::unbend` of the core. The morph runs from 0, the floor, to 1,
  * exponential coordinates.
  */
 export function morphedPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {

@@ -19,8 +19,8 @@ import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, strokePath, type Brush } from '../../scene/canvas.ts';
 
 /**
- * Scene of both pictures. Outlines are transformed by the present morph. `morphedEllipse` is the ellipse after a complete morph. Callouts,
- * and the rings that they avoid, have coordinates of the floor.
+ * View model of both pictures. Outlines are transformed by the present morph. `morphedEllipse` is the ellipse after a complete morph.
+ * Callouts, and the rings that they avoid, have coordinates of the floor.
  */
 export interface Scene extends Reading {
   machine: BananaMachine;
@@ -52,12 +52,12 @@ const SHOWN_DEVIATIONS = 3.2;
 /** Radius of the ring at the end of the arc, pixels. */
 const HANDLE_RADIUS = 7.5;
 
-/** Largest distance from the pointer to a robot that it selects, CSS pixels. */
+/** Maximum distance from the pointer to the robot that a click selects, CSS pixels. */
 const PICK_RADIUS = 14;
 
 class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   #density = new Density();
-  #places: Memo<Float64Array> = new Memo();
+  #dotPositions: Memo<Float64Array> = new Memo();
 
   /** Morph of the picture: 0 for the floor (x, y), 1 for exponential coordinates. */
   get morph(): number {
@@ -70,9 +70,9 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   }
 
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
-  places({ machine, stats }: Scene): Float64Array {
+  dotPositions({ machine, stats }: Scene): Float64Array {
     const { morph } = this;
-    return this.#places.get([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.firstTwists(MAX_DOTS), morph)));
+    return this.#dotPositions.get([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.firstTwists(MAX_DOTS), morph)));
   }
 
   /** Draws the robots. `area` is the area that they cover, in square pixels. */
@@ -82,7 +82,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     const { machine, shown, stats } = scene;
     if (shown <= MAX_DOTS) {
       // Ticks for headings shrink during the morph: exponential coordinates show the turn as an axis.
-      drawDots(brush, this.places(scene), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
+      drawDots(brush, this.dotPositions(scene), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
       return;
     }
     this.#density.draw(brush, cellSize(area, shown), [stats, morph, palette], (...part) => machine.picture(morph, ...part, densityRamp(palette)));
@@ -111,7 +111,7 @@ const KEY_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'
 /** Insets of the views, CSS pixels. */
 const VIEW_INSETS = { left: 46, right: 10 };
 
-/** The floor from above, and its transformation to exponential coordinates by a morph. */
+/** Picture of the floor from above, which a morph transforms to exponential coordinates. */
 export class PlanePicture extends CloudPicture {
   name = 'plane' as const;
   view: MorphView = new MorphView(VIEW_INSETS);
@@ -134,7 +134,7 @@ export class PlanePicture extends CloudPicture {
     const { mean, cov } = table.exact;
     const [sx, sy] = [SHOWN_DEVIATIONS * deviation(cov[0][0]), SHOWN_DEVIATIONS * deviation(cov[1][1])];
     const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command, ...pinnedAt(0)];
-    // Only this outline may be much larger than the cloud.
+    // The additive outline may be much larger than the cloud, and counts only if it is shown.
     if (overlays.additive) points.push(...contours.additive);
     const box = extentOf(points, 0.4);
     // Space for a fan of headings around the end, which may be all that is visible.
@@ -174,17 +174,17 @@ export class PlanePicture extends CloudPicture {
         return;
       }
       const { cov } = table.exact;
-      const isHeap = morph === 0 && deviation(cov[0][0] + cov[1][1]) * view.scaleX < MIN_CLOUD_DEVIATION;
-      if (!isHeap) {
+      const isSinglePoint = morph === 0 && deviation(cov[0][0] + cov[1][1]) * view.scaleX < MIN_CLOUD_DEVIATION;
+      if (!isSinglePoint) {
         const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
-        const cloudArea = Math.sqrt(determinant) + morph * (areaOfTwists(scene) - Math.sqrt(determinant));
+        const cloudArea = Math.sqrt(determinant) + morph * (deviationProduct(scene) - Math.sqrt(determinant));
         this.paintCloud(brush, scene, 4 * Math.PI * cloudArea * view.scaleX * view.scaleY);
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       callouts.push(...drawEarlier(brush, earlierOutlines, [cloudMiddle, [0, 0]], earlierName(scene)));
       drawOutlines(brush, outlinesInStyle(outlines));
       if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
-      if (isHeap && scene.shown > 0) drawRobotHeap(brush, robotHeap(this.places(scene), scene.shown));
+      if (isSinglePoint && scene.shown > 0) drawRobotHeap(brush, robotsAtPoint(this.dotPositions(scene), scene.shown));
       const [endX, endY] = outlines.command.slice(-2);
       drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       if (marked) {
@@ -254,8 +254,8 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   }
 }
 
-/** Returns the common position of robots that are all at one point, with the headings of the first robots. */
-function robotHeap(poses: Float64Array, shown: number) {
+/** Returns the position of a cloud that is drawn as one point, with the headings of the first robots. */
+function robotsAtPoint(poses: Float64Array, shown: number) {
   const headings = [...poses.subarray(0, 3 * MAX_RAYS)].filter((_, i) => i % 3 === 2);
   return { x: poses[0], y: poses[1], headings, label: words.banana.robotsHere(shown, integer(shown)) };
 }
@@ -277,8 +277,8 @@ function twistMoments({ config, stats, table }: Scene): Moments[] {
 /** Returns the middle of the cloud at a morph. */
 const morphedMiddle = (scene: Scene, morph: number) => morphedPoint(twistMoments(scene)[0].mean, morph);
 
-/** Fractions of the samples between which a view shows them where their statistics are undefined: the tails there may be kilometres long. */
-const SHOWN_QUANTILES = [0.025, 0.975];
+/** Quantiles of the samples that limit a view if their moments are undefined. Tails may then be kilometres long. */
+const VIEW_QUANTILES = [0.025, 0.975];
 
 /** Returns points around everything that is visible in exponential coordinates. */
 function pointsOfTwists(scene: Scene) {
@@ -287,7 +287,7 @@ function pointsOfTwists(scene: Scene) {
   if (!scene.chartHolds && scene.shown > 0) {
     const twists = scene.machine.firstTwists(MAX_DOTS);
     const [along, heading] = [0, 2].map((coordinate) => twists.filter((_, i) => i % 3 === coordinate));
-    for (const share of SHOWN_QUANTILES) points.push(quantile(along, share)!, quantile(heading, share)!);
+    for (const share of VIEW_QUANTILES) points.push(quantile(along, share)!, quantile(heading, share)!);
   }
   for (const { mean, cov } of twistMoments(scene)) {
     const [along, heading] = [SHOWN_DEVIATIONS * deviation(cov[0][0]), SHOWN_DEVIATIONS * deviation(cov[2][2])];
@@ -297,7 +297,7 @@ function pointsOfTwists(scene: Scene) {
 }
 
 /** Returns the product of the standard deviations in exponential coordinates. */
-function areaOfTwists(scene: Scene) {
+function deviationProduct(scene: Scene) {
   const [{ cov }] = twistMoments(scene);
   return deviation(cov[0][0]) * deviation(cov[2][2]);
 }
@@ -322,7 +322,7 @@ export class TwistPicture extends CloudPicture {
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       if (scene.driving) return;
-      this.paintCloud(brush, scene, 4 * Math.PI * areaOfTwists(scene) * view.scaleX * view.scaleY);
+      this.paintCloud(brush, scene, 4 * Math.PI * deviationProduct(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
         if (earlierReading) callouts.push(...drawEarlier(brush, [{ points: earlierReading.contours.twistEllipse, ...exponential }], [twistMiddle], earlierName(scene)));
         drawOutline(brush, contours.twistEllipse, exponential);

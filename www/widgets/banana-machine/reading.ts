@@ -7,8 +7,8 @@ import type { BananaMachine as Machine, BananaMachineSettings as Settings, Motio
 
 export type Reading = ReturnType<typeof readingOf>;
 
-/** Standard deviation (m or rad) that counts as no noise, because it may be rounding of the quadrature. */
-const NO_SPREAD = 1e-9;
+/** Standard deviation (m or rad) up to which poses count as equal, because it may be rounding of the quadrature. */
+const MIN_SPREAD = 1e-9;
 
 export function readingOf(machine: Machine) {
   const reading = machine.read();
@@ -17,7 +17,7 @@ export function readingOf(machine: Machine) {
     ...reading,
     note: cloudNote(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
-    gain: gainOf(stats, table),
+    gain: gaussianGain(stats, table),
     bowTie: bowTieOf(config),
     /** Command as an odometry reading; null under the velocity model. */
     reading: config.model === 'odometry' ? reading.reading : null,
@@ -40,10 +40,10 @@ export function readingOfSettings(motion: Motion, settings: Settings): Reading {
 }
 
 /**
- * Returns the gain of the Gaussian in exponential coordinates over that in (x, y, θ). If its covariance is singular, that gain is
- * unbounded, and the gain of arc coordinates over (x, y) is returned.
+ * Returns the gain of log-likelihood by the Gaussian in exponential coordinates over that in (x, y, θ). If its covariance is singular, that
+ * gain is unbounded, and the gain of arc coordinates over (x, y) is returned.
  */
-function gainOf({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
+function gaussianGain({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
   const isUnbounded = exact.likelihoodGain.pose === Infinity;
   const gainKind = isUnbounded ? 'floor' : 'pose';
   return { n, unbounded: isUnbounded, value: likelihoodGain[gainKind], error: likelihoodGainError[gainKind], exact: exact.likelihoodGain[gainKind], wraps: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
@@ -89,8 +89,8 @@ export function deviation(variance: number) {
 
 /** Returns the kind of spread according to the exact covariance: one pose, one position with many headings, or a cloud. */
 export function spreadKind({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
-  if (deviation(Math.max(cov[0][0], cov[1][1])) > NO_SPREAD) return 'cloud';
-  return deviation(cov[2][2]) > NO_SPREAD ? 'headings' : 'point';
+  if (deviation(Math.max(cov[0][0], cov[1][1])) > MIN_SPREAD) return 'cloud';
+  return deviation(cov[2][2]) > MIN_SPREAD ? 'headings' : 'point';
 }
 
 /**

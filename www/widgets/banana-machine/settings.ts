@@ -47,5 +47,5 @@ export const definition = definitionOf('banana-machine', {
   dependentDefaults: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),
 });
 
-/** Sample counts of the slider, in the 1–2–5 steps of a logarithmic scale; beyond a million a drag no longer follows the finger. */
+/** Sample counts that the slider offers, in the steps 1–2–5 of a logarithmic scale. Clouds beyond a million would lag behind the finger. */
 export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(1_000_000);

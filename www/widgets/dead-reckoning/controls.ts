@@ -10,13 +10,13 @@ import type { DeadReckoningElement as Figure } from './dead-reckoning.ts';
 
 export function pathControls(figure: Figure) {
   return html`<div class="controls" part="controls">
-    ${settingSlider(figure, 'headingNoise')} ${settingSlider(figure, 'steps', { input: (steps) => figure.settings.request((requested) => pathInSteps(requested, steps)) })}
+    ${settingSlider(figure, 'headingNoise')} ${settingSlider(figure, 'steps', { input: (steps) => figure.settings.request((requested) => settingsForSteps(requested, steps)) })}
   </div>`;
 }
 
 /** Returns the settings for the same path in another number of steps, with the selected step at the same point of the path. */
-function pathInSteps({ command, steps: before, step }: Record<string, any>, steps: number) {
-  return { steps, step: Math.max(1, Math.round((step * steps) / before)), command: { ...command, dt: (command.dt * before) / steps } };
+function settingsForSteps({ command, steps: previousSteps, step }: Record<string, any>, steps: number) {
+  return { steps, step: Math.max(1, Math.round((step * steps) / previousSteps)), command: { ...command, dt: (command.dt * previousSteps) / steps } };
 }
 
 export function moreControls(figure: Figure) {

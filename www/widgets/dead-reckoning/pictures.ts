@@ -10,7 +10,7 @@ import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, type Brush } from '../../scene/canvas.ts';
 
-/** Scene of both pictures, with the poses of the selected robot after each step. */
+/** View model of both pictures, with the poses of the selected robot after each step. */
 export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Number of standard deviations of a cloud that a view shows. */
@@ -21,7 +21,7 @@ const PAST_DOTS = { max: 200, radius: 1.3, alpha: 0.4 };
 
 export type OutlineName = keyof typeof OUTLINE_STYLES;
 
-/** The floor from above. */
+/** Picture of the floor from above, with the path. */
 export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
   view: View = new View();
@@ -81,7 +81,7 @@ function drawMilestone({ context, view, palette }: Brush, poses: Float64Array) {
   context.globalAlpha = 1;
 }
 
-/** ξ along and lateral about the commanded pose, each with its own scale, because the lateral spread is small at first. */
+/** Picture of ξ along and ξ lateral about the commanded pose. Each axis has its own scale, because the lateral spread is small at first. */
 export class StepPicture extends Picture<Scene> {
   name = 'twist';
   view: View = new View({ equal: false, left: 52, right: 10 });
@@ -114,17 +114,17 @@ export class StepPicture extends Picture<Scene> {
 }
 
 /** Ratio of the scales of x and y above which their difference is visible. */
-const NOTICEABLE_RATIO = 1.05;
+const MIN_VISIBLE_RATIO = 1.05;
 
-/** Returns the text of the factors scale x : scale y and scale y : scale x. A factor that is too small to notice is the empty text. */
-export function stretchesOf({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
-  return [scaleX / scaleY, scaleY / scaleX].map((factor) => (factor > NOTICEABLE_RATIO ? formatSignificant(factor, factor < 10 ? 2 : 1) : ''));
+/** Returns texts of the ratios scale x : scale y and scale y : scale x. The text of a ratio that is not visible is empty. */
+export function scaleRatioTexts({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
+  return [scaleX / scaleY, scaleY / scaleX].map((factor) => (factor > MIN_VISIBLE_RATIO ? formatSignificant(factor, factor < 10 ? 2 : 1) : ''));
 }
 
-/** Returns the names of the axes. The factor of a stretched axis is in the upper name, because it would hide ticks near the lower one. */
+/** Returns the names of the axes. The upper name also has the ratio of the scales, because near the lower name it would hide ticks. */
 function axesOf(view: View) {
   const { axisAlong: x, axisLateral, stretched } = words.reckoning;
-  const [along, lateral] = stretchesOf(view);
-  const stretchText = along ? stretched.along(along) : lateral && stretched.lateral(lateral);
-  return { x, y: stretchText ? `${axisLateral}, ${stretchText}` : axisLateral };
+  const [along, lateral] = scaleRatioTexts(view);
+  const ratioText = along ? stretched.along(along) : lateral && stretched.lateral(lateral);
+  return { x, y: ratioText ? `${axisLateral}, ${ratioText}` : axisLateral };
 }

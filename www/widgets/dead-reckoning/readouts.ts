@@ -1,4 +1,4 @@
-/** Dead Reckoning's readouts: ratios by step, and steps with a miss. */
+/** Readouts of Dead Reckoning: chart of the ratios by step, and table of the steps with wrong predictions (misses). */
 
 import { html } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
@@ -10,7 +10,7 @@ import { plot, type Role } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { COMPONENTS, type Reading } from './reading.ts';
 import { CURVE_STYLES, RECURSIONS } from './settings.ts';
-import { shownComponentsOf, endText, ratioText, worstComponentAt } from './words.ts';
+import { shownComponentsOf, finalErrorText, ratioText, worstComponentAt } from './words.ts';
 import type { Misses } from '../../types.d.ts';
 
 /** Allowed heights of the plot, so that its axis does not change with every step of a drag. */
@@ -83,7 +83,7 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
       curves: [
         { name: say.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
         { name: say.across, role: 'prediction', x, y: acrossFirstOrder },
-        // Both exact curves in one, separated by a gap.
+        // One curve with a gap contains both exact curves.
         { name: say.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
       marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(crossingText) }] : [],
@@ -107,7 +107,7 @@ export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
     columns: [say.misses.component, ...RECURSIONS.map((recursion) => say.recursions[recursion])],
     rows: shownComponentsOf(overlays).flatMap((component) => {
       const missesOfRecursions = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
-      return [[say.components[component], ...missesOfRecursions.map(missText)], [say.misses.endOf(say.components[component]), ...missesOfRecursions.map(endText)]];
+      return [[say.components[component], ...missesOfRecursions.map(missText)], [say.misses.endOf(say.components[component]), ...missesOfRecursions.map(finalErrorText)]];
     }),
   });
 }

@@ -45,5 +45,5 @@ export const definition = definitionOf('dead-reckoning', {
   dependentDefaults: ({ steps }) => ({ step: Math.min(defaultConfig(declarations).step, steps) }),
 });
 
-/** Sample counts of the slider; larger clouds would not follow the slider. */
+/** Sample counts that the slider offers. Larger clouds would lag behind it. */
 export const SAMPLE_COUNTS = [2, 3, 4].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(100_000, 200_000);

@@ -11,16 +11,16 @@ addEnglish({ reckoning: en });
 /** Steps at which the caption gives the ratio of the worst component. */
 const CAPTION_STEPS = [1, 2, 5];
 
-/** Prints a share in per cent, with a sign unless it rounds to 0. */
+/** Prints a fraction in per cent, with a sign unless it rounds to 0. */
 function signedPercent(share: number, printed: string = fixed(100 * share, 1)) {
   if (Number.isNaN(share)) return NO_VALUE;
   return `${100 * share >= 0.05 ? '+' : ''}${printed}\u202f%`;
 }
 
 /** Returns the relative error of the predicted variance after the last step, as text. */
-export const endText = ({ end, error }: { end: number, error: number }) => signedPercent(end, formatWithError(100 * end, 100 * error, 1));
+export const finalErrorText = ({ end, error }: { end: number, error: number }) => signedPercent(end, formatWithError(100 * end, 100 * error, 1));
 
-/** Returns how well the recursion predicts the components that are shown. */
+/** Returns a caption that says how well the recursion predicts the components that are shown. */
 export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: Reading, overlays: string[]) {
   const say = words.reckoning;
   if (condition !== 'certain') return say.conditions[condition];
@@ -36,7 +36,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   return endAxis === worstAxis ? say.wrong(of, ratioList, end) : say.worse(of, ratioList, end, say.of[COMPONENTS[endAxis]]);
 }
 
-/** Returns the index of the greatest miss; NaN is not a miss. */
+/** Returns the index of the greatest miss (error of the prediction); NaN is not a miss. */
 const indexOfGreatest = (misses: number[]): number => misses.reduce((greatest, miss, i) => (miss > (misses[greatest] || 0) ? i : greatest), 0);
 
 const ratiosAtSteps = (ratios: number[]) =>

@@ -16,10 +16,10 @@ export interface SampleCost {
 /** Number of particles and rate of the chapter's exercise, samples per second. */
 export const SAMPLES_PER_SECOND = 2000 * 20;
 
-/** Duration of a run, ms, that is long enough to measure: clocks of browsers may have steps of 1 ms. */
+/** Minimum duration of a measured run, ms. Clocks of browsers may have steps of 1 ms. */
 const MIN_RUN_MS = 12;
 
-/** Number of runs for each cost, which is their median. */
+/** Number of runs whose median is the cost. */
 const RUNS_PER_COST = 5;
 
 /** Measures one run at a time, so that the page can handle events between two runs. Returns the cost, or the reason why there is none. */

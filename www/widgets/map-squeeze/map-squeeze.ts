@@ -48,15 +48,15 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   dropHandlers = this.#opener;
   #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
   #wallHandles = new WallHandles(this);
-  /** Treatment of unknown cells for which the picture was made. */
+  /** Setting `unknown` (treatment of unknown cells) with which the picture was made. */
   #pictureUnknown = '';
   /** Path of the selected sample. */
   #path: Memo<Float64Array> = new Memo();
-  /** Cache of the grid of a machine's map, whose copy takes long. */
+  /** Cached copy of the grid of a machine's map, because copying takes long. */
   #grid: { of: Machine, grid: Cells | null } | undefined;
-  /** The user's map that was left last, with the start pose in it. A button returns to this map. */
+  /** Map of the user that was left last, with the start pose in it. A button returns to this map. */
   left: { map: MapData, start: Pose } | null = null;
-  /** Free pose at which the robot was put last. */
+  /** Free pose to which the robot was last moved. */
   #freePose: Pose | undefined;
 
   createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.MapSqueeze.empty(), state);
@@ -130,7 +130,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     this.#wallHandles.place(this.picture.view);
   }
 
-  /** The place in the apartment that the robot starts from; null elsewhere. */
+  /** Start place in the apartment; null elsewhere. */
   get preset(): string | null {
     return (this.reflection.get('preset') as string | undefined) ?? null;
   }
@@ -189,7 +189,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /** True if the robot is still at the free pose where it was last put. */
+  /** True if the robot is still at the free pose to which it was last moved. */
   get isAtFreePose() {
     const { x, y, theta } = this.reading.config.start;
     return this.#freePose?.x === x && this.#freePose.y === y && this.#freePose.theta === theta;

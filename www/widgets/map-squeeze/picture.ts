@@ -1,4 +1,4 @@
-/** Map Squeeze's picture: walls, the robot with its command, and the outcome of every draw. */
+/** Picture of Map Squeeze: walls, the robot with its command, and the outcome of each sample. */
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
@@ -22,18 +22,18 @@ export interface Scene extends Reading {
   marked: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined;
 }
 
-/** Half a cross, CSS pixels. */
-const CROSS_HALF = 2.6;
+/** Half the size of a cross, CSS pixels. */
+const CROSS_HALF_SIZE = 2.6;
 
 /** Dot of a sample: minimum and maximum radius (CSS pixels), width of the picture per pixel of the radius, and opacity. */
 const SAMPLE_DOT = { min: 2, max: 3, per: 240, alpha: 0.4 };
 
-/** Vector of the leader from a wall to the label about it, CSS pixels. */
+/** Vector of the leader from the contact with a wall to its label, CSS pixels. */
 const LEADER_OFFSET = { x: 46, y: 30 };
 
-/** Half-size of the area shown around the end of the command: a multiple of the command's length, and a minimum in metres. */
-const END_ROOM = 0.8;
-const MIN_END_ROOM = 0.8;
+/** Half the size of the area around the end of the command that a close view shows: a multiple of the command's length, at least a minimum (m). */
+const END_HALF_SIZE_FACTOR = 0.8;
+const MIN_END_HALF_SIZE = 0.8;
 
 /** Margin around the commanded path, metres. */
 const PATH_MARGIN = 0.45;
@@ -44,8 +44,8 @@ const MAP_MARGIN = 0.025;
 /** Cells of the density: minimum and maximum side (CSS pixels), and number of samples at which the side is half the maximum. */
 const DENSITY_CELL = { min: 2, max: 5, samples: 40_000 };
 
-/** Maximum number of paths that are drawn over a density: more would hide it. */
-const PATHS_ON_DENSITY = 25;
+/** Maximum number of paths that are drawn over a density. More would hide it. */
+const MAX_PATHS_ON_DENSITY = 25;
 
 /** Transparent ramp for kinds of samples that are hidden in a density. */
 const TRANSPARENT_RAMP = new Uint8Array(4 * limits.ramp);
@@ -67,17 +67,17 @@ export class FloorPicture extends SamplesPicture<Scene> {
   #outlinePath = '';
 
   /** Keeps the views of the previous picture if its map has the same bounds. */
-  constructor(plan: Plan, grid: Cells | null, former?: FloorPicture) {
+  constructor(plan: Plan, grid: Cells | null, previousPicture?: FloorPicture) {
     super();
     this.plan = plan;
     this.hasUnknown = grid?.unknown !== undefined;
     this.movable = grid === null;
     this.#walls = new WallLayer(plan, grid);
     this.#knownCorners = grid?.unknown ? knownCorners(grid, grid.unknown) : plan.walls;
-    if (former?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
-      this.#nearView = former.#nearView;
-      this.#wholeView = former.#wholeView;
-      this.view = former.view;
+    if (previousPicture?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
+      this.#nearView = previousPicture.#nearView;
+      this.#wholeView = previousPicture.#wholeView;
+      this.view = previousPicture.view;
     }
   }
 
@@ -89,7 +89,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     return this.#outlinePath;
   }
 
-  /** True if the view is of the robot's surroundings only. */
+  /** True for a close view, which shows only the surroundings of the robot. */
   get close() {
     return this.view === this.#nearView;
   }
@@ -101,17 +101,17 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 
   fit({ commanded, config }: Scene) {
-    const mappedExtent = this.mapped(config.start);
+    const mappedExtent = this.knownExtentAround(config.start);
     if (!this.close) {
       this.#wholeView.fit(mappedExtent);
       return;
     }
     const driveLength = Math.abs(config.command.v * config.command.dt);
-    const endRoom = Math.max(MIN_END_ROOM, END_ROOM * driveLength) + config.clearance;
+    const halfSize = Math.max(MIN_END_HALF_SIZE, END_HALF_SIZE_FACTOR * driveLength) + config.clearance;
     const [x, y] = commanded.slice(-2);
     const arcBox = extentAround(commanded, 2);
     const pathCorners = [arcBox.xMin - PATH_MARGIN, arcBox.yMin - PATH_MARGIN, arcBox.xMax + PATH_MARGIN, arcBox.yMax + PATH_MARGIN];
-    const neededExtent = extentAround([...pathCorners, x - endRoom, y - endRoom, x + endRoom, y + endRoom], 2);
+    const neededExtent = extentAround([...pathCorners, x - halfSize, y - halfSize, x + halfSize, y + halfSize], 2);
     this.#nearView.limits = mappedExtent;
     this.#nearView.fit({
       xMin: Math.max(neededExtent.xMin, mappedExtent.xMin),
@@ -122,7 +122,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 
   /** Returns the known part of the plan if the robot is inside it, and the whole plan otherwise. */
-  mapped({ x, y }: { x: number, y: number }) {
+  knownExtentAround({ x, y }: { x: number, y: number }) {
     const [xMin, yMin, xMax, yMax] = this.plan.bounds;
     const box = extentAround(this.#knownCorners, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
     const isInside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
@@ -148,7 +148,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
       } else {
         this.#drawDensity(brush, scene);
         this.#walls.draw(brush, showsLine('unknown'));
-        if (showsLine('through')) drawPaths(brush, paths.slice(0, PATHS_ON_DENSITY), through.colour);
+        if (showsLine('through')) drawPaths(brush, paths.slice(0, MAX_PATHS_ON_DENSITY), through.colour);
       }
       const { start, clearance } = config;
       if (showsLine('commanded')) {
@@ -225,8 +225,8 @@ function keyOf({ context, palette }: Brush, { overlays, sorted }: Scene): import
 
 /** Adds a cross at a point in CSS pixels to the path. */
 function addCross(context: Brush['context'], x: number, y: number) {
-  addLine(context, [[x - CROSS_HALF, y - CROSS_HALF], [x + CROSS_HALF, y + CROSS_HALF]]);
-  addLine(context, [[x - CROSS_HALF, y + CROSS_HALF], [x + CROSS_HALF, y - CROSS_HALF]]);
+  addLine(context, [[x - CROSS_HALF_SIZE, y - CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y + CROSS_HALF_SIZE]]);
+  addLine(context, [[x - CROSS_HALF_SIZE, y + CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y - CROSS_HALF_SIZE]]);
 }
 
 function drawCrosses({ context, view }: Brush, triples: Float64Array, colour: string) {

@@ -61,7 +61,7 @@ const MAX_SHOWN_FRACTION = 0.6;
 
 /** Returns the overview, or nothing if the picture already shows most of the map. */
 export function overviewMap(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./reading.ts').Reading) {
-  const { xMin, yMin, xMax, yMax } = picture.mapped(config.start);
+  const { xMin, yMin, xMax, yMax } = picture.knownExtentAround(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];
   const { extent } = picture.view;
   const shownSize = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];

@@ -8,16 +8,16 @@ import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
 import { Memo } from '../../scene/memo.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
-import { wallGrips, movedWalls, type Grip } from './walls.ts';
+import { wallGrips, wallsAfterMove, type Grip } from './walls.ts';
 import type { View } from '../../scene/view.ts';
 
-/** Distance that a key moves a wall, metres. */
+/** Displacement of a wall per key press, metres. */
 const KEY_STEP = 0.05;
 
 /** Largest number of walls with handles. */
 const MAX_HANDLED_WALLS = 50;
 
-/** Distance of the grip of a wall's end from that end, pixels, and its maximum as a share of the wall. Grips in a doorway stay apart. */
+/** Distance between an end of a wall and its grip, pixels, and its maximum as a fraction of the wall. It keeps the grips of a doorway apart. */
 const GRIP_INSET = 12;
 const MAX_GRIP_INSET = 1 / 6;
 
@@ -26,7 +26,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   #grips: Memo<(Grip | undefined)[]> = new Memo();
   /** Plan and view that the handles were placed in. */
   #shownInputs: unknown[] = [];
-  /** Name of the handle that Tab leads to. */
+  /** Name of the handle that is in the tab order. */
   #currentName = '';
 
   /** Grips of the plan in the picture. */
@@ -76,7 +76,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   #placeHandles(view: View) {
     const root = this.host.renderRoot;
     const placedHandles = this.#currentGrips.filter((grip) => grip !== undefined).map((grip) => {
-      const handleElement = root.querySelector(`.handle.${handleName(grip)}`) as HTMLElement | null;
+      const handleElement = root.querySelector(`.handle.${handleClass(grip)}`) as HTMLElement | null;
       const gripPoint = grip.part === 'side' ? this.#middleIn(grip, view) : this.#gripOf(grip, view);
       const pixel = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
       const { left, right, top, bottom } = view.frame;
@@ -86,7 +86,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
         if (grip.part === 'side') handleElement.style.rotate = `${Math.atan(grip.axis[0] / grip.axis[1])}rad`;
       }
       if (isShown) this.#handleOf(grip).place(root, pixel[0], pixel[1]);
-      return { name: handleName(grip), element: isShown ? handleElement : null };
+      return { name: handleClass(grip), element: isShown ? handleElement : null };
     });
     const shownHandles = placedHandles.filter(({ element }) => element);
     const tabHandle = shownHandles.find(({ name }) => name === this.#currentName) ?? shownHandles[0];
@@ -94,10 +94,10 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   #handleOf(grip: Grip) {
-    const gripName = handleName(grip);
+    const gripName = handleClass(grip);
     // The wall may be missing in a new plan, until its handle is removed.
     const callWithGrip = <Result>(use: (currentGrip: Grip) => Result) => {
-      const currentGrip = this.#currentGrips.find((candidate) => candidate && handleName(candidate) === gripName);
+      const currentGrip = this.#currentGrips.find((candidate) => candidate && handleClass(candidate) === gripName);
       return currentGrip && use(currentGrip);
     };
     const handle = this.#handles.get(gripName) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${gripName}`, {
@@ -115,13 +115,13 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const turn = turnsOfKey(event);
     if (turn) {
       event.preventDefault();
-      this.#focusHandle(handleName(grip), -turn);
+      this.#focusHandle(handleClass(grip), -turn);
       return false;
     }
     const steps = stepsOfKey(event);
     if (!steps) return false;
     const [dx, dy] = steps;
-    // Arrow keys across the axis have the same effect as keys along it, as with every slider.
+    // Arrow keys across the axis act like those along it, as for any slider.
     return this.#move(grip, (_, [ux, uy]) => KEY_STEP * (dx * ux + dy * uy || (dx + dy) * (ux + uy)));
   }
 
@@ -137,9 +137,9 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   /** Moves a grip along its axis by the requested distance, within its range. Returns false if the distance is NaN. */
   #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
-    this.#currentName = handleName(grip);
+    this.#currentName = handleClass(grip);
     const moveDistance = clamp(distanceOf(this.#pointOf(grip), grip.axis), grip.range[0], grip.range[1]);
-    if (moveDistance) this.host.moveWalls(movedWalls(this.#walls, grip, moveDistance));
+    if (moveDistance) this.host.moveWalls(wallsAfterMove(this.#walls, grip, moveDistance));
     return !Number.isNaN(moveDistance);
   }
 
@@ -148,7 +148,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     return [...this.#walls.subarray(wall, wall + 4)].slice(...(part === 'to' ? [2] : [0, 2]));
   }
 
-  /** Returns the place of the grip of an end, on the wall. */
+  /** Returns the position of the grip of an end. */
   #gripOf(grip: Grip, view: View) {
     const [x, y] = this.#pointOf(grip);
     const [ux, uy] = grip.axis;
@@ -161,7 +161,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     return Math.hypot(x1 - x, y1 - y);
   }
 
-  /** Returns the share of a wall between an end and its grip. */
+  /** Returns the distance between an end and its grip as a fraction of the wall. */
   #inward(grip: Grip, view: View) {
     return Math.min(MAX_GRIP_INSET, GRIP_INSET / (this.#lengthOf(grip) * view.scaleX));
   }
@@ -185,4 +185,4 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 }
 
 /** Returns the class of a grip's handle. */
-const handleName = ({ wall, part }: Grip) => `${part}-${wall / 4}`;
+const handleClass = ({ wall, part }: Grip) => `${part}-${wall / 4}`;

@@ -1,4 +1,4 @@
-/** Geometry of walls: the point at which a path touches a wall, and moving of walls. Lengths in metres. */
+/** Geometry of walls: contacts of a path with walls, and moving of walls. Lengths are in metres. */
 
 import { extentAround } from '../../scene/view.ts';
 import type { Plan } from '../../types.d.ts';
@@ -72,7 +72,7 @@ export function wallGrips({ bounds, walls }: Plan): (Grip | undefined)[] {
     for (const [part, end, axis] of endGrips) {
       const maxMove = Math.min(moveRange(bounds, [end], axis)[1], freeDistance(walls, wall, end, axis));
       const range = [Math.min(0, MIN_GAP - wallLength), Math.max(0, maxMove)];
-      grips.push(isOuterWall || wallLength < MIN_GAP || !isFreeEnd(walls, wall, end) ? undefined : { wall, part, axis, range });
+      grips.push(isOuterWall || wallLength < MIN_GAP || !isUnattachedEnd(walls, wall, end) ? undefined : { wall, part, axis, range });
     }
     const range = moveRange(bounds, [[x0, y0], [x1, y1]], wallNormal);
     grips.push(isOuterWall || wallLength < MIN_GAP ? undefined : { wall, part: 'side' as const, axis: wallNormal, range });
@@ -81,12 +81,12 @@ export function wallGrips({ bounds, walls }: Plan): (Grip | undefined)[] {
 }
 
 /** Returns true if an end of a wall touches no other wall. */
-function isFreeEnd(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
+function isUnattachedEnd(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
   for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestWallPoint(walls, k, x, y).distance < TOUCH_DISTANCE) return false;
   return true;
 }
 
-/** Returns how far points may move along an axis within bounds. */
+/** Returns the range by which points may move along an axis within bounds. */
 function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
   let [minMove, maxMove] = [-Infinity, Infinity];
   for (const point of points) {
@@ -98,22 +98,22 @@ function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[
   return [Math.min(0, minMove), Math.max(0, maxMove)];
 }
 
-/** Returns how far the end of a wall may move ahead before it is near another wall. */
+/** Returns the distance by which the end of a wall may move along an axis before it is near another wall. */
 function freeDistance(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
-  let free = Infinity;
+  let freeLength = Infinity;
   for (let k = 0; k < walls.length; k += 4) {
     if (k === wall) continue;
     const wallEnds = [k, k + 2].map((i) => [(walls[i] - x) * ux + (walls[i + 1] - y) * uy, (walls[i + 1] - y) * ux - (walls[i] - x) * uy]);
     const [[ahead, left], [further, right]] = wallEnds;
     if (Math.min(left, right) > TOUCH_DISTANCE || Math.max(left, right) < -TOUCH_DISTANCE) continue;
     const distance = Math.abs(right - left) < TOUCH_DISTANCE ? Math.min(ahead, further) : ahead - (left * (further - ahead)) / (right - left);
-    if (distance > 0) free = Math.min(free, distance - MIN_GAP);
+    if (distance > 0) freeLength = Math.min(freeLength, distance - MIN_GAP);
   }
-  return free;
+  return freeLength;
 }
 
-/** Returns the walls with one of them moved along an axis. Walls that end on a wall that moves sideways follow it, if they only get longer or shorter. */
-export function movedWalls(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
+/** Returns the walls after one has moved. Walls that end on a wall that moves sideways follow it, if they only get longer or shorter. */
+export function wallsAfterMove(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
   const moved = walls.slice();
   const moveEnd = (index: number) => {
     moved[index] = walls[index] + distance * ux;

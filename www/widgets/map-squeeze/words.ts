@@ -32,8 +32,8 @@ const DENOMINATORS = [2, 3, 4, 5, 6, 7, 8, 9, 10];
 const MAX_ONE_IN_N = 0.075;
 const MIN_NEARLY_ALL = 0.95;
 
-/** Returns a share between 0 and 1 as a simple fraction. */
-function fractionOf(share: number): [count: number, total: number] {
+/** Returns a number between 0 and 1 as a simple fraction. */
+function simpleFractionOf(share: number): [count: number, total: number] {
   if (share < MAX_ONE_IN_N) return [1, Number((1 / share).toPrecision(2))];
   const simpleFractions = DENOMINATORS.map((denominator) => [clamp(Math.round(share * denominator), 1, denominator - 1), denominator] as [number, number]);
   const roundingError = ([count, total]: [number, number]) => Math.abs(count / total - share);
@@ -48,7 +48,7 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
   if (throughWall === 0) return say.none;
   const throughShare = throughWall / accepted;
   if (throughShare === 1) return say.all;
-  return throughShare > MIN_NEARLY_ALL ? say.most : say.share(...fractionOf(throughShare));
+  return throughShare > MIN_NEARLY_ALL ? say.most : say.share(...simpleFractionOf(throughShare));
 }
 
 /** Returns the caption: the counts of the samples, or why the robot cannot move. */

@@ -1,10 +1,10 @@
-/** Marks of both pictures: turns as arcs with an arrow, and sectors of uncertainty. */
+/** Marks of both pictures: turns as arcs with an arrow, and standard deviations as fans and bars. */
 
 import type { Pose } from '../../types.d.ts';
 import { addLine, strokePath, strokeLine, type Brush } from '../../scene/canvas.ts';
 
-/** Half the width and the length of an arrow's head, pixels. */
-const ARROW_HEAD = { half: 4, length: 9 };
+/** Half width and length of an arrow head, pixels. */
+const ARROW_HEAD_SIZE = { half: 4, length: 9 };
 
 /** Angle of a chord of a drawn arc, radians. */
 const CHORD_ANGLE = 0.1;
@@ -15,7 +15,7 @@ export function turnDirections(heading: number, turn: number) {
   return Array.from({ length: count + 1 }, (_, i) => heading + (turn * i) / count);
 }
 
-/** Returns the points of an arc about a pose, from its heading by a turn in radians, with a radius in pixels. */
+/** Returns points of an arc about a pose that starts at its heading. The turn is in radians, and the radius in pixels. */
 function arcPoints({ view }: Brush, { x, y, theta }: Pose, turn: number, radius: number) {
   return turnDirections(theta, turn).map((heading) => view.ray({ x, y, theta: heading }, radius)[1]);
 }
@@ -26,11 +26,11 @@ export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number,
   const points = arcPoints(brush, from, turn, radius);
   strokeLine(context, points, { colour, width: 1.75 });
   // The arrow head is smaller on a short arc.
-  const headLength = Math.min(ARROW_HEAD.length, radius * Math.abs(turn));
+  const headLength = Math.min(ARROW_HEAD_SIZE.length, radius * Math.abs(turn));
   const tip = points[points.length - 1];
   const headBase = { ...from, theta: from.theta + turn - (Math.sign(turn) * headLength) / radius };
-  const headScale = headLength / ARROW_HEAD.length;
-  const headCorner = (side: number) => view.ray(headBase, radius + side * headScale * ARROW_HEAD.half)[1];
+  const headScale = headLength / ARROW_HEAD_SIZE.length;
+  const headCorner = (side: number) => view.ray(headBase, radius + side * headScale * ARROW_HEAD_SIZE.half)[1];
   context.fillStyle = colour;
   context.beginPath();
   addLine(context, [tip, headCorner(1), headCorner(-1)]);
@@ -66,7 +66,7 @@ export function drawBar({ context, view }: Brush, pose: Pose, deviation: number,
     for (const endOffset of [-halfLength, halfLength]) {
       const [barMiddle, [endX, endY]] = view.ray(pose, endOffset);
       addLine(context, [barMiddle, [endX, endY]]);
-      addLine(context, [[endX - ARROW_HEAD.half * barDirection.y, endY + ARROW_HEAD.half * barDirection.x], [endX + ARROW_HEAD.half * barDirection.y, endY - ARROW_HEAD.half * barDirection.x]]);
+      addLine(context, [[endX - ARROW_HEAD_SIZE.half * barDirection.y, endY + ARROW_HEAD_SIZE.half * barDirection.x], [endX + ARROW_HEAD_SIZE.half * barDirection.y, endY - ARROW_HEAD_SIZE.half * barDirection.x]]);
     }
   });
 }

@@ -16,7 +16,7 @@ import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke 
 
 export type LineName = keyof typeof LINE_STYLES;
 
-/** Scene of both pictures, with the names of the lines that are shown. */
+/** View model of both pictures, with the names of the lines that are shown. */
 export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Radius of the robot, m. */
@@ -48,7 +48,7 @@ const LEADER_ENDS = [0.5, 0.3, 0.7, 0.1, 0.9];
 
 const AXIS_NAMES = { x: 'x (m)', y: 'y (m)' };
 
-/** Length of the axes of the odometry frame, m: less than the margin, so that none is clipped. */
+/** Length of the axes of the odometry frame, m. It is less than the margin, so that no axis is clipped. */
 const FRAME_AXIS_LENGTH = 0.28;
 
 /** Returns the key of an exported picture for the lines that are shown. */
@@ -109,11 +109,11 @@ export class LegsPicture extends OutcomesPicture {
       return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
     // The arcs have a fixed size in pixels. They fit at half of the scale at which the positions alone would fit.
-    let high = view.scaleFor(extentOf(worldPoints, 1.2));
-    let low = high / 2;
+    let maxScale = view.scaleFor(extentOf(worldPoints, 1.2));
+    let low = maxScale / 2;
     for (let i = 0; i < SCALE_BISECTIONS; i++) {
-      const scale = (low + high) / 2;
-      if (view.scaleFor(boxAtScale(scale)) < scale) high = scale;
+      const scale = (low + maxScale) / 2;
+      if (view.scaleFor(boxAtScale(scale)) < scale) maxScale = scale;
       else low = scale;
     }
     view.fit(boxAtScale(low));

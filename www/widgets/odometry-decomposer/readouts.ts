@@ -13,7 +13,7 @@ import type { Reading } from './reading.ts';
 
 const formatMetres = (value: number) => `${fixed(value, 3)} m`;
 
-/** Returns the deviation across the path by the present noise model, as the message of the figure. */
+/** Returns the headline: the standard deviation across the path under the present noise model. */
 export function headline({ config: { rule }, stats }: Reading) {
   const say = words.decomposer;
   return readoutList([[say.readouts.across, `± ${formatMetres(stats.exactCrossTrack)}`, say.rules[rule]]], 0);

@@ -1,4 +1,4 @@
-/** Files of the user, chosen or dropped on a figure. An element of the figure shows the result, or a notice if that is out of sight. */
+/** Opener of files that the user chooses, or drops on a figure. A refusal is shown beside the result, or in a notice if that is out of sight. */
 
 import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
@@ -7,11 +7,11 @@ import { inputOf } from '../../ui/controls.ts';
 type Figure = import('../../figure/figure.ts').Figure;
 
 export abstract class FileOpener<Host extends Figure> extends FigureController<Host> {
-  /** Id of the element with the result. If it is a disclosure, a drop opens it. */
+  /** Id of the element that shows the result. If it is a disclosure, a drop opens it. */
   abstract id: string;
   /** Error by which the latest files were refused; undefined if they were not. */
   refusal: unknown;
-  /** True if the latest files were dropped out of sight of their message. A notice shows the message then. */
+  /** True if the latest files were dropped where their message is out of sight. A notice then shows the message. */
   #isFar = false;
   /** Number of the latest attempt. Results of earlier ones are ignored. */
   #latestAttempt = 0;
@@ -22,7 +22,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   /** Returns the sentence about a refusal, in the present language. */
   abstract explain(refusal: any): string;
 
-  /** Runs when something is dragged over the figure, and while the user chooses files. */
+  /** Called when something is dragged over the figure, and when the file dialog opens. */
   enter = () => {};
 
   /** Message about the latest files; empty if they were not refused. */
@@ -96,21 +96,21 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     if (!event.dataTransfer?.types.includes('Files')) return;
     // The browser would otherwise navigate to the file.
     event.preventDefault();
-    const result = this.host.renderRoot.querySelector(`#${this.id}`);
-    if (result instanceof HTMLDetailsElement) result.open = true;
+    const resultElement = this.host.renderRoot.querySelector(`#${this.id}`);
+    if (resultElement instanceof HTMLDetailsElement) resultElement.open = true;
     droppedFiles(event.dataTransfer).then((files) => this.take(files, true));
   };
 
-  /** Returns a button that opens files with some extensions. */
+  /** Returns a button that opens a file dialog for files with these extensions. */
   button(id: string, label: string, extensions: string[]) {
-    const openChosen = (event: Event) => {
+    const openChosenFiles = (event: Event) => {
       const input = inputOf(event);
       this.take([...(input.files ?? [])]);
       // Reset, so that choosing the same file again after a correction fires an event.
       input.value = '';
     };
     return html`<label class="choice files" @click=${this.enter}>
-      ${label} <input id=${id} type="file" multiple accept=${extensions.join(',')} @change=${openChosen} />
+      ${label} <input id=${id} type="file" multiple accept=${extensions.join(',')} @change=${openChosenFiles} />
     </label>`;
   }
 }

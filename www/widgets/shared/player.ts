@@ -1,4 +1,4 @@
-/** Animation of a slider from its current value to its end. A slider that is at its end starts from 0. */
+/** Player that animates a slider from its current value to its maximum. At the maximum it starts again from 0. */
 
 import { nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';

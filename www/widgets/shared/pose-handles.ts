@@ -1,4 +1,4 @@
-/** Handles of a robot: its body moves it, and a handle ahead of it turns it, with the pointer or keys. */
+/** Handles of a robot for pointer and keys: one on its body that moves it, and one ahead of it that turns it. */
 
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
@@ -9,7 +9,7 @@ import { turnDistance } from './robot.ts';
 import type { View } from '../../scene/view.ts';
 import type { Pose } from '../../types.d.ts';
 
-/** Movement of the robot by a key, metres, and turn by a key, radians. */
+/** Displacement (m) and turn (rad) per key press. */
 const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
 
@@ -116,7 +116,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
 
   /** Turns the robot to a heading in radians. */
   #turnTo(theta: number) {
-    // Wraps to (−π, π] without sines: engines differ in their last digits, and equal keys have to give equal headings.
+    // Wraps to (−π, π] without sines, whose last digits differ between engines, so that equal keys give equal headings.
     this.#wantPose({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
   }
 

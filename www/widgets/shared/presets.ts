@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 
-/** Returns a button for each preset (the present one pressed), then the buttons `more`, and the button to start over. */
+/** Returns a button for each preset, of which the current one is pressed, then the buttons `more`, and the button to start over. */
 export function presetButtons(figure: import('../../figure/figure.ts').Figure, more: unknown = nothing) {
   const { definition, settings, state } = figure;
   const { presets } = (words as any)[definition.messageKey];

@@ -1,17 +1,17 @@
-/** A robot seen from above: a disc, and a line from its middle to the handle that turns it. */
+/** Drawing of a robot from above: a disc, and a line from its middle to the handle that turns it. */
 
 import { drawHandle } from '../../scene/draw.ts';
 import type { Pose } from '../../types.d.ts';
 import { drawDisc, strokeLine, type Brush } from '../../scene/canvas.ts';
 import type { View } from '../../scene/view.ts';
 
-/** Smallest radius of a robot that is drawn, CSS pixels. */
+/** Minimum radius of a drawn robot, CSS pixels. */
 const MIN_RADIUS = 3;
 
 /** Radius of the handle that turns a robot, CSS pixels. */
 const TURN_HANDLE_RADIUS = 5.5;
 
-/** Returns the distance in CSS pixels from the centre of a robot to the handle ahead that turns it. The radius is in metres. */
+/** Returns the distance (CSS pixels) from the centre of a robot to the handle that turns it. The radius of the robot is in metres. */
 export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number {
   return Math.max(34, radius * view.scaleX + 22);
 }
@@ -28,7 +28,7 @@ export function drawHeldRobot(brush: Brush, pose: Pose, radius: number, colour: 
   drawHandle(brush, { x: turn[0], y: turn[1], radius: TURN_HANDLE_RADIUS, colour });
 }
 
-/** Draws the dashed outline of a robot at the position to which a command would move it; lengths in metres. */
+/** Draws the dashed outline of a robot at the end of a command. Lengths are in metres. */
 export function drawRobotOutline({ context, view }: Brush, x: number, y: number, radius: number, colour: string) {
   drawDisc(context, view.toPixel(x, y), radiusInPixels(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
 }

@@ -8,7 +8,7 @@ export const COMMAND_DASH = [2.5, 3.5];
 
 const SPEED_SLIDER = { role: 'prior' as const, step: 0.01, decimals: 2 };
 
-/** Returns the sliders of a command, with the longest duration in s. Handles and charts that set the command stay within these ranges. */
+/** Returns the sliders of a command. `longest` is the maximum duration (s). Handles and charts that set the command respect these ranges. */
 export const commandSliders = (longest: number) => ({
   v: { ...SPEED_SLIDER, symbol: '*v*', min: -1.5, max: 1.5 },
   omega: { ...SPEED_SLIDER, symbol: '*ω*', min: -2, max: 2 },
@@ -22,10 +22,10 @@ export function commandText({ v, omega, dt }: import('../../types.d.ts').Command
 /** Returns the subscript of an α, counted from 0. */
 export const subscriptOf = (index: number) => String.fromCharCode(0x2081 + index);
 
-/** Slider of a noise parameter, up to a standard deviation of nearly half the command. */
+/** Slider of a noise parameter. Its maximum gives a standard deviation of nearly half the command. */
 export const ALPHA_SLIDER = { role: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
 
-/** Returns the sliders of a model's first noise parameters, by the names of their settings. */
+/** Returns the sliders of the first `count` noise parameters of a model, by the names of their settings. */
 export function alphaSliders(count: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').SliderSpec> {
   return Object.fromEntries(
     Array.from({ length: count }, (_, i) => [`alpha${i + 1}`, { ...ALPHA_SLIDER, symbol: `*α*${subscriptOf(i)}`, alpha: [model, i] }]),

@@ -59,7 +59,7 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
   const map = checkedObject('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusalError('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
-    renamingFields(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: flatWalls(map.walls) }));
+    withRenamedFields(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: flatWalls(map.walls) }));
     return;
   }
   const columns = checkedInteger('map.columns', map.columns, 1, limits.cells);
@@ -68,12 +68,12 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
   const occupiedBits = bitsOf('map.occupied', map.occupied, cellCount);
   const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : bitsOf('map.unknown', map.unknown, cellCount);
   const gridDescription = { resolution: map.resolution, origin: map.origin, negate: 1 };
-  const pgmImage = imageOf(columns, rows, occupiedBits, unknownBits);
-  renamingFields(GRID_KEYS, () => machine.setGrid(gridDescription, pgmImage));
+  const pgmImage = pgmImageOf(columns, rows, occupiedBits, unknownBits);
+  withRenamedFields(GRID_KEYS, () => machine.setGrid(gridDescription, pgmImage));
 }
 
-/** Calls a machine with fields of a map. In an error of the machine, the field is renamed to its name in the map. */
-function renamingFields(keys: string[], take: () => void) {
+/** Calls a function that passes fields of a map to a machine. Errors get the field's name in the map instead of that in the machine. */
+function withRenamedFields(keys: string[], take: () => void) {
   try {
     take();
   } catch (refused) {
@@ -84,7 +84,7 @@ function renamingFields(keys: string[], take: () => void) {
 }
 
 /** Returns cells as a PGM image. The first row of an image is at the top, that of a grid at the bottom. With `negate`, white is occupied. */
-function imageOf(columns: number, rows: number, occupiedBits: Uint8Array, unknownBits: Uint8Array) {
+function pgmImageOf(columns: number, rows: number, occupiedBits: Uint8Array, unknownBits: Uint8Array) {
   const pgmHeader = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED_SHADE}\n`);
   const pgmImage = new Uint8Array(pgmHeader.length + columns * rows);
   pgmImage.set(pgmHeader);

@@ -367,7 +367,8 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
 
   /** Renders the first time a task later. If the core is ready by then, no placeholder is rendered before the content. */
   protected async scheduleUpdate() {
-    if (!this.hasUpdated) {
+    // In forced colours, Chromium keeps light colours in content that is rendered before `colours` has found a dark scheme.
+    if (!this.hasUpdated && !matchMedia('(forced-colors: active)').matches) {
       const reservedSpace = this.renderRoot.appendChild(document.createElement('div'));
       reservedSpace.className = 'reserved';
       await new Promise((resolve) => setTimeout(resolve));

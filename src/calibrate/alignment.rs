@@ -2,10 +2,10 @@
 
 use super::trajectory::Trajectory;
 
-/// Step (s) of the finest scan of clock offsets. A turn of a robot lasts several steps.
+/// Smallest step (s) of the scans of clock offsets. A turn of a robot lasts several steps.
 const FINEST_STEP: f64 = 0.05;
 
-/// Largest clock offset (s) of the first scan. Clocks of one network differ by less, and a drive in circles takes longer for one round.
+/// Largest clock offset (s) of the first scan. Synchronized clocks differ by less. A robot that drives in circles takes longer for a round.
 const MAX_NEAR_OFFSET: f64 = 10.0;
 
 /// Number of offsets in the coarse scan of clocks without a common start: over an hour they are 1 s apart.
@@ -14,41 +14,45 @@ const COARSE_OFFSETS: f64 = 4096.0;
 /// Maximum number of turn rates that are compared at each clock offset.
 const MAX_SAMPLES: f64 = 100_000.0;
 
-/// Correlation of two turn rates below which they do not match. Over only a few seconds, unrelated turn rates may reach it.
+/// Correlation below which turn rates do not match. Only over a few seconds may unrelated turn rates reach it.
 const MIN_CORRELATION: f64 = 0.5;
 
 /// Correlation at which the search for other clock offsets ends. At the right offset the correlation is 1 up to a few hundredths.
 const CONFIDENT_CORRELATION: f64 = 0.9;
 
-/// Increase of the correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to one within.
+/// Minimum gain of correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to one within.
 const MIN_CORRELATION_GAIN: f64 = 0.05;
 
 /// Clock offset (s), and the correlation of the two turn rates at this offset.
-type Match = (f64, f64);
+type OffsetMatch = (f64, f64);
 
 /// Returns the time (s) by which the reference's clock is ahead of the odometry's. At this offset the correlation of their turn rates is
 /// largest.
 ///
-/// If turn rates do not correlate at any offset, as of a robot that does not turn, the offset is 0. It is None if the recordings do not
-/// overlap either. Only offsets at which half of the shorter recording overlaps the other one are compared.
+/// If turn rates do not correlate at any offset, for example because the robot does not turn, the offset is 0. None if the recordings do not
+/// overlap either. Compared are only offsets at which half of the shorter recording overlaps the other one.
 pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Option<f64> {
     let ([from, to], [start, end]) = (odometry.span()?, reference.span()?);
     let min_overlap = 0.5 * (to - from).min(end - start);
     let overlap = to.min(end) - from.max(start);
     let finest_step = FINEST_STEP.max(0.5 * odometry.median_period()).max((to - from) / MAX_SAMPLES);
-    let scan = |range: [f64; 2], step: f64| best_match(odometry, reference, range, finest_step.max(step));
-    let near_match =
-        if overlap < min_overlap { None } else { scan([-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], 0.0) };
+    let best_match_within =
+        |range: [f64; 2], step: f64| best_match(odometry, reference, range, finest_step.max(step));
+    let near_match = if overlap < min_overlap {
+        None
+    } else {
+        best_match_within([-MAX_NEAR_OFFSET, MAX_NEAR_OFFSET], 0.0)
+    };
     if let Some((offset, _)) = near_match.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
         return Some(offset);
     }
     let range = [start - to + min_overlap, end - from - min_overlap];
     let mut step = finest_step.max((range[1] - range[0]) / COARSE_OFFSETS);
-    let mut far_match = scan(range, step);
+    let mut far_match = best_match_within(range, step);
     while let Some((rough_offset, _)) = far_match.filter(|_| step > finest_step) {
         let nearby_range = [rough_offset - 2.0 * step, rough_offset + 2.0 * step];
         step = finest_step.max(step / 50.0);
-        far_match = scan(nearby_range, step);
+        far_match = best_match_within(nearby_range, step);
     }
     match [near_match, far_match] {
         [Some((offset, correlation)), Some((_, farther))] if farther - correlation < MIN_CORRELATION_GAIN => {
@@ -66,35 +70,38 @@ fn best_match(
     reference: &Trajectory,
     [from, to]: [f64; 2],
     step: f64,
-) -> Option<Match> {
+) -> Option<OffsetMatch> {
     let [first, last] = odometry.span()?;
     let turn_count = ((last - first) / step) as usize;
     let offset_count = ((to - from) / step).round() as usize + 1;
-    let odometry_turns = turns(odometry, first, step, turn_count);
-    let reference_turns = turns(reference, first + from, step, turn_count + offset_count - 1);
-    let known_count = |rates: &[Option<f64>]| rates.iter().flatten().count();
-    let min_pairs = known_count(&odometry_turns).min(known_count(&reference_turns)) / 2;
+    let odometry_turns = turns_of_steps(odometry, first, step, turn_count);
+    let reference_turns = turns_of_steps(reference, first + from, step, turn_count + offset_count - 1);
+    let count_known = |rates: &[Option<f64>]| rates.iter().flatten().count();
+    let min_pairs = count_known(&odometry_turns).min(count_known(&reference_turns)) / 2;
     let correlations: Vec<f64> = (0..offset_count)
         .map(|offset| correlation(&odometry_turns, &reference_turns[offset..], min_pairs))
         .collect();
-    let (best, peak) = correlations.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    if peak < MIN_CORRELATION {
+    let (best_offset, max_correlation) =
+        correlations.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    if max_correlation < MIN_CORRELATION {
         return None;
     }
-    // Vertex of the parabola through the best and its neighbours.
-    let correlation_at = |offset: usize| correlations.get(offset).copied().unwrap_or(peak);
-    let (before_peak, after_peak) = (correlation_at(best.wrapping_sub(1)), correlation_at(best + 1));
-    let curvature = before_peak - 2.0 * peak + after_peak;
-    let fraction = if curvature < 0.0 { 0.5 * (before_peak - after_peak) / curvature } else { 0.0 };
-    Some((from + (best as f64 + fraction) * step, peak))
+    // Vertex of the parabola through the largest correlation and its neighbours.
+    let correlation_at = |offset: usize| correlations.get(offset).copied().unwrap_or(max_correlation);
+    let (correlation_before, correlation_after) =
+        (correlation_at(best_offset.wrapping_sub(1)), correlation_at(best_offset + 1));
+    let curvature = correlation_before - 2.0 * max_correlation + correlation_after;
+    let fraction =
+        if curvature < 0.0 { 0.5 * (correlation_before - correlation_after) / curvature } else { 0.0 };
+    Some((from + (best_offset as f64 + fraction) * step, max_correlation))
 }
 
-/// Returns the turns (rad) from each of `count` evenly spaced times to the next. None before and after the trajectory, and across gaps.
-fn turns(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Option<f64>> {
+/// Returns the turns (rad) between successive times, which are `step` (s) apart. None outside of the trajectory, and across gaps.
+fn turns_of_steps(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Option<f64>> {
     let times: Vec<f64> = trajectory.samples().map(|(time, _)| time).collect();
     let headings = trajectory.unwrapped_heading();
     let (mut next, mut gaps) = (0, 0);
-    // Number of gaps so far, and heading.
+    // Returns the number of gaps before a time, and the heading there.
     let mut heading_at = |time: f64| {
         while next < times.len() && times[next] < time {
             next += 1;
@@ -104,9 +111,9 @@ fn turns(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Op
         if time_after == time {
             return Some((gaps, headings[next]));
         }
-        let sample_before = next.checked_sub(1).filter(|_| !trajectory.has_gap_before(next))?;
-        let fraction = (time - times[sample_before]) / (time_after - times[sample_before]);
-        Some((gaps, headings[sample_before] + fraction * (headings[next] - headings[sample_before])))
+        let index_before = next.checked_sub(1).filter(|_| !trajectory.has_gap_before(next))?;
+        let fraction = (time - times[index_before]) / (time_after - times[index_before]);
+        Some((gaps, headings[index_before] + fraction * (headings[next] - headings[index_before])))
     };
     let headings: Vec<_> = (0..=count).map(|i| heading_at(start + i as f64 * step)).collect();
     let turn_between = |pair: &[Option<(usize, f64)>]| {
@@ -116,12 +123,12 @@ fn turns(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Op
     headings.windows(2).map(turn_between).collect()
 }
 
-/// Returns Pearson's correlation over the pairs whose numbers are both known. 0 if there are fewer than `min_pairs` such pairs, or one list is
+/// Returns Pearson's correlation over the pairs of two known numbers. 0 if there are fewer than `min_pairs` such pairs, or one list is
 /// constant.
 fn correlation(a: &[Option<f64>], b: &[Option<f64>], min_pairs: usize) -> f64 {
-    let pairs = || a.iter().zip(b).filter_map(|(a, b)| a.zip(*b));
+    let known_pairs = || a.iter().zip(b).filter_map(|(a, b)| a.zip(*b));
     let (mut count, mut sums) = (0.0, [0.0; 5]);
-    for (x, y) in pairs() {
+    for (x, y) in known_pairs() {
         count += 1.0;
         for (sum, term) in sums.iter_mut().zip([x, y, x * x, y * y, x * y]) {
             *sum += term;
@@ -129,7 +136,7 @@ fn correlation(a: &[Option<f64>], b: &[Option<f64>], min_pairs: usize) -> f64 {
     }
     let [x, y, xx, yy, xy] = sums.map(|sum| sum / count);
     let variance_product = (xx - x * x) * (yy - y * y);
-    // Rates that are constant except for rounding count as constant.
+    // Turns that are constant except for rounding count as constant.
     if count < min_pairs as f64 || variance_product <= 1e-18 * xx * yy || !variance_product.is_finite() {
         return 0.0;
     }

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Every check passed.
     Consistent,
-    /// A check failed: α's may be wrong. The recommended α's compensate for a part of that.
+    /// A check failed, so the α's may be wrong. The recommended α's compensate for some of the error.
     Questionable,
     /// The log gives no α's.
     Unusable,
@@ -37,7 +37,7 @@ pub enum CheckName {
     SamplingDense,
     /// Fraction of outliers.
     OutliersFew,
-    /// Fraction of the legs in which the odometry moves sideways, or backwards where the rule takes that for two turns.
+    /// Fraction of the legs in which the odometry moves sideways. Under rules that decompose reverse motion into two turns, backwards counts too.
     SidewaysRare,
     /// Difference of the distance scales of straight and turning legs, or of both halves of the log, whichever is larger.
     DistanceScaleConstant,
@@ -81,14 +81,14 @@ impl Check {
         Self { name, value, expected, passed: value >= expected[0] && value <= expected[1] }
     }
 
-    /// Returns the meaning for the α's of a check that failed, and the remedy; nothing where it passed.
+    /// Returns what a failure of the check means for the α's, and the remedy; empty if it passed.
     pub fn message(&self) -> &'static str {
         match self {
             Self { passed: true, .. } => "",
             Self { name: CheckName::ReferenceMatches, value, expected: [min, _], .. } if value < min => {
                 "The reference has the errors of the odometry: it is a copy of it, or computed from it. The α's mean nothing. Use an independent measurement, such as motion capture or SLAM."
             }
-            _ => self.name.meaning_of_failure(),
+            _ => self.name.failure_message(),
         }
     }
 }
@@ -97,7 +97,7 @@ impl Check {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct WindowCoverage {
-    /// Least distance driven, m.
+    /// Minimum distance driven in a window, m.
     pub length: f64,
     /// Number of windows.
     pub count: usize,
@@ -127,8 +127,8 @@ impl Diagnostics {
 }
 
 impl CheckName {
-    /// Returns the meaning of a failure for the α's, and the remedy.
-    fn meaning_of_failure(self) -> &'static str {
+    /// Returns what a failure of the check means for the α's, and the remedy.
+    fn failure_message(self) -> &'static str {
         match self {
             Self::ReferenceMatches => {
                 "The reference does not follow the odometry: it may be of another drive, have other units (degrees, millimetres) or a mirrored y axis, or its columns may be swapped. The α's mean nothing. Compare both files row by row."
@@ -173,7 +173,7 @@ impl CheckName {
     }
 }
 
-/// Number of standard errors by which a sample statistic may differ. Few logs that the model simulates fail a check with it.
+/// Number of standard errors by which a sample statistic may differ from its expectation. Logs simulated by the model rarely differ more.
 const MAX_STD_ERRORS: f64 = 3.0;
 
 /// Correlation of neighbours, and excess kurtosis, that is too small to matter in a long log.
@@ -191,20 +191,20 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 /// measurements differ by more than 0.05 %: one that differs by less is a copy of the other.
 const MISMATCH_RANGE: [f64; 2] = [0.0005, 0.7];
 
-/// Distance by which two paths drift apart, over their length, below which one is a copy of the other. Errors of wheels add up along a path,
-/// but those of rounded or noisy numbers do not: a robot that errs by 1 mm and 0.5 mrad over a metre drifts by 1e-4.
+/// Drift of two paths, divided by their length, below which one is a copy of the other. Errors of wheels accumulate along a path, but those of
+/// rounded or noisy numbers do not. A robot that errs by 1 mm and 0.5 mrad over a metre drifts by 1e-4.
 const MAX_COPY_DRIFT: f64 = 3e-5;
 
 /// Lengths (m) of the long and of the short pieces in which paths are compared.
 const PIECE_LENGTHS: [f64; 2] = [200.0, 5.0];
 
-/// Scales that wheels can have. Any other scale shows that the reference has another unit.
+/// Scale factors that errors of the wheels' size can explain. Any other scale shows that the reference has another unit.
 const PLAUSIBLE_SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
-/// Number of windows below which nothing is concluded from them.
+/// Minimum number of windows for conclusions from their coverage.
 pub(super) const MIN_WINDOWS: usize = 20;
 
-/// Largest inflation: α's that need more do not describe the robot.
+/// Maximum inflation. α's that need more do not describe the robot.
 pub(super) const MAX_INFLATION: f64 = 30.0;
 
 /// Returns the checks of the log itself. Those that decide whether a log is usable come first: the first failure is the advice.
@@ -218,7 +218,7 @@ pub(super) fn log_checks(
     let scales = [SystematicError::DistanceScale, SystematicError::TurnScale];
     let has_plausible_scales = scales.iter().all(|scale| PLAUSIBLE_SCALES.contains(&systematic.get(*scale)));
     let mismatch = if has_plausible_scales {
-        // A copy with rounded numbers differs in each leg, but hardly drifts.
+        // A copy with rounded numbers differs in each leg, but hardly drifts. Its drift is the value that fails.
         copy_drift(sample, systematic).or_else(|| mismatch(sample, systematic))
     } else {
         Some(f64::INFINITY)
@@ -231,7 +231,7 @@ pub(super) fn log_checks(
     let mut checks = Vec::from_iter(mismatch);
     checks.extend([
         Check::new(CheckName::EnoughLegs, count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
-        // An infinite inflation: none is enough.
+        // The inflation is infinite if none covers the windows.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
         Check::new(CheckName::LegsLost, lost_count as f64 / (count + lost_count) as f64, [0.0, 0.2]),
         Check::new(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
@@ -245,10 +245,10 @@ pub(super) fn log_checks(
     checks
 }
 
-/// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. This is done
-/// for turns and for drives, and the larger quotient counts. `None` if too few legs turn and too few drive.
+/// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. Of the ratios for
+/// turns and for drives the larger one is returned. `None` if too few legs turn and too few drive.
 fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
-    // Sizes and differences of the turns, and of the drives.
+    // For turns and for drives: sizes of the motions, and differences between odometry and reference.
     let [mut turns, mut drives] = [const { [Vec::new(), Vec::new()] }; 2];
     let add_motion = |[sizes, differences]: &mut [Vec<f64>; 2], size: f64, difference: f64, min_size: f64| {
         if size > min_size {
@@ -268,48 +268,52 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     [turns, drives].into_iter().filter_map(median_ratio).reduce(f64::max)
 }
 
-/// Returns the distance by which the paths by odometry and by reference drift apart, over their length, if one is a copy of the other.
-/// The noise of the reference is equal in long and in short pieces, so the drift is the difference.
+/// Returns the drift between the paths by odometry and by reference, divided by their length, if one is a copy of the other. The noise of the
+/// reference is equal in long and in short pieces, so their difference is due to drift.
 fn copy_drift(sample: &Sample, systematic: &Systematic) -> Option<f64> {
-    let [(long, long_freedom, long_length), (short, short_freedom, short_length)] =
-        PIECE_LENGTHS.map(|piece_length| path_distance(sample, systematic, piece_length));
-    // Both have the same noise, and the short pieces more alignments.
-    let growth_std = short * (1.0 / short_freedom - 1.0 / long_freedom).sqrt();
-    let growth = long - short + 2.0 * growth_std;
-    let square = growth / (long_length - short_length) / long_length;
-    (square < MAX_COPY_DRIFT * MAX_COPY_DRIFT).then(|| square.max(0.0).sqrt())
+    let [
+        (mean_square_of_long, degrees_of_freedom_of_long, long_length),
+        (mean_square_of_short, degrees_of_freedom_of_short, short_length),
+    ] = PIECE_LENGTHS.map(|piece_length| path_distance(sample, systematic, piece_length));
+    // Under equal noise, the difference of both mean squares has this standard error.
+    let added_square_std =
+        mean_square_of_short * (1.0 / degrees_of_freedom_of_short - 1.0 / degrees_of_freedom_of_long).sqrt();
+    let added_square = mean_square_of_long - mean_square_of_short + 2.0 * added_square_std;
+    let squared_drift = added_square / (long_length - short_length) / long_length;
+    (squared_drift < MAX_COPY_DRIFT * MAX_COPY_DRIFT).then(|| squared_drift.max(0.0).sqrt())
 }
 
-/// Returns the mean squared distance between the paths by odometry and by reference in pieces of a length (m), its degrees of freedom,
-/// and the mean length of the pieces. The alignment of a piece takes the freedom of two points.
+/// Cuts the paths by odometry and by reference into pieces of a length (m), and aligns each pair of pieces. Returns their mean squared distance,
+/// its degrees of freedom, and the mean length of the pieces. The alignment of a piece costs the degrees of freedom of two points.
 fn path_distance(sample: &Sample, systematic: &Systematic, piece_length: f64) -> (f64, f64, f64) {
-    let (mut square_sum, mut freedom, mut length_sum) = (0.0, 0.0, 0.0);
-    let (mut points, mut expected, mut length) = (Vec::new(), SE2::identity(), 0.0);
+    let (mut square_sum, mut degrees_of_freedom, mut length_sum) = (0.0, 0.0, 0.0);
+    let (mut pose_pairs, mut expected, mut length) = (Vec::new(), SE2::identity(), 0.0);
     let (mut legs, base) = (sample.legs.iter().peekable(), systematic.base());
     while let Some(leg) = legs.next() {
         let motion = systematic.expected(sample.options.model, leg);
         expected = expected * motion;
         length += distance(&motion);
-        points.push([expected, leg.reference[1] * base].map(|pose| Complex::new(pose.x(), pose.y())));
+        pose_pairs.push([expected, leg.reference[1] * base].map(|pose| Complex::new(pose.x(), pose.y())));
         if length >= piece_length || legs.peek().is_none_or(|next| !next.follows) {
-            let piece_freedom = points.len() as f64 - 2.0;
-            if piece_freedom > 0.0 {
-                square_sum += aligned_square_sum(&points);
-                freedom += piece_freedom;
-                length_sum += piece_freedom * length;
+            let piece_degrees_of_freedom = pose_pairs.len() as f64 - 2.0;
+            if piece_degrees_of_freedom > 0.0 {
+                square_sum += aligned_square_sum(&pose_pairs);
+                degrees_of_freedom += piece_degrees_of_freedom;
+                length_sum += piece_degrees_of_freedom * length;
             }
             (expected, length) = (SE2::identity(), 0.0);
-            points.clear();
+            pose_pairs.clear();
         }
     }
-    (square_sum / freedom, freedom, length_sum / freedom)
+    (square_sum / degrees_of_freedom, degrees_of_freedom, length_sum / degrees_of_freedom)
 }
 
-/// Returns the sum of the squared distances of pairs of points, after the shift, rotation and scaling of the first ones that minimize it.
-fn aligned_square_sum(points: &[[Complex<f64>; 2]]) -> f64 {
-    let means = [0, 1].map(|i| points.iter().map(|pair| pair[i]).sum::<Complex<f64>>() / points.len() as f64);
+/// Returns the sum of the squared distances of pairs of points, minimized by shift, rotation and scaling of the first points.
+fn aligned_square_sum(pose_pairs: &[[Complex<f64>; 2]]) -> f64 {
+    let means =
+        [0, 1].map(|i| pose_pairs.iter().map(|pair| pair[i]).sum::<Complex<f64>>() / pose_pairs.len() as f64);
     let (mut squares, mut product) = ([0.0; 2], Complex::new(0.0, 0.0));
-    for pair in points {
+    for pair in pose_pairs {
         let [one, other] = [0, 1].map(|i| pair[i] - means[i]);
         squares = [squares[0] + one.norm_sqr(), squares[1] + other.norm_sqr()];
         product += one.conj() * other;
@@ -322,8 +326,9 @@ pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
     let standardized = fits.iter().filter(|fit| !fit.is_outlier).flat_map(|fit| fit.standardized);
     let standardized: Vec<f64> = standardized.filter(|residual| !residual.is_nan()).collect();
     let count = standardized.len() as f64;
-    let moment = |power: i32| standardized.iter().map(|residual| residual.powi(power)).sum::<f64>() / count;
-    let kurtosis = moment(4) / moment(2).powi(2);
+    let mean_power =
+        |power: i32| standardized.iter().map(|residual| residual.powi(power)).sum::<f64>() / count;
+    let kurtosis = mean_power(4) / mean_power(2).powi(2);
     let correlation_limit = NEGLIGIBLE_CORRELATION.max(MAX_STD_ERRORS / count.sqrt());
     // Kurtosis of a normal sample has variance 24/n.
     let max_excess_kurtosis = NEGLIGIBLE_KURTOSIS.max(MAX_STD_ERRORS * (24.0 / count).sqrt());
@@ -333,8 +338,8 @@ pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
     ]
 }
 
-/// Returns the range of coverage on logs that are simulated by the model. A relative error of the variances moves it by 0.14 times as
-/// much: that is the density of ln χ² with 3 degrees of freedom at its quantile 0.95.
+/// Returns the range of the coverage of logs that the model simulates. `scale_std` is the relative standard error of the variances. It counts
+/// 0.14 times: this is the density of ln χ² with 3 degrees of freedom at the quantile 0.95.
 pub(super) fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
     let variance = 0.95 * 0.05 / count as f64;
     let tolerance = NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (variance + (0.14 * scale_std).powi(2)).sqrt());
@@ -343,21 +348,22 @@ pub(super) fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
 
 /// Returns the checks of windows, for the lengths with at least [`MIN_WINDOWS`] windows.
 pub(super) fn window_checks(windows: &[WindowCoverage], scale_std: f64) -> Vec<Check> {
-    let names = [CheckName::Window1Covered, CheckName::Window2Covered, CheckName::Window5Covered];
-    let sufficient_windows = windows.iter().zip(names).filter(|(window, _)| window.count >= MIN_WINDOWS);
-    let check_of = |(window, name): (&WindowCoverage, CheckName)| {
+    let check_names = [CheckName::Window1Covered, CheckName::Window2Covered, CheckName::Window5Covered];
+    let sufficient_windows =
+        windows.iter().zip(check_names).filter(|(window, _)| window.count >= MIN_WINDOWS);
+    let coverage_check = |(window, name): (&WindowCoverage, CheckName)| {
         Check::new(name, window.coverage, coverage_range(window.count, scale_std))
     };
-    sufficient_windows.map(check_of).collect()
+    sufficient_windows.map(coverage_check).collect()
 }
 
-/// Turn (rad) above which a leg counts as turning, and below which as straight.
+/// Turn (rad) above which a leg counts as turning. All other legs count as straight.
 const TURNING_LEG_ANGLE: f64 = 0.05;
 
-/// Minimum number of legs of a group whose scale is compared.
+/// Minimum number of legs of each group whose scales are compared.
 const MIN_GROUP_LEGS: usize = 20;
 
-/// Largest difference of two scales, in standard errors, that chance explains. Their 95 % intervals overlap then.
+/// Maximum difference of two scales, in standard errors, that chance explains. Their 95 % intervals then overlap.
 const MAX_SCALE_STD_ERRORS: f64 = 2.8;
 
 /// Difference of two scales that is too small to matter.
@@ -365,8 +371,8 @@ const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 
 /// Returns a check of each scale that is identifiable, and the mask of the systematic errors that are constant.
 ///
-/// Only scales are tested: all others, and scales that are not identifiable, count as constant. `std_factor` multiplies standard errors
-/// where errors persist; it is 1 otherwise.
+/// Only scales are tested. All other errors, and scales that are not identifiable, count as constant. `std_factor` multiplies the standard
+/// errors, because errors of neighbouring legs may be correlated.
 pub(super) fn scale_checks(fit: &Fit, std_factor: f64) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERROR_COUNT]);
     let half_count = fit.sample.legs.len() / 2;
@@ -379,23 +385,23 @@ pub(super) fn scale_checks(fit: &Fit, std_factor: f64) -> (Vec<Check>, ErrorMask
         if fit.stds[scale as usize] == 0.0 {
             continue;
         }
-        let mut worst = (0.0, NEGLIGIBLE_SCALE_DIFFERENCE);
-        let mut compare = |in_first: &dyn Fn(usize) -> bool| {
+        let mut largest_difference = (0.0, NEGLIGIBLE_SCALE_DIFFERENCE);
+        let mut compare_groups = |in_first: &dyn Fn(usize) -> bool| {
             let [first_group, second_group] = [true, false]
                 .map(|is_first_group| scale_of(fit, scale, |leg| in_first(leg) == is_first_group));
             if let Some(([a, a_std], [b, b_std])) = first_group.zip(second_group) {
                 let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE
                     .max(MAX_SCALE_STD_ERRORS * std_factor * libm::hypot(a_std, b_std));
-                if (a - b).abs() / tolerance > f64::abs(worst.0) / worst.1 {
-                    worst = (a - b, tolerance);
+                if (a - b).abs() / tolerance > f64::abs(largest_difference.0) / largest_difference.1 {
+                    largest_difference = (a - b, tolerance);
                 }
             }
         };
-        compare(&|leg| leg < half_count);
+        compare_groups(&|leg| leg < half_count);
         if scale == SystematicError::DistanceScale {
-            compare(&is_turning);
+            compare_groups(&is_turning);
         }
-        let check = Check::new(name, worst.0, [-worst.1, worst.1]);
+        let check = Check::new(name, largest_difference.0, [-largest_difference.1, largest_difference.1]);
         is_constant[scale as usize] = check.passed;
         checks.push(check);
     }
@@ -417,7 +423,7 @@ fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -
     (variance > 0.0 && std < scale.identifiability_limit()).then(|| [-solution.errors[scale as usize], std])
 }
 
-/// Returns the verdict from all checks. `identifies` is true if the log identifies at least one α.
+/// Returns the verdict that follows from all checks. `identifies` is true if the log identifies at least one α.
 pub(super) fn verdict(checks: &[Check], identifies: bool) -> Verdict {
     let has_failed = |name: CheckName| checks.iter().any(|check| check.name == name && !check.passed);
     let legs =

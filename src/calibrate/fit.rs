@@ -1,5 +1,5 @@
-//! Fit of the variances and the systematic errors, in rounds: the residuals depend on the errors, their weights on the variances, and
-//! the outliers on both.
+//! Fit of the variances and the systematic errors, in rounds. The residuals depend on the systematic errors, their weights on the variances,
+//! and the outliers on both.
 
 use super::alignment::clock_offset;
 use super::legs::{Leg, LostLegs, MIN_LEGS};
@@ -37,7 +37,7 @@ pub(super) struct Fit {
     pub stds: [f64; ERROR_COUNT],
 }
 
-/// Maximum number of legs that are fitted, in blocks spread over the log. With this many legs the error of an α is about 3 %.
+/// Maximum number of legs that are fitted, in blocks spread over the log. With this many legs the standard error of an α is about 3 %.
 const MAX_LEGS: usize = 6_000;
 const LEGS_PER_BLOCK: usize = 100;
 
@@ -46,7 +46,7 @@ const MAX_ROUNDS: usize = 15;
 /// Change of a systematic error between rounds, relative to its standard error, below which the rounds end.
 const CONVERGENCE_TOLERANCE: f64 = 0.05;
 
-/// Factor of the gate on squared distances in the first round, in which variances are an initial guess.
+/// Factor by which the outlier gate is wider in the first round, in which variances are an initial guess.
 const FIRST_ROUND_GATE_FACTOR: f64 = 4.0;
 
 impl Sample {
@@ -68,18 +68,18 @@ impl Sample {
         if legs.len() <= MAX_LEGS {
             return Self::new(legs.to_vec(), estimated, options);
         }
-        let blocks = MAX_LEGS / LEGS_PER_BLOCK;
-        let mut sampled_legs = Vec::with_capacity(MAX_LEGS);
-        for block in 0..blocks {
-            let first_leg = block * (legs.len() - LEGS_PER_BLOCK) / (blocks - 1);
-            sampled_legs.extend_from_slice(&legs[first_leg..first_leg + LEGS_PER_BLOCK]);
-            let start = sampled_legs.len() - LEGS_PER_BLOCK;
-            sampled_legs[start].follows = false;
+        let block_count = MAX_LEGS / LEGS_PER_BLOCK;
+        let mut legs_of_blocks = Vec::with_capacity(MAX_LEGS);
+        for block in 0..block_count {
+            let first_leg = block * (legs.len() - LEGS_PER_BLOCK) / (block_count - 1);
+            legs_of_blocks.extend_from_slice(&legs[first_leg..first_leg + LEGS_PER_BLOCK]);
+            let start = legs_of_blocks.len() - LEGS_PER_BLOCK;
+            legs_of_blocks[start].follows = false;
         }
-        Self::new(sampled_legs, estimated, options)
+        Self::new(legs_of_blocks, estimated, options)
     }
 
-    fn observe(&mut self, corrected: &Systematic, position_std: f64) {
+    fn update_observations(&mut self, corrected: &Systematic, position_std: f64) {
         let model = self.options.model;
         self.systematic = *corrected;
         self.observations =
@@ -88,7 +88,7 @@ impl Sample {
         self.terms = Rc::new(self.legs.iter().zip(&self.observations).map(term).collect());
     }
 
-    /// Returns the residuals of the legs that `select` chooses. A leg is correlated with the one before it only if both are chosen.
+    /// Returns the residuals of the legs that `select` accepts. A leg follows the one before it only if both are selected.
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
         let follows = |leg: usize| self.legs[leg].follows && leg > 0 && select(leg - 1);
         let chosen_terms = (0..self.legs.len()).filter(|leg| select(*leg)).map(|leg| (leg, follows(leg)));
@@ -114,27 +114,29 @@ impl Sample {
     fn initial_guess(&self) -> Parameters {
         let mut parameters = Parameters::zeros();
         for (component, alphas) in self.options.model.component_alphas().into_iter().enumerate() {
-            let alpha_of = |observation: &Observation| {
+            let alpha_from = |observation: &Observation| {
                 let [first_coefficient, second_coefficient] = observation.coefficients[component];
                 observation.residuals[component].powi(2) / (first_coefficient + second_coefficient)
             };
             let mut leg_alphas: Vec<f64> =
-                self.observations.iter().map(alpha_of).filter(|ratio| ratio.is_finite()).collect();
-            let alpha = (median(&mut leg_alphas) / MEDIAN_SQUARE).clamp(1e-8, 10.0);
+                self.observations.iter().map(alpha_from).filter(|ratio| ratio.is_finite()).collect();
+            let alpha = (median(&mut leg_alphas) / MEDIAN_CHI2_1).clamp(1e-8, 10.0);
             alphas.iter().for_each(|index| parameters[*index] = alpha.max(parameters[*index]));
         }
         let Options { position_std, yaw_std, .. } = self.options;
-        parameters[POSITION_VARIANCE] = position_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
-        parameters[YAW_VARIANCE] = yaw_std.map_or(INITIAL_STD * INITIAL_STD, |std| std * std);
+        parameters[POSITION_VARIANCE] =
+            position_std.map_or(INITIAL_REFERENCE_STD * INITIAL_REFERENCE_STD, |std| std * std);
+        parameters[YAW_VARIANCE] =
+            yaw_std.map_or(INITIAL_REFERENCE_STD * INITIAL_REFERENCE_STD, |std| std * std);
         parameters
     }
 }
 
 /// Median of χ² with one degree of freedom, the distribution of the square of a standard normal number.
-const MEDIAN_SQUARE: f64 = 0.4549;
+const MEDIAN_CHI2_1: f64 = 0.4549;
 
-/// Initial guess of the reference's errors, m and rad.
-const INITIAL_STD: f64 = 1e-3;
+/// Initial guess of the standard deviations of the reference, m and rad.
+const INITIAL_REFERENCE_STD: f64 = 1e-3;
 
 /// Returns the parameters that are fitted: α's of the model, and those variances of the reference that the options do not state.
 pub(super) fn free_parameters(options: &Options) -> FreeMask {
@@ -148,15 +150,15 @@ pub(super) fn free_parameters(options: &Options) -> FreeMask {
 /// Legs of all drives.
 pub(super) struct Log<'a> {
     drives: &'a [Drive<'a>],
-    /// Clock offset (s) of each drive, as determined from the robot's turns.
+    /// Clock offset (s) of each drive, as found by the correlation of turn rates.
     offsets: Vec<f64>,
 }
 
 impl<'a> Log<'a> {
     pub fn new(drives: &'a [Drive<'a>]) -> Result<Self, CalibrateError> {
-        let offset_of =
+        let clock_offset_of =
             |drive: &Drive| clock_offset(drive.odometry, drive.reference).ok_or(CalibrateError::NoCommonTime);
-        Ok(Self { drives, offsets: drives.iter().map(offset_of).collect::<Result<_, _>>()? })
+        Ok(Self { drives, offsets: drives.iter().map(clock_offset_of).collect::<Result<_, _>>()? })
     }
 
     pub fn clock_offset(&self) -> f64 {
@@ -168,7 +170,7 @@ impl<'a> Log<'a> {
         let (mut legs, mut lost) = (Vec::new(), LostLegs::default());
         for (index, drive) in self.drives.iter().enumerate() {
             let (offset, first_leg) = (clock_offset + self.offsets[index] - self.clock_offset(), legs.len());
-            drive.cut(options.legs, offset, &mut legs, &mut lost);
+            drive.cut_into_legs(options.legs, offset, &mut legs, &mut lost);
             legs[first_leg..].iter_mut().for_each(|leg| leg.drive = index);
         }
         (legs, lost)
@@ -184,36 +186,38 @@ impl<'a> Log<'a> {
     }
 }
 
-/// Finds the systematic errors: each round fits the variances, and then corrects the errors by generalized least squares.
+/// Fits all identifiable systematic errors. Each round fits the variances, and then corrects the errors by generalized least squares.
 pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, CalibrateError> {
-    let initial = Systematic { clock_offset: log.clock_offset(), ..Systematic::NONE };
-    let (legs, _) = log.legs(options, initial.clock_offset);
+    let initial_errors = Systematic { clock_offset: log.clock_offset(), ..Systematic::NONE };
+    let (legs, _) = log.legs(options, initial_errors.clock_offset);
     if legs.len() < MIN_LEGS {
         return Err(CalibrateError::TooFewLegs { legs: legs.len() });
     }
     let mut sample = Sample::with_max_legs(&legs, [true; ERROR_COUNT], options);
-    let mut systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&sample.legs), ..initial };
+    let mut systematic =
+        Systematic { mount_yaw: Systematic::initial_mount_yaw(&sample.legs), ..initial_errors };
     let mut parameters: Option<Parameters> = None;
     for round in 1.. {
         let position_std =
             parameters.map_or(f64::INFINITY, |parameters| parameters[POSITION_VARIANCE].sqrt());
-        sample.observe(&systematic, position_std);
-        let guess = parameters.unwrap_or_else(|| sample.initial_guess());
-        sample.estimated =
-            identifiable_errors(&sample.inlier_residuals(0..legs.len()).least_squares(&guess).information);
+        sample.update_observations(&systematic, position_std);
+        let start_parameters = parameters.unwrap_or_else(|| sample.initial_guess());
+        sample.estimated = identifiable_errors(
+            &sample.inlier_residuals(0..legs.len()).least_squares(&start_parameters).information,
+        );
         let gate_factor = if parameters.is_some() { 1.0 } else { FIRST_ROUND_GATE_FACTOR };
-        let mut has_converged = !sample.mark_outliers(&guess, gate_factor, round) && round > 1;
-        let (residuals, maximum) = sample.fit(guess)?;
+        let mut has_converged = !sample.mark_outliers(&start_parameters, gate_factor, round) && round > 1;
+        let (residuals, maximum) = sample.fit(start_parameters)?;
         let solution = &maximum.expansion.filtered.least_squares;
         let previous_errors = systematic;
         for (i, error) in SystematicError::ALL.into_iter().enumerate() {
             if sample.estimated[i] {
-                let limit = 4.0 * error.identifiability_limit();
+                let max_change = 4.0 * error.identifiability_limit();
                 let change = -solution.errors[i];
                 has_converged &= change.abs() <= CONVERGENCE_TOLERANCE * solution.covariance[(i, i)].sqrt();
-                *systematic.get_mut(error) += change.clamp(-limit, limit);
+                *systematic.get_mut(error) += change.clamp(-max_change, max_change);
             } else {
-                *systematic.get_mut(error) = initial.get(error);
+                *systematic.get_mut(error) = initial_errors.get(error);
             }
         }
         systematic.mount_yaw = wrap_angle(systematic.mount_yaw);
@@ -231,7 +235,7 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
     unreachable!("the last round returns")
 }
 
-/// Fits the variances with only these errors corrected. Also returns all legs, because the fit may use only a part of them.
+/// Fits the variances with only the given errors corrected. Also returns the sample of all legs, because the fit may use only some of them.
 pub(super) fn fit_corrected(
     log: &Log,
     options: &Options,
@@ -244,7 +248,7 @@ pub(super) fn fit_corrected(
     let mut parameters = *start;
     let mut last_fit = None;
     for round in 1..=MAX_ROUNDS {
-        sample.observe(corrected, parameters[POSITION_VARIANCE].sqrt());
+        sample.update_observations(corrected, parameters[POSITION_VARIANCE].sqrt());
         if !sample.mark_outliers(&parameters, 1.0, round) && last_fit.is_some() {
             break;
         }
@@ -256,7 +260,7 @@ pub(super) fn fit_corrected(
     let mut all_legs = sample.clone();
     if legs.len() > sample.legs.len() {
         all_legs = Sample::new(legs, mask, options);
-        all_legs.observe(corrected, parameters[POSITION_VARIANCE].sqrt());
+        all_legs.update_observations(corrected, parameters[POSITION_VARIANCE].sqrt());
         all_legs.mark_outliers(&parameters, 1.0, 1);
     }
     let fit = Fit { sample, residuals, maximum, stds: [0.0; ERROR_COUNT] };

@@ -10,20 +10,18 @@ use serde::{Deserialize, Serialize};
 /// Quantile 0.975 of the standard normal distribution.
 pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 
-/// Maximum number of steps of the search for an end of an interval. Few are enough, because the square root of the deviance is nearly
-/// linear.
-const MAX_STEPS: usize = 12;
+/// Maximum number of steps of the search for an end of an interval. The square root of the deviance is nearly linear, so few are needed.
+const MAX_SEARCH_STEPS: usize = 12;
 
 /// Relative tolerance on the square root of the deviance at an end of an interval.
-const TOLERANCE: f64 = 0.02;
+const ROOT_TOLERANCE: f64 = 0.02;
 
 /// Returns the function that computes the 95 % interval of a parameter. The interval of a parameter without information is [0, ∞].
 ///
-/// At an end, twice the log-likelihood is t² below its maximum, with t the quantile of Student's t. The other parameters follow
-/// the ridge of the likelihood, which the information matrix I predicts. The distance from the maximum to the end is multiplied by
-/// √(S/I⁻¹) if that is above 1, with S the sandwich covariance over blocks of legs. A block has ∛n of the n legs, and more where
-/// errors persist. If the errors of neighbouring legs have the correlation ρ, the squares of the errors have the correlation ρ².
-/// Standard errors are therefore multiplied by at least √((1 + ρ²)/(1 − ρ²)).
+/// At an end, twice the log-likelihood is t² below its maximum, with t the quantile of Student's t. The other parameters follow the ridge of the
+/// likelihood, which the information matrix I predicts. The distance from the maximum to the end is multiplied by √(S/I⁻¹) if that is above 1,
+/// with S the sandwich covariance over blocks of legs. A block has ∛n of the n legs, and more if errors persist. If the errors of neighbouring
+/// legs have the correlation ρ, their squares have the correlation ρ². Distances are therefore multiplied by at least √((1 + ρ²)/(1 − ρ²)).
 pub(super) fn intervals(
     Fit { residuals, maximum, .. }: &Fit,
     correlation: f64,
@@ -50,36 +48,38 @@ pub(super) fn intervals(
         let guess = threshold / (1.0 / variance).sqrt();
         let end = |sign: f64| profile_end(residuals, maximum, &ridges, parameter, sign * guess, threshold);
         let sandwich: f64 = block_scores.iter().map(|score| covariances.dot(score).powi(2)).sum();
-        let widening = ((sandwich / variance).sqrt() * quantile / NORMAL_95).max(variance_factor.sqrt());
-        [(estimate + widening * end(-1.0)).max(0.0), estimate + widening * end(1.0)]
+        let widening_factor =
+            ((sandwich / variance).sqrt() * quantile / NORMAL_95).max(variance_factor.sqrt());
+        [(estimate + widening_factor * end(-1.0)).max(0.0), estimate + widening_factor * end(1.0)]
     }
 }
 
-/// Returns the ridges of the likelihood: the change of all parameters when one of them changes by 1. On the first one, variances of 0 stay 0;
-/// on the second one, where there are α's of 0, these rise.
+/// Returns the ridges of the likelihood: the predicted change of all parameters when one of them changes by 1. On the first ridge variances of 0
+/// stay 0. If an α is 0, there is a second ridge, on which α's of 0 change too.
 fn ridges(maximum: &Maximum, parameter: usize) -> Vec<Parameters> {
     let parameters = maximum.parameters;
     let has_zero_alpha = (0..MAX_ALPHAS).any(|alpha| maximum.free[alpha] && parameters[alpha] == 0.0);
-    let raised = has_zero_alpha.then(|| unknown_alphas(&parameters));
+    let raised_parameters = has_zero_alpha.then(|| with_positive_alphas(&parameters));
     let ridge = |parameters| {
         let covariances = maximum.covariances(&parameters, parameter);
         let variance = covariances[parameter];
         if variance > 0.0 { covariances / variance } else { Parameters::ith(parameter, 1.0) }
     };
-    let mut ridges: Vec<Parameters> = [Some(parameters), raised].into_iter().flatten().map(ridge).collect();
+    let mut ridges: Vec<Parameters> =
+        [Some(parameters), raised_parameters].into_iter().flatten().map(ridge).collect();
     ridges.dedup();
     ridges
 }
 
-/// Returns the parameters with α's of 0 replaced by small positive ones, so that they count as unknown like the others.
-fn unknown_alphas(parameters: &Parameters) -> Parameters {
+/// Returns the parameters with α's of 0 replaced by tiny positive ones, so that they do not count as fixed.
+fn with_positive_alphas(parameters: &Parameters) -> Parameters {
     Parameters::from_fn(
         |j, _| if j < MAX_ALPHAS { parameters[j].max(f64::MIN_POSITIVE) } else { parameters[j] },
     )
 }
 
-/// Returns the distance of a parameter from its estimate to an end of its interval, from a guess of it. If the likelihood does not fall
-/// enough down to a parameter of 0, the interval ends there.
+/// Returns the distance from the estimate of a parameter to an end of its interval. The search starts at `guess`, whose sign selects the end. If
+/// the deviance stays below its threshold down to a parameter of 0, the interval ends at 0.
 fn profile_end(
     residuals: &Residuals,
     maximum: &Maximum,
@@ -89,22 +89,22 @@ fn profile_end(
     threshold: f64,
 ) -> f64 {
     let estimate = maximum.parameters[parameter];
-    let excess_root = |distance: f64| {
-        let value_along = |ridge: &Parameters| {
+    let deviance_root = |distance: f64| {
+        let log_likelihood_along = |ridge: &Parameters| {
             let parameters = (maximum.parameters + ridge * distance).map(|parameter| parameter.max(0.0));
             residuals.least_squares(&parameters).log_likelihood
         };
-        let best_value = ridges.iter().map(value_along).fold(f64::NEG_INFINITY, f64::max);
-        (2.0 * (maximum.expansion.log_likelihood() - best_value)).max(0.0).sqrt()
+        let max_log_likelihood = ridges.iter().map(log_likelihood_along).fold(f64::NEG_INFINITY, f64::max);
+        (2.0 * (maximum.expansion.log_likelihood() - max_log_likelihood)).max(0.0).sqrt()
     };
     let mut distance = guess.max(-estimate);
     if distance == 0.0 {
         return distance;
     }
     let (mut inside, mut outside) = (0.0, None::<f64>);
-    for _ in 0..MAX_STEPS {
-        let root = excess_root(distance);
-        if (root / threshold - 1.0).abs() < TOLERANCE || distance == -estimate && root <= threshold {
+    for _ in 0..MAX_SEARCH_STEPS {
+        let root = deviance_root(distance);
+        if (root / threshold - 1.0).abs() < ROOT_TOLERANCE || distance == -estimate && root <= threshold {
             break;
         }
         if root < threshold {
@@ -146,25 +146,27 @@ pub enum NotIdentifiable {
 /// Fisher information below which an α is not identifiable. An information of 4 is a standard error of 0.5, far above any plausible α.
 const MIN_INFORMATION: f64 = 4.0;
 
-/// Least fraction of the information on an α that is left if the other α's are estimated too. With less, the ratio of turn and distance
-/// varies by less than a seventh between legs.
+/// Minimum ratio of the information on an α with and without the other α's being estimated too. Below it, the ratio of turn to distance varies
+/// by less than a seventh between legs.
 const MIN_FREE_INFORMATION: f64 = 0.02;
 
-/// Number of legs with a motion that identify an α against an exact reference: its standard error is then a fifth.
+/// Minimum number of legs with a motion that identify an α against an exact reference. Its standard error is then 20 %.
 const MIN_MOVING_LEGS: usize = 50;
 
 /// Returns, for each α, the reason why it is not identifiable; None if it is identifiable.
 pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<NotIdentifiable>> {
     let motion_model = sample.options.model;
-    let without_zeros = unknown_alphas(&maximum.parameters);
+    let positive_parameters = with_positive_alphas(&maximum.parameters);
     let reason_for = |alpha: usize| {
-        let marginal = maximum.expansion.information[(alpha, alpha)];
-        let variance = maximum.covariances(&without_zeros, alpha)[alpha];
-        let conditional = if variance > 0.0 { 1.0 / variance } else { 0.0 };
-        if conditional >= MIN_INFORMATION && conditional >= MIN_FREE_INFORMATION * marginal {
+        let marginal_information = maximum.expansion.information[(alpha, alpha)];
+        let variance = maximum.covariances(&positive_parameters, alpha)[alpha];
+        let free_information = if variance > 0.0 { 1.0 / variance } else { 0.0 };
+        if free_information >= MIN_INFORMATION
+            && free_information >= MIN_FREE_INFORMATION * marginal_information
+        {
             return None;
         }
-        if marginal >= MIN_INFORMATION {
+        if marginal_information >= MIN_INFORMATION {
             return Some(NotIdentifiable::Collinear);
         }
         let uses_turn = motion_model.grows_with_turn(alpha);
@@ -173,9 +175,9 @@ pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<N
                 motion_model.component_alphas()[k].contains(&alpha) && !observation.residuals[k].is_nan()
             };
             let motion = &observation.expected;
-            let moves =
+            let has_motion =
                 if uses_turn { turn(motion) > MIN_TURN_ANGLE } else { distance(motion) > MIN_DRIVE_DISTANCE };
-            moves && (0..3).any(is_observed)
+            has_motion && (0..3).any(is_observed)
         };
         Some(match sample.observations.iter().filter(uses_alpha).count() {
             count if count >= MIN_MOVING_LEGS => NotIdentifiable::ReferenceTooNoisy,

@@ -1,4 +1,4 @@
-//! Cutting a log into legs. A leg is as long as the motion between two updates of the filter that will use the α's.
+//! Legs: sections of a log, each as long as the motion between two updates of the filter that will use the α's.
 //!
 //! Fitted α's depend on the length of the legs. In the models the variance of a drive grows with the square of its length, but that of real
 //! wheels mostly with the length itself.
@@ -10,8 +10,8 @@ use crate::models::MAX_SPIN_DISTANCE;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Relative tolerance on the length of a leg. Steps of equal length reach the limit exactly, except for rounding. Text with six decimals
-/// rounds by less than this tolerance.
+/// Relative tolerance on the length of a leg. Equal steps reach the limit exactly, except for rounding. The rounding of text with six decimals
+/// is smaller than this tolerance.
 const LENGTH_TOLERANCE: f64 = 1e-5;
 
 /// Condition on which a leg ends.
@@ -41,18 +41,18 @@ impl LegLength {
     pub const AMCL_ANGLE: f64 = 0.2;
 
     /// Returns the length of a leg divided by the length at which it should end.
-    pub(super) fn ratio(&self, [start, end]: &[SE2; 2], lasted: f64) -> f64 {
+    pub(super) fn ratio(&self, [start, end]: &[SE2; 2], elapsed: f64) -> f64 {
         match *self {
             Self::Displacement { distance, angle } => ((end.x() - start.x()).abs() / distance)
                 .max((end.y() - start.y()).abs() / distance)
                 .max(wrap_angle(end.theta() - start.theta()).abs() / angle),
-            Self::Duration { duration } => lasted / duration,
+            Self::Duration { duration } => elapsed / duration,
         }
     }
 
     /// Returns true if a leg ends here: beyond the limit of a displacement, or at the limit of a duration, up to [`LENGTH_TOLERANCE`].
-    fn is_complete(&self, ends: &[SE2; 2], lasted: f64) -> bool {
-        let excess_ratio = self.ratio(ends, lasted) - 1.0;
+    fn is_complete(&self, ends: &[SE2; 2], elapsed: f64) -> bool {
+        let excess_ratio = self.ratio(ends, elapsed) - 1.0;
         match self {
             Self::Displacement { .. } => excess_ratio > LENGTH_TOLERANCE,
             Self::Duration { .. } => excess_ratio >= -LENGTH_TOLERANCE,
@@ -71,8 +71,8 @@ pub struct Leg {
     pub velocities: [Vector3<f64>; 2],
     /// Poses at start and end in the frame of the reference.
     pub reference: [SE2; 2],
-    /// Variances of the reference's error at start and end over that of one sample. A pose that is interpolated between two samples has less
-    /// than 1.
+    /// Variances of the reference's error at start and end, divided by that of one sample. For a pose interpolated between two samples the ratio
+    /// is below 1.
     pub(super) interpolation_variances: [f64; 2],
     /// True if the leg starts at the reference pose at which the leg before it ends.
     pub follows: bool,
@@ -91,9 +91,9 @@ impl Leg {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct LostLegs {
-    /// Legs with an end at which the reference has no pose.
+    /// Legs for which the reference has no pose at one end.
     pub without_reference: usize,
-    /// Legs within which the pose of a trajectory may have jumped.
+    /// Legs across a break, at which the pose of a trajectory may have jumped.
     pub across_breaks: usize,
     /// Legs that a pause stretched to more than twice the length in the options.
     pub across_pauses: usize,
@@ -108,7 +108,7 @@ impl LostLegs {
     }
 }
 
-/// Distance (m) and turn (rad) of a leg above which its motion counts as a drive, and as a turn.
+/// Distance (m) above which the motion of a leg counts as a drive, and turn (rad) above which it counts as a turn.
 pub(super) const MIN_DRIVE_DISTANCE: f64 = 0.05;
 pub(super) const MIN_TURN_ANGLE: f64 = 0.1;
 
@@ -136,7 +136,7 @@ const SPARSE_RATIO: f64 = 1.5;
 
 /// One end of a leg. Its fields have the meaning of the fields of [`Leg`].
 #[derive(Clone, Copy, Debug)]
-struct End {
+struct LegEnd {
     time: f64,
     odometry: SE2,
     velocity: Vector3<f64>,
@@ -149,22 +149,21 @@ impl Drive<'_> {
         self.reference.median_period() > SPARSE_RATIO * self.odometry.median_period()
     }
 
-    /// Returns the end of a leg at a sample of the odometry, or next to it where the reference has fewer samples.
+    /// Returns the end of a leg at a sample of the odometry, or at the nearest sample of the reference if that is sparse.
     ///
-    /// Ends are at samples of the sparser trajectory. A pose interpolated between its samples would mix the noise of two neighbouring
-    /// legs.
-    fn end_at(&self, sample: usize, clock_offset: f64) -> Option<End> {
+    /// Legs end at samples of the sparser trajectory. A pose interpolated between them would mix the noise of two neighbouring legs.
+    fn end_at(&self, sample: usize, clock_offset: f64) -> Option<LegEnd> {
         let Self { odometry, reference } = *self;
         let (time, pose) = odometry.sample(sample);
         if !self.has_sparse_reference() {
             let velocity = odometry.velocity(sample);
             let (reference, interpolation_variance) = reference.interpolated(time + clock_offset)?;
-            return Some(End { time, odometry: pose, velocity, reference, interpolation_variance });
+            return Some(LegEnd { time, odometry: pose, velocity, reference, interpolation_variance });
         }
         let (reference_time, reference) = reference.sample(reference.nearest(time + clock_offset)?);
         let odometry_time = reference_time - clock_offset;
         let velocity = odometry.velocity(odometry.nearest(odometry_time)?);
-        Some(End {
+        Some(LegEnd {
             time: odometry_time,
             odometry: odometry.pose_at(odometry_time)?,
             velocity,
@@ -189,41 +188,47 @@ impl Drive<'_> {
     }
 
     /// Adds the legs of this drive to `legs`, and the numbers of omitted legs to `lost`. Each leg begins where the previous one ended.
-    pub(super) fn cut(&self, length: LegLength, clock_offset: f64, legs: &mut Vec<Leg>, lost: &mut LostLegs) {
+    pub(super) fn cut_into_legs(
+        &self,
+        length: LegLength,
+        clock_offset: f64,
+        legs: &mut Vec<Leg>,
+        lost: &mut LostLegs,
+    ) {
         let Self { odometry, reference } = *self;
-        // Time and odometry pose at the start of the present leg, and the reference there, if it has a pose.
-        let mut start: Option<((f64, SE2), Option<End>)> = None;
-        let (mut follows_previous, mut pause_seen) = (false, false);
+        // Start of the present leg: time and pose of the odometry, and the end of the previous leg if the reference has a pose there.
+        let mut start: Option<((f64, SE2), Option<LegEnd>)> = None;
+        let (mut follows_previous, mut has_pause) = (false, false);
         for (sample, (time, pose)) in odometry.samples().enumerate() {
             if odometry.has_break_before(sample) && start.take().is_some() {
                 lost.across_breaks += 1;
             }
             let Some(((start_time, start_pose), leg_start)) = start else {
                 start = Some(((time, pose), self.end_at(sample, clock_offset)));
-                (follows_previous, pause_seen) = (false, false);
+                (follows_previous, has_pause) = (false, false);
                 continue;
             };
-            pause_seen |= odometry.has_gap_before(sample);
+            has_pause |= odometry.has_gap_before(sample);
             let ends = [start_pose, pose];
             if !length.is_complete(&ends, time - start_time) {
                 continue;
             }
             let leg_end = self.end_at(sample, clock_offset);
             let (Some(from), Some(to)) = (leg_start, leg_end) else {
-                // The leg stays open until it is too long: the reference may come back.
+                // The leg stays open until it is too long, because the reference may have a pose again.
                 if leg_start.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
                     lost.without_reference += 1;
                     (start, follows_previous) = (Some(((time, pose), leg_end)), false);
                 }
                 continue;
             };
-            // The nearest sample of a sparse reference may still be that at the start of the leg, which then stays open.
+            // The nearest sample of a sparse reference may still be the one at the start. The leg then stays open.
             if to.time <= from.time {
                 continue;
             }
             start = Some(((time, pose), Some(to)));
             let (has_paused, had_followed) =
-                (std::mem::take(&mut pause_seen), std::mem::replace(&mut follows_previous, true));
+                (std::mem::take(&mut has_pause), std::mem::replace(&mut follows_previous, true));
             let motion = from.odometry.between(&to.odometry);
             if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
                 lost.across_breaks += 1;
@@ -260,6 +265,6 @@ pub fn split_into_legs(
     clock_offset: f64,
 ) -> (Vec<Leg>, LostLegs) {
     let (mut legs, mut lost_legs) = (Vec::new(), LostLegs::default());
-    Drive { odometry, reference }.cut(length, clock_offset, &mut legs, &mut lost_legs);
+    Drive { odometry, reference }.cut_into_legs(length, clock_offset, &mut legs, &mut lost_legs);
     (legs, lost_legs)
 }

@@ -5,7 +5,7 @@
 //! - eᵢ the error of the reference at the end of the leg, of covariance R = diag(σ_p², σ_p², σ_θ²),
 //! - β the systematic errors.
 //!
-//! A pose ends one leg and starts the next. So V = Cov(r) is block tridiagonal:
+//! A reference pose ends one leg and starts the next, so that V = Cov(r) is block tridiagonal. The log-likelihood is
 //!
 //! ℓ = −½ [ln|V| + ln|XᵀV⁻¹X| + rᵀV⁻¹r − rᵀV⁻¹X (XᵀV⁻¹X)⁻¹ XᵀV⁻¹r − (N − q) ln 2π],
 //!
@@ -47,7 +47,7 @@ type ErrorVector = SVector<f64, ERROR_COUNT>;
 /// Minimum standard deviation of a residual (rad, m or their rates). It keeps the likelihood of a log without noise finite.
 const MIN_STD: f64 = 1e-7;
 
-/// Largest absolute value of residuals and their derivatives. Legs with larger ones are not used.
+/// Maximum absolute value of residuals and their derivatives. Legs with larger values are not used.
 const MAX_ENTRY: f64 = 1e30;
 
 /// Residuals of one leg in the form that the likelihood needs.
@@ -67,7 +67,7 @@ pub(super) struct Term {
 #[derive(Clone, Debug)]
 pub(super) struct Residuals {
     terms: Rc<Vec<Term>>,
-    /// Indices of the terms that are used. Each has true if its leg starts at the reference pose at which the leg before it ends.
+    /// Indices of the terms that are used, each with true if its leg starts at the reference pose at which the previous leg ends.
     chosen: Vec<(usize, bool)>,
     /// Number of observed components of the used terms.
     count: usize,
@@ -133,7 +133,7 @@ impl Term {
         let residuals = observation.residuals;
         let error_jacobian =
             observation.jacobian * corrected.motion_jacobian(model, leg, &observation.expected);
-        // Squares of huge numbers would overflow: such a leg is not used.
+        // A leg with huge numbers is not used, because their squares would overflow.
         if residuals.iter().chain(&error_jacobian).any(|entry| entry.abs() > MAX_ENTRY) {
             let [start, end] = [Matrix3::zeros(); 2];
             return Self {
@@ -181,7 +181,7 @@ impl FilterResult {
 }
 
 impl Innovation {
-    /// Returns the leg under the fit, with these systematic errors.
+    /// Returns the innovation without the part that these systematic errors explain, with its standard deviations.
     pub fn leg_fit(&self, errors: &ErrorVector, is_outlier: bool) -> LegFit {
         let innovation = residual_without_errors(&self.columns, errors);
         let stds = self.variances.map(f64::sqrt);
@@ -241,14 +241,14 @@ impl Residuals {
         let (mut log_det, mut gram) = (0.0, Gram::ZERO);
         let initial_state = (JacobianAndResidual::ZERO, Matrix3::from_diagonal(&reference_variances));
         let (mut mean, mut prior) = initial_state;
-        // A product is cheaper than as many logarithms.
+        // Determinants are multiplied, because one logarithm is cheaper than many.
         let mut det = 1.0;
         for (term, follows) in self.terms() {
             if !follows {
                 (mean, prior) = initial_state;
             }
             let columns = term.columns.with_added(&mean.left_multiplied(&-term.start));
-            let scaled_end = scaled_columns(&term.end, &reference_variances);
+            let scaled_end = with_scaled_columns(&term.end, &reference_variances);
             let mut covariance = product(&product(&term.start, &prior), &term.start.transpose())
                 + product(&scaled_end, &term.end.transpose());
             let wheels = self.model.wheel_variances(&term.coefficients, parameters);
@@ -265,7 +265,7 @@ impl Residuals {
             gram.add_product(&columns, &columns.left_multiplied(&weight));
             mean = columns.left_multiplied(&gain);
             prior = Matrix3::from_diagonal(&reference_variances)
-                - scaled_columns(&product(&gain, &term.end), &reference_variances);
+                - with_scaled_columns(&product(&gain, &term.end), &reference_variances);
             if let Some(innovations) = &mut innovations {
                 let variance = |k: usize| if term.observed[k] { covariance[(k, k)] } else { f64::NAN };
                 let variances = [variance(0), variance(1), variance(2)];
@@ -292,7 +292,7 @@ impl Residuals {
         self.filter(parameters, None)
     }
 
-    /// Returns the innovation of each leg, and the systematic errors that explain a part of them.
+    /// Returns the innovation of each leg, and the least-squares estimate of the systematic errors.
     pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
         let mut innovations = Vec::with_capacity(self.chosen.len());
         let least_squares = self.filter(parameters, Some(&mut innovations));
@@ -313,10 +313,10 @@ impl Residuals {
             information: Information::zeros(),
             scores: vec![Parameters::zeros(); self.len()],
         };
-        // For each leg: P r, and two sums at the reference poses of its start and its end. A sum has Bᵀ P r of the leg that ends there,
-        // and Aᵀ P r of the leg that starts there. That of the start is 0 if another leg ends there, because that leg has it.
+        // For each leg: P r, and its projections on the errors of the reference poses at start and end. The projection at a pose is Bᵀ P r of
+        // the leg that ends there, plus Aᵀ P r of the leg that starts there. It is stored with the leg that ends there, if there is one.
         let mut projected = vec![[Vector3::zeros(); 3]; self.len()];
-        // V⁻¹[X r] of the next leg, its block on the diagonal of V⁻¹, and its A.
+        // V⁻¹[X r] of the next leg in the log, its block on the diagonal of V⁻¹, and its Jacobian A.
         let mut next_leg: Option<(JacobianAndResidual, Matrix3<f64>, Matrix3<f64>)> = None;
         let innovations = &expansion.filtered.innovations;
         for (i, ((term, follows), innovation)) in self.terms().zip(innovations).enumerate().rev() {
@@ -378,7 +378,8 @@ impl Residuals {
         projected: &[[Vector3<f64>; 3]],
         covariance: &ErrorMatrix,
     ) -> Information {
-        let (mut gram, mut cross) = (WideMatrix::<PARAMETER_COUNT>::ZERO, WideMatrix::<ERROR_COUNT>::ZERO);
+        let (mut gram, mut cross_products) =
+            (WideMatrix::<PARAMETER_COUNT>::ZERO, WideMatrix::<ERROR_COUNT>::ZERO);
         let (mut mean, mut pose) = (WideMatrix::<3>::ZERO, Vector3::zeros());
         let alphas = self.model.component_alphas();
         for (((term, follows), innovation), [projected_noise, start, end]) in
@@ -398,28 +399,28 @@ impl Residuals {
                 }
             }
             columns = columns.with_added(&mean.left_multiplied(&-term.start));
-            let weighted = columns.left_multiplied(&innovation.weight);
-            gram.add_product(&columns, &weighted);
-            cross.add_product(&innovation.columns, &weighted);
+            let weighted_columns = columns.left_multiplied(&innovation.weight);
+            gram.add_product(&columns, &weighted_columns);
+            cross_products.add_product(&innovation.columns, &weighted_columns);
             mean = columns.left_multiplied(&innovation.gain);
             pose = *end;
         }
         let gram: Information = gram.block(0);
-        let cross_block: SMatrix<f64, ERROR_COUNT, PARAMETER_COUNT> = cross.block(0);
+        let cross_block: SMatrix<f64, ERROR_COUNT, PARAMETER_COUNT> = cross_products.block(0);
         (gram - cross_block.transpose() * covariance * cross_block) * 0.5
     }
 }
 
-/// Multiplies the columns of a matrix by the numbers of a vector.
+/// Returns a matrix whose columns are multiplied by the numbers of a vector.
 #[inline(always)]
-fn scaled_columns(matrix: &Matrix3<f64>, factors: &Vector3<f64>) -> Matrix3<f64> {
-    let mut scaled = *matrix;
+fn with_scaled_columns(matrix: &Matrix3<f64>, factors: &Vector3<f64>) -> Matrix3<f64> {
+    let mut scaled_matrix = *matrix;
     for column in 0..3 {
         for row in 0..3 {
-            scaled[(row, column)] *= factors[column];
+            scaled_matrix[(row, column)] *= factors[column];
         }
     }
-    scaled
+    scaled_matrix
 }
 
 /// Returns the variances of the reference's error: the diagonal of its covariance R.
@@ -427,12 +428,12 @@ pub(super) fn reference_variances(parameters: &Parameters) -> Vector3<f64> {
     REFERENCE_VARIANCES.map(|variance| parameters[variance]).into()
 }
 
-/// Returns the inverse of the rows and columns in the mask, 0 elsewhere, and the logarithm of their determinant.
+/// Returns the inverse of the submatrix that the mask selects, with 0 elsewhere, and the logarithm of its determinant.
 fn masked_inverse(information: &ErrorMatrix, mask: &ErrorMask) -> (ErrorMatrix, f64) {
     let (mut inverse, mut log_det) = (*information, 0.0);
     for pivot in (0..ERROR_COUNT).filter(|pivot| mask[*pivot]) {
         log_det += libm::log(inverse[(pivot, pivot)].max(f64::MIN_POSITIVE));
-        sweep_variable(&mut inverse, pivot);
+        sweep(&mut inverse, pivot);
     }
     for i in 0..ERROR_COUNT {
         for j in 0..ERROR_COUNT {
@@ -444,29 +445,31 @@ fn masked_inverse(information: &ErrorMatrix, mask: &ErrorMask) -> (ErrorMatrix, 
     (inverse, log_det)
 }
 
-/// Returns the systematic errors that are identifiable. They are chosen one after the other, the one with the smallest standard error
-/// first. The choice ends when all other errors, estimated together with the chosen ones, have too large a standard error.
+/// Returns the mask of the systematic errors that are identifiable. Errors are added one after the other, the one with the smallest standard error
+/// relative to its limit first. The search ends when each other error, estimated together with the added ones, would exceed its limit.
 pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
     let (mut swept_information, mut chosen) = (*information, [false; ERROR_COUNT]);
     loop {
-        let significance = |error: usize| {
+        let information_ratio_of = |error: usize| {
             let error_limit = SystematicError::ALL[error].identifiability_limit();
             swept_information[(error, error)] * error_limit * error_limit
         };
-        let candidates =
-            (0..ERROR_COUNT).filter(|error| !chosen[*error]).map(|error| (error, significance(error)));
-        let Some((pivot, _)) =
-            candidates.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, known)| *known > 1.0)
+        let candidates = (0..ERROR_COUNT)
+            .filter(|error| !chosen[*error])
+            .map(|error| (error, information_ratio_of(error)));
+        let Some((pivot, _)) = candidates
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .filter(|(_, information_ratio)| *information_ratio > 1.0)
         else {
             return chosen;
         };
         chosen[pivot] = true;
-        sweep_variable(&mut swept_information, pivot);
+        sweep(&mut swept_information, pivot);
     }
 }
 
-/// Sweeps a symmetric matrix by one of its variables (Gauss and Jordan).
-fn sweep_variable(matrix: &mut ErrorMatrix, pivot: usize) {
+/// Applies the sweep operator (a Gauss–Jordan step) to one variable of a symmetric matrix.
+fn sweep(matrix: &mut ErrorMatrix, pivot: usize) {
     let pivot_value = matrix[(pivot, pivot)];
     let row = matrix.row(pivot) / pivot_value;
     for i in (0..ERROR_COUNT).filter(|i| *i != pivot) {

@@ -3,7 +3,7 @@
 //! In WebAssembly a call of a general product takes longer than the product itself. Products are therefore inlined, except two whose
 //! code is long. Products of wide matrices use explicit SIMD vectors.
 
-// Iterators over two arrays are compiled to more code than indices.
+// Loops over indices compile to less code than iterators over two arrays.
 #![allow(clippy::needless_range_loop)]
 
 use nalgebra::{Matrix3, SMatrix};
@@ -14,7 +14,7 @@ pub(super) const WIDTH: usize = 8;
 
 const VECTORS_PER_ROW: usize = WIDTH / 2;
 
-/// Matrix of `ROWS` rows and [`WIDTH`] columns, by rows.
+/// Matrix of `ROWS` rows and [`WIDTH`] columns, stored row by row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WideMatrix<const ROWS: usize>([[f64x2; VECTORS_PER_ROW]; ROWS]);
 
@@ -75,7 +75,7 @@ impl<const ROWS: usize> WideMatrix<ROWS> {
 }
 
 impl WideMatrix<3> {
-    /// Returns the product of a matrix and this one.
+    /// Returns the product `left` · `self`.
     #[inline(never)]
     pub fn left_multiplied(&self, left: &Matrix3<f64>) -> Self {
         let mut product = Self::ZERO;

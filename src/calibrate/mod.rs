@@ -66,7 +66,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let systematic = fit_systematic(&log, options)?;
     let errors = systematic.sample.systematic;
     let persistence = persistence(&systematic);
-    // Noise that is correlated between legs increases the standard errors, as if there were fewer legs.
+    // Correlated errors of neighbouring legs increase the standard errors, as if there were fewer legs.
     let correlation = persistence.correlation.value;
     let std_factor = ((1.0 + correlation) / (1.0 - correlation)).sqrt();
     let systematic_stds = systematic.stds.map(|std| (std > 0.0).then_some(std_factor * std));
@@ -141,7 +141,7 @@ fn neighbour_correlation(Fit { sample, maximum, .. }: &Fit) -> (f64, f64) {
 fn persistence(fit: &Fit) -> Persistence {
     let (correlation, std) = neighbour_correlation(fit);
     let clamp = |value: f64| value.clamp(0.0, 0.95);
-    // A correlation that chance can explain counts as 0.
+    // A correlation that is not significant counts as 0.
     let value = if correlation > NORMAL_95 * std { clamp(correlation) } else { 0.0 };
     let interval = [clamp(correlation - NORMAL_95 * std), clamp(correlation + NORMAL_95 * std)];
     let legs = &fit.sample.legs;

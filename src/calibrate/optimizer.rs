@@ -14,15 +14,15 @@ pub(super) struct Maximum {
     pub free: FreeMask,
 }
 
-/// Minimum gain of log-likelihood (nats): a step with a smaller predicted gain is not tried, and a smaller actual gain ends the search.
+/// Minimum gain of log-likelihood (nats). A step with a smaller predicted gain is not tried, and a smaller actual gain ends the search.
 const MIN_GAIN: f64 = 1e-5;
 
 const MAX_STEPS: usize = 60;
 
-/// Number of halvings of a scoring step before a minorized step is taken instead.
+/// Maximum number of halvings of a scoring step. A step of the minorize-maximize algorithm then replaces it.
 const MAX_HALVINGS: usize = 4;
 
-/// Returns the maximum by Fisher scoring with the average information, projected to where no variance is negative.
+/// Returns the maximum, by Fisher scoring with the average information. Negative variances are clamped to 0.
 ///
 /// A step that does not increase the likelihood is replaced by θⱼ √(rᵀP Vⱼ P r / tr(P Vⱼ)), which always increases it (Zhou, Hu, Qiao,
 /// Cho and Lange 2019).
@@ -31,17 +31,17 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask
     let mut expansion = residuals.expansion(residuals.filtered(&parameters));
     for _ in 0..MAX_STEPS {
         let Some(step) = scoring_step(&parameters, &expansion, free) else { break };
-        let mut accepted = None;
+        let mut accepted_step = None;
         for halving in 0..=MAX_HALVINGS {
             let candidate =
                 (parameters + step * 0.5_f64.powi(halving as i32)).map(|parameter| parameter.max(0.0));
             let filtered = residuals.filtered(&candidate);
             if filtered.least_squares.log_likelihood > expansion.log_likelihood() {
-                accepted = Some((candidate, residuals.expansion(filtered)));
+                accepted_step = Some((candidate, residuals.expansion(filtered)));
                 break;
             }
         }
-        let (next, next_expansion) = accepted.unwrap_or_else(|| {
+        let (next, next_expansion) = accepted_step.unwrap_or_else(|| {
             let candidate = minorized_step(&parameters, &expansion, free);
             (candidate, residuals.expansion(residuals.filtered(&candidate)))
         });
@@ -63,21 +63,24 @@ fn scoring_step(parameters: &Parameters, expansion: &Expansion, free: &FreeMask)
     let information = &expansion.information;
     let is_free =
         |j: &usize| free[*j] && information[(*j, *j)] > 0.0 && (parameters[*j] > 0.0 || score[*j] > 0.0);
-    let mut active: Vec<usize> = (0..PARAMETER_COUNT).filter(is_free).collect();
+    let mut active_parameters: Vec<usize> = (0..PARAMETER_COUNT).filter(is_free).collect();
     loop {
-        let (factor, scale) = scaled_cholesky(information, &active, [1e-9, 1e-9])?;
-        let gradient = DVector::from_fn(active.len(), |a, _| score[active[a]] / scale[a]);
-        let steps = factor.solve(&gradient);
-        // A variance of 0 that would become negative stays 0, and the step of the others is computed without it.
-        if let Some(stuck) = (0..active.len()).find(|a| parameters[active[*a]] == 0.0 && steps[*a] < 0.0) {
-            active.remove(stuck);
+        let (cholesky, scales) = scaled_cholesky(information, &active_parameters, [1e-9, 1e-9])?;
+        let gradient =
+            DVector::from_fn(active_parameters.len(), |a, _| score[active_parameters[a]] / scales[a]);
+        let steps = cholesky.solve(&gradient);
+        // A variance of 0 that would become negative stays 0, and the step of the others is computed again without it.
+        if let Some(blocked) =
+            (0..active_parameters.len()).find(|a| parameters[active_parameters[*a]] == 0.0 && steps[*a] < 0.0)
+        {
+            active_parameters.remove(blocked);
             continue;
         }
         if 0.5 * gradient.dot(&steps) < MIN_GAIN {
             return None;
         }
         let mut step = Parameters::zeros();
-        active.iter().enumerate().for_each(|(a, j)| step[*j] = steps[a] / scale[a]);
+        active_parameters.iter().enumerate().for_each(|(a, j)| step[*j] = steps[a] / scales[a]);
         return Some(step);
     }
 }
@@ -86,13 +89,13 @@ fn scoring_step(parameters: &Parameters, expansion: &Expansion, free: &FreeMask)
 fn minorized_step(parameters: &Parameters, expansion: &Expansion, free: &FreeMask) -> Parameters {
     Parameters::from_fn(|j, _| {
         let quadratic_ratio = expansion.quadratic[j] / expansion.trace[j];
-        let is_updated = free[j] && quadratic_ratio.is_finite() && quadratic_ratio >= 0.0;
-        if is_updated { parameters[j] * quadratic_ratio.sqrt() } else { parameters[j] }
+        let can_update = free[j] && quadratic_ratio.is_finite() && quadratic_ratio >= 0.0;
+        if can_update { parameters[j] * quadratic_ratio.sqrt() } else { parameters[j] }
     })
 }
 
-/// Returns the Cholesky factor of the information on some parameters, scaled to a diagonal of 1, and the scales: the square roots of the
-/// diagonal. Parameters differ by orders of magnitude. A relative and an absolute amount are added to the diagonal.
+/// Returns the Cholesky factor of the information on some parameters, scaled to a diagonal of 1 because parameters differ by orders of magnitude.
+/// Also returns the scales: the square roots of the diagonal. A relative and an absolute amount regularize the diagonal.
 fn scaled_cholesky(
     information: &Information,
     parameters: &[usize],
@@ -108,19 +111,23 @@ fn scaled_cholesky(
 
 impl Maximum {
     /// Returns the covariances of one parameter with all parameters: a column of the inverse information matrix over this parameter and the
-    /// free parameters above 0. Other parameters at 0 are fixed, with covariance 0. All are 0 without information on this parameter.
+    /// free parameters above 0. All other parameters count as fixed, with covariance 0. Without information on the parameter all are 0.
     pub fn covariances(&self, parameters: &Parameters, parameter: usize) -> Parameters {
         let information = &self.expansion.information;
-        let active: Vec<usize> = (0..PARAMETER_COUNT)
+        let active_parameters: Vec<usize> = (0..PARAMETER_COUNT)
             .filter(|j| *j == parameter || self.free[*j] && parameters[*j] > 0.0)
             .filter(|j| information[(*j, *j)] > 0.0)
             .collect();
         let mut column = Parameters::zeros();
-        if let Some(place) = active.iter().position(|j| *j == parameter)
-            && let Some((factor, scale)) = scaled_cholesky(information, &active, [1e-12, 0.0])
+        if let Some(position) = active_parameters.iter().position(|j| *j == parameter)
+            && let Some((cholesky, scales)) = scaled_cholesky(information, &active_parameters, [1e-12, 0.0])
         {
-            let steps = factor.solve(&DVector::from_fn(scale.len(), |a, _| f64::from(u8::from(a == place))));
-            active.iter().enumerate().for_each(|(a, j)| column[*j] = steps[a] / (scale[a] * scale[place]));
+            let steps =
+                cholesky.solve(&DVector::from_fn(scales.len(), |a, _| f64::from(u8::from(a == position))));
+            active_parameters
+                .iter()
+                .enumerate()
+                .for_each(|(a, j)| column[*j] = steps[a] / (scales[a] * scales[position]));
         }
         column
     }

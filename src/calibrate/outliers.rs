@@ -16,7 +16,7 @@ const MEDIAN_CHI2: f64 = 2.366;
 const LAST_RETURN_ROUND: usize = 2;
 
 impl Sample {
-    /// Returns the fits of all legs under these parameters. An outlier is computed alone, the inliers along their chain.
+    /// Returns the innovations of all legs under these parameters. Inliers are filtered in sequence, each outlier by itself.
     pub(super) fn leg_fits(&self, parameters: &Parameters) -> Vec<LegFit> {
         let inliers = self.inlier_residuals(0..self.legs.len());
         let terms = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| (leg, false));
@@ -32,7 +32,7 @@ impl Sample {
         self.outliers.iter().filter_map(fit_of_next).collect()
     }
 
-    /// Marks the outliers under these parameters, and returns true if they changed. `gate` is a factor of the gate on the squared distance.
+    /// Marks the outliers under these parameters, and returns true if they changed. `gate` is a factor on the χ² quantile of the gate.
     pub(super) fn mark_outliers(&mut self, parameters: &Parameters, gate: f64, round: usize) -> bool {
         if self.options.outliers == Outliers::Keep {
             return false;

@@ -61,7 +61,7 @@ impl Model {
         self == Self::Odometry(OdometryRule::Omni)
     }
 
-    /// Tells whether an α (index from 0) multiplies the square of a turn or turn rate, and not that of a distance or speed.
+    /// Returns true if an α (index from 0) multiplies the square of a turn or turn rate, and false for that of a distance or speed.
     pub fn grows_with_turn(self, alpha: usize) -> bool {
         match self {
             Self::Odometry(_) => [0, 3].contains(&alpha),
@@ -73,10 +73,10 @@ impl Model {
 /// Residuals of one leg, with the coefficients of their variances and their Jacobian.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observation {
-    /// Executed minus expected motion in the model's coordinates. A component that the leg does not show is NaN: a turn on the spot has
-    /// no first rotation.
+    /// Executed minus expected motion in the model's coordinates. An unobservable component is NaN, for example the first rotation of a turn on
+    /// the spot.
     pub residuals: [f64; 3],
-    /// Factors of the two α's in the variance of each component.
+    /// Coefficients of the two α's in the variance of each component.
     pub coefficients: [[f64; 2]; 3],
     /// Reading in the model's coordinates: rot1, trans, rot2 (rad, m, rad), or v, ω, Δt (m/s, rad/s, s).
     pub reading: [f64; 3],
@@ -112,12 +112,12 @@ impl Observation {
     }
 }
 
-/// Sine of the angle between a leg's displacement and its heading halfway, above which the leg moves sideways. An arc has 0.
+/// Sine of the angle between a leg's displacement and its mean heading, above which the leg moves sideways. It is 0 for an arc.
 const MIN_SIDEWAYS_SINE: f64 = 0.5;
 
 impl Observation {
-    /// Returns true if the reading is a drive to the side of its heading, which the rule takes for large turns. Under Table 5.6 a drive
-    /// backwards is one too. In a turn on the spot the first rotation is only noise; without a first rotation a reading has no direction.
+    /// Returns true if the reading is a drive to the side, which the rule decomposes into large turns. Under Table 5.6 a drive backwards counts
+    /// too. A reading without a first rotation has no direction, and does not count.
     pub(crate) fn moves_sideways(&self, model: Model) -> bool {
         let [rot1, _, rot2] = self.reading;
         let (sin, cos) = libm::sincos(rot1 - 0.5 * wrap_angle(rot1 + rot2));
@@ -130,28 +130,31 @@ impl Observation {
     }
 }
 
-/// Returns the variances of a reading twice: with the first α of each component 1 and the second 0, and with the first 0 and the second 1.
+/// Returns the variances of a reading per unit of the first α of each component, and per unit of the second.
 fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 2] {
     [[1.0, 0.0, 1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0, 0.0]].map(|alphas| rule.variances(reading, &alphas))
 }
 
-/// Returns true if a leg has a direction: neither its length by the reading nor that by the reference (m) is below [`MAX_SPIN_DISTANCE`]. A
-/// linearized direction only needs the first one. The second is negative if the reference saw a motion opposite to the reading.
-fn has_direction(read: f64, executed: f64, is_linear: bool) -> bool {
-    read >= MAX_SPIN_DISTANCE && (is_linear || executed >= MAX_SPIN_DISTANCE)
+/// Returns true if a leg has a direction: its length by the reading and that by the reference (m) are at least [`MAX_SPIN_DISTANCE`]. For a
+/// linearized direction the first is enough. The second is negative if the reference measured a motion opposite to the reading.
+fn has_direction(reading_length: f64, executed_length: f64, is_linear: bool) -> bool {
+    reading_length >= MAX_SPIN_DISTANCE && (is_linear || executed_length >= MAX_SPIN_DISTANCE)
 }
 
-/// Returns the residuals of rot1, trans and rot2; in a turn on the spot the second rotation is the whole turn.
+/// Returns the residuals of rot1, trans and rot2. In a turn on the spot the second rotation is the whole turn.
 fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_linear: bool) -> Observation {
-    let read = OdomDelta::from_poses(&SE2::identity(), &expected);
-    let OdomDelta { rot1, trans, rot2 } = rule.legs(&read);
-    let unit = unit_variances(rule, &read);
-    let [first, along, second] =
-        [unit.map(|unit| unit.rot1.0), unit.map(|unit| unit.trans.0), unit.map(|unit| unit.rot2.0)];
+    let odometry_reading = OdomDelta::from_poses(&SE2::identity(), &expected);
+    let OdomDelta { rot1, trans, rot2 } = rule.legs(&odometry_reading);
+    let variances_per_alpha = unit_variances(rule, &odometry_reading);
+    let [rot1_coefficients, trans_coefficients, rot2_coefficients] = [
+        variances_per_alpha.map(|variances| variances.rot1.0),
+        variances_per_alpha.map(|variances| variances.trans.0),
+        variances_per_alpha.map(|variances| variances.rot2.0),
+    ];
     let (sin, cos) = libm::sincos(rot1);
     let [ahead, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
     let turn_residual = wrap_angle(motion.theta() - rot1 - rot2);
-    let (residuals, coefficients, bearing_row) = if has_direction(read.trans, ahead, is_linear) {
+    let (residuals, coefficients, bearing_row) = if has_direction(odometry_reading.trans, ahead, is_linear) {
         let (bearing_error, length_error) = if is_linear {
             (left / trans, ahead - trans)
         } else {
@@ -159,10 +162,15 @@ fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_li
         };
         let bearing_row = RowVector3::new(-sin, cos, 0.0) / trans;
         let residuals = [bearing_error, length_error, wrap_angle(turn_residual - bearing_error)];
-        (residuals, [first, along, second], bearing_row)
+        (residuals, [rot1_coefficients, trans_coefficients, rot2_coefficients], bearing_row)
     } else {
-        let turn_coefficients = [first[0] + second[0], first[1] + second[1]];
-        ([f64::NAN, ahead - trans, turn_residual], [[0.0; 2], along, turn_coefficients], RowVector3::zeros())
+        let turn_coefficients =
+            [rot1_coefficients[0] + rot2_coefficients[0], rot1_coefficients[1] + rot2_coefficients[1]];
+        (
+            [f64::NAN, ahead - trans, turn_residual],
+            [[0.0; 2], trans_coefficients, turn_coefficients],
+            RowVector3::zeros(),
+        )
     };
     let forward_row = RowVector3::new(cos, sin, 0.0);
     let jacobian =
@@ -170,26 +178,29 @@ fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_li
     Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
 }
 
-/// Returns the residuals of the turn, of the drive and of the slide across the drive.
+/// Returns the residuals of the turn, of the translation and of the strafe across it.
 fn omni_residuals(expected: SE2, motion: &SE2) -> Observation {
-    let read = OdomDelta::from_poses(&SE2::identity(), &expected);
-    let OdomDelta { rot1, trans, rot2 } = read;
-    let unit = unit_variances(OdometryRule::Omni, &read);
+    let odometry_reading = OdomDelta::from_poses(&SE2::identity(), &expected);
+    let OdomDelta { rot1, trans, rot2 } = odometry_reading;
+    let variances_per_alpha = unit_variances(OdometryRule::Omni, &odometry_reading);
     let (sin, cos) = libm::sincos(rot1);
     let residuals = [
         wrap_angle(motion.theta() - rot1 - rot2),
         cos * motion.x() + sin * motion.y() - trans,
         cos * motion.y() - sin * motion.x(),
     ];
-    let coefficients =
-        [unit.map(|unit| unit.rot2.0), unit.map(|unit| unit.trans.0), unit.map(|unit| unit.strafe.0)];
+    let coefficients = [
+        variances_per_alpha.map(|variances| variances.rot2.0),
+        variances_per_alpha.map(|variances| variances.trans.0),
+        variances_per_alpha.map(|variances| variances.strafe.0),
+    ];
     let jacobian = Matrix3::new(0.0, 0.0, 1.0, cos, sin, 0.0, -sin, cos, 0.0);
     Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
 }
 
 /// Returns the residuals of v, ω and γ: the arc measured by the reference minus the constant command that explains the odometry.
-fn velocity_residuals(dt: f64, read: &SE2, motion: &SE2, is_linear: bool) -> Observation {
-    let twist = read.log();
+fn velocity_residuals(dt: f64, reading_motion: &SE2, motion: &SE2, is_linear: bool) -> Observation {
+    let twist = reading_motion.log();
     // A velocity command has no sideways component.
     let expected = SE2::exp(&Vector3::new(twist.x, 0.0, twist.z));
     let [length, turn] = [twist.x, twist.z];
@@ -198,9 +209,9 @@ fn velocity_residuals(dt: f64, read: &SE2, motion: &SE2, is_linear: bool) -> Obs
     let half_turn = 0.5 * turn;
     let (sin, cos) = libm::sincos(half_turn);
     let forward_row = RowVector3::new(cos, sin, 0.0) / sinc(half_turn);
-    let executed = invert_arc(&SE2::identity(), motion, dt);
+    let executed_arc = invert_arc(&SE2::identity(), motion, dt);
     let (residuals, coefficients, jacobian) =
-        if has_direction(length.abs(), length.signum() * executed.v_hat * dt, is_linear) {
+        if has_direction(length.abs(), length.signum() * executed_arc.v_hat * dt, is_linear) {
             let bearing_row = RowVector3::new(-sin, cos, 0.0) / (length * sinc(half_turn));
             let jacobian = Matrix3::from_rows(&[
                 forward_row - bearing_row * (length * log_sinc_derivative(half_turn)),
@@ -212,7 +223,11 @@ fn velocity_residuals(dt: f64, read: &SE2, motion: &SE2, is_linear: bool) -> Obs
                 let error = Vector3::new(motion.x() - expected.x(), motion.y() - expected.y(), turn_residual);
                 (jacobian * error).into()
             } else {
-                [executed.v_hat - v, wrap_angle((executed.omega_hat - omega) * dt) / dt, executed.gamma_hat]
+                [
+                    executed_arc.v_hat - v,
+                    wrap_angle((executed_arc.omega_hat - omega) * dt) / dt,
+                    executed_arc.gamma_hat,
+                ]
             };
             (residuals, [squared_rates; 3], jacobian)
         } else {

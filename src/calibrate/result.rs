@@ -17,16 +17,16 @@ pub struct Estimate {
     pub interval: [f64; 2],
 }
 
-/// Correlation of the wheels' errors in neighbouring legs.
+/// Persistence of the wheels' errors over several legs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Persistence {
-    /// Between 0, for independent legs, and 1.
+    /// Correlation of the errors in neighbouring legs: 0 if legs are independent, at most 1.
     pub correlation: Estimate,
     /// Distance (m) over which the correlation falls to 1/e. 0 if legs are independent.
     pub length: f64,
 }
 
-/// α's that a filter can use.
+/// Recommended α's, which a filter can use.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Recommendation {
     /// Fitted α's times the inflation. None for an α that is not identifiable.
@@ -37,12 +37,12 @@ pub struct Recommendation {
     pub reason: String,
 }
 
-/// One leg under the fit. Its innovation is the residual minus the prediction from the previous legs. Unobserved components are NaN.
+/// Innovation of one leg under the fit: its residual minus the prediction from the previous legs. Unobserved components are NaN.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LegFit {
     /// Standard deviations of the innovation's components.
     pub stds: [f64; 3],
-    /// Innovation over its standard deviations.
+    /// Innovation divided by its standard deviations.
     pub standardized: [f64; 3],
     /// Squared Mahalanobis distance of the innovation: χ² distributed, with one degree of freedom per observed component.
     pub squared: f64,
@@ -87,20 +87,20 @@ pub struct Calibration {
     pub legs: Vec<Leg>,
     /// Residuals of each leg.
     pub observations: Vec<Observation>,
-    /// Each leg under the fit.
+    /// Innovation of each leg under the fit.
     pub leg_fits: Vec<LegFit>,
     /// Legs that were left out.
     pub lost: LostLegs,
     /// Checks and the judgement that follows from them.
     pub diagnostics: Diagnostics,
-    /// None where the log is unusable.
+    /// Recommended α's; None if the log is unusable.
     pub recommended: Option<Recommendation>,
 }
 
 impl Calibration {
-    /// Returns the result of a log that gives too few legs, or none.
+    /// Returns the result of a log with too few legs for a fit.
     pub fn empty(model: Model) -> Self {
-        let unknown = Estimate { value: 0.0, interval: [0.0, f64::INFINITY] };
+        let unknown_estimate = Estimate { value: 0.0, interval: [0.0, f64::INFINITY] };
         Self {
             alphas: vec![None; model.alphas()],
             intervals: vec![None; model.alphas()],
@@ -110,7 +110,7 @@ impl Calibration {
             is_constant: [true; ERROR_COUNT],
             corrected: Systematic::NONE,
             is_corrected: [false; ERROR_COUNT],
-            reference_noise: [unknown; 2],
+            reference_noise: [unknown_estimate; 2],
             persistence: Persistence {
                 correlation: Estimate { value: 0.0, interval: [0.0, 1.0] },
                 length: 0.0,

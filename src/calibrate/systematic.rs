@@ -1,4 +1,4 @@
-//! Systematic errors of odometry and reference. They are equal on all legs, and estimated along with the noise.
+//! Systematic errors of odometry and reference. They are equal in all legs, and estimated together with the noise.
 
 use super::legs::Leg;
 use super::residuals::Model;
@@ -15,9 +15,9 @@ pub struct Systematic {
     pub mount_yaw: f64,
     /// Position of the point that the reference measures, in the frame of the base, m.
     pub lever_arm: [f64; 2],
-    /// True distance over that of the odometry.
+    /// True distance divided by that of the odometry.
     pub distance_scale: f64,
-    /// True turn over that of the odometry.
+    /// True turn divided by that of the odometry.
     pub turn_scale: f64,
 }
 
@@ -88,7 +88,7 @@ impl Systematic {
     /// Returns the initial guess of the mount's yaw: the mean angle between the directions of legs by odometry and by reference. 0 if that angle
     /// is small, or directions are unrelated.
     pub(super) fn initial_mount_yaw(legs: &[Leg]) -> f64 {
-        let (mut cos_sum, mut sin_sum, mut total) = (0.0, 0.0, 0.0);
+        let (mut cos_sum, mut sin_sum, mut max_sum) = (0.0, 0.0, 0.0);
         for leg in legs {
             let [odometry_motion, measured] = [leg.odometry, leg.reference].map(|[from, to]| {
                 let motion = from.between(&to);
@@ -96,10 +96,10 @@ impl Systematic {
             });
             cos_sum += odometry_motion.dot(&measured);
             sin_sum += odometry_motion.y * measured.x - odometry_motion.x * measured.y;
-            total += odometry_motion.norm() * measured.norm();
+            max_sum += odometry_motion.norm() * measured.norm();
         }
         let yaw = libm::atan2(sin_sum, cos_sum);
-        if yaw.abs() > MIN_INITIAL_YAW && libm::hypot(cos_sum, sin_sum) > MIN_RESULTANT * total {
+        if yaw.abs() > MIN_INITIAL_YAW && libm::hypot(cos_sum, sin_sum) > MIN_RESULTANT * max_sum {
             yaw
         } else {
             0.0
@@ -111,15 +111,15 @@ impl Systematic {
         SE2::new(self.lever_arm[0], self.lever_arm[1], self.mount_yaw).inverse()
     }
 
-    /// Returns the motion of the base that the reference saw, in the frame of the leg's start.
+    /// Returns the motion of the base as measured by the reference, in the frame of the leg's start.
     pub(crate) fn motion(&self, leg: &Leg) -> SE2 {
         let base = self.base();
         let [start, end] = leg.reference.map(|pose| pose * base);
         start.between(&end)
     }
 
-    /// Returns the motion that the odometry read, with its scales corrected. A robot that cannot drive sideways moves to the left by a product
-    /// of distances and turns.
+    /// Returns the motion that the odometry measured, with its scales corrected. The sideways motion of a robot that cannot drive sideways is a
+    /// product of distances and turns, and has both scales.
     pub(super) fn expected(&self, model: Model, leg: &Leg) -> SE2 {
         let read = leg.odometry[0].between(&leg.odometry[1]);
         let Self { distance_scale, turn_scale, .. } = *self;
@@ -134,24 +134,34 @@ impl Systematic {
     /// small motion (x, y, θ) in the frame of the reference there.
     pub(super) fn reference_jacobians(&self, leg: &Leg) -> [Matrix3<f64>; 2] {
         let measured = leg.reference[0].between(&leg.reference[1]);
-        let [mount, turned] = [self.mount_yaw, measured.theta()].map(rotation_matrix);
-        let arm = turned * Vector2::from(self.lever_arm);
-        // Displacement of the base for each rad by which the reference's heading at the end is too large.
+        let [mount_rotation, turn_rotation] = [self.mount_yaw, measured.theta()].map(rotation_matrix);
+        let arm = turn_rotation * Vector2::from(self.lever_arm);
+        // Displacement of the base per rad of error of the reference's heading at the end.
         let lever_derivative = Vector2::new(arm.y, -arm.x);
-        let turn_derivative = mount * Vector2::new(-measured.y(), measured.x());
-        let jacobian = |place: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
-            Matrix3::new(place.m11, place.m12, heading.x, place.m21, place.m22, heading.y, 0.0, 0.0, turn)
+        let turn_derivative = mount_rotation * Vector2::new(-measured.y(), measured.x());
+        let jacobian = |position_block: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
+            Matrix3::new(
+                position_block.m11,
+                position_block.m12,
+                heading.x,
+                position_block.m21,
+                position_block.m22,
+                heading.y,
+                0.0,
+                0.0,
+                turn,
+            )
         };
         let [start, end] = leg.interpolation_variances.map(f64::sqrt);
         [
-            jacobian(-mount, -turn_derivative - lever_derivative, -1.0) * start,
-            jacobian(mount * turned, lever_derivative, 1.0) * end,
+            jacobian(-mount_rotation, -turn_derivative - lever_derivative, -1.0) * start,
+            jacobian(mount_rotation * turn_rotation, lever_derivative, 1.0) * end,
         ]
     }
 
     /// Returns the Jacobian, with respect to [`SystematicError::ALL`], of the motion by the reference minus the motion by the odometry.
     ///
-    /// The Jacobian is computed at the reading, because the measured motion has the noise of the leg, which would bias the estimate.
+    /// The Jacobian is evaluated at the reading, because the noise of the measured motion would bias the estimate.
     pub(super) fn motion_jacobian(
         &self,
         model: Model,
@@ -208,5 +218,5 @@ pub(super) fn log_sinc_derivative(angle: f64) -> f64 {
     if angle.abs() < 1e-4 { -angle / 3.0 } else { cos / sin - 1.0 / angle }
 }
 
-/// Selection of [`SystematicError::ALL`].
+/// Mask over [`SystematicError::ALL`].
 pub type ErrorMask = [bool; ERROR_COUNT];

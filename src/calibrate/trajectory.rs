@@ -13,7 +13,7 @@ pub struct Trajectory {
     /// Ascending indices of samples before which the pose may have jumped, so that the motion there is unknown.
     breaks: Vec<usize>,
     median_period: f64,
-    /// Longest period (s) that is not a pause of the recording. In a pause no pose is known; the poses at both ends are correct.
+    /// Longest period (s) between samples that is not a pause of the recording. Poses are unknown in a pause, and correct at its ends.
     max_period: f64,
 }
 
@@ -68,7 +68,7 @@ impl Trajectory {
         Ok(Self { times, poses, breaks: Vec::new(), median_period, max_period })
     }
 
-    /// Returns the trajectory with a break before each of these samples, as where a reference jumped: no leg leads across.
+    /// Returns the trajectory with a break before each of these samples, for example where the reference jumped. No leg leads across a break.
     #[must_use]
     pub fn with_breaks_before(mut self, samples: impl IntoIterator<Item = usize>) -> Self {
         let count = self.times.len();

@@ -1,6 +1,6 @@
 //! α's that a filter can use: the fitted ones, inflated until held-out windows of a metre are covered.
 //!
-//! A filter needs α's that hold between two corrections, not over one leg: errors of real wheels persist.
+//! Errors of real wheels persist over several legs. A filter needs α's that hold between two corrections of its pose.
 
 use super::checks::{
     Check, CheckName, MAX_INFLATION, MIN_WINDOWS, WindowCoverage, coverage_range, window_checks,
@@ -15,10 +15,10 @@ use crate::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
-/// Error of the predicted motion over a window of legs, in exponential coordinates, with its covariances due to wheels and reference.
+/// Error of the predicted motion over a window of several legs, with its covariances due to wheels and reference, in exponential coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
-    /// log of (expected motion)⁻¹ (motion that the reference measured).
+    /// Logarithm of (expected motion)⁻¹ (motion that the reference measured).
     error: Vector3<f64>,
     wheel_covariance: Matrix3<f64>,
     reference_covariance: Matrix3<f64>,
@@ -40,16 +40,16 @@ impl Sample {
         covariances: &[Option<Matrix3<f64>>],
         parameters: &Parameters,
     ) -> Vec<Window> {
-        let empty_window = (0.0, SE2::identity(), Matrix3::zeros());
+        let start_values = (0.0, SE2::identity(), Matrix3::zeros());
         let (mut windows, mut first_leg) = (Vec::new(), range.start);
-        let (mut driven_distance, mut expected, mut wheel_covariance) = empty_window;
+        let (mut driven_distance, mut expected, mut wheel_covariance) = start_values;
         for leg in range {
             let Some(covariance) = covariances[leg] else {
                 first_leg = leg + 1;
                 continue;
             };
             if leg == first_leg || !self.legs[leg].follows {
-                (driven_distance, expected, wheel_covariance) = empty_window;
+                (driven_distance, expected, wheel_covariance) = start_values;
                 first_leg = leg;
             }
             let expected_motion = &self.observations[leg].expected;
@@ -91,8 +91,8 @@ impl Sample {
         (motion, covariances.iter().sum())
     }
 
-    /// Returns the covariance of the wheels' noise over one leg, in the frame of its end. None of an outlier, and of a leg that does not
-    /// show all of the noise. The noise of a turn on the spot has no first rotation.
+    /// Returns the covariance of the wheels' noise over one leg, in the frame of its end. None for an outlier, and for a leg whose residuals do not
+    /// determine the noise. In a turn on the spot the first rotation has no noise.
     fn wheel_covariance(&self, leg: usize, parameters: &Parameters) -> Option<Matrix3<f64>> {
         let Observation { residuals, coefficients, mut jacobian, expected, .. } = self.observations[leg];
         if residuals[0].is_nan() {
@@ -117,11 +117,11 @@ fn to_end_frame(motion: &SE2) -> Matrix3<f64> {
 fn coverage(windows: &[Window], length: f64, inflation: f64) -> WindowCoverage {
     let squared: Vec<f64> = windows.iter().map(|window| window.squared_distance(inflation)).collect();
     let count = squared.len();
-    let inside = squared.iter().filter(|square| **square < CHI2_95[2]).count();
+    let covered_count = squared.iter().filter(|square| **square < CHI2_95[2]).count();
     WindowCoverage {
         length,
         count,
-        coverage: inside as f64 / count as f64,
+        coverage: covered_count as f64 / count as f64,
         nees: squared.iter().sum::<f64>() / (3 * count) as f64,
     }
 }
@@ -131,8 +131,8 @@ fn nees_std(count: usize) -> f64 {
     (6.0 / count as f64).sqrt() / 3.0
 }
 
-/// Returns the smallest inflation, 1 at least, under which 95 % of the windows are covered and NEES is not above its 95 % interval. None
-/// where [`MAX_INFLATION`] is not enough.
+/// Returns the smallest inflation of at least 1 under which 95 % of the windows are covered and NEES is not above its 95 % interval. None
+/// if [`MAX_INFLATION`] is not enough.
 fn required_inflation(windows: &[Window]) -> Option<f64> {
     let is_covered = |inflation: f64| {
         let WindowCoverage { coverage, nees, count, .. } = coverage(windows, 0.0, inflation);
@@ -144,12 +144,16 @@ fn required_inflation(windows: &[Window]) -> Option<f64> {
     if !is_covered(MAX_INFLATION) {
         return None;
     }
-    let (mut low, mut high) = (1.0, MAX_INFLATION);
-    while high / low > 1.005 {
-        let middle_inflation = f64::sqrt(low * high);
-        if is_covered(middle_inflation) { high = middle_inflation } else { low = middle_inflation }
+    let (mut low_inflation, mut high_inflation) = (1.0, MAX_INFLATION);
+    while high_inflation / low_inflation > 1.005 {
+        let middle_inflation = f64::sqrt(low_inflation * high_inflation);
+        if is_covered(middle_inflation) {
+            high_inflation = middle_inflation
+        } else {
+            low_inflation = middle_inflation
+        }
     }
-    Some(high)
+    Some(high_inflation)
 }
 
 /// Lengths of the windows, m. Recommended α's have to cover windows of the first length.
@@ -158,7 +162,7 @@ const WINDOW_LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
 /// Quantiles 0.95 of χ² with 1, 2 and 3 degrees of freedom.
 const CHI2_95: [f64; 3] = [3.841, 5.991, 7.815];
 
-/// Recommended α's, with the comparisons of held-out data from which they follow.
+/// Recommended α's, with the checks and windows of held-out data from which they follow.
 pub(super) struct CrossValidation {
     pub recommended: Option<Recommendation>,
     pub checks: Vec<Check>,
@@ -166,47 +170,47 @@ pub(super) struct CrossValidation {
 }
 
 /// Fits each half of the log, compares each half with the fit to the other one, and finds the inflation that windows need.
-pub(super) fn cross_validate(fit: &Fit, whole_log: &Sample, alphas: &[Option<f64>]) -> CrossValidation {
+pub(super) fn cross_validate(fit: &Fit, all_legs: &Sample, alphas: &[Option<f64>]) -> CrossValidation {
     let half_ranges = |count: usize| [0..count / 2, count / 2..count];
     let count = fit.sample.legs.len();
     let residuals = half_ranges(count).map(|half| fit.sample.inlier_residuals(half));
     let parameters_of =
         |half: &Residuals| maximize(half, fit.maximum.parameters, &fit.maximum.free).parameters;
-    let by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
-    let (mut within_count, mut compared_count) = (0, 0);
-    for (residuals, parameters) in residuals.iter().zip(&by_other_half) {
-        compared_count += residuals.len();
+    let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
+    let (mut covered_legs, mut compared_legs) = (0, 0);
+    for (residuals, parameters) in residuals.iter().zip(&parameters_by_other_half) {
+        compared_legs += residuals.len();
         let filtered = residuals.filtered(parameters);
-        within_count += filtered
+        covered_legs += filtered
             .leg_fits()
             .filter(|fit| fit.observed() > 0 && fit.squared < CHI2_95[fit.observed() - 1])
             .count();
     }
     // Variances estimated from the 3n components of n legs have the relative variance 2/3n; several α's share them.
     let scale_std = (2.0 * alphas.len() as f64 / (3 * count / 2).max(1) as f64).sqrt();
-    let coverage_by_other_half = within_count as f64 / compared_count as f64;
-    let expected_coverage = coverage_range(compared_count, scale_std);
+    let coverage_by_other_half = covered_legs as f64 / compared_legs as f64;
+    let expected_coverage = coverage_range(compared_legs, scale_std);
     let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected_coverage)];
     // Windows of the whole log, each under the fit to the other half.
-    let halves = half_ranges(whole_log.legs.len());
-    let halves_with_parameters = || halves.iter().cloned().zip(&by_other_half);
+    let half_ranges_of_log = half_ranges(all_legs.legs.len());
+    let halves_with_parameters = || half_ranges_of_log.iter().cloned().zip(&parameters_by_other_half);
     let covariances: Vec<Option<Matrix3<f64>>> = halves_with_parameters()
-        .flat_map(|(half, parameters)| half.map(|leg| whole_log.wheel_covariance(leg, parameters)))
+        .flat_map(|(half, parameters)| half.map(|leg| all_legs.wheel_covariance(leg, parameters)))
         .collect();
     let windows = WINDOW_LENGTHS.map(|length| {
-        let windows_of_half = |(half, parameters)| whole_log.windows(half, length, &covariances, parameters);
+        let windows_of_half = |(half, parameters)| all_legs.windows(half, length, &covariances, parameters);
         halves_with_parameters().flat_map(windows_of_half).collect::<Vec<_>>()
     });
     let inflation = required_inflation(&windows[0]);
-    let coverages: Vec<WindowCoverage> =
+    let window_coverages: Vec<WindowCoverage> =
         windows.iter().zip(WINDOW_LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
-    checks.extend(window_checks(&coverages, scale_std));
+    checks.extend(window_checks(&window_coverages, scale_std));
     let recommended = inflation.map(|inflation| Recommendation {
         alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),
         inflation,
-        reason: recommendation_reason(&coverages[0], inflation),
+        reason: recommendation_reason(&window_coverages[0], inflation),
     });
-    CrossValidation { recommended, checks, windows: coverages }
+    CrossValidation { recommended, checks, windows: window_coverages }
 }
 
 fn recommendation_reason(window: &WindowCoverage, inflation: f64) -> String {

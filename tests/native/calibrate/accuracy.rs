@@ -7,11 +7,11 @@ use motion::calibrate::{ERROR_COUNT, Model, Systematic, SystematicError};
 /// Number of legs of a log.
 const LEG_COUNT: usize = 600;
 
-/// Kind of log.
+/// Kind of simulated log.
 struct Scenario {
     name: &'static str,
     change: fn(&mut Simulation),
-    /// Relative error of a median that is allowed in addition to three standard errors.
+    /// Allowed relative error of a median in addition to three standard errors.
     bias: f64,
 }
 
@@ -34,29 +34,29 @@ const TRUE_ERRORS: Systematic = Systematic {
     turn_scale: 0.97,
 };
 
-/// Length by which intervals of systematic errors (s, m, rad) are extended at both ends. The estimates neglect products of the noises,
-/// and of noise and clock offset within a row of 50 ms.
+/// Margin by which intervals of systematic errors (s, m, rad) are extended at both ends. The estimates neglect products of noises, and of noise
+/// and clock offset within a row of 50 ms.
 const NEGLECTED_TERMS: f64 = 1e-3;
 
 /// Results of calibrations of many logs.
 struct Study {
-    /// For each α the ratios of fitted and true value, sorted.
+    /// Sorted ratios of fitted to true value, for each α.
     ratios: Vec<Vec<f64>>,
-    /// For each α the number of 95 % intervals that hold the true value.
+    /// Number of 95 % intervals that contain the true value, for each α.
     covered: Vec<usize>,
     errors_covered: [usize; ERROR_COUNT],
-    /// Standard deviations of the reference, sorted.
+    /// Sorted estimates of the reference's standard deviations: position (m) and yaw (rad).
     stds: [Vec<f64>; 2],
     stds_covered: [usize; 2],
     logs: usize,
 }
 
-/// Returns 1 if an interval holds a value, and otherwise 0.
+/// Returns 1 if an interval contains a value, and otherwise 0.
 fn count_covered(interval: Option<[f64; 2]>, value: f64) -> usize {
     usize::from(interval.is_some_and(|[low, high]| (low..=high).contains(&value)))
 }
 
-fn study(model: Model, scenario: &Scenario, logs: usize) -> Study {
+fn run_study(model: Model, scenario: &Scenario, logs: usize) -> Study {
     let count = model.alphas();
     let mut study = Study {
         ratios: vec![Vec::new(); count],
@@ -100,19 +100,19 @@ fn median(sorted: &[f64]) -> f64 {
     sorted[sorted.len() / 2]
 }
 
-/// Returns the standard error of a median of normal numbers, from the range that holds their middle 68 %.
+/// Returns the standard error of a median of normal numbers, from the range of their middle 68 %.
 fn median_std(sorted: &[f64]) -> f64 {
     let count = sorted.len();
     let [low, high] = [0.16, 0.84].map(|quantile| sorted[(quantile * count as f64) as usize]);
     1.25 * 0.5 * (high - low) / (count as f64).sqrt()
 }
 
-/// Returns three standard errors of a fraction of `logs`.
+/// Returns three standard errors of a fraction of this number of logs.
 fn three_standard_errors(fraction: f64, logs: usize) -> f64 {
     3.0 * (fraction * (1.0 - fraction) / logs as f64).sqrt()
 }
 
-/// Reports a fraction of intervals that hold the truth, if it is outside of 92 to 98 % by more than three standard errors.
+/// Reports the fraction of intervals that contain the truth, if it is outside of 92 to 98 % by more than three standard errors.
 fn report_wrong_coverage(name: &str, covered: usize, logs: usize) -> Option<String> {
     let fraction = covered as f64 / logs as f64;
     let allowed = 0.92 - three_standard_errors(0.92, logs)..=0.98 + three_standard_errors(0.98, logs);
@@ -138,7 +138,7 @@ fn assert_right_in_every_model(scenario: &Scenario, further_reports: impl Fn(&St
     let reports: Vec<String> = MODELS
         .into_iter()
         .flat_map(|model| {
-            let study = study(model, scenario, 100);
+            let study = run_study(model, scenario, 100);
             let other_reports =
                 further_reports(&study).into_iter().map(move |report| format!("{model:?}: {report}"));
             report_wrong_alphas(model, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
@@ -167,7 +167,10 @@ fn alphas_of_one_rule_are_right_in_every_kind_of_log() {
         PERSISTENT_ERRORS,
     ];
     for scenario in &scenarios {
-        assert_eq!(report_wrong_alphas(model, scenario, &study(model, scenario, 10)), Vec::<String>::new());
+        assert_eq!(
+            report_wrong_alphas(model, scenario, &run_study(model, scenario, 10)),
+            Vec::<String>::new()
+        );
     }
 }
 

@@ -13,7 +13,7 @@ use motion::{NoiseKind, Variance};
 use nalgebra::Vector3;
 
 /// Returns a simulation whose log passes all checks.
-fn good_log(count: usize, seed: u64) -> Simulation {
+fn good_simulation(count: usize, seed: u64) -> Simulation {
     Simulation::of(NAV2, count, seed)
 }
 
@@ -48,9 +48,9 @@ fn with_poses(log: &Trajectory, mut pose: impl FnMut(SE2) -> SE2) -> Trajectory 
 
 #[test]
 fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
-    let sim = good_log(600, 1);
+    let sim = good_simulation(600, 1);
     let [odometry, reference] = sim.log();
-    let [_, other_reference] = good_log(600, 2).log();
+    let [_, other_reference] = good_simulation(600, 2).log();
     type PoseChange = fn(SE2) -> SE2;
     let changes: [(&str, PoseChange); 5] = [
         ("degrees", |pose| SE2::new(pose.x(), pose.y(), pose.theta().to_degrees())),
@@ -69,7 +69,7 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
 
 #[test]
 fn a_copy_of_the_odometry_is_no_reference() {
-    let sim = good_log(600, 1);
+    let sim = good_simulation(600, 1);
     let [odometry, _] = sim.log();
     // Copies in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and numbers rounded to six digits, to three and to two.
     for digits in [6, 3, 2] {
@@ -97,16 +97,16 @@ fn a_copy_of_the_odometry_is_no_reference() {
     for seed in 1..=6 {
         let reference_stds = [0.01 * (seed % 2) as f64; 2];
         let precise_robot =
-            Simulation { violation: Violation::Times(0.01), reference_stds, ..good_log(600, seed) };
+            Simulation { violation: Violation::Times(0.01), reference_stds, ..good_simulation(600, seed) };
         assert!(!names_of_failed_checks(&calibrated(&precise_robot)).contains(&ReferenceMatches), "{seed}");
     }
 }
 
-/// On legs of 3 cm and 0.05 rad, a difference of odometry and reference cannot be told from the noise of a good reference.
+/// On legs of 3 cm and 0.05 rad, differences between odometry and reference may be noise of a good reference.
 #[test]
 fn legs_that_hardly_move_are_not_compared() {
     let legs = LegLength::Duration { duration: 1.0 };
-    let slow_drive = Simulation { legs, drive: Some(|_| [0.03, 0.05]), ..good_log(200, 4) };
+    let slow_drive = Simulation { legs, drive: Some(|_| [0.03, 0.05]), ..good_simulation(200, 4) };
     let calibration = calibrated(&slow_drive);
     let names: Vec<CheckName> = calibration.diagnostics.checks.iter().map(|check| check.name).collect();
     assert!(names.contains(&EnoughLegs) && !names.contains(&ReferenceMatches), "{names:?}");
@@ -114,8 +114,8 @@ fn legs_that_hardly_move_are_not_compared() {
 
 #[test]
 fn few_legs_are_questionable_and_fewer_unusable() {
-    assert_fails(EnoughLegs, &calibrated(&good_log(80, 3)));
-    let fit_of_few_legs = calibrated(&good_log(25, 3));
+    assert_fails(EnoughLegs, &calibrated(&good_simulation(80, 3)));
+    let fit_of_few_legs = calibrated(&good_simulation(25, 3));
     assert!(names_of_failed_checks(&fit_of_few_legs).contains(&EnoughLegs));
     assert_unusable(&fit_of_few_legs, "25 legs");
 }
@@ -123,7 +123,7 @@ fn few_legs_are_questionable_and_fewer_unusable() {
 /// The reference is missing during 30 s of each 90 s.
 #[test]
 fn lost_legs_are_reported() {
-    let sim = good_log(600, 4);
+    let sim = good_simulation(600, 4);
     let [odometry, reference] = sim.log();
     let with_gaps = trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(90.0) > 30.0));
     assert_fails(LegsLost, &calibrated_log(&[odometry, with_gaps], &sim.options()));
@@ -132,7 +132,7 @@ fn lost_legs_are_reported() {
 /// The reference has a row every two seconds only.
 #[test]
 fn legs_that_are_longer_than_asked_for_are_reported() {
-    let sim = good_log(600, 5);
+    let sim = good_simulation(600, 5);
     let [odometry, reference] = sim.log();
     let sparse_reference = trajectory(reference.samples().step_by(40));
     assert_fails(SamplingDense, &calibrated_log(&[odometry, sparse_reference], &sim.options()));
@@ -140,13 +140,13 @@ fn legs_that_are_longer_than_asked_for_are_reported() {
 
 #[test]
 fn many_outliers_are_reported() {
-    assert_fails(OutliersFew, &calibrated(&Simulation { jumps: 0.1, ..good_log(600, 6) }));
+    assert_fails(OutliersFew, &calibrated(&Simulation { jumps: 0.1, ..good_simulation(600, 6) }));
 }
 
 /// One jump of 10 m that is fitted as noise. The fit to the half of the log without the jump predicts much less noise.
 #[test]
 fn a_log_that_no_inflation_covers_is_unusable() {
-    let sim = good_log(600, 12);
+    let sim = good_simulation(600, 12);
     let [odometry, reference] = sim.log();
     let jump_time = 0.75 * reference.span().expect("samples")[1];
     let jump_of_reference = SE2::new(10.0, 0.0, 0.0);
@@ -159,8 +159,8 @@ fn a_log_that_no_inflation_covers_is_unusable() {
     assert_unusable(&calibration, "a jump");
 }
 
-/// Returns the calibration of a log after its odometry was divided by `scale`: the factors of distance and turn, as a function of the time
-/// (as a fraction of the log) and of the velocity.
+/// Returns the calibration of a log whose odometry is divided by `scale`. This function returns the scales of distance and turn at a time (as a
+/// fraction of the log) and a velocity.
 fn calibrated_with_scales(sim: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
     let [odometry, reference] = sim.log();
     let rows: Vec<(f64, SE2)> = odometry.samples().collect();
@@ -180,7 +180,7 @@ fn calibrated_with_scales(sim: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -
 /// than a centimetre as a turn on the spot. Noise of a millimetre therefore has no effect under its rule, but has under that of Table 5.6.
 #[test]
 fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
-    let sim = good_log(600, 12);
+    let sim = good_simulation(600, 12);
     let [odometry, reference] = sim.log();
     let with_jitter = |std: f64| {
         let mut rng = seeded(12);
@@ -209,10 +209,12 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         [None; 2]
     );
     // Table 5.6 takes a drive backwards for two turns by half a circle.
-    let reversing =
-        Simulation { drive: Some(|leg| [if leg % 5 == 0 { -0.3 } else { 0.3 }, 0.2]), ..good_log(300, 12) };
+    let reversing_simulation = Simulation {
+        drive: Some(|leg| [if leg % 5 == 0 { -0.3 } else { 0.3 }, 0.2]),
+        ..good_simulation(300, 12)
+    };
     let is_reported = |model| {
-        let calibration = calibrated_log(&reversing.log(), &Options { model, ..sim.options() });
+        let calibration = calibrated_log(&reversing_simulation.log(), &Options { model, ..sim.options() });
         names_of_failed_checks(&calibration).contains(&SidewaysRare)
     };
     assert_eq!([table, NAV2].map(is_reported), [true, false]);
@@ -228,7 +230,7 @@ fn assert_not_constant(name: CheckName, error: SystematicError, calibration: &Ca
 #[test]
 fn a_distance_scale_that_differs_in_turns_is_no_constant() {
     let scales = |_, velocity: &Vector3<f64>| [if velocity.z.abs() > 0.05 { 0.85 } else { 1.0 }, 1.0];
-    let calibration = calibrated_with_scales(&good_log(600, 7), scales);
+    let calibration = calibrated_with_scales(&good_simulation(600, 7), scales);
     assert_not_constant(DistanceScaleConstant, SystematicError::DistanceScale, &calibration);
 }
 
@@ -236,14 +238,14 @@ fn a_distance_scale_that_differs_in_turns_is_no_constant() {
 #[test]
 fn a_turn_scale_that_changes_is_no_constant() {
     let scales = |fraction: f64, _: &Vector3<f64>| [1.0, if fraction < 0.5 { 1.0 } else { 1.1 }];
-    let calibration = calibrated_with_scales(&good_log(600, 8), scales);
+    let calibration = calibrated_with_scales(&good_simulation(600, 8), scales);
     assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
 }
 
 #[test]
 fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
     let calibration =
-        calibrated(&Simulation { violation: Violation::Autoregressive(0.7), ..good_log(600, 9) });
+        calibrated(&Simulation { violation: Violation::Autoregressive(0.7), ..good_simulation(600, 9) });
     for name in [ResidualsUncorrelated, Window1Covered, Window2Covered] {
         assert_fails(name, &calibration);
     }
@@ -257,7 +259,7 @@ fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
 #[test]
 fn heavy_tails_are_reported() {
     for freedom in [4, 5] {
-        let sim = Simulation { violation: Violation::Tails(freedom), ..good_log(600, 10) };
+        let sim = Simulation { violation: Violation::Tails(freedom), ..good_simulation(600, 10) };
         assert_fails(TailsNormal, &calibrated(&sim));
     }
 }
@@ -266,7 +268,7 @@ fn heavy_tails_are_reported() {
 #[test]
 fn noise_that_changes_is_not_covered_by_the_other_half() {
     let noise_factor: fn(f64) -> f64 = |fraction| if fraction < 0.5 { 1.0 } else { 1.5 };
-    let sim = Simulation { violation: Violation::Changing(noise_factor), ..good_log(600, 11) };
+    let sim = Simulation { violation: Violation::Changing(noise_factor), ..good_simulation(600, 11) };
     assert_fails(HoldoutCovered, &calibrated(&sim));
 }
 

@@ -105,9 +105,8 @@ fn too_few_legs_are_refused() {
     assert!(matches!(result, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
 }
 
-/// A mount yaw of 0.07 rad changes each rotation of a leg by 0.07 rad. On legs of a quarter of a metre that looks like an α₂ of 0.08,
-/// and on shorter legs with turns like a larger one. An estimated noise of the reference absorbs the error, because both headings of a leg
-/// have the same error.
+/// A mount yaw of 0.07 rad changes each rotation of a leg by 0.07 rad. On legs of a quarter of a metre this has the effect of an α₂ of 0.08, and
+/// on shorter legs with turns that of a larger α₂. An estimated noise of the reference absorbs the error, because both headings of a leg have it.
 #[test]
 fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
     let simulation = simulation_with_errors(NAV2, 600, Systematic { mount_yaw: 0.07, ..Systematic::NONE });
@@ -193,11 +192,11 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
     let one_drive = calibrated(&simulation_with_clock(0.0, 1200, 20));
     assert!(four_drives.legs.len() > 1190, "{}", four_drives.legs.len());
     for (alpha, truth) in ALPHAS.into_iter().enumerate().take(4) {
-        let width = |calibration: &Calibration| {
+        let relative_width = |calibration: &Calibration| {
             let [low, high] = calibration.intervals[alpha].expect("identifiable");
             (high - low) / calibration.alphas[alpha].expect("identifiable")
         };
-        let ratio = width(&four_drives) / width(&one_drive);
+        let ratio = relative_width(&four_drives) / relative_width(&one_drive);
         assert!((ratio - 1.0).abs() < 0.3, "α{}: {ratio}", alpha + 1);
         // Standard errors are at most 9 %; four of them are allowed.
         let ratio_to_truth = four_drives.alphas[alpha].expect("identifiable") / truth;
@@ -205,12 +204,12 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
     }
 }
 
-/// The encoders jitter by 3 mm and 3 mrad, and the robot stands half of the time. Legs of half a second then do not
-/// show that wheels turn while the robot stands.
+/// The encoders jitter by 3 mm and 3 mrad, and the robot stands half of the time. In legs of a standing robot, jitter must not count as motion
+/// with a scale of 0.
 #[test]
 fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
     let mut rng = seeded(5);
-    let mut noise = |limit: f64| rng.random_range(-limit..limit);
+    let mut uniform_noise = |limit: f64| rng.random_range(-limit..limit);
     let (mut odometry_pose, mut true_pose, mut rows) = (SE2::identity(), SE2::identity(), Vec::new());
     for row in 0..16_000_usize {
         let phase = row / 40;
@@ -220,12 +219,15 @@ fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
             _ => [0.0, 0.0],
         };
         let twist = Vector3::new(twist[0], 0.0, twist[1]) * 0.05;
-        let jitter = SE2::new(noise(0.003), noise(0.003), noise(0.003));
+        let jitter = SE2::new(uniform_noise(0.003), uniform_noise(0.003), uniform_noise(0.003));
         rows.push([(0.05 * row as f64, odometry_pose * jitter), (0.05 * row as f64, true_pose)]);
         odometry_pose = odometry_pose.boxplus(twist);
         let is_moving = twist.norm() > 0.0;
-        let noise_step =
-            if is_moving { Vector3::new(noise(0.004), 0.0, noise(0.008)) } else { Vector3::zeros() };
+        let noise_step = if is_moving {
+            Vector3::new(uniform_noise(0.004), 0.0, uniform_noise(0.008))
+        } else {
+            Vector3::zeros()
+        };
         true_pose = true_pose.boxplus(twist + noise_step);
     }
     let log = [0, 1].map(|trajectory_index| trajectory(rows.iter().map(|row| row[trajectory_index])));

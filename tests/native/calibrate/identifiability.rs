@@ -106,8 +106,8 @@ fn assert_reasons(models: &[Model]) {
     }
     // Three standard errors of a share of 0.95 are allowed.
     let fraction = f64::from(covered_count) / f64::from(intervals);
-    let error = (0.95 * 0.05 / f64::from(intervals)).sqrt();
-    assert!(fraction > 0.95 - 3.0 * error, "{fraction}");
+    let standard_error = (0.95 * 0.05 / f64::from(intervals)).sqrt();
+    assert!(fraction > 0.95 - 3.0 * standard_error, "{fraction}");
 }
 
 /// The reference noise is set to 100 m and 100 rad. An α of 1 adds only about 0.3 m and 0.3 rad of noise to a leg.

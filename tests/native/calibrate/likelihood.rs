@@ -33,7 +33,7 @@ fn coordinates(pose: &SE2) -> Vector3<f64> {
 }
 
 /// Returns rot1, trans, rot2 of a motion.
-fn reading(motion: &Vector3<f64>) -> Vector3<f64> {
+fn reading_of(motion: &Vector3<f64>) -> Vector3<f64> {
     let first = libm::atan2(motion.y, motion.x);
     Vector3::new(first, libm::hypot(motion.x, motion.y), wrap_angle(motion.z - first))
 }
@@ -41,7 +41,7 @@ fn reading(motion: &Vector3<f64>) -> Vector3<f64> {
 /// Returns the Jacobian of (rot1, trans, rot2) with respect to the motion, at the expected motion.
 fn reading_jacobian(leg: &Leg, corrected: &Systematic) -> Matrix3<f64> {
     let expected_motion = coordinates(&expected_motion(leg, corrected));
-    derivative(|offset| reading(&(expected_motion + offset)))
+    derivative(|offset| reading_of(&(expected_motion + offset)))
 }
 
 /// Returns the motion that the odometry read, with both scales corrected.
@@ -86,12 +86,12 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
     let Calibration { legs, observations, corrected, alphas, reference_noise, .. } = calibration;
     let count = 3 * legs.len();
     let [position, yaw] = reference_noise.map(|std| std.value * std.value);
-    let noise = Matrix3::from_diagonal(&Vector3::new(position, position, yaw));
-    // Poses of the reference. A leg starts at the last pose if it follows another leg, otherwise at a new pose, and ends at a new pose.
+    let reference_covariance = Matrix3::from_diagonal(&Vector3::new(position, position, yaw));
+    // Number of poses of the reference. A leg ends at a new pose. It starts at the last pose if it follows another leg, and else at a new one.
     let (mut jacobians, mut poses) = (DMatrix::zeros(count, 3 * (count + 3)), 0);
     let mut covariance = DMatrix::zeros(count, count);
     let mut residuals = DVector::zeros(count);
-    let mut design = DMatrix::zeros(count, errors.len());
+    let mut design_matrix = DMatrix::zeros(count, errors.len());
     for (i, (leg, observation)) in legs.iter().zip(observations).enumerate() {
         if !leg.follows {
             poses += 1;
@@ -107,23 +107,28 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
             residuals[3 * i + k] = observation.residuals[k];
         }
         for (column, error) in errors.iter().enumerate() {
-            design.fixed_view_mut::<3, 1>(3 * i, column).copy_from(&error_derivative(leg, corrected, *error));
+            design_matrix
+                .fixed_view_mut::<3, 1>(3 * i, column)
+                .copy_from(&error_derivative(leg, corrected, *error));
         }
     }
     for pose in 0..poses {
         let jacobian = jacobians.columns(3 * pose, 3);
-        covariance += jacobian * noise * jacobian.transpose();
+        covariance += jacobian * reference_covariance * jacobian.transpose();
     }
-    let factor = covariance.cholesky().expect("positive definite");
-    let log_det =
-        |factor: &nalgebra::Cholesky<f64, nalgebra::Dyn>| 2.0 * factor.l().diagonal().map(libm::log).sum();
-    let weighted_residuals = factor.solve(&residuals);
-    let mut deviance = log_det(&factor)
+    let cholesky = covariance.cholesky().expect("positive definite");
+    let log_det = |cholesky: &nalgebra::Cholesky<f64, nalgebra::Dyn>| {
+        2.0 * cholesky.l().diagonal().map(libm::log).sum()
+    };
+    let weighted_residuals = cholesky.solve(&residuals);
+    let mut deviance = log_det(&cholesky)
         + residuals.dot(&weighted_residuals)
         + (count - errors.len()) as f64 * libm::log(TAU);
     if !errors.is_empty() {
-        let information = (design.transpose() * factor.solve(&design)).cholesky().expect("positive definite");
-        let gradient = design.transpose() * weighted_residuals;
+        let information = (design_matrix.transpose() * cholesky.solve(&design_matrix))
+            .cholesky()
+            .expect("positive definite");
+        let gradient = design_matrix.transpose() * weighted_residuals;
         deviance += log_det(&information) - gradient.dot(&information.solve(&gradient));
     }
     -0.5 * deviance
@@ -149,8 +154,8 @@ fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
     }
 }
 
-/// Without turns each component has one α. Its estimate α̂ is the mean of r²/c over n residuals r with variances αc, and
-/// at α = s·α̂ twice the log-likelihood is n(ln s + 1/s − 1) lower.
+/// Without turns each component has one α. Its estimate α̂ is the mean of r²/c over n residuals r with variances αc. At α = s·α̂ twice the
+/// log-likelihood is n(ln s + 1/s − 1) lower.
 #[test]
 fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
     let sim = Simulation { drive: Some(|_| [0.3, 0.0]), ..Simulation::of(MODELS[3], 400, 3) };

@@ -86,14 +86,14 @@ impl Simulation {
 
     /// Returns odometry and reference.
     pub fn log(&self) -> [Trajectory; 2] {
-        const STEP: f64 = 0.05;
+        const STEP_SECONDS: f64 = 0.05;
         let mut rng = seeded(self.seed);
         let [distance_scale, turn_scale] =
-            [Error::DistanceScale, Error::TurnScale].map(|e| self.errors.get(e));
+            [Error::DistanceScale, Error::TurnScale].map(|scale| self.errors.get(scale));
         let mut odometry = vec![(0.0, SE2::identity())];
         let mut base_poses = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
         let (mut speeds, mut rows_left, mut start_row) = ([0.3, 0.0], 40, 0);
-        // Motion since the start of the leg as the odometry would read it without systematic errors.
+        // Motion since the start of the leg that the odometry would measure without systematic errors.
         let (mut motion, mut leg_rows) = (SE2::identity(), Vec::new());
         let (mut legs, mut unit_noise) = (0, [0.0; 3]);
         while legs < self.count {
@@ -103,14 +103,14 @@ impl Simulation {
             }
             rows_left -= 1;
             let speeds = self.drive.map_or(speeds, |drive| drive(legs));
-            let time = odometry.len() as f64 * STEP;
-            let twist = Vector3::new(speeds[0], 0.0, speeds[1]) * STEP;
+            let time = odometry.len() as f64 * STEP_SECONDS;
+            let twist = Vector3::new(speeds[0], 0.0, speeds[1]) * STEP_SECONDS;
             motion = motion.boxplus(twist);
             let reading_step = Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale);
             odometry.push((time, odometry.last().expect("some").1.boxplus(reading_step)));
             leg_rows.push((time, motion));
             let [(start_time, start), (_, reading)] = [odometry[start_row], odometry[odometry.len() - 1]];
-            if !leg_ends(self.legs, time - start_time, &start, &reading) {
+            if !has_leg_ended(self.legs, time - start_time, &start, &reading) {
                 continue;
             }
             let from = base_poses.last().expect("some").1;
@@ -118,7 +118,7 @@ impl Simulation {
             let to = from * executed_motion(self.model, &ALPHAS, &motion, time - start_time, unit_noise);
             // The noise of a leg is distributed evenly over its rows.
             let noise = (motion.inverse() * from.inverse() * to).log();
-            let progress = |time: f64| (time - start_time) / (leg_rows.len() as f64 * STEP);
+            let progress = |time: f64| (time - start_time) / (leg_rows.len() as f64 * STEP_SECONDS);
             base_poses
                 .extend(leg_rows.iter().map(|(t, pose)| (*t, from * pose.boxplus(noise * progress(*t)))));
             if rng.random_bool(self.jumps) {
@@ -131,13 +131,20 @@ impl Simulation {
             leg_rows.clear();
         }
         let [lever_ahead, lever_left] = self.errors.lever_arm;
-        let mount = SE2::new(lever_ahead, lever_left, self.errors.mount_yaw);
+        let mount_pose = SE2::new(lever_ahead, lever_left, self.errors.mount_yaw);
         let [position_variance, yaw_variance] = self.reference_stds.map(|std| Variance(std * std));
-        let mut error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
+        let mut reference_error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
         let reference = base_poses.iter().map(|(t, pose)| {
-            let sensor = *pose * mount;
-            let [x, y, theta] = [error(position_variance), error(position_variance), error(yaw_variance)];
-            (t + self.errors.clock_offset, SE2::new(sensor.x() + x, sensor.y() + y, sensor.theta() + theta))
+            let sensor_pose = *pose * mount_pose;
+            let [x, y, theta] = [
+                reference_error(position_variance),
+                reference_error(position_variance),
+                reference_error(yaw_variance),
+            ];
+            (
+                t + self.errors.clock_offset,
+                SE2::new(sensor_pose.x() + x, sensor_pose.y() + y, sensor_pose.theta() + theta),
+            )
         });
         [trajectory(odometry), trajectory(reference)]
     }
@@ -157,17 +164,19 @@ impl Simulation {
     /// Returns the three unit noises of a leg, from those of the leg before it and the position in the log, from 0 to 1.
     fn unit_noise(&self, fraction: f64, previous: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
         previous.map(|previous| {
-            let draw = NoiseKind::Normal.sample(Variance(1.0), rng);
+            let unit_draw = NoiseKind::Normal.sample(Variance(1.0), rng);
             match self.violation {
-                Violation::None => draw,
+                Violation::None => unit_draw,
                 Violation::Tails(freedom) => {
                     let normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
-                    let square: f64 = (0..freedom).map(normal).map(|z| z * z).sum();
-                    draw * f64::sqrt((freedom as f64 - 2.0) / square)
+                    let chi_squared: f64 = (0..freedom).map(normal).map(|z| z * z).sum();
+                    unit_draw * f64::sqrt((freedom as f64 - 2.0) / chi_squared)
                 }
-                Violation::Autoregressive(share) => share * previous + (1.0 - share * share).sqrt() * draw,
-                Violation::Times(times) => times * draw,
-                Violation::Changing(deviation) => deviation(fraction) * draw,
+                Violation::Autoregressive(correlation) => {
+                    correlation * previous + (1.0 - correlation * correlation).sqrt() * unit_draw
+                }
+                Violation::Times(times) => times * unit_draw,
+                Violation::Changing(deviation) => deviation(fraction) * unit_draw,
             }
         })
     }
@@ -202,7 +211,7 @@ pub fn executed_motion(
 const ROUNDING: f64 = 1e-6;
 
 /// Returns true if a leg ends at a reading, as `LegLength` documents it, by independent code.
-fn leg_ends(legs: LegLength, duration_so_far: f64, start: &SE2, reading: &SE2) -> bool {
+fn has_leg_ended(legs: LegLength, duration_so_far: f64, start: &SE2, reading: &SE2) -> bool {
     match legs {
         LegLength::Displacement { distance, angle } => {
             let turn = motion::geom::se2::wrap_angle(reading.theta() - start.theta());

@@ -11,7 +11,7 @@ use rand::Rng;
 
 /// Number of samples of a window. Their covariance then has relative standard errors of 7 %, which change the coverage by less than a
 /// hundredth.
-const SAMPLES: usize = 400;
+const SAMPLES_PER_WINDOW: usize = 400;
 
 /// Quantile 0.95 of χ² with 3 degrees of freedom.
 const CHI2_95: f64 = 7.815;
@@ -30,20 +30,20 @@ fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng)
         let noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
         executed_motion(model, alphas, &motion_of(leg), leg.duration(), noise)
     };
-    let samples: Vec<Vector3<f64>> = (0..SAMPLES)
+    let samples: Vec<Vector3<f64>> = (0..SAMPLES_PER_WINDOW)
         .map(|_| composed_motion(&mut legs.iter().map(&mut sample)).boxminus(&odom_motion))
         .collect();
-    let mean = samples.iter().sum::<Vector3<f64>>() / SAMPLES as f64;
+    let mean = samples.iter().sum::<Vector3<f64>>() / SAMPLES_PER_WINDOW as f64;
     let covariance =
         samples.iter().map(|sample| (sample - mean) * (sample - mean).transpose()).sum::<Matrix3<f64>>();
     let reference_motion = legs[0].reference[0].inverse() * legs[legs.len() - 1].reference[1];
     let deviation = reference_motion.boxminus(&odom_motion) - mean;
-    let inverse_covariance = (covariance / SAMPLES as f64).try_inverse().expect("noise in all directions");
+    let inverse_covariance =
+        (covariance / SAMPLES_PER_WINDOW as f64).try_inverse().expect("noise in all directions");
     deviation.dot(&(inverse_covariance * deviation)) < CHI2_95
 }
 
-/// Returns the numbers of windows of a metre that are covered, and of all windows, in logs that were not used for the
-/// fit.
+/// Returns the number of covered windows of a metre, and the number of all windows, in logs that were not used for the fit.
 fn coverage(model: Model, violation: Violation, logs: u64) -> [usize; 2] {
     let mut rng = seeded(logs);
     let mut counts = [0; 2];

@@ -19,7 +19,7 @@ const LINE_STYLES = { reference: 'stroke="#1f1e1b" stroke-width="1.5"', odometry
 
 const [INK, MUTED] = ['#1f1e1b', '#57564f'];
 
-/** Returns the picture, with a panel for each drive. */
+/** Returns the picture as SVG, with a panel for each drive. */
 export function drivesSvg(drives: Drive[], calibration: any): string {
   let top = 0;
   const panelSvgs = drives.map((drive) => {

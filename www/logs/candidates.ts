@@ -75,7 +75,7 @@ const choiceTiersByName = (series: Series[], names: RegExp[], kind?: LogKind): L
 
 /** Returns the likeliest pairs of frames for a role, by the names of the frames. */
 export function likeliestFrames(frames: FramePair[], role: Role): FramePair[] {
-  const firstMatchingFrames = (findCandidates: FramePair[], names: RegExp[], end: keyof FramePair) => names.map((name) => findCandidates.filter((pair) => name.test(pair[end]))).find(({ length }) => length);
+  const firstMatchingFrames = (framePairs: FramePair[], names: RegExp[], end: keyof FramePair) => names.map((name) => framePairs.filter((pair) => name.test(pair[end]))).find(({ length }) => length);
   const pairsWithFixedParent = firstMatchingFrames(frames, FIXED_FRAME_NAMES[role], 'parent') ?? [];
   return firstMatchingFrames(pairsWithFixedParent, BASE_FRAME_NAMES, 'child') ?? pairsWithFixedParent;
 }

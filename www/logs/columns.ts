@@ -62,9 +62,7 @@ const FIELD_PATTERNS: [Field, string[]][] = [
   ...Array.from('xyz', (axis): [Field, string[]] => [axis as Field, [`p\\..*\\.${axis}`, `${POSE_PREFIX}(?:position|translation|location|pos|loc|trans|[pt])\\.?${axis}`, `${POSE_PREFIX}${axis}(?:\\.?pos(?:ition)?)?`]]),
 ];
 
-/**
- * Patterns with a prefix. The prefix is matched lazily, so that the name of a message belongs to the field and not to the prefix.
- */
+/** Patterns of whole names: an optional prefix, and the name of a field. The lazy match keeps the prefix as short as possible. */
 const PREFIXED_PATTERNS = FIELD_PATTERNS.flatMap(([field, names]) => names.map((name, rank) => ({ field, rank, pattern: new RegExp(`^(?:(.*?)\\.)??(?:${name})$`, 'u') })));
 
 /** Name in which the field comes before the group: x_gt, yaw_odom, x1. */
@@ -109,7 +107,7 @@ function unitOf(text: string): ParsedUnit | undefined {
 
 export const isUnit = (text: string) => unitOf(text) !== undefined;
 
-/** Quantity of each field, with true for a rate of it. */
+/** Physical quantity of each field, and true if the field is its rate of change. */
 const QUANTITY_OF_FIELD: Partial<Record<Field, [ParsedUnit['quantity'], boolean]>> = {
   t: ['time', false], seconds: ['time', false], subseconds: ['time', false], x: ['length', false], y: ['length', false], z: ['length', false], yaw: ['angle', false], v: ['length', true], omega: ['angle', true],
 };

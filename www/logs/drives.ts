@@ -79,7 +79,7 @@ function roleOfRecording(recording: Recording, userChoices: UserChoices): Role |
   if (valueUnlessLogError(() => chooseBothLogs(recording, userChoices))) return 'both';
   const [isOdometry, isReference] = ROLES.map((role) => valueUnlessLogError(() => chooseLog(recording, role, userChoices)) !== undefined);
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
-  // Several bodies of one file are ambiguous in both roles.
+  // A file with several bodies has logs, although the choice is ambiguous in both roles.
   const hasLogs = isOdometry || ROLES.every((role) => findCandidates(recording, role, userChoices).some(({ length }) => length > 0));
   if (!hasLogs) return 'both';
   return roleByName(recording.name) ?? (recording.series.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);

@@ -62,7 +62,7 @@ const NON_TABLE_PATTERNS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]
 export function cellsOf(line: string, separator: string, needed = Infinity): string[] {
   if (separator === ' ') {
     const words = line.trim().split(/[ \t]+/);
-    // In CARMEN's records of a laser, its readings come before the columns.
+    // A FLASER record begins with the number of laser readings and the readings, which are not columns.
     return words[0] === 'FLASER' ? [words[0], ...words.slice(2 + Number(words[1]))] : words;
   }
   if (!line.includes('"')) {

@@ -124,7 +124,7 @@ async function readLines(source: Source, encoding: string, end: string, from: nu
   takeLine(incompleteLine + decoder.decode(), true);
 }
 
-/** Returns a group of columns with Y as the vertical axis: X of the robot's plane is Z, and Y is X. */
+/** Returns a group for a file whose vertical axis is Y: its columns z and x are x and y of the robot's plane. */
 function withYAxisUp(group: Group): Group {
   const { x, y, z, qx, qy, qz } = group.columns;
   return { ...group, columns: { ...group.columns, x: z, y: x, z: y, qx: qz, qy: qx, qz: qy } };

@@ -19,7 +19,7 @@ const MAX_ALTERNATIONS = 2;
 /** Returns true for a topic of static transforms. */
 const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => kindOf(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
-/** Returns the recording of a container of messages. */
+/** Returns a recording whose logs are read from the messages of a container. */
 export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
   const { format, isCutShort, damage, channels } = container;
   const [reason] = damage.values();

@@ -39,7 +39,7 @@ interface OpenedLog {
 }
 
 /**
- * The α's of a log, how well they are known, and whether the model is any good.
+ * Noise parameters (α's) fitted to a log, with their confidence intervals, and checks of the model.
  *
  * @attr overlays - The lines that are drawn; in the attribute with spaces between.
  * @csspart drop - The line that logs are dropped on.

@@ -19,7 +19,7 @@ const MAX_AXIS_INTERVALS = 4;
 /** Icons of the ratings. */
 const RATING_ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 
-/** Returns the badge that rates the α's, with the finding and the number of legs: two lines at most on a wide page. */
+/** Returns the badge that rates the α's, the finding, and the number of legs. On a wide page it has at most two lines. */
 export function verdictLine({ reading, logName, warnings }: Figure) {
   const { rating, badge, finding } = judgementOf(reading, warnings);
   return html`<span class="badge ${rating}"><span aria-hidden="true">${RATING_ICONS[rating]}</span> ${badge}</span>

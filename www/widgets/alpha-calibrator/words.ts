@@ -14,7 +14,7 @@ addEnglish({ calibrator: en });
 
 type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'reading' | 'warnings' | 'logName'>;
 
-/** Names of checks whose value is a fraction. */
+/** Pattern of the names of checks whose value is a fraction. */
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
 /**
@@ -64,7 +64,7 @@ export function reasonOf({ stats: { recommended, diagnostics: { checks, windows 
 
 export const noiseNames = (model: Reading['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
 
-/** Returns a number of a file, such as 1.5e-7, with the decimal sign of the language and a power of ten. */
+/** Converts a number as printed in files (1.5e-7) to the decimal sign of the language and a power of ten. */
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
 
 /** Scales small numbers by a power of 1000, so that labels fit next to an axis. The unit is empty for the power 1. */

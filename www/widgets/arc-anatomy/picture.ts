@@ -120,7 +120,7 @@ export class ArcPicture extends Picture<Scene> {
   };
 }
 
-/** Returns the key of an exported picture. The last turn has its label in the picture. */
+/** Returns the legend of an exported picture. The last turn is not in it, because it has a label in the picture. */
 function keyOf(brush: Brush, { overlays, config: { map } }: Scene) {
   const drawnNames = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
   return [

@@ -34,7 +34,7 @@ export const bendingControl = (figure: Figure) => alphaGroup(figure, (index) => 
 
 export const alphaControls = (figure: Figure) => alphaGroup(figure, (index) => index !== BENDING_ALPHAS[figure.reading.config.model], 'alphas');
 
-/** Returns the sliders of some α's by their indices. */
+/** Returns a group with the sliders of those α's whose indices `isIn` accepts. */
 function alphaGroup(figure: Figure, isIn: (index: number) => boolean, name: string) {
   const { model, alphas } = figure.reading.config;
   const { effects } = words.banana.settings.alphas;

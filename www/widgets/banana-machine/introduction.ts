@@ -30,7 +30,7 @@ export class IntroducedCloud extends Cloud {
   /** Phase of the introduction: `driving` robots, then a pulsing handle (`asking`) while the cloud grows. */
   #phase: 'none' | 'driving' | 'asking' = 'none';
 
-  /** True while the ring asks to be dragged. */
+  /** True while the ring at the end of the arc pulses, as a hint to drag it. */
   get asking() {
     return this.#phase === 'asking';
   }

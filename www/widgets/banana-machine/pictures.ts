@@ -296,7 +296,7 @@ function pointsOfTwists(scene: Scene) {
   return points;
 }
 
-/** Returns the product of the standard deviations in exponential coordinates. */
+/** Returns the product of the standard deviations of ξ along and ξ heading, the axes of the picture. */
 function deviationProduct(scene: Scene) {
   const [{ cov }] = twistMoments(scene);
   return deviation(cov[0][0]) * deviation(cov[2][2]);

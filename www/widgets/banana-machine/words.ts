@@ -58,7 +58,7 @@ export function floorTitle({ stats, table: { exact } }: Pick<Reading, 'stats' | 
   const { floor, ellipseIs } = words.banana;
   if (stats.n < 2 || Number.isNaN(stats.areaRatio)) return floor;
   const { areaRatio, likelihoodGain: { floor: onFloor, pose } } = Number.isNaN(exact.areaRatio) ? stats : exact;
-  // The gain of poses is infinite where they have two degrees of freedom.
+  // The gain of poses is infinite if their covariance is singular, and then says nothing about the bend.
   const isMisshapen = onFloor > VISIBLE_GAINS.floor || (pose > VISIBLE_GAINS.pose && pose < Infinity) || Math.abs(exact.crossTrackSkew) > VISIBLE_SKEW;
   const fit = areaRatio > VISIBLE_AREA_RATIO ? 'large' : isMisshapen ? 'misshapen' : 'near';
   return `${floor}: ${ellipseIs[fit]}`;

@@ -75,7 +75,7 @@ export class CostMeter extends FigureController {
     this.current = false;
   }
 
-  /** Measures once these settings have not changed for a while, and nothing moves. */
+  /** Schedules measurements, which start when the settings have not changed for a while and nothing moves. */
   measureWhenIdle(config: SqueezeSettings, atRest: boolean) {
     const settingsKey = JSON.stringify(config);
     if (settingsKey !== this.#settings) this.outdate();

@@ -225,7 +225,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
     });
   }
 
-  /** Makes the plan with moved walls a map of the user. Few samples are drawn in the same frame; many are drawn when the walls rest. */
+  /** Makes the plan with moved walls a map of the user. Only few samples are drawn in the same frame, and the others when the walls rest. */
   moveWalls(walls: Float64Array) {
     const { bounds } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;

@@ -85,7 +85,7 @@ export const styles = css`
     margin-bottom: 0.5em;
   }
 
-  /* The picture as high as possible, with the sentence and the presets next to it. */
+  /* The picture is as high as possible, with the sentence and the presets next to it. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 60svh) minmax(18.25em, 1fr);

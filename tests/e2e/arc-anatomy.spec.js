@@ -38,7 +38,7 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   await expect(rows.nth(2)).toHaveClass(/weakest/);
   for (const [i, { estimate, deviations, share }] of stats.factors.entries()) {
     expect(numberIn(((await rows.nth(i).locator('.estimate').textContent()) ?? '').split('=')[1].split(' ')[1])).toBeCloseTo(estimate, 2);
-    expect(numberIn(((await rows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo(deviations, 1);
+    expect(numberIn(((await rows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo([-1, -1, 1][i] * deviations, 1);
     await expect(rows.nth(i).locator('.keeps')).toHaveText(`factor: ${(100 * share).toFixed(1)}\u202f% of its peak`);
   }
   await openDisclosures(widget);

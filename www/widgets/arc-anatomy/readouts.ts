@@ -9,17 +9,20 @@ import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import { TABLE_LINES } from './settings.ts';
 import { densityText, isTiny, shareText, type Reading } from './words.ts';
-import type { Factor, FormErrors, Motion } from '../../types.d.ts';
+import type { FormErrors, Motion } from '../../types.d.ts';
 
 /** Scale of the bars: maximum number of standard deviations to either side, and pixels per standard deviation. */
 const BAR_SCALE = { max: 4, pixels: 22 };
 const BAR_MIDDLE = BAR_SCALE.max * BAR_SCALE.pixels + 4;
 
-/** Symbols and units of the factors, with the residuals of the table. */
+/**
+ * Symbols, errors and units of the factors. A bar to the right means more than commanded. The table has the residuals of v and ω with the
+ * opposite sign.
+ */
 const FACTOR_SYMBOLS = [
-  { symbol: '*v̂*', residual: '(*v* − *v̂*)', unit: 'm/s' },
-  { symbol: '*ω̂*', residual: '(*ω* − *ω̂*)', unit: 'rad/s' },
-  { symbol: '*γ̂*', residual: '*γ̂*', unit: 'rad/s' },
+  { symbol: '*v̂*', error: '(*v̂* − *v*)', sign: -1, unit: 'm/s' },
+  { symbol: '*ω̂*', error: '(*ω̂* − *ω*)', sign: -1, unit: 'rad/s' },
+  { symbol: '*γ̂*', error: '*γ̂*', sign: 1, unit: 'rad/s' },
 ];
 
 export function headline({ stats: { share } }: Reading) {
@@ -28,25 +31,26 @@ export function headline({ stats: { share } }: Reading) {
 }
 
 /**
- * Returns the three residuals in standard deviations, each with its factor as a share of the peak. The last line of Table 5.1 highlights
+ * Returns the three errors in standard deviations, each with its factor as a share of the peak. The last line of Table 5.1 highlights
  * them.
  */
 export function factorBars({ stats: { factors, weakest, share } }: Reading, line: number) {
   const say = words.anatomy.bars;
   return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${say.label}>
     ${factors.map((factor, i) => {
-      const { symbol, residual, unit } = FACTOR_SYMBOLS[i];
+      const { symbol, error, sign, unit } = FACTOR_SYMBOLS[i];
+      const deviations = sign * factor.deviations;
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
         <span class="estimate">${formatMarkup(symbol)} ${say.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
-        ${bar(factor)}
+        ${bar(deviations)}
         <span class="keeps">${say.factor(shareText(factor.share))}</span>
-        <span class="off">${formatMarkup(residual)}/<i>σ</i> = ${fixed(factor.deviations, 1)}</span>
+        <span class="off">${formatMarkup(error)}/<i>σ</i> = ${fixed(deviations, 1)}</span>
       </li>`;
     })}
   </ul>`;
 }
 
-function bar({ deviations }: Factor) {
+function bar(deviations: number) {
   const barX = (value: number) => BAR_MIDDLE + BAR_SCALE.pixels * clamp(value, -BAR_SCALE.max, BAR_SCALE.max);
   const isBeyondScale = Math.abs(deviations) > BAR_SCALE.max;
   const barEnd = barX(deviations);

@@ -20,7 +20,12 @@ export function prepareBet(form: HTMLFormElement, enterState: (values: Record<st
   const formatValue = (value: number) => `${isPercent ? value.toFixed(slider.valueAsNumber === value ? 0 : 1) + '\u00a0%' : value}`;
   const showValue = () => (slider.ariaValueText = valueOutput.textContent = formatValue(slider.valueAsNumber));
 
-  slider.addEventListener('input', showValue);
+  // A bet is made by moving the slider.
+  submitButton.disabled = true;
+  slider.addEventListener('input', () => {
+    submitButton.disabled = false;
+    showValue();
+  });
   showValue();
   if (hiddenOverlay) {
     const { overlays, ...otherValues } = JSON.parse(values);

@@ -178,9 +178,9 @@ impl<'a> Log<'a> {
 
     /// Moves the reference poses of a leg by a change of the clock offset. `clock_offset` is the new offset of the first drive. A leg that
     /// would leave the log stays as it is.
-    fn realign(&self, leg: &mut Leg, clock_offset: f64, change: f64) {
+    fn realign(&self, leg: &mut Leg, clock_offset: f64, offset_change: f64) {
         let offset = clock_offset + self.offsets[leg.drive] - self.clock_offset();
-        if let Some(realigned) = self.drives[leg.drive].realigned(*leg, offset, change) {
+        if let Some(realigned) = self.drives[leg.drive].realigned(*leg, offset, offset_change) {
             *leg = realigned;
         }
     }
@@ -213,9 +213,10 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
         for (i, error) in SystematicError::ALL.into_iter().enumerate() {
             if sample.estimated[i] {
                 let max_change = 4.0 * error.identifiability_limit();
-                let change = -solution.errors[i];
-                has_converged &= change.abs() <= CONVERGENCE_TOLERANCE * solution.covariance[(i, i)].sqrt();
-                *systematic.get_mut(error) += change.clamp(-max_change, max_change);
+                let error_change = -solution.errors[i];
+                has_converged &=
+                    error_change.abs() <= CONVERGENCE_TOLERANCE * solution.covariance[(i, i)].sqrt();
+                *systematic.get_mut(error) += error_change.clamp(-max_change, max_change);
             } else {
                 *systematic.get_mut(error) = initial_errors.get(error);
             }

@@ -112,11 +112,13 @@ fn profile_end(
         } else {
             outside = Some(distance);
         }
-        let next = if root > 0.0 { distance * threshold / root } else { 2.0 * distance };
+        let next_distance = if root > 0.0 { distance * threshold / root } else { 2.0 * distance };
         distance = match outside {
-            Some(outside) if (next - inside) * (next - outside) >= 0.0 => 0.5 * (inside + outside),
-            Some(_) => next,
-            None => (4.0 * distance.abs()).min(next.abs()).copysign(distance).max(-estimate),
+            Some(outside) if (next_distance - inside) * (next_distance - outside) >= 0.0 => {
+                0.5 * (inside + outside)
+            }
+            Some(_) => next_distance,
+            None => (4.0 * distance.abs()).min(next_distance.abs()).copysign(distance).max(-estimate),
         };
     }
     distance
@@ -124,10 +126,10 @@ fn profile_end(
 
 /// Quantile 0.975 of Student's t, by the expansion of Fisher and Cornish.
 fn student_95(degrees_of_freedom: usize) -> f64 {
-    let degrees = degrees_of_freedom.max(1) as f64;
+    let freedom = degrees_of_freedom.max(1) as f64;
     let (z, z3) = (NORMAL_95, NORMAL_95.powi(3));
-    z + (z3 + z) / (4.0 * degrees)
-        + (5.0 * NORMAL_95.powi(5) + 16.0 * z3 + 3.0 * z) / (96.0 * degrees * degrees)
+    z + (z3 + z) / (4.0 * freedom)
+        + (5.0 * NORMAL_95.powi(5) + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom)
 }
 
 /// Reason for which a log does not identify an α.

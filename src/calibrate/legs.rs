@@ -51,8 +51,8 @@ impl LegLength {
     }
 
     /// Returns true if a leg ends here: beyond the limit of a displacement, or at the limit of a duration, up to [`LENGTH_TOLERANCE`].
-    fn is_complete(&self, ends: &[SE2; 2], elapsed: f64) -> bool {
-        let excess_ratio = self.ratio(ends, elapsed) - 1.0;
+    fn is_complete(&self, end_poses: &[SE2; 2], elapsed: f64) -> bool {
+        let excess_ratio = self.ratio(end_poses, elapsed) - 1.0;
         match self {
             Self::Displacement { .. } => excess_ratio > LENGTH_TOLERANCE,
             Self::Duration { .. } => excess_ratio >= -LENGTH_TOLERANCE,
@@ -209,14 +209,15 @@ impl Drive<'_> {
                 continue;
             };
             has_pause |= odometry.has_gap_before(sample);
-            let ends = [start_pose, pose];
-            if !length.is_complete(&ends, time - start_time) {
+            let end_poses = [start_pose, pose];
+            if !length.is_complete(&end_poses, time - start_time) {
                 continue;
             }
             let leg_end = self.end_at(sample, clock_offset);
             let (Some(from), Some(to)) = (leg_start, leg_end) else {
                 // The leg stays open until it is too long, because the reference may have a pose again.
-                if leg_start.is_none() || length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+                if leg_start.is_none() || length.ratio(&end_poses, time - start_time) > MAX_RATIO_ACROSS_PAUSE
+                {
                     lost.without_reference += 1;
                     (start, follows_previous) = (Some(((time, pose), leg_end)), false);
                 }
@@ -233,7 +234,7 @@ impl Drive<'_> {
             if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
                 lost.across_breaks += 1;
                 follows_previous = false;
-            } else if has_paused && length.ratio(&ends, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+            } else if has_paused && length.ratio(&end_poses, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
                 lost.across_pauses += 1;
                 follows_previous = false;
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {

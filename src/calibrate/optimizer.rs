@@ -102,11 +102,11 @@ fn scaled_cholesky(
     [relative, absolute]: [f64; 2],
 ) -> Option<(Cholesky<f64, Dyn>, Vec<f64>)> {
     let scales: Vec<f64> = parameters.iter().map(|j| information[(*j, *j)].sqrt()).collect();
-    let matrix = DMatrix::from_fn(scales.len(), scales.len(), |a, b| {
+    let scaled_matrix = DMatrix::from_fn(scales.len(), scales.len(), |a, b| {
         let scaled_entry = information[(parameters[a], parameters[b])] / (scales[a] * scales[b]);
         if a == b { scaled_entry * (1.0 + relative) + absolute } else { scaled_entry }
     });
-    Some((matrix.cholesky()?, scales))
+    Some((scaled_matrix.cholesky()?, scales))
 }
 
 impl Maximum {

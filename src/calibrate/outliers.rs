@@ -41,8 +41,9 @@ impl Sample {
         // Variances may still be too small in early rounds. The gate is wider then, so that at most half of the legs are outliers.
         let mut squared_distances: Vec<f64> = fits.iter().map(|fit| fit.squared).collect();
         let gate = gate * (median(&mut squared_distances) / MEDIAN_CHI2).max(1.0);
-        let exceeds_gate =
-            |fit: &LegFit| fit.observed() > 0 && fit.squared > gate * CHI2_9999[fit.observed() - 1];
+        let exceeds_gate = |fit: &LegFit| {
+            fit.observed_count() > 0 && fit.squared > gate * CHI2_9999[fit.observed_count() - 1]
+        };
         let is_marked = |fit: &LegFit| fit.is_outlier && round > LAST_RETURN_ROUND || exceeds_gate(fit);
         let new_outliers: Vec<bool> = fits.iter().map(is_marked).collect();
         let has_changed = new_outliers != self.outliers;

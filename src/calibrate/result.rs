@@ -52,7 +52,7 @@ pub struct LegFit {
 
 impl LegFit {
     /// Returns the number of components that are observed.
-    pub(super) fn observed(&self) -> usize {
+    pub(super) fn observed_count(&self) -> usize {
         self.stds.iter().filter(|std| !std.is_nan()).count()
     }
 }

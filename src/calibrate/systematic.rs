@@ -90,13 +90,13 @@ impl Systematic {
     pub(super) fn initial_mount_yaw(legs: &[Leg]) -> f64 {
         let (mut cos_sum, mut sin_sum, mut max_sum) = (0.0, 0.0, 0.0);
         for leg in legs {
-            let [odometry_motion, measured] = [leg.odometry, leg.reference].map(|[from, to]| {
+            let [odometry_motion, measured_motion] = [leg.odometry, leg.reference].map(|[from, to]| {
                 let motion = from.between(&to);
                 Vector2::new(motion.x(), motion.y())
             });
-            cos_sum += odometry_motion.dot(&measured);
-            sin_sum += odometry_motion.y * measured.x - odometry_motion.x * measured.y;
-            max_sum += odometry_motion.norm() * measured.norm();
+            cos_sum += odometry_motion.dot(&measured_motion);
+            sin_sum += odometry_motion.y * measured_motion.x - odometry_motion.x * measured_motion.y;
+            max_sum += odometry_motion.norm() * measured_motion.norm();
         }
         let yaw = libm::atan2(sin_sum, cos_sum);
         if yaw.abs() > MIN_INITIAL_YAW && libm::hypot(cos_sum, sin_sum) > MIN_RESULTANT * max_sum {
@@ -133,12 +133,12 @@ impl Systematic {
     /// Returns the Jacobians of the base's motion with respect to the errors of the reference at the leg's start and end. An error is a
     /// small motion (x, y, θ) in the frame of the reference there.
     pub(super) fn reference_jacobians(&self, leg: &Leg) -> [Matrix3<f64>; 2] {
-        let measured = leg.reference[0].between(&leg.reference[1]);
-        let [mount_rotation, turn_rotation] = [self.mount_yaw, measured.theta()].map(rotation_matrix);
+        let measured_motion = leg.reference[0].between(&leg.reference[1]);
+        let [mount_rotation, turn_rotation] = [self.mount_yaw, measured_motion.theta()].map(rotation_matrix);
         let arm = turn_rotation * Vector2::from(self.lever_arm);
         // Displacement of the base per rad of error of the reference's heading at the end.
         let lever_derivative = Vector2::new(arm.y, -arm.x);
-        let turn_derivative = mount_rotation * Vector2::new(-measured.y(), measured.x());
+        let turn_derivative = mount_rotation * Vector2::new(-measured_motion.y(), measured_motion.x());
         let jacobian = |position_block: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
             Matrix3::new(
                 position_block.m11,

@@ -91,15 +91,15 @@ impl Trajectory {
         let command_times = commands.iter().map(|(t, v, omega)| {
             (if v.is_finite() && omega.is_finite() { *t } else { f64::NAN }, SE2::identity())
         });
-        let step = Self::new(command_times)?.median_period.min(MAX_COMMAND_STEP);
+        let command_step = Self::new(command_times)?.median_period.min(MAX_COMMAND_STEP);
         let (mut integrated_samples, mut pose) = (Vec::with_capacity(commands.len()), SE2::identity());
         for (row, (time, v, omega)) in commands.iter().enumerate() {
-            let Some((next, ..)) = commands.get(row + 1) else {
+            let Some((next_time, ..)) = commands.get(row + 1) else {
                 integrated_samples.push((*time, pose));
                 break;
             };
-            let part_count = ((next - time) / (1.5 * step)).ceil().clamp(1.0, 1e3);
-            let dt = (next - time) / part_count;
+            let part_count = ((next_time - time) / (1.5 * command_step)).ceil().clamp(1.0, 1e3);
+            let dt = (next_time - time) / part_count;
             for part in 0..part_count as usize {
                 integrated_samples.push((time + part as f64 * dt, pose));
                 pose = pose.boxplus(Vector3::new(v * dt, 0.0, omega * dt));
@@ -141,8 +141,12 @@ impl Trajectory {
     /// Returns the velocity (m/s ahead and to the left, rad/s) at a sample: the mean over the steps before and after it.
     pub(super) fn velocity(&self, sample: usize) -> Vector3<f64> {
         let from = if sample > 0 && !self.has_gap_before(sample) { sample - 1 } else { sample };
-        let next = sample + 1;
-        let to = if next < self.times.len() && !self.has_gap_before(next) { next } else { sample };
+        let next_index = sample + 1;
+        let to = if next_index < self.times.len() && !self.has_gap_before(next_index) {
+            next_index
+        } else {
+            sample
+        };
         if from == to {
             return Vector3::zeros();
         }
@@ -156,10 +160,11 @@ impl Trajectory {
 
     /// Returns the index of the sample nearest to a time (s). None if it is further away than half of the shortest pause.
     pub(super) fn nearest(&self, time: f64) -> Option<usize> {
-        let next = self.times.partition_point(|row_time| *row_time < time);
+        let next_index = self.times.partition_point(|row_time| *row_time < time);
         let distance = |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
-        let previous = next.saturating_sub(1);
-        let nearest = if distance(previous) < distance(next) { previous } else { next };
+        let previous_index = next_index.saturating_sub(1);
+        let nearest =
+            if distance(previous_index) < distance(next_index) { previous_index } else { next_index };
         (distance(nearest) <= 0.5 * MAX_PERIOD_RATIO * self.median_period).then_some(nearest)
     }
 
@@ -175,8 +180,8 @@ impl Trajectory {
 
     /// Returns true if a break lies between two times (s).
     pub(super) fn has_break(&self, from: f64, to: f64) -> bool {
-        let next = self.breaks.partition_point(|sample| self.times[*sample] <= from);
-        self.breaks.get(next).is_some_and(|sample| self.times[sample - 1] < to)
+        let next_index = self.breaks.partition_point(|sample| self.times[*sample] <= from);
+        self.breaks.get(next_index).is_some_and(|sample| self.times[sample - 1] < to)
     }
 
     /// Returns the pose at `time` (s). Between two samples it lies on the arc of constant velocities that joins them. None outside of the

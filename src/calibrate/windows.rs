@@ -85,8 +85,10 @@ impl Sample {
         };
         let motion = self.systematic.motion(&window);
         let covariances = self.systematic.reference_jacobians(&window).map(|jacobian| {
-            let rotated = to_end_frame(&motion) * jacobian;
-            rotated * Matrix3::from_diagonal(&reference_variances(parameters)) * rotated.transpose()
+            let rotated_jacobian = to_end_frame(&motion) * jacobian;
+            rotated_jacobian
+                * Matrix3::from_diagonal(&reference_variances(parameters))
+                * rotated_jacobian.transpose()
         });
         (motion, covariances.iter().sum())
     }
@@ -100,9 +102,9 @@ impl Sample {
             jacobian.set_row(0, &wheel_direction.transpose());
         }
         let noise_jacobian = jacobian.try_inverse().filter(|_| !self.outliers[leg])?;
-        let rotated = to_end_frame(&expected) * noise_jacobian;
+        let rotated_jacobian = to_end_frame(&expected) * noise_jacobian;
         let variances = self.options.model.wheel_variances(&coefficients, parameters);
-        Some(rotated * Matrix3::from_diagonal(&variances) * rotated.transpose())
+        Some(rotated_jacobian * Matrix3::from_diagonal(&variances) * rotated_jacobian.transpose())
     }
 }
 
@@ -115,14 +117,15 @@ fn to_end_frame(motion: &SE2) -> Matrix3<f64> {
 /// Returns the fraction of windows inside of their 95 % ellipsoid, and their NEES: the mean squared Mahalanobis distance divided by its 3
 /// degrees of freedom. The wheels' variances are multiplied by `inflation`.
 fn coverage(windows: &[Window], length: f64, inflation: f64) -> WindowCoverage {
-    let squared: Vec<f64> = windows.iter().map(|window| window.squared_distance(inflation)).collect();
-    let count = squared.len();
-    let covered_count = squared.iter().filter(|square| **square < CHI2_95[2]).count();
+    let squared_distances: Vec<f64> =
+        windows.iter().map(|window| window.squared_distance(inflation)).collect();
+    let count = squared_distances.len();
+    let covered_count = squared_distances.iter().filter(|square| **square < CHI2_95[2]).count();
     WindowCoverage {
         length,
         count,
         coverage: covered_count as f64 / count as f64,
-        nees: squared.iter().sum::<f64>() / (3 * count) as f64,
+        nees: squared_distances.iter().sum::<f64>() / (3 * count) as f64,
     }
 }
 
@@ -183,7 +186,7 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &Sample, alphas: &[Option<f64>
         let filtered = residuals.filtered(parameters);
         covered_legs += filtered
             .leg_fits()
-            .filter(|fit| fit.observed() > 0 && fit.squared < CHI2_95[fit.observed() - 1])
+            .filter(|fit| fit.observed_count() > 0 && fit.squared < CHI2_95[fit.observed_count() - 1])
             .count();
     }
     // Variances estimated from the 3n components of n legs have the relative variance 2/3n; several α's share them.
@@ -205,12 +208,12 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &Sample, alphas: &[Option<f64>
     let window_coverages: Vec<WindowCoverage> =
         windows.iter().zip(WINDOW_LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
     checks.extend(window_checks(&window_coverages, scale_std));
-    let recommended = inflation.map(|inflation| Recommendation {
+    let recommendation = inflation.map(|inflation| Recommendation {
         alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),
         inflation,
         reason: recommendation_reason(&window_coverages[0], inflation),
     });
-    CrossValidation { recommended, checks, windows: window_coverages }
+    CrossValidation { recommended: recommendation, checks, windows: window_coverages }
 }
 
 fn recommendation_reason(window: &WindowCoverage, inflation: f64) -> String {

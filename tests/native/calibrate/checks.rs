@@ -75,13 +75,14 @@ fn a_copy_of_the_odometry_is_no_reference() {
     for digits in [6, 3, 2] {
         let round_to_digits = |value: f64| (value * 10_f64.powi(digits)).round() / 10_f64.powi(digits);
         let copied_samples = odometry.samples().map(|(time, pose)| {
-            let shifted = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
+            let copied_pose =
+                SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
             (
                 time + 0.1,
                 SE2::new(
-                    round_to_digits(shifted.x()),
-                    round_to_digits(shifted.y()),
-                    round_to_digits(shifted.theta()),
+                    round_to_digits(copied_pose.x()),
+                    round_to_digits(copied_pose.y()),
+                    round_to_digits(copied_pose.theta()),
                 ),
             )
         });
@@ -187,7 +188,7 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         let mut noise = || NoiseKind::Normal.sample(Variance(std * std), &mut rng);
         with_poses(&odometry, |pose| SE2::new(pose.x() + noise(), pose.y() + noise(), pose.theta()))
     };
-    let shifted = with_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));
+    let shifted_odometry = with_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));
     let sideways_check_passes = |odometry: &Trajectory, model: Model| {
         let calibration =
             calibrated_log(&[odometry.clone(), reference.clone()], &Options { model, ..sim.options() });
@@ -197,7 +198,7 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     };
     let [table, omni] = [OdometryRule::Table, OdometryRule::Omni].map(Model::Odometry);
     assert_eq!(
-        [sideways_check_passes(&with_jitter(0.01), NAV2), sideways_check_passes(&shifted, NAV2)],
+        [sideways_check_passes(&with_jitter(0.01), NAV2), sideways_check_passes(&shifted_odometry, NAV2)],
         [Some(false); 2]
     );
     assert_eq!(
@@ -205,7 +206,10 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         [Some(false), Some(true)]
     );
     assert_eq!(
-        [sideways_check_passes(&shifted, omni), sideways_check_passes(&shifted, Model::Velocity)],
+        [
+            sideways_check_passes(&shifted_odometry, omni),
+            sideways_check_passes(&shifted_odometry, Model::Velocity)
+        ],
         [None; 2]
     );
     // Table 5.6 takes a drive backwards for two turns by half a circle.

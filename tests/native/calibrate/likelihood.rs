@@ -34,8 +34,8 @@ fn coordinates(pose: &SE2) -> Vector3<f64> {
 
 /// Returns rot1, trans, rot2 of a motion.
 fn reading_of(motion: &Vector3<f64>) -> Vector3<f64> {
-    let first = libm::atan2(motion.y, motion.x);
-    Vector3::new(first, libm::hypot(motion.x, motion.y), wrap_angle(motion.z - first))
+    let bearing = libm::atan2(motion.y, motion.x);
+    Vector3::new(bearing, libm::hypot(motion.x, motion.y), wrap_angle(motion.z - bearing))
 }
 
 /// Returns the Jacobian of (rot1, trans, rot2) with respect to the motion, at the expected motion.

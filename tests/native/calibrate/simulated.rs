@@ -117,10 +117,10 @@ impl Simulation {
             unit_noise = self.unit_noise(legs as f64 / self.count as f64, unit_noise, &mut rng);
             let to = from * executed_motion(self.model, &ALPHAS, &motion, time - start_time, unit_noise);
             // The noise of a leg is distributed evenly over its rows.
-            let noise = (motion.inverse() * from.inverse() * to).log();
+            let leg_noise = (motion.inverse() * from.inverse() * to).log();
             let progress = |time: f64| (time - start_time) / (leg_rows.len() as f64 * STEP_SECONDS);
             base_poses
-                .extend(leg_rows.iter().map(|(t, pose)| (*t, from * pose.boxplus(noise * progress(*t)))));
+                .extend(leg_rows.iter().map(|(t, pose)| (*t, from * pose.boxplus(leg_noise * progress(*t)))));
             if rng.random_bool(self.jumps) {
                 let direction = rng.random_range(-3.0..3.0);
                 let jump = SE2::new(0.5 * libm::cos(direction), 0.5 * libm::sin(direction), 0.0);

@@ -46,7 +46,7 @@ fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng)
 /// Returns the number of covered windows of a metre, and the number of all windows, in logs that were not used for the fit.
 fn coverage(model: Model, violation: Violation, logs: u64) -> [usize; 2] {
     let mut rng = seeded(logs);
-    let mut counts = [0; 2];
+    let mut covered_and_all = [0; 2];
     for seed in 0..logs {
         let sim = Simulation { violation, ..Simulation::of(model, 600, 900 + seed) };
         let recommended = calibrated(&sim).recommended.expect("a usable log").alphas;
@@ -58,14 +58,18 @@ fn coverage(model: Model, violation: Violation, logs: u64) -> [usize; 2] {
         for (leg_index, leg) in legs.iter().enumerate() {
             distance += motion_of(leg).x().hypot(motion_of(leg).y());
             if distance >= 1.0 {
-                counts[0] += usize::from(is_covered(model, &alphas, &legs[first_leg..=leg_index], &mut rng));
-                counts[1] += 1;
+                covered_and_all[0] +=
+                    usize::from(is_covered(model, &alphas, &legs[first_leg..=leg_index], &mut rng));
+                covered_and_all[1] += 1;
                 (first_leg, distance) = (leg_index + 1, 0.0);
             }
         }
     }
-    println!("{model:?}, {violation:?}: {counts:?}, {:.3}", counts[0] as f64 / counts[1] as f64);
-    counts
+    println!(
+        "{model:?}, {violation:?}: {covered_and_all:?}, {:.3}",
+        covered_and_all[0] as f64 / covered_and_all[1] as f64
+    );
+    covered_and_all
 }
 
 /// Reports a coverage outside of 93 to 97 % by more than three standard errors.

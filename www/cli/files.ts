@@ -12,9 +12,9 @@ import type { InputPath } from './options.ts';
 export async function recordingsOf({ path, open }: InputPath, onSkip: (error: LogError) => void): Promise<Recording[]> {
   const errors: LogError[] = [];
   const recordings = await openRecordings(await openSources(path), open, (error) => errors.push(error));
-  const refusal = recordings.length === 0 ? errors.shift() : undefined;
+  const refusalError = recordings.length === 0 ? errors.shift() : undefined;
   errors.forEach(onSkip);
-  if (refusal) throw refusal;
+  if (refusalError) throw refusalError;
   return recordings;
 }
 
@@ -40,6 +40,6 @@ async function openSources(path: string): Promise<Source[]> {
 /** Returns a file whose bytes are read when they are needed. */
 async function openSource(file: string, name: string, path?: string): Promise<Source> {
   // A pipe, such as <(zcat odom.csv.gz) in a shell, can be read only once.
-  const contents = (await stat(file)).isFile() ? await openAsBlob(file) : await readFile(file);
-  return Object.assign(new File([contents as BlobPart], name), path !== undefined && { path });
+  const fileContents = (await stat(file)).isFile() ? await openAsBlob(file) : await readFile(file);
+  return Object.assign(new File([fileContents as BlobPart], name), path !== undefined && { path });
 }

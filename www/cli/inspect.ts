@@ -35,15 +35,15 @@ export interface GivenRecording { recording: Recording; path: string }
 /**
  * Returns the contents of recordings, with the logs that could be odometry or reference.
  *
- * @param stated options about units and columns, which the proposed command repeats
+ * @param statedOptions options about units and columns, which the proposed command repeats
  */
-export async function inspect(givenRecordings: GivenRecording[], stated: [name: string, value: string][], onProgress?: (share: number | undefined) => void): Promise<InspectionResult> {
+export async function inspect(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][], onProgress?: (share: number | undefined) => void): Promise<InspectionResult> {
   const recordings: RecordingContents[] = [];
   for (const { recording } of givenRecordings) recordings.push(await contentsOf(recording, onProgress));
   onProgress?.(undefined);
   const refusedNames = recordings.flatMap(({ name, series, refused }) => (refused.length > 0 && !series.some(({ summary }) => summary) ? [name] : []));
-  if (refusedNames.length === 0) return { recordings, ...nextCommand(givenRecordings, stated) };
-  const hintForOthers = { missing: `Give two files without ${new Intl.ListFormat('en').format(refusedNames)}:`, command: commandText(stated, '--odometry FILE', '--reference FILE') };
+  if (refusedNames.length === 0) return { recordings, ...nextCommand(givenRecordings, statedOptions) };
+  const hintForOthers = { missing: `Give two files without ${new Intl.ListFormat('en').format(refusedNames)}:`, command: commandText(statedOptions, '--odometry FILE', '--reference FILE') };
   return { recordings, ...(refusedNames.length < recordings.length && hintForOthers) };
 }
 
@@ -114,13 +114,13 @@ async function readLogs(recording: Recording, choices: LogChoice[], onProgress?:
 export const roleOrderSentence = ({ unpaired: { odometry: [first], reference: [second] } }: LogPlan): string =>
   `${first.recording.name} is taken as the odometry and ${second.recording.name} as the reference, by their order: neither name says which is which.`;
 
-const commandText = (stated: [name: string, value: string][], ...options: string[]) =>
-  ['npx motion-widgets calibrate', ...options, ...stated.map(([name, value]) => `--${name} ${shellQuoted(value)}`), '--rule nav2'].join(' ');
+const commandText = (statedOptions: [name: string, value: string][], ...options: string[]) =>
+  ['npx motion-widgets calibrate', ...options, ...statedOptions.map(([name, value]) => `--${name} ${shellQuoted(value)}`), '--rule nav2'].join(' ');
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
-function nextCommand(givenRecordings: GivenRecording[], stated: [name: string, value: string][]): Pick<InspectionResult, 'command' | 'missing'> {
+function nextCommand(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][]): Pick<InspectionResult, 'command' | 'missing'> {
   const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => shellQuoted(givenRecordings.find((file) => file.recording === recording)?.path ?? recording.name);
-  const commandWith = (...options: string[]) => commandText(stated, ...new Set(options));
+  const commandWith = (...options: string[]) => commandText(statedOptions, ...new Set(options));
   const quotedPaths = givenRecordings.map(({ recording }) => quotedPath({ recording }));
   try {
     const plan = planDrives(givenRecordings.map(({ recording }) => recording));

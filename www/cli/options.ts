@@ -106,7 +106,7 @@ interface InspectArguments {
   command: 'inspect';
   inputs: InputPath[];
   /** Options about units and columns. */
-  stated: [name: string, value: string][];
+  statedOptions: [name: string, value: string][];
   isJson: boolean;
 }
 
@@ -125,8 +125,8 @@ export function parseOptions(args: string[]): CalibrateArguments | InspectArgume
     if (allPaths.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
     const uselessOption = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
     if (uselessOption !== undefined) throw new UsageError(`--${uselessOption} is an option of calibrate; inspect has ${listOfAlternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
-    const stated = Object.entries(values).filter((entry): entry is [string, string] => typeof entry[1] === 'string');
-    return { command, inputs: allPaths.map((path) => ({ path, open: openOptionsOf() })), stated, isJson: values.json ?? false };
+    const statedOptions = Object.entries(values).filter((entry): entry is [string, string] => typeof entry[1] === 'string');
+    return { command, inputs: allPaths.map((path) => ({ path, open: openOptionsOf() })), statedOptions, isJson: values.json ?? false };
   }
   if (command !== 'calibrate') {
     const path = [command, ...paths].find(isPath) ?? 'run.bag';
@@ -135,8 +135,8 @@ export function parseOptions(args: string[]): CalibrateArguments | InspectArgume
   const numberOption = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
     const value = values[name];
     if (value === undefined) return undefined;
-    const number = value.trim() === '' ? NaN : Number(value);
-    if (Number.isFinite(number)) return number;
+    const parsedNumber = value.trim() === '' ? NaN : Number(value);
+    if (Number.isFinite(parsedNumber)) return parsedNumber;
     const decimalHint = /^-?\d*,\d+$/.test(value) ? ` with a decimal point, ${value.replace(',', '.')}` : '';
     throw new UsageError(`--${name} must be a number${decimalHint} (got “${truncate(value)}”).`);
   };

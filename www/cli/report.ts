@@ -5,7 +5,7 @@ import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { alphaOrBound, correctionAdvice, formatInterval, failedChecksOf, formatEstimate, isOfNav2, missingAlphas, nav2Lines, percent, formatNumber } from '../widgets/alpha-calibrator/lines.ts';
+import { alphaOrBound, correctionAdvice, formatInterval, failedChecksOf, formatEstimate, isOfNav2, missingAlphas, nav2Lines, formatPercent, formatNumber } from '../widgets/alpha-calibrator/lines.ts';
 
 type Interval = [number, number] | null;
 
@@ -57,7 +57,7 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
   const failedChecks = failedChecksOf(checks);
   const lossTexts = Object.entries(LOST_LEG_CAUSES).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
   const excludedLegs = [...(lossTexts.length ? [`lost legs: ${lossTexts.join(', ')}`] : []), ...outlierLines(legs, driveStarts)];
-  const text = [
+  const reportBody = [
     '',
     ...verdictLines({ calibration, options, logs }),
     '',
@@ -76,7 +76,7 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
     ...nav2Section({ calibration, options, logs, start, driveStarts, date }),
     '',
   ].join('\n');
-  return isColored ? text.replaceAll(/^Consistent|\bok$/gm, inColor(GREEN)).replace(/^Questionable/m, inColor(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, inColor(RED)) : text;
+  return isColored ? reportBody.replaceAll(/^Consistent|\bok$/gm, inColor(GREEN)).replace(/^Questionable/m, inColor(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, inColor(RED)) : reportBody;
 }
 
 /** ANSI codes of colours in a terminal. */
@@ -153,13 +153,13 @@ function persistenceRow({ persistence: { correlation: { value, interval }, lengt
 
 function checkRow({ name, value, expected: [low, high], passed }: any): string[] {
   // A failing value is printed with more digits if it would round to a bound.
-  const digits = [3, 4, 6, 17].find((count) => passed || [low, high].every((bound) => formatNumber(value, count) !== formatNumber(bound, count)));
-  const bounds = low === -Infinity ? `≤ ${formatNumber(high, digits)}` : high === Infinity ? `≥ ${formatNumber(low, digits)}` : `${formatNumber(low, digits)} to ${formatNumber(high, digits)}`;
-  return [name, value === Infinity ? '∞' : formatNumber(value, digits), bounds, passed ? 'ok' : 'FAILED'];
+  const digitCount = [3, 4, 6, 17].find((count) => passed || [low, high].every((bound) => formatNumber(value, count) !== formatNumber(bound, count)));
+  const boundsText = low === -Infinity ? `≤ ${formatNumber(high, digitCount)}` : high === Infinity ? `≥ ${formatNumber(low, digitCount)}` : `${formatNumber(low, digitCount)} to ${formatNumber(high, digitCount)}`;
+  return [name, value === Infinity ? '∞' : formatNumber(value, digitCount), boundsText, passed ? 'ok' : 'FAILED'];
 }
 
 function windowRow({ length, count, coverage, nees }: any): string[] {
-  return [`of ${formatNumber(length)} m`, String(count), percent(coverage), formatNumber(nees)];
+  return [`of ${formatNumber(length)} m`, String(count), formatPercent(coverage), formatNumber(nees)];
 }
 
 /** Lists outliers by their times after the start of the odometry. */

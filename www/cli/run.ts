@@ -39,7 +39,7 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
     else if (options.command === 'inspect') {
       const givenRecordings: GivenRecording[] = [];
       for (const input of options.inputs) for (const recording of await recordingsOf(input, onSkip)) givenRecordings.push({ recording, path: input.path });
-      const inspection = await inspect(givenRecordings, options.stated, onProgress);
+      const inspection = await inspect(givenRecordings, options.statedOptions, onProgress);
       print(options.isJson ? `${JSON.stringify(inspection, undefined, 1)}\n` : inspectionText(inspection));
       if (inspection.command === undefined) return BAD_INPUT;
     } else return await calibrate(options, environment, onSkip);

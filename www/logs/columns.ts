@@ -114,8 +114,8 @@ const QUANTITY_OF_FIELD: Partial<Record<Field, [ParsedUnit['quantity'], boolean]
 
 /** Returns a name in lower case, with dots between its parts. */
 function dottedName(name: string): string {
-  const parts = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
-  return parts.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
+  const lowerCaseName = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
+  return lowerCaseName.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
 }
 
 interface ColumnMeaning { field: Field; rank: number; prefix: string; unit?: string }

@@ -84,10 +84,10 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
 function motionsOf({ data }: Log, from: number, step: number, count: number, correct = (pose: Pose) => pose): Motion[] {
   const path = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
   const correctedPath = { ...path, poses: path.poses.map(correct) };
-  const poses = Array.from({ length: count + 1 }, (_, i) => poseAt(correctedPath, from + i * step));
-  return poses.slice(1).map(([x, y, heading], i) => {
-    const [dx, dy, turn] = [x - poses[i][0], y - poses[i][1], wrapAngle(heading - poses[i][2])];
-    const middleHeading = poses[i][2] + turn / 2;
+  const stepPoses = Array.from({ length: count + 1 }, (_, i) => poseAt(correctedPath, from + i * step));
+  return stepPoses.slice(1).map(([x, y, heading], i) => {
+    const [dx, dy, turn] = [x - stepPoses[i][0], y - stepPoses[i][1], wrapAngle(heading - stepPoses[i][2])];
+    const middleHeading = stepPoses[i][2] + turn / 2;
     return [dx * Math.cos(middleHeading) + dy * Math.sin(middleHeading), dy * Math.cos(middleHeading) - dx * Math.sin(middleHeading), turn];
   });
 }

@@ -61,9 +61,9 @@ const NON_TABLE_PATTERNS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]
 /** Splits a line into cells. May return only the first `needed` cells. A separator in quotes does not count. */
 export function cellsOf(line: string, separator: string, needed = Infinity): string[] {
   if (separator === ' ') {
-    const words = line.trim().split(/[ \t]+/);
+    const lineWords = line.trim().split(/[ \t]+/);
     // A FLASER record begins with the number of laser readings and the readings, which are not columns.
-    return words[0] === 'FLASER' ? [words[0], ...words.slice(2 + Number(words[1]))] : words;
+    return lineWords[0] === 'FLASER' ? [lineWords[0], ...lineWords.slice(2 + Number(lineWords[1]))] : lineWords;
   }
   if (!line.includes('"')) {
     // A loop takes half as long as `split`.
@@ -125,18 +125,18 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
 
   const separator = separatorOf([...textLines.slice(0, SAMPLED_LINES), ...textLines.slice(-SAMPLED_LINES)].map(({ line }) => line.trim()));
   const cells = (line: string) => cellsOf(line, separator);
-  const first = textLines.find(({ line }, i) => isDataRow(cells(line)) && (i + 1 === textLines.length || isDataRow(cells(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cells(line)));
-  const rows = first ? textLines.filter(({ number }) => number >= first.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];
+  const firstRowLine = textLines.find(({ line }, i) => isDataRow(cells(line)) && (i + 1 === textLines.length || isDataRow(cells(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cells(line)));
+  const rows = firstRowLine ? textLines.filter(({ number }) => number >= firstRowLine.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];
   // Between commas, a comma in quotes may also separate thousands.
   const hasDecimalComma = (cell: string) => DECIMAL_COMMA.test(cell) && (separator !== ',' || !THOUSANDS_COMMA.test(cell));
   const hasDecimalCommas = rows.flat().some(hasDecimalComma);
   const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
-  const commonFormat = { name: 'csv' as const, separator, hasDecimalCommas, firstLine: first?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
-  const errorPlace = { file, line: first?.number ?? filledLines[0].number };
+  const commonFormat = { name: 'csv' as const, separator, hasDecimalCommas, firstLine: firstRowLine?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
+  const errorPlace = { file, line: firstRowLine?.number ?? filledLines[0].number };
   const noLogError = () => new LogError({ file }, (say) => say.noLog);
 
   if (columns) {
-    if (first && columns.length !== rowWidth) throw new LogError(errorPlace, (say) => say.given(rowWidth, columns.length));
+    if (firstRowLine && columns.length !== rowWidth) throw new LogError(errorPlace, (say) => say.given(rowWidth, columns.length));
     return { ...commonFormat, names: columns, groups: columnGroups(columns, rows[0]) };
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
@@ -150,18 +150,18 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
     const { number } = header;
     const names = withUnits(header.names, preambleLines.flatMap((text) => (text.number > number ? [cells(text.line)] : [])));
     // Rows with decimal commas between commas have more cells than the header.
-    if (rowWidth > names.length) throw new LogError({ file, line: first?.number }, (say) => say.wide(rowWidth, names.length, number));
+    if (rowWidth > names.length) throw new LogError({ file, line: firstRowLine?.number }, (say) => say.wide(rowWidth, names.length, number));
     const groups = columnGroups(names, rows[0]).flatMap((group) => groupsBySource(group, rows));
-    if (!first && groups.every(({ kind }) => kind === null)) throw noLogError();
+    if (!firstRowLine && groups.every(({ kind }) => kind === null)) throw noLogError();
     return { ...commonFormat, names, header: lines[number - 1], groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
   }
-  if (!first) throw noLogError();
+  if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
   if (names) return { ...commonFormat, name: names === TUM_COLUMNS ? 'tum' : 'csv', names, groups: columnGroups(names, rows[0]) };
   if (rowWidth === KITTI_WIDTH) throw new LogError(errorPlace, (say) => say.kitti);
   if (rowWidth === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(errorPlace, (say) => say.twists);
   const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
-  throw new LogError(errorPlace, (say) => say.noHeader(rowWidth, truncate(first.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
+  throw new LogError(errorPlace, (say) => say.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
 }
 
 /** Splits a group whose rows come from several topics or robots. */
@@ -169,16 +169,16 @@ function groupsBySource(group: Group, rows: string[][]): Group[] {
   const { source: { at } = { at: -1 }, x, v } = group.columns;
   // In a row of another topic the cells of this one are empty.
   const rowsOfGroup = rows.filter((row) => row[(x ?? v)?.at ?? at]?.trim());
-  const sources = [...new Set(rowsOfGroup.map((row) => row[at]?.trim() ?? ''))].filter(Boolean);
-  return sources.length > 1 ? sources.map((name) => ({ ...group, name: group.name ? `${name}/${group.name}` : name, source: { at, name } })) : [group];
+  const sourceNames = [...new Set(rowsOfGroup.map((row) => row[at]?.trim() ?? ''))].filter(Boolean);
+  return sourceNames.length > 1 ? sourceNames.map((name) => ({ ...group, name: group.name ? `${name}/${group.name}` : name, source: { at, name } })) : [group];
 }
 
 const unitWithoutBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
 
 /** Adds the units of a row below the header to the names. */
 function withUnits(names: string[], below: string[][]): string[] {
-  const units = below.map((row) => row.map(unitWithoutBrackets)).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
-  return names.map((name, i) => (units && isUnit(units[i]) ? `${name} [${units[i]}]` : name));
+  const unitTexts = below.map((row) => row.map(unitWithoutBrackets)).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
+  return names.map((name, i) => (unitTexts && isUnit(unitTexts[i]) ? `${name} [${unitTexts[i]}]` : name));
 }
 
 /** Groups columns. A column without a name has times if its first cell is a date or a fraction. A whole number there is a row number. */

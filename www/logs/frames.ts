@@ -106,8 +106,8 @@ export class Chain {
   /** Adds a transform. Static transforms must come first, because they hold at all times. */
   add(stampedTransform: StampedTransform, isStatic: boolean, { channel, seconds, nanoseconds }: Message, number: number): void {
     this.tree.add(stampedTransform, isStatic);
-    const sample = { link: framesText(stampedTransform), isStatic, stampedTransform, message: { channel, seconds, nanoseconds }, number };
-    if (!this.isConnected || this.#links.includes(sample.link)) this.#samples.push(sample);
+    const recordedTransform = { link: framesText(stampedTransform), isStatic, stampedTransform, message: { channel, seconds, nanoseconds }, number };
+    if (!this.isConnected || this.#links.includes(recordedTransform.link)) this.#samples.push(recordedTransform);
     if (this.isConnected) return;
     this.#links = (this.tree.findChain(this.#endFrames) ?? []).map(framesText);
     if (this.isConnected) this.#samples = this.#samples.filter(({ link }) => this.#links.includes(link));
@@ -123,7 +123,7 @@ export class Chain {
    *
    * @returns false if no transform ever changes
    */
-  poses(onPose: (reading: Sample, sample: RecordedTransform) => void): boolean {
+  poses(onPose: (reading: Sample, recordedTransform: RecordedTransform) => void): boolean {
     const transforms = new Map<string, Transform>();
     const movingFrames = new Set<string>();
     const unseenLinks = new Set<string>();
@@ -140,10 +140,10 @@ export class Chain {
     if (nearestMovingLink === undefined) return false;
     const timeOf = ({ message: { seconds, nanoseconds } }: RecordedTransform) => seconds + nanoseconds / 1e9;
     let pendingTransform: RecordedTransform | undefined;
-    for (const sample of this.#samples.toSorted((a, b) => timeOf(a) - timeOf(b))) {
-      transforms.set(sample.link, sample.stampedTransform.transform);
-      unseenLinks.delete(sample.link);
-      if (sample.link === nearestMovingLink) pendingTransform = sample;
+    for (const recordedTransform of this.#samples.toSorted((a, b) => timeOf(a) - timeOf(b))) {
+      transforms.set(recordedTransform.link, recordedTransform.stampedTransform.transform);
+      unseenLinks.delete(recordedTransform.link);
+      if (recordedTransform.link === nearestMovingLink) pendingTransform = recordedTransform;
       if (!pendingTransform || unseenLinks.size > 0) continue;
       onPose(sampleOfPose(pendingTransform.stampedTransform, this.#links.map((link) => transforms.get(link) as Transform).reduce(composeTransforms)), pendingTransform);
       pendingTransform = undefined;
@@ -155,7 +155,7 @@ export class Chain {
 /** Returns the composition of two transforms: the second one is relative to the frame of the first. */
 function composeTransforms([x, y, z, qx, qy, qz, qw]: Transform, [x2, y2, z2, qx2, qy2, qz2, qw2]: Transform): Transform {
   const rotation = { x: qx, y: qy, z: qz, w: qw };
-  const offset = rotateVector(rotation, { x: x2, y: y2, z: z2 });
+  const rotatedOffset = rotateVector(rotation, { x: x2, y: y2, z: z2 });
   const rotationProduct = hamiltonProduct(rotation, { x: qx2, y: qy2, z: qz2, w: qw2 });
-  return [x + offset.x, y + offset.y, z + offset.z, rotationProduct.x, rotationProduct.y, rotationProduct.z, rotationProduct.w];
+  return [x + rotatedOffset.x, y + rotatedOffset.y, z + rotatedOffset.z, rotationProduct.x, rotationProduct.y, rotationProduct.z, rotationProduct.w];
 }

@@ -21,9 +21,9 @@ const DURATION_TEXT = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+)
 
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
 export function parseNumber(cell: string): number | undefined {
-  const value = Number(cell);
+  const parsedValue = Number(cell);
   // `Number` parses an empty cell as 0, and hexadecimal digits. `parseFloat` returns other numbers for both.
-  if (value === value && (Math.trunc(value) !== value || value === parseFloat(cell))) return value;
+  if (parsedValue === parsedValue && (Math.trunc(parsedValue) !== parsedValue || parsedValue === parseFloat(cell))) return parsedValue;
   return NOT_FINITE_WORDS.test(cell.trim()) ? NaN : undefined;
 }
 
@@ -34,14 +34,14 @@ export function parseNumber(cell: string): number | undefined {
  * @returns NaN or undefined as `parseNumber`
  */
 export function parseTime(cell: string, power: number): SplitTime | undefined {
-  const decimal = DECIMAL_NUMBER.exec(cell);
-  if (!decimal) {
-    const number = parseNumber(cell);
-    if (number === undefined) return undefined;
-    const time = number / 10 ** power;
+  const decimalMatch = DECIMAL_NUMBER.exec(cell);
+  if (!decimalMatch) {
+    const parsedNumber = parseNumber(cell);
+    if (parsedNumber === undefined) return undefined;
+    const time = parsedNumber / 10 ** power;
     return [Math.floor(time), time - Math.floor(time)];
   }
-  const [, sign, digits, decimals = '', exponent] = decimal;
+  const [, sign, digits, decimals = '', exponent] = decimalMatch;
   // The digits are split at the end of the whole seconds, so that nothing is rounded.
   const pointIndex = digits.length - power + (exponent === undefined ? 0 : Number(exponent));
   const allDigits = digits + decimals;
@@ -52,18 +52,18 @@ export function parseTime(cell: string, power: number): SplitTime | undefined {
 
 /** Parses an ISO 8601 date or a duration; undefined for any other text. A date without a time zone is in UTC. */
 export function parseDate(cell: string): { time: SplitTime; hasZone: boolean } | undefined {
-  const date = ISO_DATE.exec(cell.replace(GERMAN_DATE, '$3-$2-$1'));
-  if (date) {
-    const [, year, month, day, hour = '0', minute = '0', second = '0', fraction = '', zone] = date;
+  const dateMatch = ISO_DATE.exec(cell.replace(GERMAN_DATE, '$3-$2-$1'));
+  if (dateMatch) {
+    const [, year, month, day, hour = '0', minute = '0', second = '0', fraction = '', zone] = dateMatch;
     const [sign, hours, minutes] = /^([+-])(\d{2}):?(\d{2})?$/.exec(zone ?? '')?.slice(1) ?? ['+', '0', '0'];
-    const offset = (sign === '-' ? -60 : 60) * (60 * Number(hours) + Number(minutes ?? 0));
-    const seconds = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute), Number(second)) / 1000 - offset;
+    const zoneOffset = (sign === '-' ? -60 : 60) * (60 * Number(hours) + Number(minutes ?? 0));
+    const seconds = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute), Number(second)) / 1000 - zoneOffset;
     return { time: [seconds, Number(`.${fraction}0`)], hasZone: zone !== undefined };
   }
   const [secondsText, wholeSeconds, fractionDigits = ''] = SECONDS_TEXT.exec(cell) ?? [];
   if (secondsText !== undefined) return { time: [Number(wholeSeconds), Number(`.${fractionDigits}0`)], hasZone: true };
-  const duration = DURATION_TEXT.exec(cell);
-  if (!duration) return undefined;
-  const [days = '0', hours, minutes, seconds, fraction = ''] = duration.slice(1);
+  const durationMatch = DURATION_TEXT.exec(cell);
+  if (!durationMatch) return undefined;
+  const [days = '0', hours, minutes, seconds, fraction = ''] = durationMatch.slice(1);
   return { time: [((Number(days) * 24 + Number(hours)) * 60 + Number(minutes)) * 60 + Number(seconds), Number(`.${fraction}0`)], hasZone: true };
 }

@@ -56,9 +56,9 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
       const { listedFiles, joinedContainer } = await import('./formats/folder.ts');
       formatByFile.delete(metadata);
       const { name, found, missingFiles } = await listedFiles(metadata, openedSources);
-      const parts = Promise.all(found.map((source) => openContainer(source, formatByFile.get(source))));
+      const partContainers = Promise.all(found.map((source) => openContainer(source, formatByFile.get(source))));
       for (const source of found) formatByFile.delete(source);
-      const container = joinedContainer(await parts, missingFiles);
+      const container = joinedContainer(await partContainers, missingFiles);
       recordings.push(await (await import('./topics.ts')).recordingOf(name, container, optionsOf(name)));
     });
   }

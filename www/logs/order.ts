@@ -21,7 +21,7 @@ interface RowOrder {
   /** Kept rows, sorted by time. Rows of equal time are in the order of the file. */
   order: Uint32Array;
   /** Class of each row. */
-  classes: Uint8Array;
+  rowClasses: Uint8Array;
   /** First row after the clock was set back; −1 if it never was. */
   firstSetBackRow: number;
   /** Number of rows in the largest part of the log between resets of the clock. */
@@ -36,14 +36,14 @@ interface RowOrder {
  * @param isSame checks whether two rows have the same values
  */
 export function sortRows(t: Float64Array, isSame: (one: number, other: number) => boolean): RowOrder {
-  const classes = new Uint8Array(t.length);
+  const rowClasses = new Uint8Array(t.length);
   const allRows = new Uint32Array(t.length);
   let backwardSteps = 0;
   for (let i = 0; i < t.length; i++) {
     allRows[i] = i;
     if (t[i] < t[i - 1]) backwardSteps += 1;
   }
-  if (backwardSteps === 0) return { order: allRows, classes, firstSetBackRow: -1, largestPartSize: t.length };
+  if (backwardSteps === 0) return { order: allRows, rowClasses, firstSetBackRow: -1, largestPartSize: t.length };
 
   const sortedRows = allRows.toSorted((one, other) => t[one] - t[other] || one - other);
   // Parts of the log may have the same times, so that sorting makes the steps shorter. A log that is out of order everywhere has no parts.
@@ -55,20 +55,20 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
   for (let i = 0; i < t.length; i++) {
     const neighbourGap = t[i + 1] - t[i - 1];
     const isBetweenNeighbours = t[i] >= t[i - 1] && t[i] <= t[i + 1];
-    if (neighbourGap >= 0 && neighbourGap <= MAX_GAP_STEPS * medianStep && !isBetweenNeighbours && isFarFromOthers(i)) classes[i] = STRAY;
+    if (neighbourGap >= 0 && neighbourGap <= MAX_GAP_STEPS * medianStep && !isBetweenNeighbours && isFarFromOthers(i)) rowClasses[i] = STRAY;
   }
 
   // Runs are rows with rising times. A run that repeats times of earlier runs begins a new part.
   const runOfRow = new Uint32Array(t.length);
   for (let i = 1, last = 0; i < t.length; i++) {
     runOfRow[i] = runOfRow[i - 1];
-    if (classes[i - 1] !== STRAY) last = i - 1;
-    if (classes[i] !== STRAY && t[i] < t[last]) runOfRow[i] += 1;
+    if (rowClasses[i - 1] !== STRAY) last = i - 1;
+    if (rowClasses[i] !== STRAY && t[i] < t[last]) runOfRow[i] += 1;
   }
   const overlapCounts = new Uint32Array(runOfRow[t.length - 1] + 1);
   let previousRow = -1;
   for (const i of sortedRows) {
-    if (classes[i] === STRAY) continue;
+    if (rowClasses[i] === STRAY) continue;
     const isRepeated = previousRow >= 0 && runOfRow[previousRow] !== runOfRow[i] && t[i] - t[previousRow] < SAME_TIME_STEPS * medianStep;
     if (isRepeated && !isSame(previousRow, i)) overlapCounts[Math.max(runOfRow[previousRow], runOfRow[i])] += 1;
     previousRow = i;
@@ -82,18 +82,18 @@ export function sortRows(t: Float64Array, isSame: (one: number, other: number) =
       partSizes.push(0);
     }
     partOfRow[i] = partSizes.length - 1;
-    if (classes[i] !== STRAY) partSizes[partOfRow[i]] += 1;
+    if (rowClasses[i] !== STRAY) partSizes[partOfRow[i]] += 1;
   }
   const largestPartSize = Math.max(...partSizes);
   const largestPart = partSizes.indexOf(largestPartSize);
   let newestTime = -Infinity;
   for (let i = 0; i < t.length; i++) {
-    if (classes[i] === STRAY) continue;
-    if (partOfRow[i] !== largestPart) classes[i] = SET_BACK;
-    else if (t[i] < newestTime) classes[i] = LATE;
+    if (rowClasses[i] === STRAY) continue;
+    if (partOfRow[i] !== largestPart) rowClasses[i] = SET_BACK;
+    else if (t[i] < newestTime) rowClasses[i] = LATE;
     else newestTime = t[i];
   }
-  return { order: sortedRows.filter((i) => classes[i] < STRAY), classes, firstSetBackRow, largestPartSize };
+  return { order: sortedRows.filter((i) => rowClasses[i] < STRAY), rowClasses, firstSetBackRow, largestPartSize };
 }
 
 /** Repeated poses of a moving robot: maximum duration in s of a run of equal rows, and minimum number of such runs. */

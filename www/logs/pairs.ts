@@ -65,15 +65,15 @@ export function matchLogs(odometry: Log[], reference: Log[]): [Log, Log][] {
  * LogError if the reference has no poses, does not follow the robot, or is the odometry itself.
  */
 export function pairLogs(odometry: Log, reference: Log): Drive {
-  const place = { file: reference.name };
-  if (reference.kind === 'commands') throw new LogError(place, (say) => say.noColumns('poses', 't, v, omega'));
+  const referencePlace = { file: reference.name };
+  if (reference.kind === 'commands') throw new LogError(referencePlace, (say) => say.noColumns('poses', 't, v, omega'));
   const { frames } = reference.summary;
-  if (frames?.parent === 'odom') throw new LogError(place, (say) => say.ownReference(framesText(frames)));
+  if (frames?.parent === 'odom') throw new LogError(referencePlace, (say) => say.ownReference(framesText(frames)));
   const commonStart = Math.min(odometry.start, reference.start);
   const [commonOdometry, commonReference] = [withStart(odometry, commonStart), withStart(reference, commonStart)];
-  if (isSamePath(commonOdometry, commonReference)) throw new LogError(place, (say) => (reference.name === odometry.name ? say.givenTwice : say.same(odometry.name)));
+  if (isSamePath(commonOdometry, commonReference)) throw new LogError(referencePlace, (say) => (reference.name === odometry.name ? say.givenTwice : say.same(odometry.name)));
   const reliableReference = withoutFrozenPoses(commonReference, commonOdometry);
-  if (reliableReference.data.t.length < 2) throw new LogError(place, (say) => say.held);
+  if (reliableReference.data.t.length < 2) throw new LogError(referencePlace, (say) => say.held);
   const correction = correctionOf(commonOdometry, reliableReference);
   if (correction) {
     const unitOption = UNIT_OPTIONS[correction.name];
@@ -139,8 +139,8 @@ export function isSamePath(one: Log, two: Log): boolean {
     return [cos * dx + sin * dy, cos * dy - sin * dx, theta[to] - theta[from]];
   };
   const isRoundedTo = (step: number) => [poses, other].some(({ x, y }) => [x, y].every((coordinates) => coordinates.every((value) => Math.abs(value / step - Math.round(value / step)) < 1e-6)));
-  const step = ROUNDING_STEPS.find((candidate) => one.summary.distance > MIN_ROUNDED_LENGTH * candidate && isRoundedTo(candidate)) ?? 0;
-  let [hasSameMotion, hasSameRoundedPositions] = [true, step > 0];
+  const roundingStep = ROUNDING_STEPS.find((candidate) => one.summary.distance > MIN_ROUNDED_LENGTH * candidate && isRoundedTo(candidate)) ?? 0;
+  let [hasSameMotion, hasSameRoundedPositions] = [true, roundingStep > 0];
   let firstRows: [number, number] | undefined;
   let [comparedRows, motion] = [0, 0];
   for (let i = 0; i < t.length; i += rowStride) {
@@ -151,7 +151,7 @@ export function isSamePath(one: Log, two: Log): boolean {
     const distance = Math.hypot(motionOfOne[0], motionOfOne[1]);
     const turn = Math.abs(Math.sin((motionOfOne[2] - motionOfTwo[2]) / 2));
     hasSameMotion &&= Math.hypot(motionOfOne[0] - motionOfTwo[0], motionOfOne[1] - motionOfTwo[1]) <= COPY_TOLERANCE * (1 + distance) && turn <= COPY_TOLERANCE;
-    hasSameRoundedPositions &&= Math.max(Math.abs(poses.x[i] - other.x[j]), Math.abs(poses.y[i] - other.y[j])) < 0.5 * step + COPY_TOLERANCE;
+    hasSameRoundedPositions &&= Math.max(Math.abs(poses.x[i] - other.x[j]), Math.abs(poses.y[i] - other.y[j])) < 0.5 * roundingStep + COPY_TOLERANCE;
     if (!hasSameMotion && !hasSameRoundedPositions) return false;
     comparedRows += 1;
     motion = Math.max(motion, distance, Math.abs(Math.sin(motionOfOne[2] / 2)));

@@ -195,11 +195,11 @@ export class Rows {
    */
   #continueClock(): number {
     const numbers = this.#numbers;
-    const steps = new Float64Array(this.#addedCount).map((_, row) => (row > 0 ? this.#time(row, this.#number(row - 1, this.#clock)) - this.#number(row - 1, this.#clock + 1) : 0));
-    const medianStep = quantile(sampleEvenly(steps.length - 1, (i) => Math.abs(steps[i + 1])), 0.5);
+    const timeSteps = new Float64Array(this.#addedCount).map((_, row) => (row > 0 ? this.#time(row, this.#number(row - 1, this.#clock)) - this.#number(row - 1, this.#clock + 1) : 0));
+    const medianStep = quantile(sampleEvenly(timeSteps.length - 1, (i) => Math.abs(timeSteps[i + 1])), 0.5);
     const periods = CLOCK_PERIODS.filter((period) => period > MIN_PERIOD_STEPS * medianStep);
     let [passedTime, firstLine] = [0, 0];
-    for (const [row, step] of steps.entries()) {
+    for (const [row, step] of timeSteps.entries()) {
       // A late row from before the wrap is a forward step, and subtracts the period again.
       const period = step < 0 || passedTime > 0 ? periods.find((clockPeriod) => Math.abs(Math.abs(step) - clockPeriod) <= MIN_GAP_STEPS * medianStep) : undefined;
       if (period) {
@@ -249,7 +249,7 @@ export class Rows {
     const usedRows = isSince1970 ? rowsWithStamp : this.#rows;
     const baseSecond = Math.floor(this.#number(usedRows[0], this.#clock));
     const times = this.#column(usedRows, (row) => this.#time(row, baseSecond));
-    const { order, classes, firstSetBackRow, largestPartSize } = sortRows(times, (one, other) => this.#isSame(usedRows[one], usedRows[other]));
+    const { order, rowClasses, firstSetBackRow, largestPartSize } = sortRows(times, (one, other) => this.#isSame(usedRows[one], usedRows[other]));
     if (firstSetBackRow >= 0 && largestPartSize < MIN_KEPT_FRACTION * times.length) {
       const line = this.#number(usedRows[firstSetBackRow], LINE);
       throw new LogError(this.#placeOf(line), (say) => say.setBack(times[firstSetBackRow - 1] - times[firstSetBackRow], this.#messageNumber(line)));
@@ -288,10 +288,10 @@ export class Rows {
       });
     }
     usedRows.forEach((row, i) => {
-      if (classes[i] === STRAY || classes[i] === SET_BACK) causes.set(row, classes[i] === STRAY ? 'stray' : 'setBack');
+      if (rowClasses[i] === STRAY || rowClasses[i] === SET_BACK) causes.set(row, rowClasses[i] === STRAY ? 'stray' : 'setBack');
     });
     if (usedRows.length < this.#addedCount) for (const row of this.#rows) if (this.#isUnset(row)) causes.set(row, 'noStamp');
-    return { start, t: timesOf(rows), rows, lateCount: classes.reduce((count, rowClass) => count + Number(rowClass === LATE), 0), causes };
+    return { start, t: timesOf(rows), rows, lateCount: rowClasses.reduce((count, rowClass) => count + Number(rowClass === LATE), 0), causes };
   }
 
   /** Returns the rows before which the path is unknown: after unusable rows, and where the clock was set back. Counts the dropped rows. */
@@ -362,10 +362,10 @@ function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): num
 function isSetForward(t: Float64Array, x: Float64Array, y: Float64Array, i: number, medianStep: number): boolean {
   const motion = (from: number, to: number) => [x[to] - x[from], y[to] - y[from]];
   const motions = [i - 1 - 2 * MOTION_ROWS, i - 1 - MOTION_ROWS, i, i + MOTION_ROWS].map((from) => motion(from, from + MOTION_ROWS));
-  const lengths = motions.map(([dx, dy]) => Math.hypot(dx, dy));
-  const minLength = Math.min(...lengths);
-  const isStraight = Math.hypot(sum(motions, ([dx]) => dx), sum(motions, ([, dy]) => dy)) > 0.95 * sum(lengths);
-  const isSteady = minLength > 0.7 * Math.max(...lengths);
+  const motionLengths = motions.map(([dx, dy]) => Math.hypot(dx, dy));
+  const minLength = Math.min(...motionLengths);
+  const isStraight = Math.hypot(sum(motions, ([dx]) => dx), sum(motions, ([, dy]) => dy)) > 0.95 * sum(motionLengths);
+  const isSteady = minLength > 0.7 * Math.max(...motionLengths);
   // After delayed messages, the next rows would follow in quick succession.
   return isStraight && isSteady && MOTION_ROWS * Math.hypot(...motion(i - 1, i)) < 2 * minLength && t[i + MOTION_ROWS] - t[i] > 0.5 * MOTION_ROWS * medianStep;
 }

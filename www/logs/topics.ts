@@ -51,8 +51,8 @@ async function listSeries(container: Container): Promise<Series[]> {
     const count = (readableChannels.length ? readableChannels : channels).reduce((sum, channel) => sum + channel.count, 0);
     return { name: topic, type: [...types].join(', '), kind: readableChannels.length && types.size === 1 ? kindOf([...types][0]) : null, count };
   });
-  for (const entry of series) {
-    if (entry.kind !== 'transforms' || isStaticTopic({ topic: entry.name, type: entry.type })) continue;
+  for (const seriesEntry of series) {
+    if (seriesEntry.kind !== 'transforms' || isStaticTopic({ topic: seriesEntry.name, type: seriesEntry.type })) continue;
     const frameTree = new FrameTree();
     let messageCount = 0;
     const addMessage = (message: Message) => {
@@ -64,8 +64,8 @@ async function listSeries(container: Container): Promise<Series[]> {
       }
     };
     await container.read(isStaticTopic, addMessage);
-    await container.read(({ topic }) => topic === entry.name, addMessage, () => messageCount >= MAX_FRAME_MESSAGES);
-    entry.frames = frameTree.findPoseFrames();
+    await container.read(({ topic }) => topic === seriesEntry.name, addMessage, () => messageCount >= MAX_FRAME_MESSAGES);
+    seriesEntry.frames = frameTree.findPoseFrames();
   }
   return series.sort((one, other) => (one.name < other.name ? -1 : 1));
 }

@@ -76,8 +76,8 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   let { length, angle } = assumed;
   if (options.lengthUnit) length = { unit: options.lengthUnit, by: 'option' };
   else if (isJudged) checkLength(kind, columns, length, askUnit);
-  const metres = METRES_PER_UNIT[length.unit];
-  if (metres !== 1) for (const column of kind === 'poses' ? [columns.a, columns.b] : [columns.a]) scaleColumn(column, metres);
+  const metresPerUnit = METRES_PER_UNIT[length.unit];
+  if (metresPerUnit !== 1) for (const column of kind === 'poses' ? [columns.a, columns.b] : [columns.a]) scaleColumn(column, metresPerUnit);
 
   if (angle.unit === 'quaternion' || angle.unit === 'none') return { time: judgedTime, length, angle };
   if (options.angleUnit) angle = { unit: options.angleUnit, by: 'option' };
@@ -100,10 +100,10 @@ function judgeTimeUnit(kind: LogKind, { t, a, b, c }: Columns, { time: assumed, 
     if (assumed.by === 'name' || assumed.unit !== 's') return ask('timeUnit', rateWithUnit(assumed.unit), assumed.unit, units.filter((unit) => isInRange(rateWithUnit(unit), STATED_RATES)));
   }
   // Turn rates only count if the unit of the headings is stated.
-  const radians = RADIANS_PER_UNIT[options.angleUnit ?? (angle.unit === 'deg' ? 'deg' : 'rad')];
+  const radiansPerUnit = RADIANS_PER_UNIT[options.angleUnit ?? (angle.unit === 'deg' ? 'deg' : 'rad')];
   const countsTurns = options.angleUnit !== undefined || angle.by !== 'usage';
   const raw = kind === 'poses' ? speedOf(t, a, b, medianStep) : 0;
-  const [speed, turnRate] = [raw * METRES_PER_UNIT[options.lengthUnit ?? length.unit], kind === 'poses' && countsTurns ? turnRateOf(t, c) * radians : 0];
+  const [speed, turnRate] = [raw * METRES_PER_UNIT[options.lengthUnit ?? length.unit], kind === 'poses' && countsTurns ? turnRateOf(t, c) * radiansPerUnit : 0];
   const isMoving = speed > 0 || turnRate > 0;
   /** Checks that the rate and the speed of the robot are plausible with a unit. */
   const isPlausibleUnit = (unit: TimeUnit) => {
@@ -145,17 +145,17 @@ function judgeAngleUnit(kind: LogKind, { t, a, b, c }: Columns, assumed: Units['
     return isDoubted ? ask('angleUnit', turnRate * RADIANS_PER_UNIT[assumed.unit as AngleUnit], assumed.unit, choices) : assumed;
   }
   let largestHeading = 0;
-  let wraps = 0;
+  let wrapCount = 0;
   for (let i = 0; i < c.length; i++) {
     if (Math.abs(c[i]) > largestHeading) largestHeading = Math.abs(c[i]);
     const step = Math.abs(c[i] - c[i - 1]);
-    if (step >= WRAP_STEP_RANGE[0] && step <= WRAP_STEP_RANGE[1]) wraps += 1;
+    if (step >= WRAP_STEP_RANGE[0] && step <= WRAP_STEP_RANGE[1]) wrapCount += 1;
   }
-  const degreeSigns = [unitByPath === 'deg', wraps > 0, turnRate > MAX_SPEED].filter(Boolean).length;
+  const degreeSigns = [unitByPath === 'deg', wrapCount > 0, turnRate > MAX_SPEED].filter(Boolean).length;
   // Headings beyond a full circle are no proof of degrees: those in radians may be unwrapped.
   const exceedsFullCircle = largestHeading > 2 * Math.PI + 0.1;
   if (unitByPath !== 'rad' && degreeSigns >= 2 && exceedsFullCircle) return { unit: 'deg', by: 'size' };
-  if (unitByPath === 'rad' ? turnRate > MAX_SPEED && wraps > 0 : turnRate > MAX_SPEED || exceedsFullCircle) return ask('angleUnit', turnRate, assumed.unit, choices);
+  if (unitByPath === 'rad' ? turnRate > MAX_SPEED && wrapCount > 0 : turnRate > MAX_SPEED || exceedsFullCircle) return ask('angleUnit', turnRate, assumed.unit, choices);
   return assumed;
 }
 

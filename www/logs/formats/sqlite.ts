@@ -94,9 +94,9 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     const wantedChannels = new Map([...this.channelsById].filter(([, channel]) => isWanted(channel)));
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
     const passRow = (channel: Channel, bytes: Uint8Array) => {
-      const stamp = BigInt(valueOf(bytes, timestamp) as bigint);
+      const nanoseconds = BigInt(valueOf(bytes, timestamp) as bigint);
       const block = viewOf(valueOf(bytes, data) as Uint8Array);
-      onMessage({ channel, seconds: Number(stamp / NS_PER_S), nanoseconds: Number(stamp % NS_PER_S), block, from: 0, to: block.byteLength });
+      onMessage({ channel, seconds: Number(nanoseconds / NS_PER_S), nanoseconds: Number(nanoseconds % NS_PER_S), block, from: 0, to: block.byteLength });
     };
     await this.#eachRow(this.#messages, (row) => {
       const channel = wantedChannels.get(valueOf(row.bytes, topicId));

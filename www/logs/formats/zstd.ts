@@ -57,12 +57,12 @@ export async function unzstdFile(source: Source): Promise<Source> {
   const outputParts: Uint8Array<ArrayBuffer>[] = [];
   let [size, emptyParts] = [0, 0];
   try {
-    for (const part of zstdDecoder.decodeStreaming(piecesOf(bytes))) {
+    for (const outputPart of zstdDecoder.decodeStreaming(piecesOf(bytes))) {
       // The decoder does not stop at damage, but returns empty parts.
-      emptyParts = part.length === 0 ? emptyParts + 1 : 0;
+      emptyParts = outputPart.length === 0 ? emptyParts + 1 : 0;
       if (emptyParts > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
-      outputParts.push(part.slice());
-      size += part.length;
+      outputParts.push(outputPart.slice());
+      size += outputPart.length;
       if (size > MAX_FILE_BYTES) throw tooLargeError();
     }
   } catch (error) {

@@ -134,11 +134,11 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     this.reflection.setProperty('log', log, (newLog) => {
       if (newLog !== null) checkedObject('log', newLog, ['name', 'odometry', 'reference']);
       this.service.stop();
-      const accept = () => {
+      const acceptLog = () => {
         this.#pageLog = newLog;
         this.reflection.updateAttributes();
       };
-      this.open(newLog, []).then(accept, this.#report);
+      this.open(newLog, []).then(acceptLog, this.#report);
     });
   }
 

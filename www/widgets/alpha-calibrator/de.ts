@@ -1,7 +1,7 @@
 /** The Alpha Calibrator in German; see messages/en.ts. */
 
 /** Prints a count with a word, and the ending of its plural. */
-const parts = (count: string, more: string = 'n') => `${count} Etappe${count === '1' ? '' : more}`;
+const legsWithCount = (count: string, more: string = 'n') => `${count} Etappe${count === '1' ? '' : more}`;
 
 /** Messages of failed checks. */
 const MESSAGES: Record<string, string> = {
@@ -69,7 +69,7 @@ export const de: typeof import('./en.ts').en = {
   axisAhead: 'voraus (m)',
   axisLeft: 'links (m)',
   simulated: 'simulierte Aufzeichnung',
-  present: (log, legs, outliers) => `${parts(legs)}${outliers ? `, davon ${outliers} Ausreißer` : ''}, ${log}.`,
+  present: (log, legs, outliers) => `${legsWithCount(legs)}${outliers ? `, davon ${outliers} Ausreißer` : ''}, ${log}.`,
   badges: { consistent: 'Verwendbar', questionable: 'Vorsicht', unusable: 'Nicht verwenden' },
   passed: (count) => `Alle ${count} Prüfungen bestanden.`,
   failed: (name, failed, count) => `Prüfung nicht bestanden: ${name} (${failed} von ${count}).`,
@@ -236,7 +236,7 @@ export const de: typeof import('./en.ts').en = {
     notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt',
     zero: (upperBound) => `nicht signifikant von 0 verschieden, höchstens ${upperBound}`,
     tooLarge: 'unplausibel (> 1): Prüfungen und Ausreißer ansehen',
-    of: (legs, length, log, date) => `${parts(legs)} ${length}, ${log}, ${date}`,
+    of: (legs, length, log, date) => `${legsWithCount(legs)} ${length}, ${log}, ${date}`,
     moved: (distance, angle) => `von ${distance} m oder ${angle} rad`,
     lasted: (duration) => `von ${duration} s`,
     recommended: (factor, coverage, windows) => `empfohlen = angepasst × ${factor}: die Anpassung deckt ${coverage} von ${windows} zurückgehaltenen Fenstern von 1 m`,
@@ -255,7 +255,7 @@ export const de: typeof import('./en.ts').en = {
   noWay: 'Der Boden von oben: Es sind weniger als acht Etappen, gezeigt wird keine.',
   noLeg: 'Es gibt keine Etappe zu zeigen.',
   way: (legs, far, chosen) =>
-    `Der Boden von oben, x nach rechts und y nach oben: der Weg des Roboters nach der Referenz in ${parts(legs)}. ${far} davon haben einen p-Wert unter 0,05. Gezeigt wird Etappe ${chosen}.`,
+    `Der Boden von oben, x nach rechts und y nach oben: der Weg des Roboters nach der Referenz in ${legsWithCount(legs)}. ${far} davon haben einen p-Wert unter 0,05. Gezeigt wird Etappe ${chosen}.`,
   legText: (number, readX, readY, endX, endY) =>
     `Etappe ${number} im Koordinatensystem des Roboters an ihrem Anfang, x voraus und y nach links. Nach der Odometrie endete sie bei ${readX} m, ${readY} m, nach der Referenz bei ${endX} m, ${endY} m. Um das Ende nach der Odometrie liegt die vorhergesagte Wolke.`,
 };

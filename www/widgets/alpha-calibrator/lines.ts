@@ -63,8 +63,8 @@ export function formatEstimate(value: number | null, interval: Interval | undefi
   if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return formatNumber(value);
   const decimals = WIDTH_DIGITS - 1 - Math.floor(Math.log10(intervalWidth));
   if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MAX_DECIMALS, decimals)));
-  const digits = decimals + Math.floor(Math.log10(Math.abs(value)));
-  return digits < 0 ? '0' : withPointInMantissa(value.toExponential(Math.min(MAX_DECIMALS, digits)));
+  const mantissaDecimals = decimals + Math.floor(Math.log10(Math.abs(value)));
+  return mantissaDecimals < 0 ? '0' : withPointInMantissa(value.toExponential(Math.min(MAX_DECIMALS, mantissaDecimals)));
 }
 
 /** Prints an interval; empty if an end is not finite. */
@@ -73,7 +73,7 @@ export const formatInterval = (interval: Interval | undefined) => (interval?.eve
 /** Returns true if an α prints as 0 with the digits that its interval allows. A printed 0 would look like a result. */
 export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
 
-export const percent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${formatNumber(100 * fraction)} %` : NO_NUMBER);
+export const formatPercent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${formatNumber(100 * fraction)} %` : NO_NUMBER);
 
 /** Prints the upper end of an interval. */
 const upperEnd = (interval: Interval | undefined) => formatNumber(interval?.[1] ?? null, WIDTH_DIGITS);
@@ -117,7 +117,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   const failedNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
   const noteTexts = [
     say.of(String(count), duration === undefined ? say.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : say.lasted(formatNumber(duration)), log, date),
-    say.recommended(formatNumber(inflation), percent(window.coverage), String(window.count)),
+    say.recommended(formatNumber(inflation), formatPercent(window.coverage), String(window.count)),
     ...(isOfNav2(model, rule) ? [] : [say.otherRule]),
     ...correctedErrorsText(systematicErrors).map((errors) => say.corrected(errors)),
     ...correctionAdvice(calibration, say),

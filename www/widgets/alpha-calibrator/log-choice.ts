@@ -68,8 +68,8 @@ function seriesSelect(opener: LogOpener, { recordings, userChoices, plan }: Chos
 
 /** Returns the likeliest choice; undefined if there are several. */
 function likeliestChoice(recording: Recording, role: Role, kind: 'commands' | undefined): LogChoice | undefined {
-  const likeliest = findCandidates(recording, role, { kind }).find(({ length }) => length > 0);
-  return likeliest?.length === 1 ? likeliest[0] : undefined;
+  const likeliestChoices = findCandidates(recording, role, { kind }).find(({ length }) => length > 0);
+  return likeliestChoices?.length === 1 ? likeliestChoices[0] : undefined;
 }
 
 function roleSelect(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, index: number, { choose: say }: LogWords) {
@@ -176,12 +176,12 @@ function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
   const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_POINTS)));
   const odometryPath = alignedPath(drivenPath, referencePath);
   const allPoses = [...odometryPath.poses, ...referencePath.poses];
-  const ranges = ([0, 1] as const).map((axis) => [Math.min(...allPoses.map((pose) => pose[axis])), Math.max(...allPoses.map((pose) => pose[axis]))]);
-  const [width, height] = ranges.map(([low, high]) => high - low);
-  const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
+  const axisRanges = ([0, 1] as const).map((axis) => [Math.min(...allPoses.map((pose) => pose[axis])), Math.max(...allPoses.map((pose) => pose[axis]))]);
+  const [width, height] = axisRanges.map(([low, high]) => high - low);
+  const pixelsPerMetre = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
   const formatCoordinate = (value: number) => value.toFixed(1);
   const pathData = ({ poses, breaks }: Path) => poses.map(([x, y], i) =>
-    `${i === 0 || breaks.has(i) ? 'M' : 'L'}${formatCoordinate(MARGIN + (x - ranges[0][0]) * scale)} ${formatCoordinate(HEIGHT - MARGIN - (y - ranges[1][0]) * scale)}`).join('');
+    `${i === 0 || breaks.has(i) ? 'M' : 'L'}${formatCoordinate(MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre)} ${formatCoordinate(HEIGHT - MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre)}`).join('');
   const sizesText = found.paths(fixed(width, 1), fixed(height, 1));
   return html`<figure class="paths">
     <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${sizesText}>

@@ -89,9 +89,9 @@ function* drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array
   const thickness = Math.max(0, Math.min(1, 2 - pathCoverage(brush.view, legs.reference)));
   for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
-    const style = pathStyle(brush, name);
+    const legStyle = pathStyle(brush, name);
     const legLines = visibleLegs(brush.view, legs.reference, (leg) => classes[leg] === index);
-    yield* strokeMany(brush.context, legLines, { ...style, width: HAIRLINE_WIDTH + thickness * (style.width - HAIRLINE_WIDTH) });
+    yield* strokeMany(brush.context, legLines, { ...legStyle, width: HAIRLINE_WIDTH + thickness * (legStyle.width - HAIRLINE_WIDTH) });
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }

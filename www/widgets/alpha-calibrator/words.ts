@@ -25,16 +25,16 @@ export function judgementOf(reading: Reading, logWarnings: Warning[]) {
   const { stats, legs, fitted } = reading;
   const { verdict, checks } = stats.diagnostics;
   const say = words.calibrator;
-  const missing = missingAlphas(say.alphas.lacking, fitted.model, stats).map(({ indices, drive }) => say.missing(indices.map((i) => `α${subscriptOf(i)}`).join(', '), drive));
-  const warnings = [...missing, uncorrectedText(reading), ...logWarnings.map((name) => say.nav2[name])].filter(Boolean);
+  const missingAlphaTexts = missingAlphas(say.alphas.lacking, fitted.model, stats).map(({ indices, drive }) => say.missing(indices.map((i) => `α${subscriptOf(i)}`).join(', '), drive));
+  const warnings = [...missingAlphaTexts, uncorrectedText(reading), ...logWarnings.map((name) => say.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
   const judgementWith = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: [...toDo, ...(rating === 'questionable' ? [say.useAnyway] : [])].join(' ') });
   if (legs.count === 0) return judgementWith(say.none, say.longer, ...warnings);
   const failedChecks = failedChecksOf(checks);
-  const correction = correctionAdvice(stats, say.nav2, localized);
+  const correctionSentences = correctionAdvice(stats, say.nav2, localized);
   if (failedChecks.length > 0) return judgementWith(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, messageOf(failedChecks[0]));
   if (verdict === 'unusable') return judgementWith(say.noAlpha, ...warnings);
-  return warnings.length > 0 ? judgementWith(warnings[0], ...warnings.slice(1), ...correction) : judgementWith(say.passed(integer(checks.length)), say.use, ...correction);
+  return warnings.length > 0 ? judgementWith(warnings[0], ...warnings.slice(1), ...correctionSentences) : judgementWith(say.passed(integer(checks.length)), say.use, ...correctionSentences);
 }
 
 /** Returns what a failed check means and what to do. A reference that matches too closely has its own message. */

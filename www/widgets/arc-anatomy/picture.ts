@@ -140,7 +140,7 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   const [fromX, fromY] = view.toPixel(start.x, start.y);
   const ahead = view.direction(start.theta);
   const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
-  const visible = visibleFraction(view.frame, [fromX, fromY], [x, y]);
+  const visibleFractionOfRadius = visibleFraction(view.frame, [fromX, fromY], [x, y]);
   strokePath(context, { colour, width: 1.25, dash }, () => {
     addLine(context, [[fromX + offX, fromY + offY], [x + offX, y + offY]]);
     addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
@@ -152,20 +152,20 @@ function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }:
   strokeAngle(context, [x, y], [fromX, fromY], turn, { colour, width: 1.5 });
   // The labels are behind the robot, away from the arc. If the centre is outside the picture, they are ahead of the robot, because the
   // picture may end behind it.
-  const labelSide = Math.sign(arcLength) * (visible === 1 ? -1 : 1);
+  const labelSide = Math.sign(arcLength) * (visibleFractionOfRadius === 1 ? -1 : 1);
   const drawArcLabel = (text: string, share: number) => {
     const labelPoint = [fromX + share * (x - fromX) + 10 * labelSide * ahead.x, fromY + share * (y - fromY) + 10 * labelSide * ahead.y];
     const towards = labelSide * ahead.x;
     drawLabel(brush, { x: labelPoint[0], y: labelPoint[1], towards: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
   };
-  drawArcLabel(signed, visible / 2);
-  if (visible === 1) {
+  drawArcLabel(signed, visibleFractionOfRadius / 2);
+  if (visibleFractionOfRadius === 1) {
     drawArcLabel(angle, 1);
     return;
   }
-  drawArrow(context, colour, [fromX + visible * (x - fromX), fromY + visible * (y - fromY)], Math.atan2(y - fromY, x - fromX));
+  drawArrow(context, colour, [fromX + visibleFractionOfRadius * (x - fromX), fromY + visibleFractionOfRadius * (y - fromY)], Math.atan2(y - fromY, x - fromX));
   const distance = formatSignificant(Math.hypot(center[0] - start.x, center[1] - start.y), 2);
-  drawArcLabel(`${words.anatomy.centreAt(distance)}, ${angle}`, visible);
+  drawArcLabel(`${words.anatomy.centreAt(distance)}, ${angle}`, visibleFractionOfRadius);
 }
 
 /** Draws an arrow at a point in a direction (rad, clockwise from the right). */

@@ -77,12 +77,12 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   const [measuredSkew, exactText] = [withNonBreakingSpaces(formatWithError(skew, error, 3)), fixed(exactSkew, 3)];
   if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measuredSkew);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
-    const lean = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measuredSkew) : say.hardly(measuredSkew, exactText);
+    const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measuredSkew) : say.hardly(measuredSkew, exactText);
     // There are no exact values if robots turn by more than π.
     const lesserOf = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
-    if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${lean}`;
+    if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${skewSentence}`;
     const smallerGain = lesserOf(gain.value, gain.exact);
-    return smallerGain > MIN_GAIN ? `${say.gains(withNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${lean}` : lean;
+    return smallerGain > MIN_GAIN ? `${say.gains(withNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measuredSkew, exactText);
   return exactSkew < 0 ? say.right(measuredSkew) : say.left(measuredSkew);

@@ -62,8 +62,8 @@ function curveStyle(name: keyof typeof CURVE_STYLES, highlight: string | null) {
 export function headline(reading: Reading, overlays: string[]) {
   const say = words.reckoning;
   const { ratio, error, component } = worstComponentAt(reading, overlays);
-  const detail = say.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), reading.config.step, integer(reading.shown));
-  return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), detail]], 0);
+  const headlineDetail = say.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), reading.config.step, integer(reading.shown));
+  return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), headlineDetail]], 0);
 }
 
 /** Ranges of both logarithmic axes: fixed, so that a slider moves the curves and not the axes. */

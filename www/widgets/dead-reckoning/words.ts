@@ -52,8 +52,8 @@ export function shownComponentsOf(overlays: string[]): readonly (typeof COMPONEN
 export function worstComponentAt({ config: { step }, curves }: Reading, overlays: string[]) {
   const ratios = curves.map(({ ratio }) => ratio[step - 1]);
   const shown = shownComponentsOf(overlays);
-  const worst = indexOfGreatest(ratios.map((ratio, axis) => (shown.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
-  return { component: COMPONENTS[worst], ratio: ratios[worst], error: curves[worst].error[step - 1] };
+  const worstIndex = indexOfGreatest(ratios.map((ratio, axis) => (shown.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
+  return { component: COMPONENTS[worstIndex], ratio: ratios[worstIndex], error: curves[worstIndex].error[step - 1] };
 }
 
 export function announcementOf(reading: Reading, overlays: string[]) {

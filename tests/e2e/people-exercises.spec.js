@@ -38,6 +38,8 @@ test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ al
   const noCloudText = 'Not what you expected. Every robot stops at the same point, with the same heading. There is no cloud.';
   expect(await revealedText()).toBe(noCloudText);
   expect(await isolateAndOmega()).toEqual([4, 0]);
+  const { alphas, command } = await article.locator('banana-machine').evaluate((figure) => /** @type {any} */ (figure).getState());
+  expect([alphas.velocity[3], alphas.velocity[5], command.v * command.dt, command.dt]).toEqual([0.09, 0.01, 2, 2]);
   await caseButtons.nth(0).press('ArrowDown');
   expect(await revealedText()).toBe(noCloudText);
   expect(await isolateAndOmega()).toEqual([6, 0]);
@@ -59,6 +61,15 @@ test('exercise 4: a sketch drawn with the pointer stays over the robots', async 
   // The first case has no noise.
   expect(await textRevealedBy(form)).toMatch(/^Not what you expected\. Every robot stops at the same point/);
   expect(await form.locator('.drawn').getAttribute('d')).toBe(sketchPath);
+  await form.locator('[name=case]').nth(2).check();
+  // A rectangle along the edge of the pad, which contains every robot.
+  const { x: left, y: top, width, height } = /** @type {{ x: number, y: number, width: number, height: number }} */ (await pad.boundingBox());
+  const corners = [[2, 2], [width - 2, 2], [width - 2, height - 2], [2, height - 2]];
+  await pad.hover({ position: { x: 2, y: 2 } });
+  await form.page().mouse.down();
+  for (const [x, y] of corners.slice(1)) await form.page().mouse.move(left + x, top + y);
+  await form.page().mouse.up();
+  expect(await textRevealedBy(form)).toMatch(/^100 % of the robots stop inside your outline\. The robots spread/);
 });
 
 test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ page }) => {

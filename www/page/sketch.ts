@@ -55,11 +55,15 @@ function shapeOf(points: Point[]): string {
   return isLargerThanPoint ? 'drawing' : 'point';
 }
 
-/** Returns sentences on where the robots stop (`poses`: x, y, θ triples), and whether the expected shape is right. Drawings are not judged. */
-function outcomeOf(poses: Float64Array, expectedShape: string) {
+/**
+ * Returns sentences on where the robots stop (`poses`: x, y, θ triples), and whether the expected shape is right. Of a drawing they say which
+ * fraction of the robots is inside.
+ */
+function outcomeOf(poses: Float64Array, expectedShape: string, insideFraction: number) {
   const deviationAlong = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;
   const [positionStd, headingStd] = [Math.hypot(deviationAlong(0), deviationAlong(1)), deviationAlong(2)];
-  const verdictText = positionStd > MIN_SPREAD && expectedShape === 'drawing' ? '' : expectedShape === (positionStd > MIN_SPREAD ? 'band' : 'point') ? 'Right. ' : 'Not what you expected. ';
+  const insideText = `${Math.round(100 * insideFraction)}\u00a0% of the robots stop inside your outline. `;
+  const verdictText = positionStd > MIN_SPREAD && expectedShape === 'drawing' ? insideText : expectedShape === (positionStd > MIN_SPREAD ? 'band' : 'point') ? 'Right. ' : 'Not what you expected. ';
   if (positionStd > MIN_SPREAD) return `${verdictText}The robots spread over a curved band, by ${positionStd.toFixed(2)}\u00a0m (1σ), their headings by ${headingStd.toFixed(2)}\u00a0rad.`;
   if (headingStd > MIN_SPREAD) return `${verdictText}Every robot stops at the same point. Only the headings differ, by ${headingStd.toFixed(2)}\u00a0rad (1σ).`;
   return `${verdictText}Every robot stops at the same point, with the same heading. There is no cloud.`;
@@ -114,14 +118,16 @@ export function prepareSketch(form: HTMLFormElement, enterState: (values: Record
     event.preventDefault();
     await enterState(caseValues());
     const poses = figure.poses as Float64Array;
-    const drawnRobots = Array.from({ length: Math.min(MAX_DRAWN_ROBOTS, poses.length / 3) }, (_, i) => poses.subarray(3 * i, 3 * i + 3));
-    const robotDots = drawnRobots.map(([x, y, theta]) => {
+    const robotPoses = Array.from({ length: poses.length / 3 }, (_, i) => poses.subarray(3 * i, 3 * i + 3));
+    const robotDots = robotPoses.slice(0, MAX_DRAWN_ROBOTS).map(([x, y, theta]) => {
       const [px, py] = toPixel([x, y]);
       return { dot: `M${px} ${py}h0`, tick: `M${px} ${py}l${TICK_LENGTH * Math.cos(theta)} ${-TICK_LENGTH * Math.sin(theta)}` };
     });
     svgElement('robots').setAttribute('d', robotDots.map(({ dot }) => dot).join(''));
     svgElement('headings').setAttribute('d', robotDots.map(({ tick }) => tick).join(''));
-    statusOutput.textContent = outcomeOf(poses, checkedInput('shape')?.value ?? shapeOf(drawnPoints));
+    const outline = svgElement('drawn') as SVGPathElement;
+    const insideCount = robotPoses.filter(([x, y]) => outline.isPointInFill(new DOMPoint(...toPixel([x, y])))).length;
+    statusOutput.textContent = outcomeOf(poses, checkedInput('shape')?.value ?? shapeOf(drawnPoints), insideCount / robotPoses.length);
   });
   resetDrawing();
 }

@@ -375,7 +375,7 @@ const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 /// errors, because errors of neighbouring legs may be correlated.
 pub(super) fn scale_checks(fit: &Fit, std_factor: f64) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERROR_COUNT]);
-    let half_count = fit.sample.legs.len() / 2;
+    let first_half_count = fit.sample.legs.len() / 2;
     let is_turning = |leg: usize| turn(&fit.sample.observations[leg].expected) > TURNING_LEG_ANGLE;
     let scales = [
         (SystematicError::DistanceScale, CheckName::DistanceScaleConstant),
@@ -397,7 +397,7 @@ pub(super) fn scale_checks(fit: &Fit, std_factor: f64) -> (Vec<Check>, ErrorMask
                 }
             }
         };
-        compare_groups(&|leg| leg < half_count);
+        compare_groups(&|leg| leg < first_half_count);
         if scale == SystematicError::DistanceScale {
             compare_groups(&is_turning);
         }

@@ -4,15 +4,15 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { alphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/lines.ts';
-import { cornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
-import { classesOf, truthApplies } from '../../www/widgets/alpha-calibrator/reading.ts';
+import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
+import { legClassesOf, truthApplies } from '../../www/widgets/alpha-calibrator/reading.ts';
 import { SIMULATED_LEGS } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { localized } from '../../www/widgets/alpha-calibrator/words.ts';
 import { settings } from '../../www/settings.js';
 
 test('a leg has the class of its p-value, by as many noises as it shows', () => {
   const residuals = Float64Array.of(0, 0, 0, 0, 0, NaN, 0, NaN, NaN);
-  const classes = (/** @type {number[]} */ ...squared) => [...classesOf({ count: 3, squared: Float64Array.from(squared), residuals })];
+  const classes = (/** @type {number[]} */ ...squared) => [...legClassesOf({ count: 3, squared: Float64Array.from(squared), residuals })];
   // Quantiles of χ² with 3, 2 and 1 degrees of freedom, from tables.
   assert.deepEqual(classes(2.36, 1.38, 0.45), [0, 0, 0]);
   assert.deepEqual(classes(7.81, 5.99, 3.84), [1, 1, 1]);
@@ -104,7 +104,7 @@ test('legs of the simulated log are those that the settings open with', () => {
 });
 
 test('the picture of the path has room for the odometry, as far as the reference keeps half of it', () => {
-  const cornersWith = (/** @type {number[]} */ ...odometry) => cornersOf([0, 0, 0, 10, 4, 0], odometry);
+  const cornersWith = (/** @type {number[]} */ ...odometry) => viewCornersOf([0, 0, 0, 10, 4, 0], odometry);
   assert.deepEqual(cornersWith(), [0, 0, 10, 4]);
   assert.deepEqual(cornersWith(5, -2, 12, 3), [0, -2, 12, 4]);
   assert.deepEqual(cornersWith(-40, -50, 60, 70), [-5, -5, 15, 9]);

@@ -82,9 +82,9 @@ function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; 
       if (series !== name || (kind && candidateKind !== kind)) continue;
       const useText = role === 'odometry' ? `odometry${kind ? ' (commands)' : ''}` : `reference${isLocalizer(name, frames) ? ' (a localizer)' : ''}`;
       const framesKey = frames ? framesText(frames) : '';
-      const knownUse = usesByFrames.get(framesKey) ?? { choice: { series, ...(frames && { frames }) }, uses: [] };
-      if (!knownUse.uses.some((use) => use.startsWith(role))) knownUse.uses.push(useText);
-      usesByFrames.set(framesKey, knownUse);
+      const useEntry = usesByFrames.get(framesKey) ?? { choice: { series, ...(frames && { frames }) }, uses: [] };
+      if (!useEntry.uses.some((use) => use.startsWith(role))) useEntry.uses.push(useText);
+      usesByFrames.set(framesKey, useEntry);
     }
   };
   addUses('odometry');
@@ -138,11 +138,11 @@ function nextCommand(givenRecordings: GivenRecording[], statedOptions: [name: st
     const reason = error.message;
     const role = error.ask?.role ?? ROLES.find((candidateRole) => givenRecordings.some(({ recording }) => findCandidates(recording, candidateRole).some(({ length }) => length > 0)));
     // The odometry is chosen first.
-    const openRoles = error.ask?.role === 'reference' ? ['reference'] : ROLES;
+    const rolesToChoose = error.ask?.role === 'reference' ? ['reference'] : ROLES;
     switch (error.ask?.what) {
       case 'other': return { missing: reason, ...(role && { command: commandWith(`--${role} ${quotedPath(givenRecordings[0])}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') }) };
-      case 'series': return { missing: reason, command: commandWith(...quotedPaths, ...openRoles.map((openRole) => `--${openRole}-topic NAME`)) };
-      case 'frames': return { missing: reason, command: commandWith(...quotedPaths, ...openRoles.map((openRole) => `--${openRole}-frames PARENT,CHILD`)) };
+      case 'series': return { missing: reason, command: commandWith(...quotedPaths, ...rolesToChoose.map((openRole) => `--${openRole}-topic NAME`)) };
+      case 'frames': return { missing: reason, command: commandWith(...quotedPaths, ...rolesToChoose.map((openRole) => `--${openRole}-frames PARENT,CHILD`)) };
       default: return { missing: reason };
     }
   }

@@ -233,10 +233,10 @@ const isPath = (argument = '') => /\.\w+$|\//.test(argument);
 /** Returns a text with the options that are most similar to a name: they begin or end with it, or share most pairs of letters with it. */
 function nearestOptions(name: string): string {
   const letterPairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
-  const ownPairs = letterPairs(name);
+  const pairsOfName = letterPairs(name);
   const optionScores = Object.keys(OPTIONS).map((option) => {
     const optionPairs = letterPairs(option);
-    const commonFraction = ownPairs.filter((pair) => optionPairs.includes(pair)).length / Math.max(ownPairs.length, optionPairs.length);
+    const commonFraction = pairsOfName.filter((pair) => optionPairs.includes(pair)).length / Math.max(pairsOfName.length, optionPairs.length);
     return { option, score: option.startsWith(name) ? 1 + commonFraction : option.endsWith(`-${name}`) ? 1 : commonFraction };
   });
   const bestScore = Math.max(0.4, ...optionScores.map(({ score }) => score));

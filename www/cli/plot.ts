@@ -40,8 +40,8 @@ function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: 
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const odometryPath = alignedPath(pathOf(odometry.data), referencePath, clockOffset);
   const [from, to] = [odometry.data.t[0], odometry.data.t[odometry.data.t.length - 1]];
-  const driveLegs = Array.from({ length: legs.count }, (_, leg) => ({ from: legs.times[2 * leg], to: legs.times[2 * leg + 1], isOutlier: legs.outliers[leg] === 1 })).filter((leg) => leg.from >= from && leg.to <= to);
-  const outlierLegs = driveLegs.filter(({ isOutlier }) => isOutlier);
+  const legsOfDrive = Array.from({ length: legs.count }, (_, leg) => ({ from: legs.times[2 * leg], to: legs.times[2 * leg + 1], isOutlier: legs.outliers[leg] === 1 })).filter((leg) => leg.from >= from && leg.to <= to);
+  const outlierLegs = legsOfDrive.filter(({ isOutlier }) => isOutlier);
 
   const allPoses = [...referencePath.poses, ...odometryPath.poses];
   const [[left, right], [bottom, ceiling]] = [0, 1].map((axis) => extent(allPoses, (pose) => pose[axis]) as [number, number]);
@@ -63,7 +63,7 @@ function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: 
     }
     return d;
   };
-  const legEndDots = driveLegs.map((leg) => poseAt(referencePath, leg.to + clockOffset)).map((pose) => `M${pixelText(x(pose[0]))} ${pixelText(y(pose[1]))}h0`).join('');
+  const legEndDots = legsOfDrive.map((leg) => poseAt(referencePath, leg.to + clockOffset)).map((pose) => `M${pixelText(x(pose[0]))} ${pixelText(y(pose[1]))}h0`).join('');
   const outlierPaths = outlierLegs.map((leg) => {
     const [first, last] = [bisectLeft(referencePath.t, leg.from + clockOffset), bisectLeft(referencePath.t, leg.to + clockOffset)];
     return pathData({ poses: referencePath.poses.slice(first, last + 1), breaks: new Set() });
@@ -76,7 +76,7 @@ function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: 
   }).join('');
   const keyEntries = ([['reference, with the ends of legs', 'reference'], ['odometry, aligned', 'odometry'], ...(outlierLegs.length ? [['outliers', 'outlier'] as const] : [])] as const)
     .map(([label, name], i) => `<path d="M${MARGIN.left + 260 * i} 46h24" ${LINE_STYLES[name]}/><text x="${MARGIN.left + 260 * i + 30}" y="50" fill="${INK}">${label}</text>`);
-  const panelTitle = `${odometry.name} and ${reference.name}: ${driveLegs.length} legs, ${outlierLegs.length} ${outlierLegs.length === 1 ? 'outlier' : 'outliers'}`;
+  const panelTitle = `${odometry.name} and ${reference.name}: ${legsOfDrive.length} legs, ${outlierLegs.length} ${outlierLegs.length === 1 ? 'outlier' : 'outliers'}`;
   const svg = `<title>${escapeXml(panelTitle)}</title>
 <text x="${MARGIN.left}" y="26" font-size="16" fill="${INK}">${escapeXml(panelTitle)}</text>
 ${keyEntries.join('')}

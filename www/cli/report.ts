@@ -55,8 +55,8 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
   const failedChecks = failedChecksOf(checks);
-  const lossTexts = Object.entries(LOST_LEG_CAUSES).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
-  const excludedLegs = [...(lossTexts.length ? [`lost legs: ${lossTexts.join(', ')}`] : []), ...outlierLines(legs, driveStarts)];
+  const lostLegTexts = Object.entries(LOST_LEG_CAUSES).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
+  const excludedLegLines = [...(lostLegTexts.length ? [`lost legs: ${lostLegTexts.join(', ')}`] : []), ...outlierLines(legs, driveStarts)];
   const reportBody = [
     '',
     ...verdictLines({ calibration, options, logs }),
@@ -70,7 +70,7 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
     ...alignRows([['check', 'value', 'expected', ''], ...checks.map(checkRow)]),
     ...failedChecks.map(({ name, message }) => `${name}: ${message}`),
     '',
-    ...(excludedLegs.length ? [...excludedLegs, ''] : []),
+    ...(excludedLegLines.length ? [...excludedLegLines, ''] : []),
     ...alignRows([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windows.map(windowRow)]),
     '',
     ...nav2Section({ calibration, options, logs, start, driveStarts, date }),
@@ -197,6 +197,6 @@ export function alignRows(rows: string[][]): string[] {
 
 /** Returns the result as JSON, with typed arrays as plain arrays. */
 export function resultJson({ calibration, options, logs, start, date }: CalibrationResult): string {
-  const plainValue = (_: string, value: unknown) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value);
-  return `${JSON.stringify({ date, options, logs, start, ...calibration }, plainValue, 1)}\n`;
+  const withPlainArrays = (_: string, value: unknown) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value);
+  return `${JSON.stringify({ date, options, logs, start, ...calibration }, withPlainArrays, 1)}\n`;
 }

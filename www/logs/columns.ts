@@ -125,12 +125,12 @@ function parseColumnName(name: string): ColumnMeaning | undefined {
   const [bracketedUnit, unitText] = UNIT_IN_BRACKETS.exec(name) ?? [];
   if (bracketedUnit !== undefined && unitText !== undefined && !EMPTY_UNIT.test(unitText.trim())) {
     const unit = unitOf(unitText);
-    const meaning = fieldOf(dottedName(name.slice(0, -bracketedUnit.length)));
+    const meaning = matchField(dottedName(name.slice(0, -bracketedUnit.length)));
     return meaning && canHaveUnit(meaning.field, unit) ? { ...meaning, unit: unit?.unit ?? unitText.trim() } : undefined;
   }
   const nameWithoutUnit = bracketedUnit === undefined ? name : name.slice(0, -bracketedUnit.length);
   const dottedPath = dottedName(nameWithoutUnit);
-  const fullNameMeaning = fieldOf(dottedPath);
+  const fullNameMeaning = matchField(dottedPath);
   // Times of rostopic are always in nanoseconds, also the small times of a simulation.
   if (fullNameMeaning?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...fullNameMeaning, unit: 'ns' };
   if (fullNameMeaning) {
@@ -140,20 +140,20 @@ function parseColumnName(name: string): ColumnMeaning | undefined {
   }
   const [unitSuffix, unitWord] = UNIT_AT_END.exec(nameWithoutUnit) ?? [];
   const unit = unitWord === undefined ? undefined : unitOf(unitWord.replace(/[. ]/, '_'));
-  const meaning = unitSuffix !== undefined && unit ? fieldOf(dottedName(nameWithoutUnit.slice(0, -unitSuffix.length))) : undefined;
+  const meaning = unitSuffix !== undefined && unit ? matchField(dottedName(nameWithoutUnit.slice(0, -unitSuffix.length))) : undefined;
   if (meaning && unit && canHaveUnit(meaning.field, unit)) return { ...meaning, unit: unit.unit };
   const [, baseName, suffix] = SUFFIXED_NAME.exec(dottedPath) ?? [];
-  const baseMeaning = baseName === undefined ? undefined : fieldOf(baseName);
+  const baseMeaning = baseName === undefined ? undefined : matchField(baseName);
   return baseMeaning && suffix !== undefined && !OTHER_QUANTITIES.test(suffix) ? { ...baseMeaning, prefix: suffix } : undefined;
 }
 
-/** Checks that a field can have a unit. Unknown units pass here. `layoutOf` refuses them. */
+/** Checks that a field can have a unit. Unknown units pass here. `logLayoutOf` refuses them. */
 function canHaveUnit(field: Field, unit: ParsedUnit | undefined): boolean {
   const [quantity, isRate] = QUANTITY_OF_FIELD[field] ?? [];
   return unit === undefined || (unit.quantity === quantity && unit.isRate === isRate);
 }
 
-function fieldOf(path: string): ColumnMeaning | undefined {
+function matchField(path: string): ColumnMeaning | undefined {
   for (const { field, rank, pattern } of PREFIXED_PATTERNS) {
     const [match, prefix = ''] = pattern.exec(path) ?? [];
     if (match === undefined) continue;
@@ -169,7 +169,7 @@ function fieldOf(path: string): ColumnMeaning | undefined {
  * @param isTime checks whether a column without a name holds times
  * @returns groups in the order of their columns, without columns of other quantities
  */
-export function groupsOf(names: string[], isTime: (index: number) => boolean = () => false): Group[] {
+export function groupColumns(names: string[], isTime: (index: number) => boolean = () => false): Group[] {
   const groups = new Map<string, Group>();
   for (const [index, name] of names.entries()) {
     const isUnnamed = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
@@ -181,11 +181,11 @@ export function groupsOf(names: string[], isTime: (index: number) => boolean = (
     // Headings in radians are preferred. Headings in degrees beside them are usually derived.
     const column = { at: index, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
     if (field === 't') group.timeColumns.push(column);
-    const knownColumn = group.columns[field];
-    if (!knownColumn || column.rank < knownColumn.rank) {
+    const currentColumn = group.columns[field];
+    if (!currentColumn || column.rank < currentColumn.rank) {
       group.columns[field] = column;
       delete group.duplicateColumns[field];
-    } else if (column.rank === knownColumn.rank) group.duplicateColumns[field] ??= column;
+    } else if (column.rank === currentColumn.rank) group.duplicateColumns[field] ??= column;
   }
   const allGroups = [...groups.values()];
   const clocksByGroup = new Map(allGroups.map((group) => [group, clocksOf(group)]));
@@ -246,7 +246,7 @@ export interface Layout {
  * @param wantedKind kind of the log: `commands` prefers commands to poses, and `poses` excludes commands; by default poses come first
  * @throws {LogError} if a field is missing, or two columns can be the same field
  */
-export function layoutOf(group: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined): Layout {
+export function logLayoutOf(group: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined): Layout {
   const columnNames = listNames(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };
   if (!group) throw new LogError(place, (say) => say.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);

@@ -1,9 +1,9 @@
 /** Format of a table: encoding, separator, preamble and header, from its first lines. */
 
-import { type Group, groupsOf, isHeader, isUnit } from './columns.ts';
+import { type Group, groupColumns, isHeader, isUnit } from './columns.ts';
 import { LogError, truncate, type ErrorPlace } from './log-error.ts';
 import { parseDate, parseNumber } from './numbers.ts';
-import { unitOfSize } from './units.ts';
+import { epochTimeUnitOf } from './units.ts';
 
 export interface Format {
   name: 'csv' | 'tum';
@@ -59,7 +59,7 @@ const [KITTI_WIDTH, TWIST_WIDTH] = [12, 6];
 const NON_TABLE_PATTERNS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
 
 /** Splits a line into cells. May return only the first `needed` cells. A separator in quotes does not count. */
-export function cellsOf(line: string, separator: string, needed = Infinity): string[] {
+export function splitCells(line: string, separator: string, needed = Infinity): string[] {
   if (separator === ' ') {
     const lineWords = line.trim().split(/[ \t]+/);
     // A FLASER record begins with the number of laser readings and the readings, which are not columns.
@@ -100,7 +100,7 @@ function separatorOf(lines: string[]): string {
   const declaredSeparator = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((found) => found !== undefined);
   if (declaredSeparator) return declaredSeparator;
   const scoreOf = (separator: string) => {
-    const cellRows = lines.map((line) => cellsOf(line, separator));
+    const cellRows = lines.map((line) => splitCells(line, separator));
     return cellRows.filter(isDataRow).flat().filter(isNumber).length || cellRows.flat().length / 1e6;
   };
   return [';', '\t', ',', '|', ' '].map((separator) => ({ separator, score: scoreOf(separator) })).reduce((best, candidate) => (candidate.score > best.score ? candidate : best)).separator;
@@ -124,7 +124,7 @@ export function formatOf(lines: string[], file: string, columns: string[] | unde
   if (carmenRecords.length > 0 && textLines.every(({ line }) => /^[A-Z_0-9]+ /.test(line))) return carmenFormat(carmenRecords, filledLines[0].number);
 
   const separator = separatorOf([...textLines.slice(0, SAMPLED_LINES), ...textLines.slice(-SAMPLED_LINES)].map(({ line }) => line.trim()));
-  const cells = (line: string) => cellsOf(line, separator);
+  const cells = (line: string) => splitCells(line, separator);
   const firstRowLine = textLines.find(({ line }, i) => isDataRow(cells(line)) && (i + 1 === textLines.length || isDataRow(cells(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cells(line)));
   const rows = firstRowLine ? textLines.filter(({ number }) => number >= firstRowLine.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];
   // Between commas, a comma in quotes may also separate thousands.
@@ -183,9 +183,9 @@ function withUnits(names: string[], below: string[][]): string[] {
 
 /** Groups columns. A column without a name has times if its first cell is a date or a fraction. A whole number there is a row number. */
 function columnGroups(names: string[], row: string[] | undefined): Group[] {
-  return groupsOf(names, (orientationIndex) => {
+  return groupColumns(names, (orientationIndex) => {
     const cell = row?.[orientationIndex]?.trim() ?? '';
-    return parseDate(cell) !== undefined || /^\d+[.,]\d+$/.test(cell) || unitOfSize(Number(cell)) !== undefined;
+    return parseDate(cell) !== undefined || /^\d+[.,]\d+$/.test(cell) || epochTimeUnitOf(Number(cell)) !== undefined;
   });
 }
 
@@ -196,14 +196,14 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
     const isComment = /^#|^%(?!time)/.test(textLine) || textLine !== line.trim();
     const commentText = textLine.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
     // A commented header may have another separator than the rows.
-    const possibleCells = [cellsOf(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
+    const possibleCells = [splitCells(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
     const names = possibleCells.find((cells) => cells.length === width) ?? possibleCells[0];
     if (!isHeader(names)) continue;
     const fieldNames = columnGroups(names, row).flatMap(({ columns }) => Object.keys(columns));
     // In a row of units below the header, V for volts looks like the name of a speed.
     if (names.filter((name) => isUnit(unitWithoutBrackets(name))).length > fieldNames.length) continue;
     if (isComment && (fieldNames.length < 3 || (names.length !== width && fieldNames.length < 4))) continue;
-    if (isComment || fieldNames.length > 0 || !above.some((earlier) => earlier.number < number && !/^\s*["#%]?sep=/i.test(earlier.line) && columnGroups(cellsOf(earlier.line, separator), row).length > 0)) {
+    if (isComment || fieldNames.length > 0 || !above.some((earlier) => earlier.number < number && !/^\s*["#%]?sep=/i.test(earlier.line) && columnGroups(splitCells(earlier.line, separator), row).length > 0)) {
       return { names: names.map((name) => name.trim().replace(/^"(.*)"$/, '$1')), number };
     }
   }
@@ -223,7 +223,7 @@ function columnsByContent(rows: string[][]): string[] | undefined {
 
 /** Returns the format of a CARMEN log, with a group for each kind of record. */
 function carmenFormat(tags: typeof CARMEN_RECORDS, firstLine: number): Format {
-  const groups = tags.flatMap(([tag, name, names]) => groupsOf(names).map((group) => ({ ...group, source: { at: 0, name: tag }, name })));
+  const groups = tags.flatMap(([tag, name, names]) => groupColumns(names).map((group) => ({ ...group, source: { at: 0, name: tag }, name })));
   return { name: 'csv', separator: ' ', hasDecimalCommas: false, firstLine, names: tags.map(([tag]) => tag), groups, isSparse: false };
 }
 
@@ -247,5 +247,5 @@ function motiveFormat(above: string[][], place: ErrorPlace): Pick<Format, 'names
     if (quantityRow[i]?.trim() === 'Rotation') return `${bodyName}/q${axisName}`;
     return quantityRow[i]?.trim() === 'Position' ? `${bodyName}/${axisName} [${unit}]` : '-';
   });
-  return { names, groups: groupsOf(names), hasUnknownAxis: true };
+  return { names, groups: groupColumns(names), hasUnknownAxis: true };
 }

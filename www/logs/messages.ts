@@ -1,6 +1,6 @@
 /** Readers of ROS 1 and ROS 2 messages with poses, commands or transforms. They ignore later fields, such as covariances. */
 
-import { viewOf, type Channel, type Message } from './formats/container.ts';
+import { dataViewOf, type Channel, type Message } from './formats/container.ts';
 import { unzstdMessage } from './formats/zstd.ts';
 import type { Series } from './log.ts';
 import { headingOf, isRotation } from './quaternion.ts';
@@ -158,7 +158,7 @@ const POSITION_TYPES = ['geometry_msgs/PointStamped', 'sensor_msgs/NavSatFix'];
 const ros1TypeName = (type: string) => type.replace('/msg/', '/');
 
 /** Returns the kind of log that can be read from messages of a type. */
-export function kindOf(type: string): Series['kind'] {
+export function logKindOfType(type: string): Series['kind'] {
   const ros1Type = ros1TypeName(type);
   if (Object.hasOwn(POSE_READERS, ros1Type)) return 'poses';
   if (Object.hasOwn(COMMAND_READERS, ros1Type)) return 'commands';
@@ -176,7 +176,7 @@ function readerOf(channel: Channel, message: MessageBytes): MessageReader {
   const { block, from, to } = message;
   if (channel.encoding === 'ros1' || block.getUint32(from) !== ZSTD_MAGIC) return new MessageReader(channel, message);
   const bytes = unzstdMessage(bytesOf(block, from, to));
-  return new MessageReader(channel, { block: viewOf(bytes), from: 0, to: bytes.length });
+  return new MessageReader(channel, { block: dataViewOf(bytes), from: 0, to: bytes.length });
 }
 
 /** Returns a reader of poses or commands, which throws an error for bytes of another message type. */

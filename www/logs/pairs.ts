@@ -38,7 +38,7 @@ const UNIT_OPTIONS: { [Name in Correction['name']]?: 'angleUnit' | 'lengthUnit' 
 /** Returns the absolute times of the first and the last row. */
 const timeSpanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
 
-const spanText = (log: Log) => timeSpanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
+const timeSpanText = (log: Log) => timeSpanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
 
 /** Returns the duration of the overlap of two logs; negative if there is a gap between them. */
 function overlapSeconds(one: Log, other: Log): number {
@@ -85,7 +85,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
     ...reliableReference.summary.notes,
     ...(swapSign ? [{ name: 'swapped' as const, values: [odometry.name, swapSign] }] : []),
     ...(isLocalizer(reference.name, reference.summary.frames) ? [{ name: 'localizer' as const, values: [] }] : []),
-    ...(overlapSeconds(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, spanText(reference), spanText(odometry)] }] : []),
+    ...(overlapSeconds(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, timeSpanText(reference), timeSpanText(odometry)] }] : []),
   ];
   return { odometry: commonOdometry, reference: { ...reliableReference, summary: { ...reliableReference.summary, notes } } };
 }

@@ -1,15 +1,15 @@
 /** Reader of logs in text tables of robots, recorders and spreadsheets. */
 
 import { least } from 'd3-array';
-import { type Clock, type Group, type Layout, layoutOf } from './columns.ts';
-import { type Format, cellsOf, formatOf } from './format.ts';
+import { type Clock, type Group, type Layout, logLayoutOf } from './columns.ts';
+import { type Format, splitCells, formatOf } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace } from './log-error.ts';
 import type { Log, Note, OpenOptions, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
 import { type SplitTime, parseDate, parseNumber, parseTime } from './numbers.ts';
 import { quantile, sampleEvenly } from './quantile.ts';
 import { headingOf, isRotation } from './quaternion.ts';
 import { Rows } from './rows.ts';
-import { UNIT_EXPONENTS, unitOfSize } from './units.ts';
+import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 
 /** Number of bytes that are read and parsed at a time. */
 const BLOCK_BYTES = 2 ** 22;
@@ -40,7 +40,7 @@ const MAX_TILT_SPREAD = 0.5;
 /** Opens a table; rejects with a LogError. */
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
   const encoding = await detectEncoding(source);
-  const headText = joinZeros(new TextDecoder(encoding).decode(await readBytes(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true }));
+  const headText = collapseNuls(new TextDecoder(encoding).decode(await readBytes(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true }));
   if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
   const lineEnd = lineEndOf(headText);
   const headLines = headText.split(lineEnd);
@@ -51,8 +51,8 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   const format = formatOf(headLines, source.name, options.columns);
   const readableGroups = format.groups.filter(({ kind }) => kind !== null);
   const headerPlace = { file: source.name, line: Math.max(1, format.firstLine - 1) };
-  // If no group can be read, `layoutOf` throws the reason for the group with most columns.
-  if (readableGroups.length === 0) layoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, headerPlace, undefined);
+  // If no group can be read, `logLayoutOf` throws the reason for the group with most columns.
+  if (readableGroups.length === 0) logLayoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, headerPlace, undefined);
   const seriesOfGroup = (group: Group): Series => ({
     name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listNames(columnNames(group)),
     type: listNames(columnNames(group)),
@@ -68,9 +68,9 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
     async read(choices, onProgress) {
       const readersOfChoices = choices.map(({ series: seriesName, kind }) => {
         const chosenGroup = readableGroups.length === 1 && seriesName === '' ? readableGroups[0] : format.groups[allSeries.findIndex(({ name }) => name === seriesName)];
-        const layout = layoutOf(chosenGroup, format.names, headerPlace, kind);
+        const layout = logLayoutOf(chosenGroup, format.names, headerPlace, kind);
         const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
-        const readerOf = (group: Group, upAxis?: 'Y' | 'Z') => new LogReader(name, source.name, format, group, upAxis ? layoutOf(group, format.names, headerPlace, kind) : layout, options, upAxis);
+        const readerOf = (group: Group, upAxis?: 'Y' | 'Z') => new LogReader(name, source.name, format, group, upAxis ? logLayoutOf(group, format.names, headerPlace, kind) : layout, options, upAxis);
         return format.hasUnknownAxis ? [readerOf(withYAxisUp(chosenGroup), 'Y'), readerOf(chosenGroup, 'Z')] : [readerOf(chosenGroup)];
       });
       const allReaders = readersOfChoices.flat();
@@ -100,7 +100,7 @@ async function detectEncoding(source: Source): Promise<string> {
 }
 
 /** Replaces each block of NULs by a single one, which makes its row damaged. A file has such a block after a loss of power. */
-const joinZeros = (text: string) => (text.includes('\0') ? text.replaceAll(/\0+/g, '\0') : text);
+const collapseNuls = (text: string) => (text.includes('\0') ? text.replaceAll(/\0+/g, '\0') : text);
 
 /** Returns the character that ends lines: a line feed, or in files of old spreadsheets a carriage return. */
 const lineEndOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '\n' : '\r');
@@ -109,19 +109,19 @@ const lineEndOf = (text: string) => (text.includes('\n') || !text.includes('\r')
 async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, addLine: (line: string, number: number, isUnterminated: boolean) => void) {
   const decoder = new TextDecoder(encoding);
   let [incompleteLine, number] = ['', 0];
-  const takeLine = (line: string, isUnterminated: boolean) => {
+  const passLine = (line: string, isUnterminated: boolean) => {
     number += 1;
     if (number >= from) addLine(line, number, isUnterminated);
   };
   for (let at = 0; at < source.size; at += BLOCK_BYTES) {
     onProgress?.(at / source.size);
-    const text = incompleteLine + joinZeros(decoder.decode(await readBytes(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
+    const text = incompleteLine + collapseNuls(decoder.decode(await readBytes(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
     const lines = text.split(end);
     incompleteLine = lines.pop() ?? '';
-    for (const line of lines) takeLine(line, false);
+    for (const line of lines) passLine(line, false);
     if (incompleteLine.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   }
-  takeLine(incompleteLine + decoder.decode(), true);
+  passLine(incompleteLine + decoder.decode(), true);
 }
 
 /** Returns a group for a file whose vertical axis is Y: its columns z and x are x and y of the robot's plane. */
@@ -172,8 +172,8 @@ class ClockReader {
     if (this.unit === undefined) {
       const timeNumber = parseNumber(text);
       if (timeNumber && Number.isFinite(timeNumber)) {
-        this.unit = unitOfSize(timeNumber) ?? 's';
-        if (unitOfSize(timeNumber)) this.by = 'size';
+        this.unit = epochTimeUnitOf(timeNumber) ?? 's';
+        if (epochTimeUnitOf(timeNumber)) this.by = 'size';
       }
     }
     this.#noteFraction(text);
@@ -187,9 +187,9 @@ class ClockReader {
     this.#maxDigits = Math.max(this.#maxDigits, digitCount);
     if (text[pointIndex + 1] === '0') this.#hasLeadingZero = true;
     if (!text.endsWith('0')) return;
-    const sameDigitTimes = this.#endingInZero.get(digitCount) ?? [];
-    if (sameDigitTimes.length === 0) this.#endingInZero.set(digitCount, sameDigitTimes);
-    if (sameDigitTimes.length < MIN_UNPADDED_TIMES) sameDigitTimes.push(text);
+    const timesWithSameDigits = this.#endingInZero.get(digitCount) ?? [];
+    if (timesWithSameDigits.length === 0) this.#endingInZero.set(digitCount, timesWithSameDigits);
+    if (timesWithSameDigits.length < MIN_UNPADDED_TIMES) timesWithSameDigits.push(text);
   }
 
   /**
@@ -248,7 +248,7 @@ class LogReader {
     const { source } = this.#group;
     if (/^\s*(?:[#%]|$)/.test(line)) return;
     if (line === header) return this.#rows.drop('text', number);
-    const cells = cellsOf(line, separator, this.#neededCells);
+    const cells = splitCells(line, separator, this.#neededCells);
     if (source && cells[source.at]?.trim() !== source.name) return;
     if (cells.length < this.#neededCells) {
       if (!isUnterminated) return this.#dropDamaged('short', number, (say) => say.cells(cells.length, this.#neededCells));

@@ -4,7 +4,7 @@ import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
 import { LogError, truncate, listNames, reasonOf, type Words } from './log-error.ts';
 import { LOG_TIME, framesOption, framesText, type LogChoice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
-import { readTransforms, isReadable, kindOf, poseReader, type Sample } from './messages.ts';
+import { readTransforms, isReadable, logKindOfType, poseReader, type Sample } from './messages.ts';
 import { MAX_VALUE, Rows } from './rows.ts';
 
 /** Maximum number of messages with transforms that are read to find the frames. */
@@ -17,7 +17,7 @@ const MAX_FRAME_MESSAGES = 2000;
 const MAX_ALTERNATIONS = 2;
 
 /** Returns true for a topic of static transforms. */
-const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => kindOf(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
+const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => logKindOfType(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
 /** Returns a recording whose logs are read from the messages of a container. */
 export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
@@ -46,10 +46,10 @@ async function listSeries(container: Container): Promise<Series[]> {
   const channelsByTopic = new Map<string, Channel[]>();
   for (const channel of container.channels) channelsByTopic.set(channel.topic, [...(channelsByTopic.get(channel.topic) ?? []), channel]);
   const series: Series[] = [...channelsByTopic].map(([topic, channels]) => {
-    const readableChannels = channels.filter((channel) => isReadable(channel) && kindOf(channel.type) !== null);
+    const readableChannels = channels.filter((channel) => isReadable(channel) && logKindOfType(channel.type) !== null);
     const types = new Set((readableChannels.length ? readableChannels : channels).map((channel) => (isReadable(channel) ? channel.type : `${channel.type} as ${channel.encoding}`)));
     const count = (readableChannels.length ? readableChannels : channels).reduce((sum, channel) => sum + channel.count, 0);
-    return { name: topic, type: [...types].join(', '), kind: readableChannels.length && types.size === 1 ? kindOf([...types][0]) : null, count };
+    return { name: topic, type: [...types].join(', '), kind: readableChannels.length && types.size === 1 ? logKindOfType([...types][0]) : null, count };
   });
   for (const seriesEntry of series) {
     if (seriesEntry.kind !== 'transforms' || isStaticTopic({ topic: seriesEntry.name, type: seriesEntry.type })) continue;
@@ -107,7 +107,7 @@ class TopicReader {
   }
 
   wants(channel: Channel): boolean {
-    if (kindOf(channel.type) !== this.#kind) return false;
+    if (logKindOfType(channel.type) !== this.#kind) return false;
     return channel.topic === this.#choice.series || (this.#choice.frames !== undefined && isStaticTopic(channel));
   }
 
@@ -116,16 +116,16 @@ class TopicReader {
     const { series, kind: wantedKind, frames } = this.#choice;
     const channels = this.#container.channels.filter(({ topic }) => topic === series);
     const isWantedType = ({ type }: Channel) => {
-      const kind = kindOf(type);
+      const kind = logKindOfType(type);
       return frames ? kind === 'transforms' : kind !== null && !(wantedKind === 'poses' && kind === 'commands');
     };
     const fittingChannels = channels.filter(isWantedType);
     const typeNames = [...new Set((fittingChannels.length ? fittingChannels : channels).map(({ type }) => type))];
     if (fittingChannels.length === 0) this.#refuse((say) => say.type(truncate(typeNames.join(', ')), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
     if (typeNames.length > 1) this.#refuse((say) => say.types(listNames(typeNames)));
-    if (kindOf(typeNames[0]) === 'positions') this.#refuse((say) => say.positions(typeNames[0]));
+    if (logKindOfType(typeNames[0]) === 'positions') this.#refuse((say) => say.positions(typeNames[0]));
     if (!isReadable(fittingChannels[0])) this.#refuse((say) => say.encoding(truncate(fittingChannels[0].encoding)));
-    return kindOf(typeNames[0]);
+    return logKindOfType(typeNames[0]);
   }
 
   addMessage(message: Message): void {

@@ -56,7 +56,7 @@ const WRAP_STEP_RANGE = [330, 390] as const;
 const isInRange = (value: number, [low, high]: readonly [number, number]) => value >= low && value <= high;
 
 /** Returns the unit of a time since 1970 by its size; undefined for smaller times. */
-export const unitOfSize = (time: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, minTime]) => Math.abs(time) >= minTime)?.[0];
+export const epochTimeUnitOf = (time: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, minTime]) => Math.abs(time) >= minTime)?.[0];
 
 /**
  * Judges the units, and converts the columns to s, m and rad.

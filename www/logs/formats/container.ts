@@ -112,7 +112,7 @@ function joinBytes(first: Uint8Array, second: Uint8Array): Uint8Array {
   return bytes;
 }
 
-export const viewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);
+export const dataViewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);
 
 /** Returns an unsigned number of eight bytes. It is exact below 2^53, and rounded above. */
 export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);

@@ -54,7 +54,7 @@ export async function unlz4(bytes: Uint8Array, size: number): Promise<Uint8Array
 function decompressBlock(block: Uint8Array, output: Uint8Array, filled: number): number {
   let at = 0;
   /** Returns a length from its first four bits. If they are 15, bytes are added up to the first one below 255. */
-  const lengthFrom = (length: number) => {
+  const readLength = (length: number) => {
     if (length < 15) return length;
     for (let byte = 255; byte === 255; length += byte) {
       assertValid(at < block.length);
@@ -64,7 +64,7 @@ function decompressBlock(block: Uint8Array, output: Uint8Array, filled: number):
   };
   while (at < block.length) {
     const lengthsToken = block[at++];
-    const literalLength = lengthFrom(lengthsToken >> 4);
+    const literalLength = readLength(lengthsToken >> 4);
     assertValid(literalLength <= block.length - at && literalLength <= output.length - filled);
     output.set(block.subarray(at, at + literalLength), filled);
     at += literalLength;
@@ -73,7 +73,7 @@ function decompressBlock(block: Uint8Array, output: Uint8Array, filled: number):
     if (at === block.length) break;
     const matchDistance = block[at] | (block[at + 1] << 8);
     at += 2;
-    const end = filled + lengthFrom(lengthsToken & 15) + MIN_MATCH;
+    const end = filled + readLength(lengthsToken & 15) + MIN_MATCH;
     assertValid(matchDistance > 0 && matchDistance <= filled && end <= output.length);
     // A match that is longer than its distance also copies bytes that it has just written.
     for (const from = filled - matchDistance; filled < end; ) {

@@ -4,7 +4,7 @@ import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, stampAt, uint53, viewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, stampAt, uint53, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
@@ -59,12 +59,12 @@ class Mcap extends MessageFile<number> implements Container {
     if (!this.#chunks) return this.#readFromStart(isWanted, onMessage, onProgress);
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wantedIds.has(id)));
-    const bytesAt = readAhead(this.source);
+    const readBytesAt = readAhead(this.source);
     for (const [i, { chunkStartOffset, chunkLength }] of wantedChunks.entries()) {
       const from = Number(chunkStartOffset);
       await this.#skipIfDamaged(from, async () => {
         if (chunkLength > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${chunkLength} bytes`);
-        const bytes = await bytesAt(from, from + Number(chunkLength));
+        const bytes = await readBytesAt(from, from + Number(chunkLength));
         if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
         this.#readRecords(await recordsOf(bytes.subarray(RECORD_HEAD_BYTES)), isWanted, onMessage);
       });
@@ -74,11 +74,11 @@ class Mcap extends MessageFile<number> implements Container {
 
   async #readFromStart(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.source;
-    const bytesAt = readAhead(this.source);
+    const readBytesAt = readAhead(this.source);
     this.isCutShort = true;
     for (let at = MAGIC_BYTES, nextReport = 0; at + RECORD_HEAD_BYTES <= size; ) {
-      const recordHead = await bytesAt(at, at + RECORD_HEAD_BYTES);
-      const recordLength = uint53(viewOf(recordHead), 1);
+      const recordHead = await readBytesAt(at, at + RECORD_HEAD_BYTES);
+      const recordLength = uint53(dataViewOf(recordHead), 1);
       const nextRecord = at + RECORD_HEAD_BYTES + recordLength;
       if (nextRecord > size) return;
       if (recordHead[0] === DATA_END) {
@@ -88,7 +88,7 @@ class Mcap extends MessageFile<number> implements Container {
       if ([SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(recordHead[0])) {
         await this.#skipIfDamaged(at, async () => {
           if (recordLength > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${recordLength} bytes`);
-          const record = await bytesAt(at, nextRecord);
+          const record = await readBytesAt(at, nextRecord);
           this.#readRecords(recordHead[0] === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
         });
       }
@@ -105,7 +105,7 @@ class Mcap extends MessageFile<number> implements Container {
   }
 
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {
-    const view = viewOf(bytes);
+    const view = dataViewOf(bytes);
     for (let at = 0; at < bytes.length; ) {
       const nextRecord = at + RECORD_HEAD_BYTES + uint53(view, at + 1);
       if (nextRecord > bytes.length) throw new RangeError('a record is cut short');
@@ -128,7 +128,7 @@ class Mcap extends MessageFile<number> implements Container {
 
 /** Returns the records of a chunk; rejects if it is damaged, or its compression is unknown. */
 async function recordsOf(chunk: Uint8Array): Promise<Uint8Array> {
-  const view = viewOf(chunk);
+  const view = dataViewOf(chunk);
   const [size, crc, length] = [uint53(view, 16), view.getUint32(24, true), view.getUint32(28, true)];
   if (size > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${size} bytes`);
   const compression = new TextDecoder().decode(chunk.subarray(32, 32 + length));

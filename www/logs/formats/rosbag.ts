@@ -2,7 +2,7 @@
 
 import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, viewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 
 /** Values of the field "op" of records. */
@@ -28,7 +28,7 @@ class HeaderFields {
   #from;
   #to;
 
-  constructor(bytes: Uint8Array, view = viewOf(bytes), from = 0, to = bytes.length) {
+  constructor(bytes: Uint8Array, view = dataViewOf(bytes), from = 0, to = bytes.length) {
     this.#bytes = bytes;
     this.#view = view;
     this.#from = from;
@@ -95,11 +95,11 @@ class Rosbag extends MessageFile<number> implements Container {
     const { size } = this.source;
     try {
       const bagHeader = await readBytes(this.source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES);
-      const { fields } = recordAt(bagHeader, viewOf(bagHeader), 0);
+      const { fields } = recordAt(bagHeader, dataViewOf(bagHeader), 0);
       const [start, count] = [fields.uint64('index_pos'), fields.uint32('chunk_count')];
       if (fields.byte('op') !== BAG || start === 0 || start > size) return false;
       const bytes = await readBytes(this.source, start, size);
-      const view = viewOf(bytes);
+      const view = dataViewOf(bytes);
       const chunks = [];
       for (let at = 0; at < bytes.length; ) {
         const { fields, from, next } = recordAt(bytes, view, at);
@@ -134,7 +134,7 @@ class Rosbag extends MessageFile<number> implements Container {
 
   async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.source;
-    const bytesAt = readAhead(this.source);
+    const readBytesAt = readAhead(this.source);
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wantedIds.has(id)));
     this.isCutShort = !wantedChunks;
@@ -142,22 +142,22 @@ class Rosbag extends MessageFile<number> implements Container {
       if (wantedChunks) at = wantedChunks[i].position;
       const recordStart = at;
       try {
-        let recordHead = await bytesAt(at, Math.min(at + HEADER_BYTES, size));
-        const length = viewOf(recordHead).getUint32(0, true);
+        let recordHead = await readBytesAt(at, Math.min(at + HEADER_BYTES, size));
+        const length = dataViewOf(recordHead).getUint32(0, true);
         if (length > MAX_BLOCK_BYTES) throw new RangeError('a header is damaged');
         // The last record of a bag that was not closed is incomplete.
         if (at + length + 8 > size && !wantedChunks) return;
-        if (length + 8 > recordHead.length) recordHead = await bytesAt(at, Math.min(at + length + 8, size));
-        const bytes = viewOf(recordHead).getUint32(4 + length, true);
+        if (length + 8 > recordHead.length) recordHead = await readBytesAt(at, Math.min(at + length + 8, size));
+        const bytes = dataViewOf(recordHead).getUint32(4 + length, true);
         const from = at + 8 + length;
         at = from + bytes;
         if (at > size && !wantedChunks) return;
         const fields = new HeaderFields(recordHead.subarray(4, 4 + length));
         const op = fields.byte('op');
-        if (op === CONNECTION) this.#addConnection(fields, await bytesAt(from, at));
+        if (op === CONNECTION) this.#addConnection(fields, await readBytesAt(from, at));
         if (op === CHUNK) {
           if (Math.max(bytes, fields.uint32('size')) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
-          await this.#readChunk(fields, await bytesAt(from, at), isWanted, onMessage);
+          await this.#readChunk(fields, await readBytesAt(from, at), isWanted, onMessage);
         } else if (wantedChunks) throw new RangeError('no chunk is there');
       } catch (error) {
         this.noteDamage(recordStart, error);
@@ -170,7 +170,7 @@ class Rosbag extends MessageFile<number> implements Container {
 
   async #readChunk(chunk: HeaderFields, compressed: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): Promise<void> {
     const bytes = await this.#decompress(chunk.text('compression'), compressed, chunk.uint32('size'));
-    const view = viewOf(bytes);
+    const view = dataViewOf(bytes);
     for (let at = 0; at < bytes.length; ) {
       const { fields, from, next } = recordAt(bytes, view, at);
       const op = fields.byte('op');

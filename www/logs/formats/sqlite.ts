@@ -2,7 +2,7 @@
 
 import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MessageFile, readAhead, viewOf, type Channel, type Container, type Message } from './container.ts';
+import { MessageFile, readAhead, dataViewOf, type Channel, type Container, type Message } from './container.ts';
 import { loadZstd } from './zstd.ts';
 
 /** Types of the pages of a table's B-tree. */
@@ -38,7 +38,7 @@ interface Table {
   columns: string[];
 }
 
-const textOf = (value: SqliteValue) => (value instanceof Uint8Array ? new TextDecoder().decode(value) : '');
+const decodeText = (value: SqliteValue) => (value instanceof Uint8Array ? new TextDecoder().decode(value) : '');
 
 export async function openSqlite(source: Source): Promise<Container> {
   await loadZstd();
@@ -53,10 +53,10 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
   /** Bytes of a page without those reserved at its end. */
   #usableBytes = 0;
   #messages: Table = { root: 0, columns: [] };
-  #bytesAt = readAhead(this.source);
+  #readBytesAt = readAhead(this.source);
 
   async open(): Promise<void> {
-    const view = viewOf(await readBytes(this.source, 0, HEADER_BYTES));
+    const view = dataViewOf(await readBytes(this.source, 0, HEADER_BYTES));
     const notRosbag2 = () => new LogError({ file: this.source.name }, (say) => say.noRosbag2);
     this.isCutShort = view.byteLength < HEADER_BYTES;
     if (this.isCutShort) return;
@@ -68,9 +68,9 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     const tablesByName = new Map<string, Table>();
     await this.#eachRow({ root: 1, columns: [] }, async (row) => {
       const bytes = await this.#wholeRow(row);
-      const [name, root, sql] = [1, 3, 4].map((column) => valueOf(bytes, column));
-      const columns = textOf(sql).replace(/^[^(]*\(|\)[^)]*$/g, '').split(',').map((column) => column.trim().split(/\s/)[0]);
-      tablesByName.set(textOf(name), { root: Number(root), columns });
+      const [name, root, sql] = [1, 3, 4].map((column) => columnValueOf(bytes, column));
+      const columns = decodeText(sql).replace(/^[^(]*\(|\)[^)]*$/g, '').split(',').map((column) => column.trim().split(/\s/)[0]);
+      tablesByName.set(decodeText(name), { root: Number(root), columns });
     });
     const [topics, messages] = ['topics', 'messages'].map((name) => tablesByName.get(name));
     if (!topics || !messages) {
@@ -80,12 +80,12 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     this.#messages = messages;
     await this.#eachRow(topics, async (row) => {
       const bytes = await this.#wholeRow(row);
-      const [topic, type, encoding] = ['name', 'type', 'serialization_format'].map((column) => textOf(valueOf(bytes, topics.columns.indexOf(column))));
+      const [topic, type, encoding] = ['name', 'type', 'serialization_format'].map((column) => decodeText(columnValueOf(bytes, topics.columns.indexOf(column))));
       this.channelsById.set(row.id, { topic, type, encoding, publisher: `${row.id}`, count: 0 });
     });
     const topicId = messages.columns.indexOf('topic_id');
     await this.#eachRow(messages, ({ bytes }) => {
-      const channel = this.channelsById.get(valueOf(bytes, topicId));
+      const channel = this.channelsById.get(columnValueOf(bytes, topicId));
       if (channel) channel.count += 1;
     });
   }
@@ -94,12 +94,12 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     const wantedChannels = new Map([...this.channelsById].filter(([, channel]) => isWanted(channel)));
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
     const passRow = (channel: Channel, bytes: Uint8Array) => {
-      const nanoseconds = BigInt(valueOf(bytes, timestamp) as bigint);
-      const block = viewOf(valueOf(bytes, data) as Uint8Array);
+      const nanoseconds = BigInt(columnValueOf(bytes, timestamp) as bigint);
+      const block = dataViewOf(columnValueOf(bytes, data) as Uint8Array);
       onMessage({ channel, seconds: Number(nanoseconds / NS_PER_S), nanoseconds: Number(nanoseconds % NS_PER_S), block, from: 0, to: block.byteLength });
     };
     await this.#eachRow(this.#messages, (row) => {
-      const channel = wantedChannels.get(valueOf(row.bytes, topicId));
+      const channel = wantedChannels.get(columnValueOf(row.bytes, topicId));
       if (!channel) return undefined;
       return row.bytes.length < row.length ? this.#wholeRow(row).then((bytes) => passRow(channel, bytes)) : passRow(channel, row.bytes);
     }, onProgress);
@@ -114,7 +114,7 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
       if (!this.#hasPage(number)) continue;
       try {
         const pageBytes = await this.#page(number);
-        for (const cell of cellsOf(pageBytes, number, LEAF_PAGE)) {
+        for (const cell of cellPositionsOf(pageBytes, number, LEAF_PAGE)) {
           const pendingRow = onRow(this.#rowAt(pageBytes, cell));
           if (pendingRow) await pendingRow;
         }
@@ -136,8 +136,8 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
         const page = await readBytes(this.source, (number - 1) * this.#pageSize, number * this.#pageSize);
         if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF_PAGE && pagesOfNextLevel.length === 0) return pagesOfLevel;
         try {
-          const view = viewOf(page);
-          for (const cell of cellsOf(page, number, INTERIOR_PAGE)) pagesOfNextLevel.push(view.getUint32(cell));
+          const view = dataViewOf(page);
+          for (const cell of cellPositionsOf(page, number, INTERIOR_PAGE)) pagesOfNextLevel.push(view.getUint32(cell));
           pagesOfNextLevel.push(view.getUint32((number === 1 ? HEADER_BYTES : 0) + 8));
         } catch (error) {
           this.noteDamage(number, error);
@@ -158,7 +158,7 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
   }
 
   async #page(number: number): Promise<Uint8Array> {
-    const page = await this.#bytesAt((number - 1) * this.#pageSize, number * this.#pageSize);
+    const page = await this.#readBytesAt((number - 1) * this.#pageSize, number * this.#pageSize);
     if (page.length < this.#pageSize) throw new RangeError('a page is cut short');
     return page;
   }
@@ -168,7 +168,7 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     const [id, start] = varintAt(page, afterLength);
     const localEnd = start + this.#localBytes(length);
     if (localEnd > page.length || length > Math.min(MAX_ROW_BYTES, this.source.size)) throw new RangeError('a row is damaged');
-    return { id, bytes: page.subarray(start, localEnd), length, next: localEnd - start < length ? viewOf(page).getUint32(localEnd) : 0 };
+    return { id, bytes: page.subarray(start, localEnd), length, next: localEnd - start < length ? dataViewOf(page).getUint32(localEnd) : 0 };
   }
 
   /** Returns the number of bytes of a row on its own page. The other bytes are on overflow pages. */
@@ -190,15 +190,15 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
       const overflowPart = page.subarray(4, Math.min(this.#usableBytes, 4 + length - filledBytes));
       row.set(overflowPart, filledBytes);
       filledBytes += overflowPart.length;
-      next = viewOf(page).getUint32(0);
+      next = dataViewOf(page).getUint32(0);
     }
     return row;
   }
 }
 
 /** Returns the positions of the cells of a page. Throws a RangeError if the page has another type. */
-function cellsOf(page: Uint8Array, number: number, type: number): number[] {
-  const view = viewOf(page);
+function cellPositionsOf(page: Uint8Array, number: number, type: number): number[] {
+  const view = dataViewOf(page);
   const start = number === 1 ? HEADER_BYTES : 0;
   if (view.getUint8(start) !== type) throw new RangeError('a page is damaged');
   const cellPointers = start + (type === LEAF_PAGE ? 8 : 12);
@@ -221,7 +221,7 @@ function varintAt(bytes: Uint8Array, at: number): [value: number, next: number] 
 const INTEGER_SIZES = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
 
 /** Returns the value of a column; throws a RangeError if the bytes end before it. */
-function valueOf(row: Uint8Array, column: number): SqliteValue {
+function columnValueOf(row: Uint8Array, column: number): SqliteValue {
   let [from, at] = varintAt(row, 0);
   const end = from;
   for (let i = 0; at < end; i++) {
@@ -236,7 +236,7 @@ function valueOf(row: Uint8Array, column: number): SqliteValue {
 }
 
 function integerOf(row: Uint8Array, type: number, from: number, to: number): number | bigint {
-  if (type === 6) return viewOf(row).getBigInt64(from);
+  if (type === 6) return dataViewOf(row).getBigInt64(from);
   if (type === 8 || type === 9) return type - 8;
   let value = 0;
   for (let at = from; at < to; at++) value = value * 256 + (at === from ? (row[at] << 24) >> 24 : row[at]);

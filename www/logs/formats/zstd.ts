@@ -3,7 +3,7 @@
 import { ZSTDDecoder } from 'zstddec/stream';
 import { LogError, readBytes, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, viewOf } from './container.ts';
+import { MAX_BLOCK_BYTES, dataViewOf } from './container.ts';
 
 const zstdDecoder = new ZSTDDecoder();
 
@@ -36,7 +36,7 @@ export function unzstdMessage(bytes: Uint8Array): Uint8Array {
 
 /** Returns the size of the content from the header of a frame; Infinity if the header has none. https://www.rfc-editor.org/rfc/rfc8878 */
 function contentSize(frame: Uint8Array): number {
-  const view = viewOf(frame);
+  const view = dataViewOf(frame);
   const frameDescriptor = view.getUint8(4);
   const isSingleSegment = (frameDescriptor >> 5) & 1;
   const at = 6 - isSingleSegment + [0, 1, 2, 4][frameDescriptor & 3];

@@ -20,12 +20,12 @@ import { copyMessage, copyButton, nav2Exports } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
 import { SummaryPicture } from './summary-picture.ts';
-import { legOf, readingOf, type Reading } from './reading.ts';
+import { shownLegOf, readingOf, type Reading } from './reading.ts';
 import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
 import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf } from './settings.ts';
 import { styles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
-import { captionOf, judgementOf, legText, reasonOf, pathText } from './words.ts';
+import { captionOf, judgementOf, legText, recommendationReason, pathText } from './words.ts';
 import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
@@ -90,7 +90,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Index of the leg that is shown; −1 if there is none. */
   get chosen() {
-    return legOf(this.reading, this.state.elementState.leg);
+    return shownLegOf(this.reading, this.state.elementState.leg);
   }
 
   /** Predicted cloud and ends of the leg that is shown, by the latest complete fit; null without a leg. */
@@ -208,7 +208,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     const legEntries = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
     const poseColumns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`));
     return {
-      description: [pathText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this), reasonOf(this.reading), ...systematicTexts(this.reading)].join(' '),
+      description: [pathText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this), recommendationReason(this.reading), ...systematicTexts(this.reading)].join(' '),
       settings: { ...(this.log && { log: this.log.name }), ...fitted },
       columns: [
         'begins_s', 'ends_s', ...poseColumns('odometry'), ...poseColumns('reference'), 'reading_1', 'reading_2', 'reading_3',
@@ -248,7 +248,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
           </div>
           <p class="to-do">${this.#opener.otherResults || judgementOf(reading, this.warnings).toDo}</p>
           ${alphaTable(reading)}
-          <p class="muted reason">${reasonOf(reading)}</p>
+          <p class="muted reason">${recommendationReason(reading)}</p>
           ${copyMessage(this)}
         </div>`)}
       </div>

@@ -9,7 +9,7 @@ import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
 import { NOISE_COMPONENTS, type Regressor } from './settings.ts';
-import { checkText, expectedOf, messageOf, localized, scaleByPowerOf1000 } from './words.ts';
+import { checkText, expectedRangeText, checkMessage, localized, scaleByPowerOf1000 } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -28,9 +28,9 @@ function checksTable({ reading: { stats: { diagnostics: { checks } } } }: Figure
     caption: say.caption,
     columns: [say.check, say.value, say.expected, say.result],
     rows: checks.map((check) => [
-      html`${say.names[check.name]}<div class="muted">${messageOf(check)}</div>`,
+      html`${say.names[check.name]}<div class="muted">${checkMessage(check)}</div>`,
       checkText(check.name, check.value),
-      expectedOf(check),
+      expectedRangeText(check),
       check.passed ? `✓ ${say.passed}` : html`<strong>✕ ${say.failed}</strong>`,
     ]),
   });

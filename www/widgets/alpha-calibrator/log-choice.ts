@@ -74,8 +74,8 @@ function likeliestChoice(recording: Recording, role: Role, kind: 'commands' | un
 
 function roleSelect(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, index: number, { choose: say }: LogWords) {
   const { name } = recordings[index];
-  const ownRole = roles.get(index) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[index]));
-  return selectField(`log-role-${index}`, name, ownRole ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
+  const currentRole = roles.get(index) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[index]));
+  return selectField(`log-role-${index}`, name, currentRole ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
     const role = value as Role;
     const changedRoles = new Map(roles).set(index, role);
     // If there are two files, the other file gets the other role.
@@ -182,11 +182,11 @@ function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
   const formatCoordinate = (value: number) => value.toFixed(1);
   const pathData = ({ poses, breaks }: Path) => poses.map(([x, y], i) =>
     `${i === 0 || breaks.has(i) ? 'M' : 'L'}${formatCoordinate(MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre)} ${formatCoordinate(HEIGHT - MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre)}`).join('');
-  const sizesText = found.paths(fixed(width, 1), fixed(height, 1));
+  const captionText = found.paths(fixed(width, 1), fixed(height, 1));
   return html`<figure class="paths">
-    <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${sizesText}>
+    <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${captionText}>
       ${svg`<path class="reference" d=${pathData(referencePath)}></path><path class="odometry" d=${pathData(odometryPath)}></path>`}
     </svg>
-    <figcaption>${sizesText}</figcaption>
+    <figcaption>${captionText}</figcaption>
   </figure>`;
 }

@@ -72,10 +72,10 @@ export class LogOpener extends FileOpener<Figure> {
   hostUpdated() {
     const { chosen } = this;
     if (!chosen?.log || chosen.log !== this.host.log || this.share !== undefined || this.#preferredKind === this.kind) return;
-    const choicesBefore = choicesOf(chosen.plan);
+    const choicesBefore = planAsText(chosen.plan);
     this.#restart(async (logModules) => {
       const plan = planOf(logModules, chosen, this.kind);
-      if (choicesOf(plan) !== choicesBefore) await this.#read(chosen, plan, logModules);
+      if (planAsText(plan) !== choicesBefore) await this.#read(chosen, plan, logModules);
     });
   }
 
@@ -129,7 +129,7 @@ export class LogOpener extends FileOpener<Figure> {
   };
 
   choose(files: File[]) {
-    const logFiles = files.filter(isLog);
+    const logFiles = files.filter(mayBeLog);
     if (files.length > 0) this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {}, roles: new Map() });
   }
 
@@ -182,7 +182,7 @@ export class LogOpener extends FileOpener<Figure> {
       this.share = share;
       this.host.requestUpdate();
     });
-    const log = { name: nameOf(plan, logModules), ...logModules.calibrationLogOf(drives) };
+    const log = { name: logNameOf(plan, logModules), ...logModules.calibrationLogOf(drives) };
     const fitPromise = this.host.open(log, logModules.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
@@ -225,20 +225,20 @@ export class LogOpener extends FileOpener<Figure> {
 }
 
 /** Checks whether a file may be a log, because folders also have other files. */
-const isLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
+const mayBeLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
 
 function planOf(logModules: LogModules, { recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
   return logModules.planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
 }
 
 /** Returns the choices of a plan as a text, to compare plans. */
-const choicesOf = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
+const planAsText = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
 
 /** Returns the name of a log: its files, and the topics if one recording has both. */
-function nameOf({ drives, unpaired }: LogPlan, logModules: LogModules) {
-  const planParts = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
-  const names = planParts.map(({ recording }) => recording.name);
-  const [onlyDrive] = planParts.length === 1 ? drives : [];
+function logNameOf({ drives, unpaired }: LogPlan, logModules: LogModules) {
+  const plannedLogs = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
+  const names = plannedLogs.map(({ recording }) => recording.name);
+  const [onlyDrive] = plannedLogs.length === 1 ? drives : [];
   return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => logModules.labelOf(choice)) : [])].filter(Boolean).join(', ');
 }
 

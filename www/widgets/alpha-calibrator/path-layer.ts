@@ -26,7 +26,7 @@ const FINE_SQUARE = 1;
 const COARSE_SQUARE = 8;
 
 /** Returns the key of the grid square that contains a point in CSS pixels. */
-const squareOf = (x: number, y: number, side: number = FINE_SQUARE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
+const gridSquareOf = (x: number, y: number, side: number = FINE_SQUARE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
 
 /** Radius of the rings around outliers, CSS pixels. */
 const RING_RADIUS = 6;
@@ -121,7 +121,7 @@ function pathCoverage(view: Painter['view'], reference: Float64Array) {
   let coveredLength = 0;
   for (let at = 0; at < reference.length; at += 6) {
     const [x, y] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
-    occupiedSquares.add(squareOf(x, y, COARSE_SQUARE));
+    occupiedSquares.add(gridSquareOf(x, y, COARSE_SQUARE));
     // A leg counts only for the square in which it ends, with at most the side of the square.
     coveredLength += Math.min(COARSE_SQUARE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
   }
@@ -133,7 +133,7 @@ function* odometryLines(view: Painter['view'], ends: Float64Array) {
   let [previousSquare, line] = [NaN, [] as number[][]];
   for (let at = 0; at < ends.length; at += 2) {
     const legEnd = view.toPixel(ends[at], ends[at + 1]);
-    const square = squareOf(...legEnd);
+    const square = gridSquareOf(...legEnd);
     if (square === previousSquare) continue;
     previousSquare = square;
     line.push(legEnd);
@@ -152,7 +152,7 @@ function* visibleLegs(view: Painter['view'], reference: Float64Array, isDrawn: (
     const at = 6 * leg;
     const [from, to] = [view.toPixel(reference[at], reference[at + 1]), view.toPixel(reference[at + 3], reference[at + 4])];
     if (Math.hypot(to[0] - from[0], to[1] - from[1]) < FINE_SQUARE) {
-      const square = squareOf(...to);
+      const square = gridSquareOf(...to);
       if (drawnSquares.has(square)) continue;
       drawnSquares.add(square);
     }

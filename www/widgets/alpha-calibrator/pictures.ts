@@ -25,7 +25,7 @@ const MARK_MARGIN = 0.08;
  * @param reference poses
  * @param odometry points
  */
-export function cornersOf(reference: ArrayLike<number>, odometry: ArrayLike<number>): number[] {
+export function viewCornersOf(reference: ArrayLike<number>, odometry: ArrayLike<number>): number[] {
   const box = extentAround(reference, 3);
   const boxOfBothPaths = extentAround(odometry, 2, box);
   const margin = Math.max(box.xMax - box.xMin, box.yMax - box.yMin) / 2;
@@ -46,7 +46,7 @@ export class PathPicture extends SamplesPicture<Scene> {
 
   fit({ legs, overlays }: Scene) {
     this.view.release();
-    this.view.fit(extentOf(legs.count > 0 ? cornersOf(legs.reference, overlays.includes('odometry') ? this.#layer.odometryOf(legs) : []) : [0, 0], 1));
+    this.view.fit(extentOf(legs.count > 0 ? viewCornersOf(legs.reference, overlays.includes('odometry') ? this.#layer.odometryOf(legs) : []) : [0, 0], 1));
     // The view is not animated, because an animation would draw all legs in each frame.
     this.view.ease(0, true);
   }
@@ -91,16 +91,16 @@ export class LegPicture extends Picture<Scene> {
     if (!leg) return;
     const { outcomes, outline, read, ended } = leg;
     const showsLine = (name: LineName) => overlays.includes(name);
-    const lineInStyle = (name: LineName, points: Float64Array) => {
+    const styledLine = (name: LineName, points: Float64Array) => {
       const lineStyle = pathStyle(brush, name);
       return showsLine(name) ? [{ points, ...lineStyle, width: (LEG_LINE_WIDTH / LINE_STYLES[name].width) * lineStyle.width }] : [];
     };
     clipToPlot(brush, () => {
       if (showsLine('predicted')) drawDots(brush, outcomes, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [
-        ...lineInStyle('predicted', outline),
-        ...lineInStyle('odometry', Float64Array.of(0, 0, read[0], read[1])),
-        ...lineInStyle('reference', Float64Array.of(0, 0, ended[0], ended[1])),
+        ...styledLine('predicted', outline),
+        ...styledLine('odometry', Float64Array.of(0, 0, read[0], read[1])),
+        ...styledLine('reference', Float64Array.of(0, 0, ended[0], ended[1])),
       ]);
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       if (showsLine('odometry')) drawMark(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);

@@ -34,11 +34,11 @@ function fitOf(machine: Machine, fits: number, { duration, distance }: Machine['
     stats,
     legs,
     /** Class of each leg, as an index of `LEG_CLASSES`. */
-    classes: classesOf(legs),
+    classes: legClassesOf(legs),
     /** Legs with the largest residuals, the largest first. */
     worst: worstLegsOf(legs),
     /** Leg that is shown if none was chosen. */
-    opening: openingLegOf(legs, duration > 0 ? MIN_DIRECTED_LEG : distance),
+    opening: defaultLegOf(legs, duration > 0 ? MIN_DIRECTED_LEG : distance),
   };
 }
 
@@ -52,7 +52,7 @@ const LISTED_RESIDUALS = 10;
 const CHI2_QUANTILES = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
 
 /** Returns the class of each leg: the index of the first quantile that its squared Mahalanobis distance does not exceed. */
-export function classesOf({ count, squared, residuals }: Pick<CalibrationLegs, 'count' | 'squared' | 'residuals'>) {
+export function legClassesOf({ count, squared, residuals }: Pick<CalibrationLegs, 'count' | 'squared' | 'residuals'>) {
   return Uint8Array.from({ length: count }, (_, leg) => {
     const quantiles = CHI2_QUANTILES[observedCount(residuals, leg)];
     const classIndex = quantiles.findIndex((quantile) => squared[leg] <= quantile);
@@ -64,8 +64,8 @@ export function classesOf({ count, squared, residuals }: Pick<CalibrationLegs, '
 export const observedCount = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
 
 function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
-  const smallestListed = squared.toSorted()[Math.max(0, squared.length - LISTED_RESIDUALS)];
-  const worstLegs = [...squared.keys()].filter((leg) => squared[leg] >= smallestListed);
+  const minListedSquare = squared.toSorted()[Math.max(0, squared.length - LISTED_RESIDUALS)];
+  const worstLegs = [...squared.keys()].filter((leg) => squared[leg] >= minListedSquare);
   return worstLegs.sort((one, other) => squared[other] - squared[one]).slice(0, LISTED_RESIDUALS);
 }
 
@@ -73,14 +73,14 @@ function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
  * Returns the leg with the largest residual that is not an outlier and has at least the length `distance`. An outlier is no evidence against
  * the model, and a turn on the spot shows no cloud. Returns leg 0 if there is no such leg, and −1 if there are no legs.
  */
-function openingLegOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
+function defaultLegOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
   const isFullLeg = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
   const worstLeg = squared.reduce((worst, error, leg) => (outliers[leg] === 0 && isFullLeg(leg) && error > (squared[worst] ?? -1) ? leg : worst), -1);
   return worstLeg < 0 && squared.length > 0 ? 0 : worstLeg;
 }
 
 /** Returns the leg that is shown; −1 if there is none. */
-export const legOf = ({ opening, legs }: Reading, chosen: number | null) => (chosen !== null && chosen < legs.count ? chosen : opening);
+export const shownLegOf = ({ opening, legs }: Reading, chosen: number | null) => (chosen !== null && chosen < legs.count ? chosen : opening);
 
 /** Returns true if the true α's belong to the rule and the leg length of the present fit. */
 export const truthApplies = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<Reading, 'truth' | 'fitted'>) =>

@@ -7,7 +7,7 @@ import { View } from '../../scene/view.ts';
 import { PathPicture, type Scene } from './pictures.ts';
 import { alphaTexts } from './readouts.ts';
 import { systematicTexts } from './systematic.ts';
-import { captionOf, reasonOf } from './words.ts';
+import { captionOf, recommendationReason } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Size in pixels. The path is at the left with the α's beside it, and sentences are below. */
@@ -51,7 +51,7 @@ export class SummaryPicture extends Picture<Scene> {
     let y = 2;
     for (const sentence of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = writeText(context, sentence, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
     y = Math.max(PATH_SIZE.height, y) + LINE_HEIGHT;
-    for (const sentence of [captionOf(this.#figure), reasonOf(reading), ...systematicTexts(reading)]) y = writeText(context, sentence, 2, y, WIDTH - 2);
+    for (const sentence of [captionOf(this.#figure), recommendationReason(reading), ...systematicTexts(reading)]) y = writeText(context, sentence, 2, y, WIDTH - 2);
     return false;
   }
 }

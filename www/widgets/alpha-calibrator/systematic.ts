@@ -18,8 +18,8 @@ const MAX_DECIMALS = 6;
 /** Returns two sentences: one on the systematic errors that were corrected, and one on those that the α's include as noise. */
 export function systematicTexts({ stats: { systematicErrors: errors } }: Reading) {
   const say = words.calibrator.systematic;
-  const textsOf = (corrected: boolean) => SYSTEMATIC_ERRORS.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
-  const [corrected, left] = [textsOf(true), textsOf(false)];
+  const errorTexts = (corrected: boolean) => SYSTEMATIC_ERRORS.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
+  const [corrected, left] = [errorTexts(true), errorTexts(false)];
   return [...(corrected ? [say.removed(corrected)] : []), ...(left ? [say.left(left)] : [])];
 }
 

@@ -32,13 +32,13 @@ export function judgementOf(reading: Reading, logWarnings: Warning[]) {
   if (legs.count === 0) return judgementWith(say.none, say.longer, ...warnings);
   const failedChecks = failedChecksOf(checks);
   const correctionSentences = correctionAdvice(stats, say.nav2, localized);
-  if (failedChecks.length > 0) return judgementWith(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, messageOf(failedChecks[0]));
+  if (failedChecks.length > 0) return judgementWith(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, checkMessage(failedChecks[0]));
   if (verdict === 'unusable') return judgementWith(say.noAlpha, ...warnings);
   return warnings.length > 0 ? judgementWith(warnings[0], ...warnings.slice(1), ...correctionSentences) : judgementWith(say.passed(integer(checks.length)), say.use, ...correctionSentences);
 }
 
 /** Returns what a failed check means and what to do. A reference that matches too closely has its own message. */
-export const messageOf = ({ name, value, expected: [low], passed, message }: CalibrationCheck) => (passed ? '' : words.calibrator.checks.message(name === 'reference-matches' && value < low ? 'reference-copied' : name, message));
+export const checkMessage = ({ name, value, expected: [low], passed, message }: CalibrationCheck) => (passed ? '' : words.calibrator.checks.message(name === 'reference-matches' && value < low ? 'reference-copied' : name, message));
 
 /** Prints the value of a check, or a limit of it. */
 export function checkText(name: CalibrationCheck['name'], value: number) {
@@ -47,13 +47,13 @@ export function checkText(name: CalibrationCheck['name'], value: number) {
 }
 
 /** Prints the range of values with which a check passes. */
-export function expectedOf({ name, expected: [low, high] }: CalibrationCheck) {
+export function expectedRangeText({ name, expected: [low, high] }: CalibrationCheck) {
   if (high === Infinity) return `≥ ${checkText(name, low)}`;
   return low === 0 ? `≤ ${checkText(name, high)}` : words.calibrator.alphas.between(checkText(name, low), checkText(name, high));
 }
 
 /** Returns the reason for the recommended α's. */
-export function reasonOf({ stats: { recommended, diagnostics: { checks, windows } } }: Reading) {
+export function recommendationReason({ stats: { recommended, diagnostics: { checks, windows } } }: Reading) {
   const say = words.calibrator.recommended;
   if (!recommended) return say.none;
   const [{ count, coverage, nees }] = windows;

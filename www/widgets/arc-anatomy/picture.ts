@@ -11,7 +11,7 @@ import { Pixels } from '../../scene/pixels.ts';
 import { View, extentAround } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed, formatSignificant } from '../../ui/format.ts';
-import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
+import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { CONTOUR_STYLES, LINE_STYLES, type LineName } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
 import type { Palette } from '../../ui/theme.ts';
@@ -113,8 +113,8 @@ export class ArcPicture extends Picture<Scene> {
         strokeLine(brush.context, brush.view.ray({ x: endX, y: endY, theta: endTheta }, HEADING_LENGTH), { colour: styles.commanded.colour, width: 1.5 });
       }
       drawMovingRobots(brush, scene);
-      drawHeldRobot(brush, start, ROBOT_RADIUS, palette.truth);
-      drawHeldRobot(brush, next, ROBOT_RADIUS, palette.prediction);
+      drawDraggableRobot(brush, start, ROBOT_RADIUS, palette.truth);
+      drawDraggableRobot(brush, next, ROBOT_RADIUS, palette.prediction);
       if (showsLine('wedge')) drawLabel(brush, { ...wedgeLabelPlace(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: styles.wedge.colour });
     });
   };

@@ -42,7 +42,7 @@ export function outlinesAt(motion: Motion, reading: Reading, morph: number): Out
   const morphLine = lineMorphOf(motion, reading, morph);
   const { mean, cov } = stats.exponential;
   return {
-    command: commandAt(reading, morph),
+    command: commandedArcAt(reading, morph),
     ellipse: morphLine(contours.ellipse),
     linearized: morphLine(contours.linearized),
     additive: morphLine(contours.additive),
@@ -60,7 +60,7 @@ export function confidenceRings(motion: Motion, { stats: { exponential: { mean, 
 }
 
 /** Returns the commanded arc at a morph. */
-function commandAt({ config: { command: { v, omega, dt } }, contours }: Reading, morph: number) {
+function commandedArcAt({ config: { command: { v, omega, dt } }, contours }: Reading, morph: number) {
   const chordCount = contours.command.length / 2 - 1;
   const pointAtChord = (i: number) => morphedPoint([(i / chordCount) * v * dt, 0, (i / chordCount) * omega * dt], morph);
   return Float64Array.from(Array.from({ length: chordCount + 1 }, (_, i) => pointAtChord(i)).flat());

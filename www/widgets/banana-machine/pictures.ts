@@ -170,7 +170,7 @@ export class PlanePicture extends CloudPicture {
     clipToPlot(brush, () => {
       if (morph > 0 && morph < 1) drawMorphGrid(brush, twist, morph);
       if (scene.driving) {
-        drawDriving(brush, machine, scene.driving);
+        drawDrivingRobots(brush, machine, scene.driving);
         return;
       }
       const { cov } = table.exact;
@@ -205,7 +205,7 @@ const earlierReadingOf = ({ previousReading }: Brush, { pinned }: Scene): Readin
 
 const earlierName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
 
-function drawDriving(brush: Brush, machine: BananaMachine, { robots, share }: { robots: number, share: number }) {
+function drawDrivingRobots(brush: Brush, machine: BananaMachine, { robots, share }: { robots: number, share: number }) {
   const { palette } = brush;
   for (let i = 0; i < robots; i++) {
     const { path, pose } = machine.inspect(i);

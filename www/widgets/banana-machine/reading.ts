@@ -76,7 +76,7 @@ export const alphaName = (index: number) => `α${subscriptOf(index)}`;
 const ALPHA_CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;
 
 /** Returns a sentence on an isolated α (index from 0) that has no effect because the speed that it multiplies is 0. */
-function silentAlphaText(model: Settings['model'], index: number) {
+function ineffectiveAlphaText(model: Settings['model'], index: number) {
   const { alphaIsSilent, nothingToMultiply, settings } = words.banana;
   const speedName = ALPHA_CAUSES[model][index] as 'v' | 'ω';
   return alphaIsSilent(alphaName(index), nothingToMultiply[model][speedName], speedName, settings.alphas.effects[model][index][2]);
@@ -104,7 +104,7 @@ function cloudNote({ model, command, alphas, isolate, reverseAware }: Settings, 
   if (kindOfSpread === 'point') {
     if (v === 0 && omega === 0) return notes.still;
     if (isolate === null) return alphas.every((alpha) => alpha === 0) ? notes.silent : notes.unfed;
-    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : silentAlphaText(model, isolate - 1);
+    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : ineffectiveAlphaText(model, isolate - 1);
   }
   if (kindOfSpread === 'headings') return notes.headings;
   if (!chartHolds) return notes.circle;

@@ -34,8 +34,8 @@ export function samplerControls(figure: Figure) {
   const { conditioned, sampler, samples, steps } = figure.reading.config;
   const { settings, samplers, samplerEffects } = words.squeeze;
   // With sub-steps each sample takes several draws.
-  const maxOf = (name: string) => (name === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
-  const chooseSampler = (name: string) => figure.gesture.decide({ sampler: name, ...(samples > maxOf(name) && { samples: maxOf(name) }) });
+  const maxSampleCountOf = (name: string) => (name === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
+  const chooseSampler = (name: string) => figure.gesture.decide({ sampler: name, ...(samples > maxSampleCountOf(name) && { samples: maxSampleCountOf(name) }) });
   return html`<div class="judge">
     ${radioGroup(settings.sampler.name, 'sampler', samplers, sampler, chooseSampler)}
     <p class="effect">${samplerEffects[conditioned ? sampler : 'off']}</p>

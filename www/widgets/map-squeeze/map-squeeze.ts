@@ -103,8 +103,8 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #marked(index: number) {
     const { poses, verdicts, config } = this.currentReading;
     const path = this.#path.get([poses, index], () => (this.machine as Machine).path(index));
-    const isThrough = outcomeIndex(verdicts[index]) === 2;
-    return { pose: poses.subarray(3 * index), path, contact: isThrough ? wallContact(path, this.picture.plan.walls, config.clearance) : undefined };
+    const goesThroughWall = outcomeIndex(verdicts[index]) === 2;
+    return { pose: poses.subarray(3 * index), path, contact: goesThroughWall ? wallContact(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
   get exportData() {

@@ -10,7 +10,7 @@ import { View, extentAround } from '../../scene/view.ts';
 import { WallLayer, cornerOf, type Cells } from '../../scene/walls.ts';
 import { limits } from '../../settings.js';
 import { clamp } from '../../ui/clamp.ts';
-import { drawHeldRobot, drawRobotOutline } from '../shared/robot.ts';
+import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINE_STYLES } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
 import { addLine, strokePath, type Brush } from '../../scene/canvas.ts';
@@ -156,7 +156,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
         const [endX, endY] = commanded.slice(-2);
         drawRobotOutline(brush, endX, endY, clearance, command.colour);
       }
-      drawHeldRobot(brush, start, clearance, palette.prior);
+      drawDraggableRobot(brush, start, clearance, palette.prior);
       if (marked) {
         const { pose, path, contact } = marked;
         drawOutline(brush, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });

@@ -89,8 +89,8 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       return { name: handleClass(grip), element: isShown ? handleElement : null };
     });
     const shownHandles = placedHandles.filter(({ element }) => element);
-    const tabHandle = shownHandles.find(({ name }) => name === this.#currentName) ?? shownHandles[0];
-    for (const handle of shownHandles) (handle.element as HTMLElement).tabIndex = handle === tabHandle ? 0 : -1;
+    const tabbableHandle = shownHandles.find(({ name }) => name === this.#currentName) ?? shownHandles[0];
+    for (const handle of shownHandles) (handle.element as HTMLElement).tabIndex = handle === tabbableHandle ? 0 : -1;
   }
 
   #handleOf(grip: Grip) {

@@ -46,9 +46,9 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
   if (attempts === 0) return say.untried;
   if (accepted === 0) return say.nothing;
   if (throughWall === 0) return say.none;
-  const throughShare = throughWall / accepted;
-  if (throughShare === 1) return say.all;
-  return throughShare > MIN_NEARLY_ALL ? say.most : say.share(...simpleFractionOf(throughShare));
+  const throughFraction = throughWall / accepted;
+  if (throughFraction === 1) return say.all;
+  return throughFraction > MIN_NEARLY_ALL ? say.most : say.share(...simpleFractionOf(throughFraction));
 }
 
 /** Returns the caption: the counts of the samples, or why the robot cannot move. */

@@ -7,7 +7,7 @@ import { LABELS_ABOVE, drawLabelsAbove } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { fixed } from '../../ui/format.ts';
-import { drawHeldRobot, drawRobotOutline, turnDistance } from '../shared/robot.ts';
+import { drawDraggableRobot, drawRobotOutline, turnDistance } from '../shared/robot.ts';
 import { turnDirections, drawBar, drawFan, drawTurn } from './marks.ts';
 import { poseIn } from './reading.ts';
 import { LINE_STYLES } from './settings.ts';
@@ -133,8 +133,8 @@ export class LegsPicture extends OutcomesPicture {
       if (overlays.includes('outcomes')) this.#paintGhosts(brush, scene);
       drawOutcomes(brush, scene);
       if (overlays.includes('legs')) drawSegment(brush, startPose, drivenPose, styles.legs);
-      drawHeldRobot(brush, startPose, ROBOT_RADIUS, palette.prior);
-      drawHeldRobot(brush, config.to, ROBOT_RADIUS, palette.prior);
+      drawDraggableRobot(brush, startPose, ROBOT_RADIUS, palette.prior);
+      drawDraggableRobot(brush, config.to, ROBOT_RADIUS, palette.prior);
       if (showsDeviation) {
         drawBar(brush, drivenPose, deviations.trans, colour);
         drawBar(brush, { ...drivenPose, theta: drivenPose.theta + Math.PI / 2 }, deviations.strafe, colour);
@@ -222,7 +222,7 @@ export class WorldPicture extends OutcomesPicture {
       drawOutcomes(brush, scene);
       if (overlays.includes('prediction')) drawSegment(brush, start, end, styles.prediction);
       if (overlays.includes('difference')) drawSegment(brush, to, end, styles.difference);
-      drawHeldRobot(brush, start, ROBOT_RADIUS, palette.truth);
+      drawDraggableRobot(brush, start, ROBOT_RADIUS, palette.truth);
       this.paintMark(brush, scene);
     });
     drawLabelsAbove(brush, [

@@ -17,7 +17,7 @@ export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number
 }
 
 /** Draws a robot that the user can drag and turn, with a radius in metres. Labels that are drawn later avoid it. */
-export function drawHeldRobot(brush: Brush, pose: Pose, radius: number, colour: string) {
+export function drawDraggableRobot(brush: Brush, pose: Pose, radius: number, colour: string) {
   const { context, view, palette, placedBoxes: placed } = brush;
   const [centre, turn] = view.ray(pose, turnDistance(view, radius));
   const edgeStyle = { colour, width: 2.25 };

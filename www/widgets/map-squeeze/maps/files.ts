@@ -150,7 +150,7 @@ async function readGrid(file: File, images: File[], decodePng: DecodePng): Promi
       applyOrExplain(
         file.name,
         () => machine.setGrid(description, pixelsOrBytes),
-        (say, name, reason) => gridComplaint(say, name, quoteText(image.name), reason),
+        (say, name, reason) => gridErrorSentence(say, name, quoteText(image.name), reason),
       ),
   };
 }
@@ -181,7 +181,7 @@ async function readDescription(name: string, text: string) {
 }
 
 /** Returns the sentence about a grid that the core refuses, with the name of the YAML file or of the image. */
-function gridComplaint(say: RefusalWords, description: string, image: string, reason: string) {
+function gridErrorSentence(say: RefusalWords, description: string, image: string, reason: string) {
   const errorLine = /^line (\d+): (.*)$/.exec(reason);
   if (errorLine) return say.line(image, errorLine[1], errorLine[2]);
   return `${reason.startsWith('image') ? image : description}: ${reason}.`;

@@ -58,11 +58,11 @@ async function calibrate({ inputs, userChoices, fit, output, plot }: CalibrateAr
   calibrateDrives(motion, fit, []);
   const roleByRecording = new Map();
   const recordings = [];
-  for (const kind of ['recording', 'odometry', 'reference'] as const) {
-    for (const input of inputs[kind]) {
+  for (const role of ['recording', 'odometry', 'reference'] as const) {
+    for (const input of inputs[role]) {
       const openedRecordings = await recordingsOf(input, onSkip);
       recordings.push(...openedRecordings);
-      if (kind !== 'recording') for (const recording of openedRecordings) roleByRecording.set(recording, kind);
+      if (role !== 'recording') for (const recording of openedRecordings) roleByRecording.set(recording, role);
     }
   }
   const plan = planDrives(recordings, { ...userChoices, roles: roleByRecording });

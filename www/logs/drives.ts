@@ -64,7 +64,7 @@ export function planDrives(all: Recording[], userChoices: UserChoices = {}): Log
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[missingRole].push(...plan.drives.splice(0).map((drive) => drive[missingRole]));
   if (odometry.length !== reference.length) {
     const longerList = odometry.length > reference.length ? odometry : reference;
-    // The missing log may be ambiguous in a recording that has both. The error about that choice is then more helpful.
+    // A recording with both logs may have several candidates for the missing one. The error that asks for a choice is then more helpful.
     for (const { recording } of longerList) valueUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ ask }) => ask?.what !== 'series');
     const [first] = longerList;
     const recordingNames = (parts: RecordingChoice[]) => listNames(parts.map(({ recording }) => recording.name));

@@ -113,7 +113,7 @@ function separatorOf(lines: string[]): string {
  * @param columns names of the columns, if the user states them
  * @throws {LogError} if the columns are ambiguous
  */
-export function formatOf(lines: string[], file: string, columns: string[] | undefined): Format {
+export function detectTableFormat(lines: string[], file: string, columns: string[] | undefined): Format {
   const filledLines = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
   const textLines = filledLines.filter((textLine) => !isComment(textLine));

@@ -7,12 +7,12 @@ export interface Quaternion extends Vector { w: number }
 const LENGTH_TOLERANCE = 0.1;
 
 /** Number of steps per radian to which headings are rounded. */
-const HEADING_STEPS = 1e12;
+const HEADING_STEPS_PER_RADIAN = 1e12;
 
 /** Returns the angle about the vertical axis, for quaternions of any length. */
 export function headingOf(qx: number, qy: number, qz: number, qw: number): number {
   // The arc tangent differs between engines in its last bits. Rounding makes results equal everywhere.
-  return Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * HEADING_STEPS) / HEADING_STEPS;
+  return Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * HEADING_STEPS_PER_RADIAN) / HEADING_STEPS_PER_RADIAN;
 }
 
 /** Returns true if a quaternion has length 1. A quaternion with NaN passes, because its row is dropped as not finite. */

@@ -2,7 +2,7 @@
 
 import { least } from 'd3-array';
 import { type Clock, type Group, type Layout, logLayoutOf } from './columns.ts';
-import { type Format, splitCells, formatOf } from './format.ts';
+import { type Format, splitCells, detectTableFormat } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace } from './log-error.ts';
 import type { Log, Note, OpenOptions, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
 import { type SplitTime, parseDate, parseNumber, parseTime } from './numbers.ts';
@@ -48,7 +48,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   if (source.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
   const longLineIndex = headLines.findIndex((line) => line.length > MAX_LINE_LENGTH);
   if (longLineIndex >= 0) throw new LogError({ file: source.name, line: longLineIndex + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
-  const format = formatOf(headLines, source.name, options.columns);
+  const format = detectTableFormat(headLines, source.name, options.columns);
   const readableGroups = format.groups.filter(({ kind }) => kind !== null);
   const headerPlace = { file: source.name, line: Math.max(1, format.firstLine - 1) };
   // If no group can be read, `logLayoutOf` throws the reason for the group with most columns.
@@ -238,8 +238,8 @@ class LogReader {
     this.#textOf = format.hasDecimalCommas ? withDecimalPoint : (cell) => cell;
     this.#clocks = layout.clocks.map((clock, i) => new ClockReader(clock, i === 0 ? options.timeUnit : undefined, this.#textOf));
     const { z, frame, child, source } = group.columns;
-    const columns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...[upAxis && z, frame, child, source].filter((column) => column !== undefined)];
-    this.#neededCells = Math.max(...columns.map(({ at }) => at)) + 1;
+    const neededColumns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...[upAxis && z, frame, child, source].filter((column) => column !== undefined)];
+    this.#neededCells = Math.max(...neededColumns.map(({ at }) => at)) + 1;
   }
 
   addLine(line: string, number: number, isUnterminated: boolean): void {

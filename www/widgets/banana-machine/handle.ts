@@ -15,12 +15,12 @@ export class ArcHandle extends Handle {
       view: () => figure.pictures[0].view,
       drag: (x, y) => figure.reach(x, y),
       key: (event) => {
-        const steps = stepsOfKey(event);
-        if (!steps) return false;
+        const keySteps = stepsOfKey(event);
+        if (!keySteps) return false;
         const [x, y] = figure.runtime.attempt(() => figure.machine && figure.seenEnd) ?? [0, 0];
         // The straight arc reaches furthest.
         const maxX = sliderSpecs.v.max * figure.settings.requested.command.dt;
-        figure.reach(clamp(x + KEY_STEP * steps[0], -maxX, maxX), y + KEY_STEP * steps[1]);
+        figure.reach(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
         return true;
       },
       commit: () => figure.gesture.commit(),

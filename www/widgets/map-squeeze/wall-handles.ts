@@ -118,9 +118,9 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       this.#focusHandle(handleClass(grip), -turn);
       return false;
     }
-    const steps = stepsOfKey(event);
-    if (!steps) return false;
-    const [dx, dy] = steps;
+    const keySteps = stepsOfKey(event);
+    if (!keySteps) return false;
+    const [dx, dy] = keySteps;
     // Arrow keys across the axis act like those along it, as for any slider.
     return this.#move(grip, (_, [ux, uy]) => KEY_STEP * (dx * ux + dy * uy || (dx + dy) * (ux + uy)));
   }

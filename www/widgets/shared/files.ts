@@ -86,9 +86,9 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   };
 
   leave = (event: DragEvent) => {
-    const section = event.currentTarget as HTMLElement;
+    const figureSection = event.currentTarget as HTMLElement;
     const to = event.relatedTarget as Node | null;
-    if (!section.contains(to)) section.classList.remove('dropping');
+    if (!figureSection.contains(to)) figureSection.classList.remove('dropping');
   };
 
   drop = (event: DragEvent) => {
@@ -104,10 +104,10 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   /** Returns a button that opens a file dialog for files with these extensions. */
   button(id: string, label: string, extensions: string[]) {
     const openChosenFiles = (event: Event) => {
-      const input = inputOf(event);
-      this.take([...(input.files ?? [])]);
+      const fileInput = inputOf(event);
+      this.take([...(fileInput.files ?? [])]);
       // Reset, so that choosing the same file again after a correction fires an event.
-      input.value = '';
+      fileInput.value = '';
     };
     return html`<label class="choice files" @click=${this.enter}>
       ${label} <input id=${id} type="file" multiple accept=${extensions.join(',')} @change=${openChosenFiles} />
@@ -124,9 +124,9 @@ async function droppedFiles({ items }: DataTransfer): Promise<File[]> {
 }
 
 async function filesInDirectory(folder: FileSystemDirectoryEntry): Promise<File[]> {
-  const reader = folder.createReader();
+  const directoryReader = folder.createReader();
   const entries: FileSystemEntry[] = [];
-  const readEntries = () => new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+  const readEntries = () => new Promise<FileSystemEntry[]>((resolve, reject) => directoryReader.readEntries(resolve, reject));
   // Browsers return a hundred entries at a time.
   for (let entryBatch = await readEntries(); entryBatch.length > 0; entryBatch = await readEntries()) entries.push(...entryBatch);
   const files = await Promise.all(entries.filter(({ name }) => !name.startsWith('.')).map(async (entry) => {

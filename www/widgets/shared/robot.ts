@@ -21,10 +21,10 @@ export function drawDraggableRobot(brush: Brush, pose: Pose, radius: number, col
   const { context, view, palette, placedBoxes: placed } = brush;
   const [centre, turn] = view.ray(pose, turnDistance(view, radius));
   const edgeStyle = { colour, width: 2.25 };
-  const body = radiusInPixels(view, radius);
-  drawDisc(context, centre, body, palette.paper, edgeStyle);
+  const robotRadius = radiusInPixels(view, radius);
+  drawDisc(context, centre, robotRadius, palette.paper, edgeStyle);
   strokeLine(context, [centre, turn], edgeStyle);
-  for (const [[x, y], size] of [[centre, body], [turn, TURN_HANDLE_RADIUS + 3]] as const) placed.push({ x, y, halfWidth: size, halfHeight: size });
+  for (const [[x, y], size] of [[centre, robotRadius], [turn, TURN_HANDLE_RADIUS + 3]] as const) placed.push({ x, y, halfWidth: size, halfHeight: size });
   drawHandle(brush, { x: turn[0], y: turn[1], radius: TURN_HANDLE_RADIUS, colour });
 }
 
@@ -33,7 +33,7 @@ export function drawRobotOutline({ context, view }: Brush, x: number, y: number,
   drawDisc(context, view.toPixel(x, y), radiusInPixels(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
 }
 
-/** Returns the radius of a robot, metres, in CSS pixels. */
+/** Converts the radius of a robot from metres to CSS pixels. */
 function radiusInPixels(view: View, radius: number): number {
   return Math.max(MIN_RADIUS, radius * view.scaleX);
 }

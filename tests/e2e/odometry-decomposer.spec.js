@@ -58,12 +58,33 @@ test('opens on Reverse, and presets set the reading', async ({ page }) => {
   expect(shown).toBe(config.samples);
   await expect(widget).toHaveJSProperty('preset', 'reverse');
   await expect(widget.locator('[part=caption]')).toContainText('two rotations beyond π/2');
-  await expect(readoutValue(widget, 'standard deviation across the path')).toHaveText('± 0.626 m');
+  // 0.743 rad by Table 5.6, and 0.182 rad by Nav2.
+  await expect(readoutValue(widget, 'Table 5.6 expects')).toHaveText('4.1 ×');
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
   const results = await resultsOf(widget);
   expect(results.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
   await expect(widget).toHaveJSProperty('preset', 'all');
   await expect(widget).toHaveAttribute('tox', '1.2');
+  await expect(readoutValue(widget, 'Table 5.6 expects')).toHaveText('1.0 ×');
+});
+
+test('the picture names the spreads of two noise models, drawn to one scale', async ({ page }) => {
+  const widget = await openDecomposer(page);
+  const pictureFacts = async () => {
+    await waitForFrames(page);
+    return widget.evaluate((element) => {
+      const { pictures: [{ view }], toSVG } = /** @type {any} */ (element);
+      const names = toSVG.call(element).match(/(?<=>)by [^<]*/g);
+      return { scale: view.scaleX, names: names.toSorted() };
+    });
+  };
+  const factsOfTable = await pictureFacts();
+  expect(factsOfTable.names).toEqual(['by AMCL of Nav2', 'by Table 5.6']);
+  await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
+  expect(await pictureFacts()).toEqual(factsOfTable);
+  // On a forward drive both models have the same noise.
+  await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
+  expect((await pictureFacts()).names).toEqual(['by Table 5.6']);
 });
 
 test('the later pose moves by its body and turns by its heading', async ({ page }) => {

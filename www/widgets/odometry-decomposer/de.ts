@@ -39,7 +39,7 @@ export const de: typeof import('./en.ts').en = {
     to: { robot: 'Odometrie danach', robotTitle: 'Pose danach ziehen', heading: 'Richtung danach', headingTitle: 'Pose danach drehen' },
     ends: 'Hier endet der Boden',
   },
-  legsTitle: 'Was die Odometrie misst: drehen, fahren, drehen',
+  legsTitle: 'Eine Messung der Odometrie, vier Rauschmodelle',
   worldTitle: 'In der Welt: Die Odometrie driftet',
   overlays: {
     legs: 'Messung',
@@ -49,9 +49,11 @@ export const de: typeof import('./en.ts').en = {
     odometry: 'Odometrie *x̄*',
     difference: 'Drift *x̄* − *x*',
   },
+  headline: { expects: 'Tabelle 5.6 erwartet', noise: 'so viel Drehrauschen wie AMCL von Nav2' },
+  outcomesBy: (rule) => `Ausgänge nach ${rule}`,
+  spread: (rule) => `Streuung (2σ)\nnach ${rule}`,
   readouts: {
     lever: 'allein aus der ersten Drehung, *δ*_{trans} · *σ*(*δ*_{rot1})',
-    across: 'Standardabweichung quer zum Weg',
     crossTrack: '*σ* quer zum Weg, gemessen',
     heading: '*σ* der Richtung, gemessen',
     exactly: (exact) => `genau ${exact}`,

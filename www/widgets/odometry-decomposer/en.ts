@@ -39,7 +39,7 @@ export const en = {
     to: { robot: 'Odometry after', robotTitle: 'Drag the pose after', heading: 'Heading after', headingTitle: 'Turn the pose after' },
     ends: 'The floor ends here',
   },
-  legsTitle: 'What odometry reads: turn, drive, turn',
+  legsTitle: 'One odometry reading, four noise models',
   worldTitle: 'In the world: odometry drifts',
   overlays: {
     legs: 'reading',
@@ -49,9 +49,11 @@ export const en = {
     odometry: 'odometry *x̄*',
     difference: 'drift *x̄* − *x*',
   },
+  headline: { expects: 'Table 5.6 expects', noise: 'the turn noise of AMCL of Nav2' },
+  outcomesBy: (rule) => `outcomes by ${rule}`,
+  spread: (rule) => `spread (2σ)\nby ${rule}`,
   readouts: {
     lever: 'from the first rotation alone, *δ*_{trans} · *σ*(*δ*_{rot1})',
-    across: 'standard deviation across the path',
     crossTrack: '*σ* across the path, measured',
     heading: '*σ* of the heading, measured',
     exactly: (exact) => `exactly ${exact}`,

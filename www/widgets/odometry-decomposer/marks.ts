@@ -15,6 +15,19 @@ export function turnDirections(heading: number, turn: number) {
   return Array.from({ length: count + 1 }, (_, i) => heading + (turn * i) / count);
 }
 
+/** Number of points of a drawn ellipse. */
+const ELLIPSE_POINTS = 64;
+
+/** Returns the points of an ellipse about a pose with semi-axes along and across its heading, as x, y pairs. Lengths are in metres. */
+export function ellipsePoints({ x, y, theta }: Pose, along: number, across: number) {
+  const [cos, sin] = [Math.cos(theta), Math.sin(theta)];
+  return Float64Array.from({ length: 2 * ELLIPSE_POINTS + 2 }, (_, i) => {
+    const angle = (2 * Math.PI * Math.floor(i / 2)) / ELLIPSE_POINTS;
+    const [ahead, left] = [along * Math.cos(angle), across * Math.sin(angle)];
+    return i % 2 === 0 ? x + ahead * cos - left * sin : y + ahead * sin + left * cos;
+  });
+}
+
 /** Returns points of an arc about a pose that starts at its heading. The turn is in radians, and the radius in pixels. */
 function arcPoints({ view }: Brush, { x, y, theta }: Pose, turn: number, radius: number) {
   return turnDirections(theta, turn).map((heading) => view.ray({ x, y, theta: heading }, radius)[1]);

@@ -1,17 +1,19 @@
 /** The Odometry Decomposer's two pictures: the three legs in the odometry frame, and both odometry poses in the world. */
 
+import { greatest } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { drawDots, drawMark, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
-import { LABELS_ABOVE, drawLabelsAbove } from '../../scene/labels.ts';
+import { drawCallouts, type Callout } from '../../scene/callout.ts';
+import { drawDots, drawMark, drawOutlines, hasLength, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { LABELS_ABOVE, drawLabel, drawLabelsAbove } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { fixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline, turnDistance } from '../shared/robot.ts';
-import { turnDirections, drawBar, drawFan, drawTurn } from './marks.ts';
+import { ellipsePoints, turnDirections, drawBar, drawFan, drawTurn } from './marks.ts';
 import { poseIn } from './reading.ts';
 import { LINE_STYLES } from './settings.ts';
-import type { Pose } from '../../types.d.ts';
+import type { Pose, RuleNoise } from '../../types.d.ts';
 import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
 
 export type LineName = keyof typeof LINE_STYLES;
@@ -56,11 +58,12 @@ const keyOf = (brush: Brush, { overlays }: Scene, names: LineName[]) =>
   lineKeys(brush, LINE_STYLES, names.filter((name) => overlays.includes(name)), words.decomposer.overlays);
 
 /** Returns points around the start and the outcomes, as x, y pairs, that a picture has to show. */
-function neededPoints({ linkage, legs, deviations, stats }: Scene): number[] {
+function neededPoints({ linkage, legs, rules }: Scene): number[] {
   const [{ x, y }, drivenPose] = [poseIn(linkage, 0), poseIn(linkage, 2)];
-  const alongMargin = Math.min(MARGINS.deviations * deviations.trans, legs.trans + 2);
+  // The scale is the same for all noise models, so that their spreads can be compared.
+  const alongMargin = Math.min(MARGINS.deviations * Math.max(...rules.map(({ deviations }) => deviations[1])), legs.trans + 2);
   // No limit is needed here: a rotation moves the end across by at most the length of the drive.
-  const acrossMargin = MARGINS.deviations * stats.exactCrossTrack;
+  const acrossMargin = MARGINS.deviations * Math.max(...rules.map(({ crossTrack }) => crossTrack));
   const [dx, dy] = [Math.abs(Math.cos(drivenPose.theta)), Math.abs(Math.sin(drivenPose.theta))];
   const pointMargins = [MARGINS.metres + alongMargin * dx + acrossMargin * dy, MARGINS.metres + alongMargin * dy + acrossMargin * dx];
   return [
@@ -74,6 +77,22 @@ function drawOutcomes(brush: Brush, { poses, overlays }: Scene) {
   drawDots(brush, poses, { x: 0, y: 1, heading: poses.length <= 3 * MAX_TICKS ? 2 : null });
 }
 
+/** Returns the ellipses of the spread by the current noise model and, if it differs, by one to compare it with. Each has a callout. */
+function spreadEllipses({ palette }: Brush, { linkage, rules, config }: Scene) {
+  const current = rules.find(({ rule }) => rule === config.rule) as RuleNoise;
+  const compared = rules[config.rule === 'thrun' ? 1 : 0];
+  const differs = compared.deviations.some((deviation, i) => Math.abs(deviation - current.deviations[i]) > 1e-9);
+  return [current, ...(differs ? [compared] : [])].map(({ rule, deviations, crossTrack }) => {
+    const points = ellipsePoints(poseIn(linkage, 2), 2 * deviations[1], 2 * crossTrack);
+    const colour = rule === config.rule ? palette.prediction : palette.ink;
+    // The callouts are at different sides: at the front of the ellipse of Table 5.6, and at the top of the other one, which is smaller.
+    const places = Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]);
+    const at = rule === 'thrun' ? places[0] : greatest(places, ([, y]) => y) as [number, number];
+    const callout: Callout = { text: words.decomposer.spread(words.decomposer.rules[rule]), at, colour };
+    return { points, colour, width: 2, callout };
+  }).filter(({ points }) => hasLength(points));
+}
+
 class OutcomesPicture extends SamplesPicture<Scene> {
   view: View = new View({ top: LABELS_ABOVE, snug: true });
 
@@ -84,6 +103,10 @@ class OutcomesPicture extends SamplesPicture<Scene> {
 
 /** Returns the radii of the arcs of both turns, pixels. */
 const turnRadii = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
+
+/** Returns points of an arc about a pose that starts at its heading, as x, y pairs. The turn is in radians, and the radius in metres. */
+const worldArc = ({ x, y, theta }: Pose, turn: number, radius: number) =>
+  turnDirections(theta, turn).flatMap((direction) => [x + radius * Math.cos(direction), y + radius * Math.sin(direction)]);
 
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
 export class LegsPicture extends OutcomesPicture {
@@ -101,11 +124,7 @@ export class LegsPicture extends OutcomesPicture {
     const maxTurnRadius = MAX_ARC_SHARE * Math.min(right - left, bottom - top);
     const boxAtScale = (scale: number) => {
       const radii = turnRadii({ scaleX: scale });
-      const arcCorners = [legs.rot1, legs.rot2].flatMap((turn, i) => {
-        const pivot = poseIn(linkage, 2 * i);
-        const radius = Math.min(radii[i], maxTurnRadius) / scale;
-        return turnDirections(pivot.theta, turn).flatMap((theta) => [pivot.x + radius * Math.cos(theta), pivot.y + radius * Math.sin(theta)]);
-      });
+      const arcCorners = [legs.rot1, legs.rot2].flatMap((turn, i) => worldArc(poseIn(linkage, 2 * i), turn, Math.min(radii[i], maxTurnRadius) / scale));
       return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
     // The arcs have a fixed size in pixels. They fit at half of the scale at which the positions alone would fit.
@@ -128,10 +147,12 @@ export class LegsPicture extends OutcomesPicture {
     const styles = lineStyles(brush, LINE_STYLES);
     const showsDeviation = overlays.includes('deviation');
     const { colour } = styles.deviation;
+    const ellipses = showsDeviation ? spreadEllipses(brush, scene) : [];
     clipToPlot(brush, () => {
       if (showsDeviation) drawFan(brush, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, second), colour);
       if (overlays.includes('outcomes')) this.#paintGhosts(brush, scene);
       drawOutcomes(brush, scene);
+      drawOutlines(brush, ellipses);
       if (overlays.includes('legs')) drawSegment(brush, startPose, drivenPose, styles.legs);
       drawDraggableRobot(brush, startPose, ROBOT_RADIUS, palette.prior);
       drawDraggableRobot(brush, config.to, ROBOT_RADIUS, palette.prior);
@@ -148,7 +169,9 @@ export class LegsPicture extends OutcomesPicture {
       }
       this.paintMark(brush, scene);
     });
+    const turnArcs = [worldArc(startPose, legs.rot1, first / this.view.scaleX), worldArc(drivenPose, legs.rot2, second / this.view.scaleX)].map((points) => Float64Array.from(points));
     if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, first, second));
+    drawCallouts(brush, ellipses.map(({ callout }) => callout), { from: [drivenPose.x, drivenPose.y], lines: [...ellipses.map(({ points }) => points), ...turnArcs] });
   };
 
   /** Returns labels with the value and standard deviation of each leg that is long enough to see. The arcs of both turns have radii in pixels. */
@@ -225,6 +248,9 @@ export class WorldPicture extends OutcomesPicture {
       drawDraggableRobot(brush, start, ROBOT_RADIUS, palette.truth);
       this.paintMark(brush, scene);
     });
+    const { left, bottom } = this.view.frame;
+    const { outcomesBy, rules } = words.decomposer;
+    if (overlays.includes('outcomes')) drawLabel(brush, { text: outcomesBy(rules[scene.config.rule]), x: left, y: bottom, towards: 1, colour: palette.prediction });
     drawLabelsAbove(brush, [
       ...(overlays.includes('prediction') ? this.#labels(brush, [start, end], 'x', [palette.ink, palette.prediction]) : []),
       ...(overlays.includes('odometry') ? this.#labels(brush, [from, to], 'x̄', [palette.prior, palette.prior]) : []),

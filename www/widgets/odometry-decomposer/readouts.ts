@@ -6,17 +6,18 @@
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { fixed, formatWithError } from '../../ui/format.ts';
+import { NO_VALUE, fixed, formatRounded, formatWithError } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import type { Reading } from './reading.ts';
 
 const formatMetres = (value: number) => `${fixed(value, 3)} m`;
 
-/** Returns the headline: the standard deviation across the path under the present noise model. */
-export function headline({ config: { rule }, stats }: Reading) {
-  const say = words.decomposer;
-  return readoutList([[say.readouts.across, `± ${formatMetres(stats.exactCrossTrack)}`, say.rules[rule]]], 0);
+/** Returns the headline: the turn noise by Table 5.6 relative to that by Nav2. */
+export function headline({ rules: [thrun, nav2] }: Reading) {
+  const say = words.decomposer.headline;
+  const ratio = thrun.heading / nav2.heading;
+  return readoutList([[say.expects, Number.isFinite(ratio) ? `${formatRounded(ratio, 2)} ×` : NO_VALUE, say.noise]], 0);
 }
 
 /** Returns the readouts: the contribution of the first rotation, and the standard deviations of the outcomes. */

@@ -61,7 +61,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   await widget.locator('#alpha1').fill('0.15');
   await widget.getByLabel('odometry').check();
   // The slider that bends the cloud is another one in each model.
-  await widget.locator('.single #alpha2').fill('0.07');
+  await widget.locator('.pair #alpha2').fill('0.07');
   const stateBefore = /** @type {any} */ (await stateOf(widget));
   expect(stateBefore.alphas.velocity[0]).toBe(0.15);
   expect(stateBefore.alphas.odometry[1]).toBe(0.07);

@@ -74,6 +74,7 @@ test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async 
 test('SVG is vectors with a title and a description: dots while they are few, else an image', async ({ page }) => {
   const widget = await openBanana(page);
   const plane = widget.locator('canvas.plane');
+  await openDisclosures(widget);
   // Position 6 of the slider is a thousand samples.
   await widget.locator('#samples').fill('6');
   await waitForFrames(page);

@@ -151,26 +151,35 @@ export function titledPicture(title: unknown, picture: unknown, name?: string) {
   </figure>`;
 }
 
+type CloudFigure = Figure & { cloud: import('./cloud.ts').Cloud };
+
 /** Returns the controls of growth, seed and size of the cloud; the slider offers `counts`. */
-export function cloudControls(figure: Figure & { cloud: import('./cloud.ts').Cloud }, counts: readonly number[]) {
-  const { name, effect } = wordsFor(figure, 'samples');
-  return group(words.samples, html`${editableSlider(figure, 'N', declarationOf(figure, 'samples'), {
-      id: 'samples',
-      symbol: html`<i>N</i>`,
-      name,
-      value: figure.settings.requested.samples,
-      min: counts[0],
-      max: counts[counts.length - 1],
-      step: 1,
-      stops: counts,
-      show: integer,
-      effect,
-      role: 'truth',
-      input: (count) => requestValue(figure, 'samples', count),
-      commit: () => figure.gesture.commit(),
-    })}
-    ${figure.cloud.buttons(seedField(figure))}`, 'cloud');
+export function cloudControls(figure: CloudFigure, counts: readonly number[]) {
+  return group(words.samples, html`${samplesSlider(figure, counts)} ${cloudButtons(figure)}`, 'cloud');
 }
+
+/** Returns the slider of the number of samples, which offers `counts`. */
+export function samplesSlider(figure: Figure, counts: readonly number[]) {
+  const { name, effect } = wordsFor(figure, 'samples');
+  return editableSlider(figure, 'N', declarationOf(figure, 'samples'), {
+    id: 'samples',
+    symbol: html`<i>N</i>`,
+    name,
+    value: figure.settings.requested.samples,
+    min: counts[0],
+    max: counts[counts.length - 1],
+    step: 1,
+    stops: counts,
+    show: integer,
+    effect,
+    role: 'truth',
+    input: (count) => requestValue(figure, 'samples', count),
+    commit: () => figure.gesture.commit(),
+  });
+}
+
+/** Returns the controls of growth and seed of the cloud. */
+export const cloudButtons = (figure: CloudFigure) => figure.cloud.buttons(seedField(figure));
 
 function seedField(figure: Figure) {
   const { settings, gesture } = figure;

@@ -61,12 +61,12 @@ const figureLayout = css`
       column-gap: 5em;
     }
 
-    /* The number of samples is below a single slider, and both are next to the command. */
-    .controls:has(> .single) {
+    /* The controls of the cloud are below one or two sliders, and both groups are next to the command. */
+    .controls:has(> .single, > .pair) {
       grid-template-columns: repeat(2, minmax(0, 1fr));
     }
 
-    .controls > fieldset:has(+ .single) {
+    .controls > fieldset:has(+ .single, + .pair) {
       grid-row: span 2;
     }
   }
@@ -95,7 +95,17 @@ const figureLayout = css`
       align-items: start;
     }
 
-    .machine > .controls > fieldset > .buttons {
+    .machine > .controls > .pair {
+      grid-column: span 2;
+      grid-template-columns: repeat(2, minmax(min-content, 1fr));
+    }
+
+    .machine > .controls > .pair + .cloud {
+      grid-column: auto;
+      grid-template-columns: 1fr;
+    }
+
+    .machine > .controls > fieldset:not(.pair + .cloud) > .buttons {
       grid-column: 2 / -1;
     }
 

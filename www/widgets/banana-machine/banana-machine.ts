@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { checkedObject } from '../../figure/checks.ts';
 import { enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, cloudControls, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -17,7 +17,7 @@ import { button, formatMarkup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { Player } from '../shared/player.ts';
-import { alphaControls, bendingControl, commandControls, modelControls } from './controls.ts';
+import { commandControls, growthControls, modelControls, otherAlphaControls, samplesControl, visibleAlphaControls } from './controls.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
@@ -25,7 +25,7 @@ import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint, confiden
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { readingOf, readingOfSettings, type Reading } from './reading.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
-import { LINE_STYLES, OVERLAYS, SAMPLE_COUNTS, definition, sliderSpecs } from './settings.ts';
+import { LINE_STYLES, OVERLAYS, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
 import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Machine, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
@@ -241,10 +241,10 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
       <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
       ${readouts(reading, this.#pinned)} ${presetButtons(this)}
       <div class="controls" part="controls">
-        ${commandControls(this)} ${bendingControl(this)} ${cloudControls(this, SAMPLE_COUNTS)}
+        ${commandControls(this)} ${visibleAlphaControls(this)} ${growthControls(this)}
       </div>
       ${disclosures(this, {
-        controls: () => html`<div class="controls">${alphaControls(this)} ${modelControls(this)}</div>`,
+        controls: () => html`<div class="controls">${otherAlphaControls(this)} ${modelControls(this)} ${samplesControl(this)}</div>`,
         numbers: () => html`${markedRobot(this, this.#inspection)} ${this.#figuresHtml(reading)}`,
       })}`)}
     `;

@@ -1,12 +1,12 @@
 /** The Banana Machine's controls: the command, the noise and the overlays. */
 
 import { html, nothing } from 'lit';
-import { settingCheckbox, settingRadios, settingSlider, settingSliders } from '../../figure/controls.ts';
+import { cloudButtons, samplesSlider, settingCheckbox, settingRadios, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { radioButton, group, toggle } from '../../ui/controls.ts';
 import { formatEditable } from '../../ui/format.ts';
 import { alphaName } from './reading.ts';
-import { COMMAND_SLIDERS } from './settings.ts';
+import { COMMAND_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
 import type { BananaMachineElement as Figure } from './banana-machine.ts';
 
 export function commandControls(figure: Figure) {
@@ -27,12 +27,21 @@ export function modelControls(figure: Figure) {
     })}`);
 }
 
-/** Index of the α that adds turn noise to a straight drive, by model. It bends the cloud, so its slider is always visible. */
-const BENDING_ALPHAS: Record<string, number> = { velocity: 2, odometry: 1 };
+/**
+ * Indices of the α's that are always visible, by model: those that add noise to the distance and to the turn of a straight drive. The cloud is
+ * a banana if the turn has much more.
+ */
+const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [1, 2] };
 
-export const bendingControl = (figure: Figure) => alphaGroup(figure, (index) => index === BENDING_ALPHAS[figure.reading.config.model], 'single');
+const isVisible = (figure: Figure, index: number) => VISIBLE_ALPHAS[figure.reading.config.model].includes(index);
 
-export const alphaControls = (figure: Figure) => alphaGroup(figure, (index) => index !== BENDING_ALPHAS[figure.reading.config.model], 'alphas');
+export const visibleAlphaControls = (figure: Figure) => alphaGroup(figure, (index) => isVisible(figure, index), 'pair');
+
+export const otherAlphaControls = (figure: Figure) => alphaGroup(figure, (index) => !isVisible(figure, index), 'alphas');
+
+export const growthControls = (figure: Figure) => group(words.samples, cloudButtons(figure), 'cloud');
+
+export const samplesControl = (figure: Figure) => group(words.samples, samplesSlider(figure, SAMPLE_COUNTS));
 
 /** Returns a group with the sliders of those α's whose indices `isIn` accepts. */
 function alphaGroup(figure: Figure, isIn: (index: number) => boolean, name: string) {

@@ -15,7 +15,7 @@ export const de: typeof import('./en.ts').en = {
         velocity: [
           ['v² in v̂', 'verschmiert die Wolke den Bogen entlang', 'den Bogen entlang verschmiert'],
           ['ω² in v̂', 'ebenso, aber nur in Kurven', 'den Bogen entlang verschmiert'],
-          ['v² in ω̂', 'fächert und biegt die Wolke; α₁, α₂ (Weitere Regler) verwischen es', 'auffächert'],
+          ['v² in ω̂', 'fächert und biegt die Wolke, wenn α₁ das nicht verwischt', 'auffächert'],
           ['ω² in ω̂', 'fächert ebenso, aber nur in Kurven', 'auffächert'],
           ['v² in γ̂', 'dreht jeden Roboter, wo er hält', 'auf der Stelle dreht'],
           ['ω² in γ̂', 'dreht jeden, der hält, wenn ω ≠ 0', 'in ihren Richtungen verwischt'],

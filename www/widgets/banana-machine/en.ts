@@ -18,7 +18,7 @@ export const en = {
         velocity: [
           ['v² into v̂', 'smears the cloud along the arc', 'smear along the arc'],
           ['ω² into v̂', 'smears it too, but only in turns', 'smear along the arc'],
-          ['v² into ω̂', 'fans the cloud and bends it; α₁, α₂ (More controls) blur it', 'fan'],
+          ['v² into ω̂', 'fans the cloud and bends it, unless α₁ blurs the bend', 'fan'],
           ['ω² into ω̂', 'fans it too, but only in turns', 'fan'],
           ['v² into γ̂', 'turns each robot where it stopped', 'turn in place'],
           ['ω² into γ̂', 'turns each stopped robot, if ω ≠ 0', 'blur its headings'],

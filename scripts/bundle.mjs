@@ -272,7 +272,7 @@ export async function bundle({ tags = WIDGETS, transformScript = (_, script) => 
   // Without scripts no height is reserved.
   const reservedHeights = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity: any rule of a page takes precedence.
-  const slideStyle = `:where(.reveal) :where(${WIDGETS}){font-size:.3em;text-align:start}`;
+  const slideStyle = `:where(.reveal) :where(${WIDGETS}){font-size:.28em;text-align:start}`;
   appendFileSync(pathOf('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${slideStyle}\n${reservedHeights}\n`);
   write(pathOf('dist/motion.wasm'), wasm);
   for (const { path, contents } of [bytesModule, ...tags.map(moduleOf)]) write(pathOf(path), contents);

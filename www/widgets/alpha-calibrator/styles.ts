@@ -306,12 +306,6 @@ export const styles = css`
     line-height: 1.3;
   }
 
-  @container (30em <= width < 56em) {
-    .to-do {
-      min-height: 5.2em;
-    }
-  }
-
   @container (width < 30em) {
     .to-do {
       min-height: 7.8em;

@@ -28,13 +28,17 @@ export function judgementOf(reading: Reading, logWarnings: Warning[]) {
   const missingAlphaTexts = missingAlphas(say.alphas.lacking, fitted.model, stats).map(({ indices, drive }) => say.missing(indices.map((i) => `α${subscriptOf(i)}`).join(', '), drive));
   const warnings = [...missingAlphaTexts, uncorrectedText(reading), ...logWarnings.map((name) => say.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
-  const judgementWith = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: [...toDo, ...(rating === 'questionable' ? [say.useAnyway] : [])].join(' ') });
+  const useSentences = {
+    consistent: [say.use, ...correctionAdvice(stats, say.nav2, localized)],
+    questionable: [`${[say.useAnyway, ...correctionAdvice(stats, say.useCorrected, localized)].join('')}.`],
+    unusable: [],
+  }[rating];
+  const judgementWith = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: [...toDo, ...useSentences].join(' ') });
   if (legs.count === 0) return judgementWith(say.none, say.longer, ...warnings);
   const failedChecks = failedChecksOf(checks);
-  const correctionSentences = correctionAdvice(stats, say.nav2, localized);
   if (failedChecks.length > 0) return judgementWith(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, checkMessage(failedChecks[0]));
   if (verdict === 'unusable') return judgementWith(say.noAlpha, ...warnings);
-  return warnings.length > 0 ? judgementWith(warnings[0], ...warnings.slice(1), ...correctionSentences) : judgementWith(say.passed(integer(checks.length)), say.use, ...correctionSentences);
+  return warnings.length > 0 ? judgementWith(warnings[0], ...warnings.slice(1)) : judgementWith(say.passed(integer(checks.length)));
 }
 
 /** Returns what a failed check means and what to do. A reference that matches too closely has its own message. */

@@ -73,35 +73,3 @@ fn half_headings_lie_on_the_requested_branch() {
         }
     }
 }
-
-/// The formulas for small angles and for any angles give the same bits, whatever the other lanes contain.
-#[test]
-fn a_lane_does_not_depend_on_its_neighbours() {
-    let trigonometry = Trigonometry::default();
-    let bits = |lanes: f64x4, lane: usize| lanes.to_array()[lane].to_bits();
-    let small_angles: Vec<f64> = angles().into_iter().filter(|angle| angle.abs() < FRAC_PI_2).collect();
-    let large_angles = [1e15, -7.0, 4e6, FRAC_PI_2 + 1e-9];
-    for (i, angle) in small_angles.iter().enumerate() {
-        let (lane, equal_lanes) = (i % 4, f64x4::splat(*angle));
-        let mut mixed_lanes = large_angles;
-        mixed_lanes[lane] = *angle;
-        let mixed_lanes = f64x4::from(mixed_lanes);
-        let (short, long) =
-            (trigonometry.sin_cos_small_angle(equal_lanes), trigonometry.sin_cos_any_angle(mixed_lanes));
-        for (short, long) in [(short.sinc, long.sinc), (short.sin, long.sin), (short.cos, long.cos)] {
-            assert_eq!(bits(short, lane), bits(long, lane), "{angle}");
-        }
-        let (short, long) = (
-            trigonometry.log_terms_small_angle(equal_lanes),
-            trigonometry.log_terms_any_angle(mixed_lanes, 0.0),
-        );
-        for (short, long) in [
-            (short.half, long.half),
-            (short.cotangent, long.cotangent),
-            (short.sin, long.sin),
-            (short.cos, long.cos),
-        ] {
-            assert_eq!(bits(short, lane), bits(long, lane), "{angle}");
-        }
-    }
-}

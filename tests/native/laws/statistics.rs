@@ -73,16 +73,6 @@ proptest! {
         }
     }
 
-    /// Equal poses are a point: the skew is undefined, and so is its standard error.
-    #[test]
-    fn equal_poses_have_no_skew_and_no_covariance(pose in frames(), count in 1..20usize) {
-        let cloud = vec![pose; count];
-        let track = CrossTrack::from_poses(&cloud);
-        prop_assert!([track.skew, track.skew_error, track.rho_heading].iter().all(|value| value.is_nan()));
-        let expected = if count == 1 { f64::NAN } else { 0.0 };
-        prop_assert!(CartesianMoments::from_poses(&cloud).cov.iter().all(|entry| is_close(*entry, expected, 0.0)));
-    }
-
     /// Points of the outline are moved towards the centre and away from it by a billionth.
     #[test]
     fn ellipses_contain_points_inside_their_outline_only(a in 0.01..10.0f64, b in 0.01..10.0f64, rho in -0.99..0.99f64, power in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {

@@ -66,27 +66,6 @@ fn fractions_equal_the_published_ones() {
     }
 }
 
-/// The tested path is the arc of (v̂, ω̂). The last turn γ̂ does not change the position.
-#[test]
-fn the_last_turn_is_not_part_of_the_path() {
-    let plan = FloorPlan::apartment();
-    let endpoint_model = conditioned_model(&plan, Sampler::Endpoint);
-    let (command, start) = (VelocityCmd { omega: 0.4, ..STRAIGHT_COMMAND }, preset("doorway"));
-    let mut rng = seeded(7);
-    for _ in 0..1000 {
-        let [v, omega, gamma] = unit_noise(&mut rng);
-        let draw = endpoint_model.draw_tester(&command, &start).test_draw([v, omega, gamma]);
-        let without_turn = endpoint_model.draw_tester(&command, &start).test_draw([v, omega, 0.0]);
-        assert_eq!((draw.arc, draw.end, draw.path), (without_turn.arc, without_turn.end, without_turn.path));
-        let inversion = model().executed_motion(&command, [v, omega, gamma]);
-        assert!((draw.arc.length - 2.0 * inversion.v_hat).abs() < 1e-15);
-        assert!((draw.arc.turn - 2.0 * inversion.omega_hat).abs() < 1e-15);
-        let pose = model().apply_noise(&command, &start, [v, omega, gamma]);
-        assert!(crate::common::pose_distance(&draw.pose, &pose) < 1e-14);
-        assert_ne!(draw.pose.theta(), without_turn.pose.theta());
-    }
-}
-
 // --------------------------------------------------------------------------------------------------- the samplers
 
 /// The expected poses are drawn as in table 5.7: from the model, until the end or the whole path is free. Equal random numbers give

@@ -112,17 +112,6 @@ fn every_kind_of_image_is_decoded_exactly() {
     }
 }
 
-/// The map does not depend on the format of its image.
-#[test]
-fn a_png_gives_the_same_map_as_a_pgm() {
-    let mut rng = seeded(9912);
-    let samples: Vec<u16> = (0..20 * 30).map(|_| [0, 100, 205, 254][(rng.next_u32() % 4) as usize]).collect();
-    let pgm = [b"P5 20 30 255\n".to_vec(), samples.iter().map(|sample| *sample as u8).collect()].concat();
-    let grid = |file: &[u8]| read_grid(file, &Interpretation::default(), 0.05, SE2::new(1.0, 2.0, 0.5));
-    assert_eq!(grid(&grey_png(20, &samples)), grid(&pgm));
-    assert!(grid(&pgm).is_ok());
-}
-
 #[test]
 fn an_image_that_is_cut_short_is_refused() {
     let file = grey_png(20, &[7; 400]);

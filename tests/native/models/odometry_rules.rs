@@ -6,9 +6,7 @@ use motion::geom::se2::SE2;
 use motion::models::{LegVariances, MAX_SPIN_DISTANCE, OdometryRule, RuleAlphas};
 use motion::noise::centred_uniform;
 use motion::stats::quadrature::nodes;
-use motion::{
-    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot, Variance,
-};
+use motion::{OdomDelta, Variance};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use OdometryRule::{Beluga, Nav2, Omni, Table};
@@ -86,28 +84,6 @@ fn nav2_and_beluga_differ_at_exactly_a_centimetre_only() {
             let OdomDelta { rot1, rot2, .. } = rule.legs(&reading(trans));
             assert!((rot1 + rot2 - 0.6).abs() < 1e-15, "{rule:?} loses a turn");
         }
-    }
-}
-
-#[test]
-fn table_and_nav2_variances_equal_those_of_the_two_odometry_models() {
-    let mut rng = seeded(190);
-    let [a1, a2, a3, a4, _] = ALPHAS;
-    let model = OdometryModel { alphas: OdomAlphas([a1, a2, a3, a4]), noise: NoiseKind::Normal };
-    for _ in 0..10_000 {
-        let reading = delta(
-            uniform(&mut rng, -PI, PI),
-            uniform(&mut rng, MAX_SPIN_DISTANCE.next_up(), 3.0),
-            uniform(&mut rng, -PI, PI),
-        );
-        let leg_variances = |rule| -> [f64; 3] { std::array::from_fn(|leg| variances(rule, reading)[leg]) };
-        assert_eq!(leg_variances(Table), model.variances(&reading).map(|variance| variance.0));
-        // The score of the pose to which the reading leads is the product of three densities at 0. They depend on the variances only.
-        let x = SE2::identity();
-        let peak = ReverseAware(model).prob(&reading.apply(&x), &reading, &x);
-        let product: f64 =
-            leg_variances(Nav2).iter().map(|b2| NoiseKind::Normal.prob(0.0, Variance(*b2))).product();
-        assert!((peak / product - 1.0).abs() < 1e-9, "{peak}, not {product}");
     }
 }
 

@@ -113,25 +113,6 @@ fn samples_far_from_the_origin_have_a_positive_score() {
     }
 }
 
-/// The scoring function is the density without the determinant of (v̂, ω̂, γ̂) → (x, y, θ). The test differentiates numerically.
-#[test]
-fn the_pose_density_divides_by_the_jacobian() {
-    let mut rng = seeded(54);
-    let model = model(WITH_LAST_TURN, NoiseKind::Normal);
-    for u in commands().into_iter().filter(|u| u.v != 0.0) {
-        let deviations = model.variances(&u).map(|b2| b2.0.sqrt());
-        for x in start_poses() {
-            let unit_noise = [(); 3].map(|()| uniform(&mut rng, -1.5, 1.5));
-            let end = model.apply_noise(&u, &x, unit_noise);
-            let derivative = derivative(unit_noise, |unit_noise| model.apply_noise(&u, &x, unit_noise));
-            let determinant = derivative.determinant().abs() / deviations.iter().product::<f64>();
-            let expected = model.prob(&end, &u, &x) / determinant;
-            let density = model.pose_density(&end, &u, &x).unwrap();
-            assert!((density / expected - 1.0).abs() < 1e-6, "{u:?} at {end:?}: {density}, not {expected}");
-        }
-    }
-}
-
 /// Returns a box around the noise-free pose, which reaches twice as far as triangular noise. The kinks of the triangular density, at
 /// multiples of √6 deviations, lie on bounds of cells. A turn changes the bearing by half of it.
 fn box_around(model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> Grid {

@@ -111,13 +111,6 @@ fn the_printed_option_mirrors_centres_to_the_right() {
         assert_eq!(printed.driven.arc_length.signum(), printed.driven.turn.signum());
     }
     assert!(right_count > 500);
-    // The setting `printed` lowers p to nearly 0 in two presets, and has no effect in the others.
-    for (name, collapses) in [("left", false), ("right", true), ("reverse", true), ("straight", false)] {
-        let (signed_stats, printed) =
-            (stats(preset(name)).share, stats(Settings { printed: true, ..preset(name) }).share);
-        assert_eq!(printed < 1e-10 * signed_stats, collapses, "{name}: {signed_stats} {printed}");
-        assert!(collapses || printed == signed_stats);
-    }
 }
 
 #[test]

@@ -226,14 +226,6 @@ fn both_views_find_the_nearest_sample() {
             .zip(machine.twists())
             .map(|(pose, twist)| if view == View::Plane { [pose.x(), pose.y()] } else { [twist.x, twist.z] })
             .collect();
-        for target in [[0.9, 0.3], [1.2, 0.1], [0.2, 0.9]] {
-            let distance =
-                |[x, y]: [f64; 2]| ((x - target[0]) / 0.1).powi(2) + ((y - target[1]) / 0.3).powi(2);
-            let nearest_index =
-                (0..points.len()).min_by(|&a, &b| distance(points[a]).total_cmp(&distance(points[b])));
-            let expected = nearest_index.filter(|&index| distance(points[index]) <= 1.0);
-            assert_eq!(machine.nearest(view, target, [0.1, 0.3]), expected);
-        }
         assert_eq!(machine.nearest(view, points[17], [1e-9, 1e-9]), Some(17));
         assert_eq!(machine.nearest(view, [50.0, 50.0], [1.0, 1.0]), None);
         // The search ends at its radii: the outermost sample is found from a target just inside of its radius, and not from just outside.

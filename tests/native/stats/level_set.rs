@@ -6,30 +6,6 @@ use motion::sim::arc_anatomy::{ArcAnatomy, CONTOUR_LEVELS, Settings, Surface, Su
 use motion::stats::level_set;
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityModel};
 
-fn field(columns: usize, rows: usize, value: impl Fn(f64, f64) -> f64) -> Vec<f64> {
-    (0..columns * rows).map(|i| value((i % columns) as f64, (i / columns) as f64)).collect()
-}
-
-/// Linear interpolation of the squared distance between points a step apart is off by a quarter at most. The line is therefore off
-/// the circle by at most a quarter divided by the sum of both distances.
-#[test]
-fn a_circle_is_one_closed_line() {
-    for radius in [2.3, 7.9, 14.2] {
-        let squared_distance = |x: f64, y: f64| (x - 20.1).powi(2) + (y - 15.7).powi(2);
-        let lines = level_set(&field(41, 33, squared_distance), 41, radius * radius);
-        let [line] = lines.as_slice() else { panic!("{} lines", lines.len()) };
-        assert_eq!(line.first(), line.last());
-        let allowed = 0.2501 / (2.0 * radius - 0.1);
-        for [x, y] in line {
-            assert!((squared_distance(*x, *y).sqrt() - radius).abs() < allowed, "{radius}: {x} {y}");
-        }
-        // The circumference is the sum of the lengths of its chords.
-        let length: f64 =
-            line.windows(2).map(|ends| (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1])).sum();
-        assert!((length / (std::f64::consts::TAU * radius) - 1.0).abs() < 0.05, "{length}");
-    }
-}
-
 #[test]
 fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
     for (level, low_cut_off) in [(0.4, true), (0.6, false)] {

@@ -15,24 +15,9 @@ use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
-const ALPHAS: VelocityAlphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
 
 /// Share 1 − exp(−2²/2) of a two-dimensional Gaussian that lies within two standard deviations.
 const TWO_SIGMA_FRACTION: f64 = 0.864_664_716_763_387_3;
-
-#[test]
-fn exponential_moments_are_means_of_twists_from_the_start() {
-    let model = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
-    let mut rng = seeded(130);
-    let poses: Vec<SE2> = (0..500).map(|_| model.sample(&U, &SE2::identity(), &mut rng)).collect();
-    let start = SE2::new(0.3, -0.2, 0.1);
-    let twists: Vec<Vector3<f64>> = poses.iter().map(|pose| pose.boxminus(&start)).collect();
-    let exponential = ExponentialMoments::from_poses(&poses, &start);
-    let mean = twists.iter().sum::<Vector3<f64>>() / 500.0;
-    let scatter = twists.iter().map(|t| (t - mean) * (t - mean).transpose()).sum::<Matrix3<f64>>();
-    assert!((exponential.mean - mean).amax() < 1e-14);
-    assert!((exponential.cov - scatter / 499.0).amax() < 1e-14);
-}
 
 /// If ξ is a Gaussian of rank 2, its 2σ contour, mapped by exp, contains the same fraction of robots. The outline separates inside from
 /// outside.

@@ -1,6 +1,6 @@
 import { spawnSync } from 'node:child_process';
 import { expect, test as testWithWarnings } from '@playwright/test';
-import { recordingOf, transformMessage } from '../mcap.js';
+import { recordingOf } from '../mcap.js';
 import { captionOf, chooseTables, chooseRecording, exampleTable, openCalibrator, recordingWith, alphaRowsOf, rowsOf, statsOf, tablesOf } from './calibrator-support.js';
 import { REDUCED_MOTION, dropFiles, stateOf, takeEvents, test, openDisclosures, untilSettled } from './support.js';
 
@@ -112,29 +112,6 @@ test('with the velocity model the commands of a file are used, with other models
   expect((await statsOf(widget)).alphas).toHaveLength(6);
   await selectModel('Table 5.6', 'theta');
   await selectModel('velocity', 'omega');
-  // The recording has the commands in a separate topic.
-  const topic = widget.getByLabel('Odometry', { exact: true });
-  await chooseRecording(widget, 'run.mcap', await recordingWith(['/mocap/pose'], true));
-  await expect.poll(odometryKeys).toContain('omega');
-  await expect(topic).toHaveValue('/cmd_vel');
-  await selectModel('Table 5.6', 'theta');
-  await expect(topic).toHaveValue('/odom');
-  await selectModel('velocity', 'omega');
-});
-
-test('a user chooses among the transforms of a recording @nightly', async ({ page }) => {
-  const widget = await openCalibrator(page);
-  const messages = (/** @type {'odometry' | 'reference'} */ name, /** @type {string} */ parent, /** @type {string} */ child) =>
-    rowsOf(name).map(([t, x, y, yaw]) => ({ topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessage(t, parent, child, x, y, yaw)] } }));
-  const messagesOfAll = [...messages('odometry', 'odom', 'base_footprint'), ...messages('reference', 'map', 'base_link'), ...messages('reference', 'mocap', 'robot')];
-  await chooseRecording(widget, 'tf.mcap', await recordingOf(messagesOfAll.sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 }));
-  await expect(captionOf(widget)).toHaveText(/of tf\.mcap, \/tf: .+, \/tf: mocap → robot[.,]/);
-  await expect(widget.getByLabel('Odometry', { exact: true }).locator(':checked')).toHaveText('/tf: odom → base_footprint');
-  const reference = widget.getByLabel('Reference', { exact: true });
-  await reference.selectOption('/tf: odom → base_footprint');
-  await expect(widget.getByRole('alert')).toHaveText(/^tf\.mcap, topic \/tf: odom → base_footprint is the odometry itself; choose a reference /);
-  await reference.selectOption('/tf: map → base_link');
-  await expect(captionOf(widget)).toHaveText(/of tf\.mcap, .*\/tf: map → base_link[.,]/);
 });
 
 test('files of several drives are read together, and a user assigns roles that their names do not tell @nightly', async ({ page }) => {

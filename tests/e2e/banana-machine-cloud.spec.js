@@ -198,15 +198,9 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   const widget = await openBananaWithDisclosures(page);
   await setSliders(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('there are no statistics in ξ');
-  await expect(readoutValue(widget, 'predicts')).toHaveText('—');
   await expect(readoutDetail(widget, 'area covered')).toHaveText(/inside: ellipse [\d.]+\u202f%, outline —$/);
-  for (const name of ['area covered', 'gain in fit', 'exact area']) await expect(readoutValue(widget, name)).toHaveText('—');
-  await expect(readoutValue(widget, 'cross-track skew')).not.toHaveText('—');
-  const measuredCell = widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last();
-  await expect(measuredCell).toHaveText('—');
-  await setSliders(widget, { omega: 0.5, dt: 1 });
-  await expect(widget.locator('.note')).toHaveCount(0);
-  await expect(measuredCell).not.toHaveText('—');
+  for (const name of ['predicts', 'area covered', 'gain in fit', 'exact area']) await expect(readoutValue(widget, name)).toHaveText('—');
+  await expect(widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last()).toHaveText('—');
 });
 
 test('the odometry model shows the noise of a marked robot’s legs, and has an option for reverse', async ({ page }) => {

@@ -124,13 +124,6 @@ test('an outline that the morph cannot carry is struck through in the legend, wh
   expect(await boxOf(legend)).toEqual(legendBox);
 });
 
-test('the buttons that play have the names of what they play @nightly', async ({ page }) => {
-  await page.emulateMedia({ reducedMotion: 'no-preference' });
-  const widget = await openBanana(page, 'samples="100"');
-  await expect(widget.getByRole('button', { name: 'Play the morph' })).toHaveCount(1);
-  await expect(widget.getByRole('button', { name: 'Draw samples' })).toHaveCount(1);
-});
-
 test('callouts are hidden while the cloud is dragged under them @nightly', async ({ page }) => {
   const widget = await openBanana(page);
   const calloutCount = () => calloutCountOf(widget);

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, bananaReadings, centreOf, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, pictureOf, readoutValue, setSliders, test, untilSettled } from './support.js';
+import { REDUCED_MOTION, bananaReadings, centreOf, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, pictureOf, readoutValue, test, untilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -63,22 +63,6 @@ test('Home and End move the end of the arc to the ends of v, and no key scrolls 
     if (v) expect(command.v).toBeCloseTo(v, 1);
   }
   expect(await page.evaluate(() => scrollY)).toBe(100);
-});
-
-test('the handle does not leap to another arc with the same end @nightly', async ({ page }) => {
-  const widget = await openBanana(page);
-  const handle = widget.locator('.handle');
-  // For these turns, beyond half a circle and in reverse, the shortest arc to the end is another one.
-  for (const command of [{ v: 1, omega: 1.8, dt: 2.5 }, { v: -1, omega: 0.4, dt: 1 }]) {
-    await setSliders(widget, command);
-    const readingsBefore = await bananaReadings(widget);
-    await handle.press('ArrowUp');
-    const readingsAfter = await bananaReadings(widget);
-    expect(readingsAfter.end[0]).toBeCloseTo(readingsBefore.end[0], 9);
-    expect(readingsAfter.end[1]).toBeCloseTo(readingsBefore.end[1] + 0.02, 9);
-    expect(Math.abs(readingsAfter.config.command.v - command.v)).toBeLessThan(0.2);
-    expect(Math.abs(readingsAfter.config.command.omega - command.omega)).toBeLessThan(0.2);
-  }
 });
 
 test('the ring says where the sliders end, to the eye and to the ear', async ({ page }) => {

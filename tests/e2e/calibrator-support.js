@@ -5,7 +5,7 @@
  */
 
 import { readFileSync } from 'node:fs';
-import { odometryMessage, poseOf, recordingOf, stampOf, twistOf } from '../mcap.js';
+import { odometryMessage, poseOf, recordingOf, stampOf } from '../mcap.js';
 import { mount, untilSettled } from './support.js';
 
 /**
@@ -53,17 +53,11 @@ export const exampleTable = (name) => readFileSync(new URL(`../../examples/calib
 /** Returns t, x, y and yaw of each row of a table of the example log. @param {'odometry' | 'reference'} name */
 export const rowsOf = (name) => exampleTable(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
 
-/**
- * Returns the example log as a recording.
- *
- * @param {string[]} topics that have the poses of the reference
- * @param {boolean} [hasCommands]
- */
-export async function recordingWith(topics, hasCommands = false) {
+/** Returns the example log as a recording. @param {string[]} topics that have the poses of the reference */
+export async function recordingWith(topics) {
   const reference = topics.flatMap((topic) => rowsOf('reference').map(([t, x, y, yaw]) => ({
     topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
   })));
   const odometryMessages = rowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessage(t, x, y, yaw) }));
-  const commands = hasCommands ? odometryMessages.map(({ t }) => ({ topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', t, message: twistOf(0.3, 0) })) : [];
-  return recordingOf([...odometryMessages, ...commands, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+  return recordingOf([...odometryMessages, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
 }

@@ -207,7 +207,7 @@ test('changes by the page fire stats alone, also out of sight', async ({ page, f
   await takeEvents(page, ['stats']);
   const stateBefore = await stateOf(widget);
   const [key, value] = FIGURE_FACTS[figure].other;
-  for (const newValue of [value, null]) {
+  for (const newValue of [value, null, value, undefined]) {
     expect(await setProperty(widget, key, newValue)).toBe('');
     expect(namesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(newValue)).toEqual(['stats']);
   }

@@ -68,16 +68,6 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   await widget.evaluate((element) => /** @type {AnyElement} */ (element).setState({ widget: 'banana-machine', version: 1, model: 'velocity', samples: 500 }));
   expect(await stateOf(widget)).toEqual({ ...stateBefore, model: 'velocity', samples: 500, shown: 500 });
   expect(await widget.evaluate((element) => /** @type {AnyElement} */ (element).alphas[0])).toBe(0.15);
-  // The state survives a removal too.
-  const stateAfter = await stateOf(widget);
-  await widget.evaluate(async (element) => {
-    const parent = /** @type {Element} */ (element.parentElement);
-    element.remove();
-    await new Promise(requestAnimationFrame);
-    parent.append(element);
-  });
-  await untilReady(widget);
-  expect(await stateOf(widget)).toEqual(stateAfter);
 });
 
 test('a property set right after a state holds, however long the state takes @nightly', async ({ page }) => {

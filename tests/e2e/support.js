@@ -409,9 +409,6 @@ export async function openBananaWithDisclosures(page, attributes = '') {
   return widget;
 }
 
-/** Formats a number as widgets do, rounded and with separators. @param {number} count @returns {string} */
-export const printedCount = (count) => String(Math.round(count)).replace(/\B(?=(\d{3})+$)/g, '\u202f');
-
 /** Returns a number that a widget prints. @param {string | null} text */
 export function numberIn(text) {
   const [mantissa, power = '0'] = (text ?? '').replace('\u2212', '-').replace(/[\u202f%]/g, '').split('·10');

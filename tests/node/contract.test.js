@@ -59,23 +59,6 @@ test('a page finds every name of the contract', async () => {
   }
   const se2 = ['adjoint', 'boxminus', 'boxplus', 'compose', 'exp', 'inverse', 'log', 'rightJacobian'];
   assert.deepEqual(Object.keys(motion.se2).sort(), se2);
-
-  const banana = new motion.BananaMachine({ samples: 100 });
-  const keys = [
-    'n', 'cartesian', 'exponential', 'crossTrackSkew', 'crossTrackSkewError', 'gaussianSkew', 'rhoCrossHeading', 'coverage',
-    'likelihoodGain', 'likelihoodGainError', 'areaRatio', 'areaRatioError',
-  ];
-  assert.deepEqual(Object.keys(banana.stats), keys);
-  assert.deepEqual(Object.keys(banana.stats.cartesian), ['mean', 'cov']);
-  assert.deepEqual(Object.keys(banana.stats.coverage), ['ellipse', 'exponential']);
-  assert.deepEqual(Object.keys(banana.stats.likelihoodGain), ['pose', 'floor']);
-  assert.ok(banana.poses instanceof Float64Array && banana.poses.length === 300);
-
-  const squeeze = new motion.MapSqueeze({ samples: 100 });
-  const statNames = ['drawn', 'accepted', 'acceptanceRate', 'throughWall', 'throughWallRate', 'drawsPerAccepted'];
-  for (const name of statNames) assert.ok(name in squeeze.stats, name);
-  assert.ok('setPlan' in squeeze && 'setGrid' in squeeze);
-  for (const machine of [banana, squeeze]) machine[Symbol.dispose]();
 });
 
 test('a machine opens with the settings that www/settings.js declares', async () => {

@@ -4,15 +4,6 @@ use crate::support::Object;
 use wasm_bindgen_test::wasm_bindgen_test;
 
 #[wasm_bindgen_test]
-fn a_cloud_made_in_blocks_equals_one_made_at_once() {
-    let it = Object::new("new motion.OdometryDecomposer({ samples: 5000, seed: 4 })");
-    let cloud: Vec<f64> = it.get("it.poses");
-    it.run("it.configureFirst({}, 0)");
-    assert_eq!(it.get::<[usize; 3]>("[it.shown, it.addSamples(30), it.addSamples(5000)]"), [0, 30, 5000]);
-    assert_eq!(it.get::<Vec<f64>>("it.poses"), cloud);
-}
-
-#[wasm_bindgen_test]
 fn what_is_refused_changes_nothing() {
     let it = Object::new("new motion.OdometryDecomposer()");
     it.assert_refused(

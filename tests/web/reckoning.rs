@@ -11,15 +11,6 @@ fn a_step_after_the_last_has_no_outlines_and_no_poses() {
 }
 
 #[wasm_bindgen_test]
-fn one_level_stands_for_all_heading_noise() {
-    let it = Object::new("new motion.DeadReckoning({ samples: 10, headingNoise: 0.04 })");
-    assert_eq!(it.get::<Vec<f64>>("it.config.alphas"), [0.02, 0.02, 0.04, 0.04, 0.01, 0.01]);
-    assert_eq!(it.get::<f64>("it.headingNoise"), 0.04);
-    it.run("it.configure({ alphas: [0.02, 0.02, 0.04, 0.05, 0.01, 0.01] })");
-    assert_eq!(it.get::<Option<f64>>("it.headingNoise"), None);
-}
-
-#[wasm_bindgen_test]
 fn what_is_refused_changes_nothing() {
     let it = Object::new("new motion.DeadReckoning({ samples: 20 })");
     it.assert_refused(

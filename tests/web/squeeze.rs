@@ -15,15 +15,8 @@ const STATE: &str =
     "[it.machine.config, it.machine.stats, it.machine.plan, it.machine.grid, [...it.machine.verdicts]]";
 
 #[wasm_bindgen_test]
-fn attempts_are_added_in_blocks() {
-    let it = Object::new("new motion.MapSqueeze({ sampler: 'sub-stepped', samples: 100 })");
-    let poses: Vec<f64> = it.get("it.poses");
-    it.run("it.configureFirst({}, 0)");
-    assert_eq!(
-        it.get::<[usize; 4]>("[it.shown, it.addSamples(30), it.addSamples(0), it.addSamples(1000)]"),
-        [0, 30, 30, 100]
-    );
-    assert_eq!(it.get::<Vec<f64>>("it.poses"), poses);
+fn a_noise_level_sets_all_alphas() {
+    let it = Object::new("new motion.MapSqueeze({ samples: 100 })");
     assert_eq!(it.get::<[i32; 2]>("[it.nearest(1000, 0, 1), it.path(100).length]"), [-1, 0]);
     it.run("it.configure({ noise: 0.2 })");
     assert_eq!(

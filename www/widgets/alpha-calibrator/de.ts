@@ -75,7 +75,7 @@ export const de: typeof import('./en.ts').en = {
   failed: (name, failed, count) => `Prüfung nicht bestanden: ${name} (${failed} von ${count}).`,
   use: 'Die empfohlenen α mit Etappen dieser Länge verwenden.',
   useAnyway: 'Lässt sich die Aufzeichnung nicht verbessern, die empfohlenen α verwenden',
-  useCorrected: { correctFirst: (distance, turn) => `, dazu in der Odometrie ${[distance && `Strecken × ${distance}`, turn && `Drehungen × ${turn}`].filter(Boolean).join(' und ')}` },
+  useCorrected: { correctFirst: (distance, turn) => `, dazu in der Odometrie ${[distance && `Strecken\u00a0×\u00a0${distance}`, turn && `Drehungen\u00a0×\u00a0${turn}`].filter(Boolean).join(' und ')}` },
   missing: (alphas, drive) => `Von dieser Aufzeichnung nicht bestimmt: ${alphas}; ${drive}.`,
   noAlpha: 'Die Aufzeichnung bestimmt kein α.',
   none: 'Nicht genug Daten: weniger als 8 Etappen, oder keine gemeinsame Zeit. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',

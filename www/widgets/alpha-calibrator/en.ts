@@ -41,7 +41,7 @@ export const en = {
   failed: (name, failed, count) => `Failed check: ${name} (${failed} of ${count} failed).`,
   use: 'Use the recommended α’s with legs of this length.',
   useAnyway: 'If the log cannot be improved, use the recommended α’s',
-  useCorrected: { correctFirst: (distance, turn) => ` with the odometry’s ${[distance && `distances × ${distance}`, turn && `turns × ${turn}`].filter(Boolean).join(' and ')}` },
+  useCorrected: { correctFirst: (distance, turn) => ` with the odometry’s ${[distance && `distances\u00a0×\u00a0${distance}`, turn && `turns\u00a0×\u00a0${turn}`].filter(Boolean).join(' and ')}` },
   missing: (alphas, drive) => `Not determined by this log: ${alphas}; ${drive}.`,
   noAlpha: 'The log identifies no α.',
   none: 'Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.',

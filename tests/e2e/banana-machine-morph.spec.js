@@ -63,8 +63,10 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   const pin = widget.getByRole('button', { name: 'Pin' });
   const area = widget.locator('.readouts div').filter({ hasText: 'area covered' });
   const areaBefore = await readoutValue(widget, 'area covered').innerText();
+  const sliderBox = await boxOf(widget.locator('#v'));
   await pin.click();
   await expect(pin).toHaveText('Unpin');
+  expect(await boxOf(widget.locator('#v'))).toEqual(sliderBox);
   await widget.getByRole('button', { name: 'Hard arc' }).click();
   await expect(area).toContainText(`pinned: ${areaBefore}`);
   const coordinatesOutside = await widget.evaluate((element) => {

@@ -161,24 +161,6 @@ test('no slider moves under the finger when there is something to note', async (
   expect(Math.abs((await sliderTop()) - topBefore)).toBeLessThan(0.5);
 });
 
-test('no slider moves while the noise that bends the cloud is dragged, or outlines are pinned', async ({ page }) => {
-  for (const width of [375, 700, 1280]) {
-    await page.setViewportSize({ width, height: 900 });
-    const widget = await openBanana(page);
-    const sliderTop = async () => {
-      await untilSettled(widget);
-      return widget.locator('#v').evaluate((element) => element.getBoundingClientRect().top + scrollY);
-    };
-    const topBefore = await sliderTop();
-    for (const alpha of ['0.05', '0.02', '0', '0.2']) {
-      await widget.locator('#alpha3').fill(alpha);
-      expect.soft(Math.abs((await sliderTop()) - topBefore), `${width} px, ${alpha}`).toBeLessThan(0.5);
-    }
-    await widget.getByRole('button', { name: 'Pin' }).click();
-    expect.soft(Math.abs((await sliderTop()) - topBefore), `${width} px, pinned`).toBeLessThan(0.5);
-  }
-});
-
 test('a slider stays in its place when a text above it becomes shorter', async ({ page }) => {
   await page.setViewportSize({ width: 700, height: 900 });
   const widget = await openBananaWithDisclosures(page);

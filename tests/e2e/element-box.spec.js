@@ -163,6 +163,9 @@ const SLIDERS_BELOW_TEXTS = /** @type {const} */ ([
   ['map-squeeze', 'en', 700, 'v', ['1', '-1.12', '-0.25']],
   ['map-squeeze', 'de', 700, 'v', ['1', '1.25']],
   ['banana-machine', 'de', 700, 'v', ['1', '-1.5']],
+  ['banana-machine', 'en', 375, 'alpha3', ['0.1', '0.05', '0.02', '0', '0.2']],
+  ['banana-machine', 'en', 700, 'alpha3', ['0.1', '0.05', '0.02', '0', '0.2']],
+  ['banana-machine', 'en', 1280, 'alpha3', ['0.1', '0.05', '0.02', '0', '0.2']],
 ]);
 
 for (const [name, lang, width, slider, values] of SLIDERS_BELOW_TEXTS) {

@@ -245,11 +245,7 @@ export async function openDisclosures(widget) {
   await widget.evaluate(({ shadowRoot }) => {
     for (const disclosure of shadowRoot?.querySelectorAll('details') ?? []) disclosure.open ||= disclosure.matches('[part=fold]');
   });
-  await untilDisclosuresRendered(widget);
-}
-
-/** Waits for the contents of open disclosures, which are rendered after the browser's `toggle` event. @param {Locator} widget */
-export async function untilDisclosuresRendered(widget) {
+  // Contents are rendered after the browser's `toggle` event.
   await widget.evaluate(async ({ shadowRoot }) => {
     while (shadowRoot?.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
   });

@@ -79,7 +79,7 @@ test('outliers are ringed, and decide the fit where they are not set aside', asy
   expect([10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), ...alphaGrowth]).toEqual([60, 9, 15]);
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toMatch(/One in sixty is an outlier[^]* becomes nine times and .* fifteen times as large, and two checks fail/);
   await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(2 of 14 failed\)\. \d+ legs of the simulated log\.$/);
-  await expect(widget.locator('.to-do')).toHaveText(/ If the log cannot be improved, use the recommended α’s with the odometry’s turns × 0\.9\d\d\.$/);
+  await expect(widget.locator('.to-do')).toHaveText(/ If the log cannot be improved, use the recommended α’s with the odometry’s turns\s×\s0\.9\d\d\.$/);
 });
 
 test('a systematic error that is not corrected is named in the advice', async ({ page }) => {

@@ -48,10 +48,10 @@ fn call_method(machine: &mut OdometryDecomposer, input: &mut Input) {
             assert!(machine.poses().is_empty());
         }
         4 => {
-            let linkages = machine.sample_linkages(usize::from(input.next_byte()));
-            assert!(linkages.len() <= shown_count);
-            linkages.as_flattened().iter().for_each(|pose| laws::assert_pose("a linkage", pose));
-            assert!(linkages.iter().zip(machine.poses()).all(|(linkage, pose)| linkage[3] == *pose));
+            let leg_poses = machine.sample_leg_poses(usize::from(input.next_byte()));
+            assert!(leg_poses.len() <= shown_count);
+            leg_poses.as_flattened().iter().for_each(|pose| laws::assert_pose("a leg pose", pose));
+            assert!(leg_poses.iter().zip(machine.poses()).all(|(outcome_poses, pose)| outcome_poses[3] == *pose));
         }
         5 => assert_curve(machine, input.number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_choice(MAX_POINTS)),
         _ => assert_nearest(machine, input),
@@ -96,7 +96,7 @@ fn assert_nearest(machine: &OdometryDecomposer, input: &mut Input) {
 fn assert_results(machine: &OdometryDecomposer) {
     let settings = machine.settings();
     machine.poses().iter().for_each(|pose| laws::assert_pose("an outcome", pose));
-    machine.linkage().iter().for_each(|pose| laws::assert_pose("the linkage", pose));
+    machine.leg_poses().iter().for_each(|pose| laws::assert_pose("a leg pose", pose));
     laws::assert_pose("the robot", &machine.robot_pose());
     let DriftedOdometry { frame, from, to, legs } = machine.drifted_odometry();
     [frame, from, to].iter().for_each(|pose| laws::assert_pose("drifted", pose));
@@ -136,9 +136,9 @@ fn assert_results(machine: &OdometryDecomposer) {
         }
     }
 
-    // The linkage ends at the second odometry pose, except that rules may ignore the direction of a tiny translation.
+    // The last leg ends at the second odometry pose, except that rules of noise may ignore the direction of a tiny translation.
     let [x, y, _] = settings.to.0;
-    let [.., end] = machine.linkage();
+    let [.., end] = machine.leg_poses();
     let distance_to_end = (end.x() - x).hypot(end.y() - y);
     let largest_coordinate = settings.from.0.iter().chain(&settings.to.0).fold(0.0, |largest: f64, at| largest.max(at.abs()));
     assert!(distance_to_end <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * largest_coordinate, "{end:?} for {settings:?}: {distance_to_end}");

@@ -73,9 +73,9 @@ impl SE2 {
         self.log_of_turn(self.theta)
     }
 
-    /// Returns the logarithm whose ω is within half a turn of `turn` (rad), about which the body has turned.
-    /// It equals [`SE2::log`] if both ω are equal. Near a turn of whole circles it grows without bound, unless the
-    /// body is back at its start.
+    /// Returns the logarithm whose ω is within π of `turn`, rad: the approximate turn of a body that may have turned by
+    /// more than half a circle. For `turn` between −π and π it mostly equals [`SE2::log`]. Near a turn of whole circles
+    /// it grows without bound, unless the body is back at its start.
     pub fn log_near(&self, turn: f64) -> Vector3<f64> {
         self.log_of_turn(turn + wrap_angle(self.theta - turn))
     }

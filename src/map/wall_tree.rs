@@ -103,11 +103,11 @@ impl WallTree {
         let mut narrowest = (f64::INFINITY, PreparedSegment::POINT);
         for ([x, y], [back, right, front, left]) in axes.into_iter().zip(extents) {
             let (axis_offset, width) = (0.5 * (right + left), left - right);
-            // The ends of a capsule are round, so that a capsule as wide as it is long is a disc.
-            let radius = (0.25 * width).min(0.5 * (front - back));
+            // The ends of a capsule are round, so that its axis is shorter than the walls at both ends.
+            let shortening = (0.25 * width).min(0.5 * (front - back));
             let point_at = |along: f64| [along * x - axis_offset * y, along * y + axis_offset * x];
             if width < narrowest.0 {
-                let axis = Segment { from: point_at(back + radius), to: point_at(front - radius) };
+                let axis = Segment { from: point_at(back + shortening), to: point_at(front - shortening) };
                 narrowest = (width, PreparedSegment::new(&axis));
             }
         }

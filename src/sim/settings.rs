@@ -184,7 +184,7 @@ pub trait Integer {
 pub trait Level {
     /// Returns the level; None if the other numbers are not in the ratios of a level.
     fn get(&self) -> Option<f64>;
-    /// Sets the other numbers to those of the level.
+    /// Sets the level: the other numbers become the level times their ratios.
     fn set(&mut self, level: f64);
     /// Returns the ratios of the numbers to the level. They belong to the last numbers of the list.
     fn weights(&self) -> Vec<f64>;

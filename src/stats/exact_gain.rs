@@ -42,7 +42,7 @@ struct PolarMotion {
     is_arc: bool,
     /// Mean and standard deviation, m.
     length: [f64; 2],
-    /// Bearing, rad, on the branch of half the commanded turn.
+    /// Mean and standard deviation of the bearing, rad. The mean is near half the commanded turn, and not wrapped to ±π.
     bearing: [f64; 2],
     /// Mean of the turn, and its standard deviations due to the noise of the bearing and to the noise after it, rad.
     turn: [f64; 3],

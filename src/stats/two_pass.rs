@@ -134,7 +134,7 @@ impl FirstPass {
     }
 
     /// Returns the moments of `count` poses. Their Cartesian covariance is that of the position only. `regular` are the sums
-    /// over regular arcs, in the order of [`PairSums`].
+    /// over the driven arcs, in the order of [`PairSums`], which the irregular arcs correct.
     pub fn finish(&self, count: usize, regular: [f64; 5]) -> FirstPassMoments {
         let n = count as f64;
         let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.finish();

@@ -91,7 +91,7 @@ impl JsBananaMachine {
         flat_float_array(&self.0.twists().take(count).map(<[f64; 3]>::from).collect::<Vec<_>>())
     }
 
-    /// ξ along, lateral (m), heading (rad) of each sample shown; a copy.
+    /// Exponential coordinates ξ of each sample shown: three numbers, along and lateral (m) and heading (rad). A copy.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Float64Array {
         flat_float_array(&self.0.twists().map(<[f64; 3]>::from).collect::<Vec<_>>())

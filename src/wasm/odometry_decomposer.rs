@@ -28,7 +28,7 @@ cloud_machine_class! {
 
 #[wasm_bindgen(js_class = OdometryDecomposer)]
 impl JsOdometryDecomposer {
-    /// Returns everything that is shown, in one call. `ghosts` are the linkages of the first outcomes.
+    /// Returns everything that is shown, in one call. `ghosts` are the leg_poses of the first outcomes.
     #[wasm_bindgen(
         unchecked_return_type = "Pick<OdometryDecomposer, 'config' | 'shown' | 'block' | 'stats' | 'rules' | 'poses' | 'linkage' | 'robot' | 'drifted'> & { ghosts: Float64Array }"
     )]
@@ -40,10 +40,10 @@ impl JsOdometryDecomposer {
             ("stats", self.stats()?),
             ("rules", self.rules()?),
             ("poses", self.poses().into()),
-            ("linkage", self.linkage().into()),
+            ("linkage", self.leg_poses().into()),
             ("robot", self.robot()),
             ("drifted", self.drifted()?),
-            ("ghosts", self.sample_linkages(MAX_SHOWN_LINKAGES)?.into()),
+            ("ghosts", self.sample_leg_poses(MAX_SHOWN_LINKAGES)?.into()),
         ]))
     }
 
@@ -55,17 +55,17 @@ impl JsOdometryDecomposer {
 
     /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the
     /// second rotation.
-    #[wasm_bindgen(getter)]
-    pub fn linkage(&self) -> Float64Array {
-        flat_float_array(&self.0.linkage().map(<[f64; 3]>::from))
+    #[wasm_bindgen(getter, js_name = linkage)]
+    pub fn leg_poses(&self) -> Float64Array {
+        flat_float_array(&self.0.leg_poses().map(<[f64; 3]>::from))
     }
 
-    /// Linkages of the first `count` outcomes shown, one after the other in the form of `linkage`.
+    /// Leg poses of the first `count` outcomes shown, one after the other in the form of `linkage`.
     #[wasm_bindgen(js_name = ghosts)]
-    pub fn sample_linkages(&self, count: f64) -> Result<Float64Array, JsValue> {
-        let linkages = self.0.sample_linkages(read_integer("count", count, 0..=MAX_SAMPLES)? as usize);
+    pub fn sample_leg_poses(&self, count: f64) -> Result<Float64Array, JsValue> {
+        let leg_poses = self.0.sample_leg_poses(read_integer("count", count, 0..=MAX_SAMPLES)? as usize);
         Ok(flat_float_array(
-            &linkages.as_flattened().iter().map(|pose| (*pose).into()).collect::<Vec<[f64; 3]>>(),
+            &leg_poses.as_flattened().iter().map(|pose| (*pose).into()).collect::<Vec<[f64; 3]>>(),
         ))
     }
 

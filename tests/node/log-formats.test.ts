@@ -121,7 +121,7 @@ const positionsOf = (bytes: Buffer, text: string) => Array.from(bytes.toString('
 /** Returns a function that finds a position inside each chunk of a file: 60 bytes after a text in the header of the chunk. */
 const positionsInChunks = (field: string) => (bytes: Buffer) => positionsOf(bytes, field).map((at) => at + 60);
 
-/** Positions in the blocks that have messages of the odometry. In an MCAP file, the text is in chunk indexes too. */
+/** Positions in the blocks that have messages of the odometry. In an MCAP file, the name of the compression is in chunk indexes too. */
 const BLOCK_POSITIONS: Record<string, (bytes: Buffer) => number[]> = {
   'bz2.bag': positionsInChunks('compression='), 'lz4.bag': positionsInChunks('compression='), 'zstd.mcap': positionsInChunks('zstd'), 'lz4.mcap': positionsInChunks('lz4'),
   'sqlite-sqlite.db3': (bytes) => [...new Set(positionsOf(bytes, 'base_link').map((at) => at - (at % 4096)))],

@@ -81,7 +81,7 @@ impl<T: serde::Serialize> From<&T> for Object {
     }
 }
 
-/// Returns the value of an expression without an object.
+/// Returns the value of a JavaScript expression that uses no `this`.
 pub fn get<T: DeserializeOwned>(expression: &str) -> T {
     Object(JsValue::UNDEFINED).get(expression)
 }

@@ -31,7 +31,7 @@ const stickyPicture = css`
 `;
 
 const figureLayout = css`
-  /* The pictures stay visible within this box, behind text of the page. */
+  /* Sticky pictures stay visible within this box, which extends below text of the page that follows the figure. */
   .machine {
     text-wrap: pretty;
     margin-bottom: calc(-1 * var(--motion-sticky-bottom, 0px));

@@ -271,7 +271,7 @@ interface Track extends Range {
 
 /** Returns the track of a slider. A finger that moves up or down over it scrolls the page. */
 export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }: Track) {
-  // A browser sets a slider as soon as it is touched. Rendering keeps that value until the touch is a tap or scrolls.
+  // A browser changes a slider as soon as it is touched. The change counts only once the touch turns out to be a tap or a sideways move.
   const setValue = (event: Event) => {
     if (!undecidedTouch) input(inputOf(event).valueAsNumber);
   };

@@ -169,8 +169,8 @@ impl Drive {
         any_lane_set(is_beyond(motions.bearing) | is_beyond(motions.half))
     }
 
-    /// Returns four robots in all coordinates. It uses the formulas for any angle. The two passes over a cloud inline the short
-    /// formulas for angles up to a quarter turn instead.
+    /// Returns the poses of four robots and the arcs to them, by formulas for any angle. The loops over all robots of a
+    /// cloud inline the shorter formulas for angles up to a quarter turn instead.
     #[inline(never)]
     pub fn coordinates_of_four(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);

@@ -196,12 +196,12 @@ impl OdometryDecomposer {
 
     /// Returns the poses of the noise-free legs: at the start, after the first rotation, after the drive, after the
     /// second rotation.
-    pub fn linkage(&self) -> [SE2; 4] {
+    pub fn leg_poses(&self) -> [SE2; 4] {
         ExecutedLegs { legs: self.legs(), strafe: 0.0 }.poses(&self.start_pose())
     }
 
-    /// Returns the linkages of the first outcomes shown, as [`OdometryDecomposer::linkage`].
-    pub fn sample_linkages(&self, count: usize) -> Vec<[SE2; 4]> {
+    /// Returns the leg_poses of the first outcomes shown, as [`OdometryDecomposer::leg_poses`].
+    pub fn sample_leg_poses(&self, count: usize) -> Vec<[SE2; 4]> {
         let start = self.start_pose();
         self.executed_motions(count.min(self.shown_count)).map(|executed| executed.poses(&start)).collect()
     }

@@ -30,7 +30,7 @@ impl Tally {
     /// Returns the 95 % interval of the fraction through a wall (Wilson, 1927), which is also valid at 0 and 1.
     pub fn through_wall_interval(&self) -> [f64; 2] {
         let (n, p) = (self.accepted as f64, self.through_wall_rate());
-        // 97.5 % quantile of the normal distribution.
+        // 97.5 % quantile of the normal distribution. `quantile` takes the probability above the median.
         let z = NoiseKind::Normal.quantile(0.475);
         let (middle, scale) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
         let half_width = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();

@@ -160,8 +160,8 @@ fn a_log_that_no_inflation_covers_is_unusable() {
     assert_unusable(&calibration, "a jump");
 }
 
-/// Returns the calibration of a log whose odometry is divided by `scale`. This function returns the scales of distance and turn at a time (as a
-/// fraction of the log) and a velocity.
+/// Returns the calibration of a log whose odometry is divided by `scale`: the scales of distance and turn at a time (as a fraction of the
+/// log) and a velocity.
 fn calibrated_with_scales(sim: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
     let [odometry, reference] = sim.log();
     let rows: Vec<(f64, SE2)> = odometry.samples().collect();

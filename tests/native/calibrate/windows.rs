@@ -76,8 +76,8 @@ fn coverage(model: Model, violation: Violation, logs: u64) -> [usize; 2] {
 fn report_wrong_coverage(model: Model, violation: Violation, logs: u64) -> Option<String> {
     let [covered, count] = coverage(model, violation, logs);
     let fraction = covered as f64 / count as f64;
-    // The standard errors of a log's α's and of its inflation are 5 % each, together 7 %. They change the coverage by 0.14
-    // times 7 %.
+    // The α's of a log, and the factor by which they are inflated, have standard errors of 5 % each, together 7 %. A variance that is larger
+    // by a fraction changes the coverage of 95 % by 0.14 of that fraction, so by 0.01.
     let std = (0.93 * 0.07 / count as f64 + 0.01_f64.powi(2) / logs as f64).sqrt();
     let is_right = (0.93 - 3.0 * std..=0.97 + 3.0 * std).contains(&fraction);
     (!is_right).then(|| format!("{model:?}, {violation:?}: {covered} of {count} windows are covered"))

@@ -51,7 +51,7 @@ fn errors_of_the_three_arc_forms_grow_as_their_formulas_say() {
             assert!((0.05..3.0).contains(&ratio), "{omega} {ratio}");
         }
     }
-    // The errors of the straight line and of the arc are equal at the turn rate with ½ωΔt² = ε/ω, for Δt = 0.01 s.
+    // The errors of the straight line and of the arc are equal at the turn rate with ½ωΔt² = ε/ω, for Δt = 0.1 s.
     assert!((estimated_crossover / ((2.0 * f64::EPSILON).sqrt() / 0.1) - 1.0).abs() < 1e-9);
     assert_eq!(STRAIGHT_LINE_THRESHOLD, 1e-6);
 }

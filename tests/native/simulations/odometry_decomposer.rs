@@ -1,4 +1,4 @@
-//! The machine of the Odometry Decomposer: common random numbers, linkage, drifting frame and curve.
+//! The machine of the Odometry Decomposer: common random numbers, poses of the legs, drifting frame and curve.
 
 use crate::common::{NOISE_KINDS, pose_distance, seeded};
 use motion::geom::se2::SE2;
@@ -55,11 +55,11 @@ fn changed_settings_move_the_same_outcomes() {
 }
 
 #[test]
-fn the_linkage_follows_the_legs_of_the_reading() {
+fn the_leg_poses_follow_the_legs_of_the_reading() {
     for preset in PRESETS {
         for rule in OdometryRule::ALL {
             let machine = machine(Settings { rule, ..settings_of_preset(preset.name) });
-            let [start, after_rot1, after_drive, end] = machine.linkage();
+            let [start, after_rot1, after_drive, end] = machine.leg_poses();
             let legs = machine.legs();
             assert_eq!(start, preset.from.into());
             assert_eq!((after_rot1.x(), after_rot1.y()), (start.x(), start.y()));
@@ -81,13 +81,13 @@ fn the_linkage_follows_the_legs_of_the_reading() {
             assert!((robot_at(1.5).x() - 0.5 * (start.x() + end.x())).abs() < 1e-15);
         }
     }
-    // Without noise the linkage of every outcome equals that of the reading.
+    // Without noise the leg poses of every outcome equal those of the reading.
     let noise_free_machine = machine(Settings { alphas: [0.0; 5], ..Settings::default() });
-    assert_eq!(noise_free_machine.sample_linkages(7), [noise_free_machine.linkage(); 7]);
-    assert_eq!(noise_free_machine.sample_linkages(usize::MAX).len(), 500);
+    assert_eq!(noise_free_machine.sample_leg_poses(7), [noise_free_machine.leg_poses(); 7]);
+    assert_eq!(noise_free_machine.sample_leg_poses(usize::MAX).len(), 500);
     let initial_machine = machine(Settings::default());
-    for (linkage, pose) in initial_machine.sample_linkages(20).iter().zip(initial_machine.poses()) {
-        assert_eq!(linkage[3], *pose);
+    for (leg_poses, pose) in initial_machine.sample_leg_poses(20).iter().zip(initial_machine.poses()) {
+        assert_eq!(leg_poses[3], *pose);
     }
 }
 

@@ -89,7 +89,7 @@ export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, mo
   return { lack, drive: model === 'velocity' ? byCommands : drive };
 }
 
-/** Returns the α's (indices from 0) that are not identifiable by each reason, and the drive that would identify them. */
+/** Returns the α's (indices from 0) that are not identifiable, grouped by the reason, and the drive that would identify them. */
 export function missingAlphas(lacking: typeof import('./en.ts').en.alphas.lacking, model: string, { notIdentifiable, diagnostics: { checks } }: any) {
   // Driving differently does not help if the reference is of another drive, or has other units.
   if (failedChecksOf(checks).some(({ name }) => name === 'reference-matches')) return [];

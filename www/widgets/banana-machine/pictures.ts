@@ -223,7 +223,7 @@ function drawDrivingRobots(brush: Brush, machine: BananaMachine, { robots, share
 
 /** Radius of the arcs of rotations, and length of the lines from which rotations start, CSS pixels. */
 const TURN_RADIUS = 26;
-const TURN_LINE = 38;
+const TURN_LINE_LENGTH = 38;
 
 /** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. */
 function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]) {
@@ -235,8 +235,8 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   const style = { colour, width: 1.5 };
   strokePath(context, style, () => {
     // The heading at the start, the drive, and its continuation, from which the second rotation starts.
-    addLine(context, [[fromX + TURN_LINE, fromY], [fromX, fromY], [toX, toY], [toX + TURN_LINE * ahead.x, toY + TURN_LINE * ahead.y]]);
-    addLine(context, [[toX, toY], [toX + TURN_LINE * finalDirection.x, toY + TURN_LINE * finalDirection.y]]);
+    addLine(context, [[fromX + TURN_LINE_LENGTH, fromY], [fromX, fromY], [toX, toY], [toX + TURN_LINE_LENGTH * ahead.x, toY + TURN_LINE_LENGTH * ahead.y]]);
+    addLine(context, [[toX, toY], [toX + TURN_LINE_LENGTH * finalDirection.x, toY + TURN_LINE_LENGTH * finalDirection.y]]);
   });
   // On the screen y points down.
   const strokeTurn = (x: number, y: number, from: number, turn: number) => strokePath(context, style, () => context.arc(x, y, TURN_RADIUS, -from, -from - turn, turn > 0));
@@ -244,7 +244,7 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   strokeTurn(toX, toY, rot1, rot2);
   const labelTurn = (sub: string, atX: number, atY: number, heading: number) => {
     const labelDirection = view.direction(heading);
-    drawLabel(brush, { x: atX + (TURN_LINE + 6) * labelDirection.x, y: atY + (TURN_LINE + 6) * labelDirection.y, towards: labelDirection.x < 0 ? -1 : 1, symbol: 'δ', sub, colour });
+    drawLabel(brush, { x: atX + (TURN_LINE_LENGTH + 6) * labelDirection.x, y: atY + (TURN_LINE_LENGTH + 6) * labelDirection.y, towards: labelDirection.x < 0 ? -1 : 1, symbol: 'δ', sub, colour });
   };
   labelTurn('rot1', fromX, fromY, rot1 / 2);
   labelTurn('rot2', toX, toY, rot1 + rot2 / 2);

@@ -73,7 +73,7 @@ export const styles = css`
 
   .playable > button {
     min-width: 5em;
-    /* Next to the track, and not next to the hint below it. */
+    /* The button is centred on the slider's track, not on track and hint together. */
     margin-bottom: 1em;
   }
 

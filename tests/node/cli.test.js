@@ -128,7 +128,6 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--topic', '/odom'], 'unknown option --topic; the nearest are --odometry-topic and --reference-topic, --help lists all.'],
     [['--bag', 'bags/run'], 'unknown option --bag; files need no option, as in calibrate bags/run, --help lists all.'],
     [['--bag=run.bag'], 'unknown option --bag; files need no option, as in calibrate run.bag, --help lists all.'],
-    [[writeInFolder('notes.txt', 'no numbers')], 'notes.txt: it does not look like a log, '],
     [['--seed', '1'], 'unknown option --seed; --help lists all.'],
     [['--update-min-d', '--json'], '--update-min-d needs a value.\n'],
     [['--columns', '-,t,x,y,yaw'], '--columns needs a value; one that begins with a dash follows “=”, as in --columns=-,t,x,y,yaw.\n'],

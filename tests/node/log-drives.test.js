@@ -149,13 +149,6 @@ test('logs of several drives are paired by their times, their names, or their or
   assert.deepEqual(await pairedNames({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
 });
 
-test('two logs without a sign of their roles get them by their order, which a plan says', async () => {
-  const planOf = async (/** @type {string[]} */ ...names) => planDrives(await openRecordings(names.map((name, k) => new File([straightTable((i) => (i * (10 + k)) / 1000)], name))));
-  const { hasRolesByOrder, unpaired } = await planOf('a.csv', 'b.csv');
-  assert.deepEqual([hasRolesByOrder, unpaired.odometry[0].recording.name, unpaired.reference[0].recording.name], [true, 'a.csv', 'b.csv']);
-  assert.equal((await planOf('a.csv', 'odom.csv')).hasRolesByOrder, false);
-});
-
 test('two logs get one start, and none in common is noted', async () => {
   const odometryText = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0';
   const [overlapping] = await drivesOf({ 'odom.csv': odometryText, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });

@@ -236,21 +236,3 @@ fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
     assert_recovers(&calibration, SystematicError::TurnScale, 1.0);
     assert_recovers(&calibration, SystematicError::DistanceScale, 1.0);
 }
-
-/// With one row of the reference for each leg, legs end at these rows. The α's equal those of all rows up to their
-/// standard errors of 8 %, because the legs are nearly the same.
-#[test]
-fn one_reference_row_per_leg_is_enough() {
-    // Legs of a second, so that each leg ends at a row.
-    let legs = LegLength::Duration { duration: 1.0 };
-    let simulation = Simulation { legs, ..Simulation::of(NAV2, 800, 3) };
-    let [odometry, reference] = simulation.log();
-    let sparse_reference = trajectory(reference.samples().step_by(20));
-    let with_all_rows = calibrated_log(&[odometry.clone(), reference], &simulation.options());
-    let with_one_row_a_leg = calibrated_log(&[odometry, sparse_reference], &simulation.options());
-    assert!(with_one_row_a_leg.legs.len() > 780, "{}", with_one_row_a_leg.legs.len());
-    for (alpha, expected_alpha) in with_one_row_a_leg.alphas.iter().zip(&with_all_rows.alphas) {
-        let ratio = alpha.expect("identifiable") / expected_alpha.expect("identifiable");
-        assert!((ratio - 1.0).abs() < 0.08, "{ratio}");
-    }
-}

@@ -157,19 +157,6 @@ fn no_velocity_spans_a_declared_jump() {
 }
 
 #[test]
-fn leg_ends_are_at_the_same_moment_of_both_clocks() {
-    let odometry = straight_drive(101, 0.1);
-    let delayed_reference = trajectory(odometry.samples().map(|(time, pose)| (time + 3.0, pose)));
-    let legs = split_into_legs(&odometry, &delayed_reference, LegLength::AMCL, 3.0).0;
-    assert!(legs.len() > 25);
-    for leg in legs {
-        for (odometry_pose, reference_pose) in leg.odometry.iter().zip(leg.reference) {
-            assert!(odometry_pose.boxminus(&reference_pose).norm() < 1e-9);
-        }
-    }
-}
-
-#[test]
 fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
     let drive = straight_drive(1001, 0.05);
     let every_nth_row = |first: usize, step: usize| trajectory(drive.samples().skip(first).step_by(step));

@@ -1,4 +1,4 @@
-//! Angles, sinc and SE(2).
+//! Angles and SE(2).
 //!
 //! A law may be off by a few units in the last place for each map that it composes. The tolerance is 32 units, as in `group_laws.rs`,
 //! relative to the size of the arguments, which may be 10⁻³⁰⁸ or 10³⁰⁰.
@@ -27,16 +27,6 @@ proptest! {
         prop_assert_eq!(wrap_angle(wrapped_angle).to_bits(), wrapped_angle.to_bits());
         let wrapped_opposite = wrap_angle(-angle);
         prop_assert!(wrapped_opposite == -wrapped_angle || (wrapped_opposite == PI && wrapped_angle == PI));
-    }
-
-    #[test]
-    fn sinc_is_even_and_within_its_hull(t in finite_doubles()) {
-        let value = sinc(t);
-        prop_assert_eq!(value.to_bits(), sinc(-t).to_bits());
-        let bound = if t == 0.0 { 1.0 } else { (1.0 / t.abs()).min(1.0) };
-        prop_assert!(value.abs() <= bound * (1.0 + f64::EPSILON), "{}", value);
-        // Below 10⁻⁸ the second term of the series is smaller than the rounding of the first.
-        prop_assert!(t.abs() > 1e-8 || value == 1.0);
     }
 
     #[test]

@@ -28,8 +28,6 @@ fn what_is_refused_changes_nothing() {
         r#"
         it.configure({ map: 'all', printed: true })
         RangeError: map is "all"; allowed is "none" or "prob" or "density"
-        it.configure({ next: { x: NaN, y: 0, theta: 0 } })
-        RangeError: next.x is NaN; allowed is a number from -1000000 to 1000000
         it.underway(1.1)
         RangeError: share is 1.1; allowed is a number from 0 to 1
         it.surface(0, 0, -1, 1)

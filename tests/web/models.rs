@@ -192,8 +192,6 @@ fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
         RangeError: alphas has length 2; allowed is an array of 6 numbers
         new motion.OdometryModel({ alphas: [1, 2, 3, -4] })
         RangeError: alphas[3] is -4; allowed is a number from 0 to 1000000
-        new motion.VelocityModel({ alphas: Array(6).fill(0.1), seed: 1 })
-        TypeError: seed is an unknown key; allowed are alphas, noise
         it.velocity.prob({ x: 1, y: 2 }, it.command, it.start)
         TypeError: next.theta is undefined; allowed is a number
         it.odometry.prob(it.next, it.command, it.start)

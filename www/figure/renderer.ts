@@ -70,11 +70,12 @@ export class Renderer extends FigureController {
 
   setVisible(isVisible: boolean) {
     if (!isVisible && (this.isOpening || this.#textPendingSince !== undefined)) this.#renderText();
+    const hasAppeared = isVisible && !this.isVisible;
     this.isVisible = isVisible;
     this.#hasPicturesLeft = false;
     // No events report changes of colours while the figure is out of the viewport.
-    if (isVisible) this.host.colours.update();
-    else if (this.host.isAwaited) this.requestFrame();
+    if (hasAppeared) this.host.colours.update();
+    else if (!isVisible && this.host.isAwaited) this.requestFrame();
   }
 
   /** Allows the views to zoom in and recenter, for a scene that the user or the page has chosen: see `View.release`. */

@@ -14,9 +14,9 @@ const STORAGE_KEY = 'motion-widgets.introduced';
 /** Returns true if the introduction was not shown in this session, and marks it as shown. */
 function isFirstInSession() {
   try {
-    const wasShown = sessionStorage.getItem(STORAGE_KEY);
-    sessionStorage.setItem(STORAGE_KEY, 'yes');
-    return wasShown === null;
+    const wasShown = sessionStorage.getItem(STORAGE_KEY) !== null;
+    if (!wasShown) sessionStorage.setItem(STORAGE_KEY, 'yes');
+    return !wasShown;
   } catch {
     // Without storage the introduction would be shown again and again.
     return false;

@@ -313,9 +313,9 @@ impl Residuals {
             information: Information::zeros(),
             scores: vec![Parameters::zeros(); self.len()],
         };
-        // For each leg: P r (the weighted residuals, see the module), and its projections on the errors of the reference poses at start and
-        // end. The projection at a pose is Bᵀ P r of the leg that ends there, plus Aᵀ P r of the leg that starts there, where A and B are the
-        // Jacobians by the pose at the start and at the end. It is stored with the leg that ends there, if there is one.
+        // For each leg: P r, the weighted residuals, and their projections on the errors of the reference poses at start and end. A and B are
+        // the Jacobians by the pose at the start and by that at the end. The projection at a pose is Bᵀ P r of the leg that ends there, plus
+        // Aᵀ P r of the leg that starts there. It is stored with the leg that ends there, if there is one.
         let mut projected = vec![[Vector3::zeros(); 3]; self.len()];
         // V⁻¹[X r] of the next leg in the log, its block on the diagonal of V⁻¹, and its Jacobian A.
         let mut next_leg: Option<(JacobianAndResidual, Matrix3<f64>, Matrix3<f64>)> = None;

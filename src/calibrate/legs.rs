@@ -125,7 +125,7 @@ pub(super) fn turn(motion: &SE2) -> f64 {
 /// Number of legs below which no fit is tried.
 pub const MIN_LEGS: usize = 8;
 
-/// Turn (rad) below which a leg without a drive belongs to a standing robot.
+/// Turn (rad) below which the robot stands during a leg without translation.
 const MAX_STANDING_TURN: f64 = 0.02;
 
 /// Maximum ratio of the length of a leg across a pause to the length in the options. Longer legs are left out.

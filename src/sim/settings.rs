@@ -312,7 +312,7 @@ integer!(u32, u64, usize);
 /// Visitor that is called for each setting, and may stop the loop.
 pub type Visitor<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
 
-/// Loop over the settings of a widget. `settings!` implements it.
+/// Settings of a widget that can be visited one by one. `settings!` implements it.
 pub trait DeclaredSettings: Copy + Default {
     /// Names of the settings, in the order of declaration.
     const KEYS: &'static [&'static str];

@@ -168,7 +168,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
   expect(Math.max(...counts.map(({ length }) => length)), `${name}: ${JSON.stringify(counts)}`).toBeLessThanOrEqual(6);
   expect(counts.flat(), name).toEqual(expect.arrayContaining([expect.stringMatching(/^configure/), 'read']));
   await page.mouse.up();
-  // Map Squeeze measures them again once nothing moves.
+  // Map Squeeze measures those costs again once nothing moves.
   expect((await callsPerFrame()).flat().filter((key) => !['picture', 'surface', 'trial'].includes(key)), name).toEqual([]);
 });
 

@@ -98,7 +98,7 @@ async function logIsRead(read) {
   return true;
 }
 
-/** Returns recordings with four topics, one in each form: with and without compression, an index and chunks. */
+/** Returns recordings of four topics in several forms: compressed or not, with an index and chunks or without. */
 async function recordings() {
   const messages = Array.from({ length: 2 }, (_, i) => {
     const [t, stamp] = [1 + i / 8, stampOf(1 + i / 8)];

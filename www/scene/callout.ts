@@ -17,7 +17,7 @@ const MIN_DISTANCE = 9;
 const CANDIDATE_ANGLES = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
 const LEADER_LENGTHS = [MIN_LEADER, 2 * MIN_LEADER, 3 * MIN_LEADER];
 
-/** Costs of an angle of 1 rad and of the length of a leader, in the unit of overlap, pixels. */
+/** Costs of a leader: for each radian from its preferred direction, and for each pixel of its length. An overlapping pixel costs 1. */
 const TURN_COST = 1;
 const LENGTH_COST = 0.1;
 

@@ -109,7 +109,7 @@ impl Rules for Settings {
 }
 
 impl Settings {
-    /// Returns the model with its rule.
+    /// Returns the motion model, with the rule for the noise of odometry.
     pub fn model(&self) -> calibrate::Model {
         match self.model {
             Model::Odometry | Model::Omnidirectional => calibrate::Model::Odometry(self.rule),

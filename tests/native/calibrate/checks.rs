@@ -212,7 +212,7 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         ],
         [None; 2]
     );
-    // Table 5.6 takes a drive backwards for two turns by half a circle.
+    // Table 5.6 treats a backward drive as half a turn, a forward drive and half a turn.
     let reversing_simulation = Simulation {
         drive: Some(|leg| [if leg % 5 == 0 { -0.3 } else { 0.3 }, 0.2]),
         ..good_simulation(300, 12)

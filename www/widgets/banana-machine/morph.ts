@@ -97,7 +97,7 @@ export class MorphView extends View {
     return this.ends[this.morph > 0 ? 1 : 0].hasTarget;
   }
 
-  /** Sets the target of the view at an end of the morph. */
+  /** Sets the extent to which the view zooms at an end of the morph. */
   fitEnd(needed: Extent, end: 0 | 1) {
     const view = this.ends[end];
     view.hasZoomedOut = false;

@@ -1,4 +1,4 @@
-/** Readouts of Dead Reckoning: chart of the ratios by step, and table of the steps with wrong predictions (misses). */
+/** Readouts of Dead Reckoning: chart of predicted over measured covariance by step, and table of the steps with wrong predictions (misses). */
 
 import { html } from 'lit';
 import { sampleField } from '../../figure/controls.ts';

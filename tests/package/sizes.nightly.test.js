@@ -53,7 +53,7 @@ function assertSize(name, paths, limit) {
  * the module" in doc/implementation-notes.md.
  */
 const LIMITS = {
-  page: 118, moduleOfWidget: 56, pageOfCalibrator: 159, moduleOfCalibrator: 91, module: 220, classicScript: 442, notebook: 446,
+  page: 118, moduleOfWidget: 56, pageOfCalibrator: 159, moduleOfCalibrator: 91, module: 221, classicScript: 444, notebook: 449,
 };
 
 /** Widget whose module also has all of motion::calibrate. */

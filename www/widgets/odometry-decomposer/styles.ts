@@ -101,6 +101,12 @@ export const styles = css`
     padding-inline: clamp(0.05em, 4cqi - 1.1em, 0.54em);
   }
 
+  @container (width < 24em) {
+    .rules thead th:not(:first-child) {
+      font-size: 0.86em;
+    }
+  }
+
   /* The table needs room too. */
   :host([presentation]) .with-controls .stage {
     min-height: 34vh;

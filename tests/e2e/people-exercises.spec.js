@@ -90,13 +90,17 @@ test('exercise 5: noise alone stays below 40 %, and a curve does not', async ({ 
 test('exercise 7: the steps of both noises are bet on, and then the curve of the variance along the track is shown', async ({ page }) => {
   const article = await openAt(page, 'reckoning');
   const curveCheckbox = article.getByRole('checkbox', { name: 'along the track' });
+  const explanation = article.getByText('Does twice the σ halve the steps?');
   for (const [index, step] of [15, 9].entries()) {
     const form = article.locator('.bet').nth(index);
+    await expect(form.getByRole('button')).toBeDisabled();
+    await expect(explanation).toBeHidden();
     await form.getByRole('slider').press('ArrowRight');
     await expect(curveCheckbox).toBeChecked({ checked: false });
     expect(await textRevealedBy(form)).toBe(`Your bet: 11. The figure’s answer, ▲: ${step}.`);
   }
   await expect(curveCheckbox).toBeChecked();
+  await expect(explanation).toBeVisible();
   await expect(article.getByText('predicted along-track variance', { exact: true })).toBeVisible();
 });
 

@@ -127,6 +127,7 @@ export function prepareSketch(form: HTMLFormElement, enterState: (values: Record
     svgElement('headings').setAttribute('d', robotDots.map(({ tick }) => tick).join(''));
     const outline = svgElement('drawn') as SVGPathElement;
     const insideCount = robotPoses.filter(([x, y]) => outline.isPointInFill(new DOMPoint(...toPixel([x, y])))).length;
+    form.classList.add('revealed');
     statusOutput.textContent = outcomeOf(poses, checkedInput('shape')?.value ?? shapeOf(drawnPoints), insideCount / robotPoses.length);
   });
   resetDrawing();

@@ -66,6 +66,22 @@ test('a page with one figure fetches the module of that figure @nightly', async 
   }
 });
 
+test('a script that contains the module compiles it while it is evaluated, and no placeholder is rendered then', async ({ page }) => {
+  await countFramesAndModules(page);
+  // The second import is evaluated in the same task as the first one.
+  const readCount = 'data:text/javascript,window.compiledDuringScript = counts.compiled';
+  await showPage(page, '<banana-machine></banana-machine>', { script: `<script type="module">import '/motion-widgets.js'; import '${readCount}'</script>` });
+  await untilReady(page.locator('banana-machine'));
+  expect(await page.evaluate(() => Reflect.get(window, 'compiledDuringScript'))).toBe(1);
+  const firstContents = await page.evaluate(async () => {
+    const figure = /** @type {any} */ (document.createElement('banana-machine'));
+    document.body.prepend(figure);
+    await figure.updateComplete;
+    return ['.machine', '.reserved'].map((selector) => figure.shadowRoot.querySelector(selector) !== null);
+  });
+  expect(firstContents).toEqual([true, false]);
+});
+
 test('figures within six hundred pixels of the window start, and others do not', async ({ page }) => {
   const sections = [560, 620].map((below) => `<div style="position: absolute; top: calc(100vh + ${below}px); width: 600px"><map-squeeze></map-squeeze></div>`);
   await showPage(page, sections.join(''));

@@ -146,7 +146,7 @@ test('settled waits for the text that follows a picture on a slow device', async
   expect(shownSpeeds).toEqual([0.5, 1.5, 0.6]);
 });
 
-test('a cloud that is half grown stays so over a move and over a removal @nightly', async ({ page, cloud }) => {
+test('a cloud that is half grown stays so over a move and over a removal', async ({ page, cloud }) => {
   await showPage(page, `<div id="a"><${cloud}></${cloud}></div><div id="b"></div>`);
   const widget = page.locator(cloud);
   await untilReady(widget);
@@ -211,7 +211,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   expect(heights).toEqual([height, height]);
 });
 
-test('a figure keeps what the user did in the moment before it was removed @nightly', async ({ page, figure }) => {
+test('a figure keeps what the user did in the moment before it was removed', async ({ page, figure }) => {
   const { slider, at, values: [value] } = FIGURE_FACTS[figure];
   const widget = await mount(page, figure);
   const stateAfter = await widget.evaluate(async (element, [id, to]) => {

@@ -12,30 +12,30 @@ const TOLERANCE = 1e-9;
 
 /** Returns the names and values of the statistics in which the core and the baseline differ. @param {import('../www/types.d.ts').Motion} motion @param {number} samples */
 export function differencesFromCore(motion, samples) {
-  const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 11, command: commandAt(0) });
-  const baseline = new Baseline(ALPHAS, unitNoiseOf(machine));
+  const simulation = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 11, command: commandAt(0) });
+  const baseline = new Baseline(ALPHAS, unitNoiseOf(simulation));
   /** @type {string[]} */
   const differenceTexts = [];
   for (const step of [0, 30]) {
-    const { stats } = statsAndContours(machine, step);
+    const { stats } = statsAndContours(simulation, step);
     const baselineResult = baseline.refresh(commandAt(step), PICTURE_VIEW, COLOUR_RAMP);
     for (const [name, value] of numbersByPath(baselineResult.stats)) {
       const coreValue = name.split('.').reduce((part, key) => part[key], /** @type {any} */ (stats));
       // NaN is a difference too.
       if (!(Math.abs(value - coreValue) <= TOLERANCE)) differenceTexts.push(`${name}: ${value}, core ${coreValue}`);
     }
-    const pixels = densityPixels(machine);
+    const pixels = densityPixels(simulation);
     const differingCount = baselineResult.pixels.filter((value, i) => value !== pixels[i]).length;
     if (differingCount > 0) differenceTexts.push(`pixels: ${differingCount} differ`);
   }
-  machine.free();
+  simulation.free();
   return differenceTexts;
 }
 
 /**
- * Returns the standard normal noise of a machine's samples: executed command minus given command, over the deviations of the model.
+ * Returns the standard normal noise of a simulation's samples: executed command minus given command, over the deviations of the model.
  *
- * @param {import('../www/types.d.ts').BananaMachine} machine
+ * @param {import('../www/types.d.ts').BananaMachine} simulation
  */
 export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, a3, a4, a5, a6] }, executed }) {
   const deviations = [[a1, a2], [a3, a4], [a5, a6]].map(([byV, byOmega]) => Math.sqrt(byV * v * v + byOmega * omega * omega));

@@ -96,7 +96,7 @@ async function timeDrag({ widget, selector, i, steps }) {
   // During the first steps the browser compiles the code that later steps run.
   for (let step = -6; step < steps; step++) {
     await new Promise(requestAnimationFrame);
-    const [configBefore, picturesBefore] = [JSON.stringify(figure.machine.config), pictureCount];
+    const [configBefore, picturesBefore] = [JSON.stringify(figure.simulation.config), pictureCount];
     let frameStart = 0;
     // Requested before the step, so that it runs before the figure's own callback.
     const picture = new Promise((resolve) =>
@@ -109,7 +109,7 @@ async function timeDrag({ widget, selector, i, steps }) {
     sendStep(step);
     let pictureTime = /** @type {number} */ (await picture);
     // On a busy machine the picture may come a frame late.
-    for (let frame = 1; pictureCount === picturesBefore || JSON.stringify(figure.machine.config) === configBefore; frame++) {
+    for (let frame = 1; pictureCount === picturesBefore || JSON.stringify(figure.simulation.config) === configBefore; frame++) {
       if (frame === MAX_FRAMES) throw new Error(`A step of ${target.id || target.className} has no picture after ${MAX_FRAMES} frames.`);
       await new Promise(requestAnimationFrame);
       pictureTime = await untilFrameDone();

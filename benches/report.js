@@ -11,7 +11,7 @@ import { SLOWDOWN } from './drag.js';
  * @typedef {import('./suite.js').Timings} Timings
  *
  * @typedef {object} Results
- * @property {Record<string, string>} ranOn machine, versions and date
+ * @property {Record<string, string>} ranOn simulation, versions and date
  * @property {boolean} quick
  * @property {Timings} node
  * @property {Timings} chromium

@@ -31,21 +31,21 @@ export function commandAt(event) {
 /**
  * Returns the pixels of the density from the core.
  *
- * @param {BananaMachine} machine
+ * @param {BananaMachine} simulation
  * @param {Picture} [picture]
  * @returns {Uint8ClampedArray}
  */
-export function densityPixels(machine, { xMin, yMin, xMax, yMax, columns, rows } = PICTURE_VIEW) {
-  return machine.picture('plane', xMin, yMin, xMax, yMax, columns, rows, COLOUR_RAMP);
+export function densityPixels(simulation, { xMin, yMin, xMax, yMax, columns, rows } = PICTURE_VIEW) {
+  return simulation.picture('plane', xMin, yMin, xMax, yMax, columns, rows, COLOUR_RAMP);
 }
 
 /**
  * Reads everything that a page needs after an event, except for the picture.
  *
- * @param {BananaMachine} machine
+ * @param {BananaMachine} simulation
  * @param {number} event
  */
-export function statsAndContours(machine, event) {
-  machine.configure({ command: commandAt(event) });
-  return { stats: machine.stats, contours: machine.contours };
+export function statsAndContours(simulation, event) {
+  simulation.configure({ command: commandAt(event) });
+  return { stats: simulation.stats, contours: simulation.contours };
 }

@@ -7,7 +7,7 @@
 /** Stages that end with each mark, in order. */
 const STAGE_OF_MARK = /** @type {const} */ ({
   evaluated: 'the script is evaluated',
-  drawn: 'module, machine, first rendering, first samples drawn',
+  drawn: 'module, simulation, first rendering, first samples drawn',
   shown: 'the frame is handed over',
 });
 

@@ -30,15 +30,15 @@ export async function measure(motion, { quick, log }) {
   const seconds = quick ? 0.2 : 2;
   const refresh = [];
   for (const samples of [1e4, 1e5, 1e6]) {
-    const machine = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 1, command: commandAt(0) });
-    const baselineMachine = new Baseline(ALPHAS, unitNoiseOf(machine));
+    const simulation = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 1, command: commandAt(0) });
+    const baselineSimulation = new Baseline(ALPHAS, unitNoiseOf(simulation));
     const refreshCore = (/** @type {number} */ event) => {
-      statsAndContours(machine, event);
-      densityPixels(machine);
+      statsAndContours(simulation, event);
+      densityPixels(simulation);
     };
-    const refreshBaseline = (/** @type {number} */ event) => void baselineMachine.refresh(commandAt(event), PICTURE_VIEW, COLOUR_RAMP);
+    const refreshBaseline = (/** @type {number} */ event) => void baselineSimulation.refresh(commandAt(event), PICTURE_VIEW, COLOUR_RAMP);
     refresh.push({ samples, ...(await raceContenders({ core: refreshCore, baseline: refreshBaseline }, seconds)) });
-    machine.free();
+    simulation.free();
   }
   const [odometry, reference] = [log.odometry, log.reference].map(columnsOf);
   const { calibration } = await raceContenders({ calibration: () => void motion.calibrate({ odometry, reference }) }, seconds);

@@ -1,5 +1,5 @@
 /**
- * Races of contenders, which take turns within one run. What slows the machine down then slows all of them, and ratios are computed for each
+ * Races of contenders, which take turns within one run. What slows the simulation down then slows all of them, and ratios are computed for each
  * turn.
  *
  * @module

@@ -84,7 +84,7 @@ function isCurrent(stamp, sourceHash, products) {
 /**
  * Builds cores, each a module and its glue.
  *
- * @param {string[]} exportNames "motion" for the whole core, or the tags of figures, whose cores have their own machine alone
+ * @param {string[]} exportNames "motion" for the whole core, or the tags of figures, whose cores have their own simulation alone
  * @param {boolean} local
  */
 async function buildCores(exportNames, local) {
@@ -252,7 +252,7 @@ async function writeGlue(name, glueNames) {
     '};',
   ];
   writeFileSync(pathOf(`build/${name}.js`), `${lines.join('\n')}\n`);
-  const declaration = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./machines.d.ts")>;\n';
+  const declaration = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./simulations.d.ts")>;\n';
   writeFileSync(pathOf(`build/${name}.d.ts`), `${declaration}export default instantiate;\n`);
 }
 

@@ -114,7 +114,7 @@ const MODULE_SCRIPTS = {
   },
 };
 
-/** Returns the module that a widget needs, without the machines of others. @param {string} tag */
+/** Returns the module that a widget needs, without the simulations of others. @param {string} tag */
 const moduleOf = (tag) => hashedFile(tag, '.wasm', readFileSync(pathOf(`build/${tag}.wasm`)));
 
 /**
@@ -276,7 +276,7 @@ export async function bundle({ tags = WIDGETS, transformScript = (_, script) => 
   appendFileSync(pathOf('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${slideStyle}\n${reservedHeights}\n`);
   write(pathOf('dist/motion.wasm'), wasm);
   for (const { path, contents } of [bytesModule, ...tags.map(moduleOf)]) write(pathOf(path), contents);
-  const typings = { core: 'www/types.d.ts', machines: 'build/machines.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
+  const typings = { core: 'www/types.d.ts', simulations: 'build/simulations.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
   for (const [name, path] of Object.entries(typings)) write(pathOf(`dist/${name}.d.ts`), withLocalImports(readFileSync(pathOf(path), 'utf8')));
   write(pathOf('dist/external.d.ts'), ELEMENT_DECLARATIONS);
   for (const name of ['de', 'motion-widgets.css']) write(pathOf(`dist/${name}.d.ts`), 'export {};\n');

@@ -22,7 +22,7 @@ import { importTypeScript } from './typescript.mjs';
  *
  * @typedef {object} Widget
  * @property {string} tag
- * @property {string} machine name of its class in the core; the class of its element has the suffix Element
+ * @property {string} className name of its class in the core; the class of its element has the suffix Element
  * @property {Attribute[]} attributes attributes, each of which is also a property
  * @property {Field[]} properties properties without an attribute
  * @property {Field[]} state fields of the state that only this widget has
@@ -151,7 +151,7 @@ async function describeWidget(tag) {
   });
   const state = new Map([...wholeSettings.map(fieldOf), ...documentedElementFields, ...Object.entries(stateTable).map(documentedItem)].map((item) => [item.name, item]));
   for (const { name, type } of state.values()) if (!type) throw new Error(`${tag}: nothing says what ${name} is in its state.`);
-  return { tag, machine: pascalCase(tag), attributes: attributeList, properties, state: [...state.values()] };
+  return { tag, className: pascalCase(tag), attributes: attributeList, properties, state: [...state.values()] };
 }
 
 /** @param {Declaration} declaration */

@@ -24,7 +24,7 @@ import { classComments, oneLine, widgets } from './declarations.mjs';
 export async function manifest() {
   const { schemaVersion, classes } = await classComments();
   const declarations = (await widgets()).map((widget) => {
-    const name = `${widget.machine}Element`;
+    const name = `${widget.className}Element`;
     return elementOf(widget, name, classes.get(name));
   });
   const modulePath = 'dist/external.js';
@@ -37,16 +37,16 @@ export async function manifest() {
  * @param {string} name of its element's class
  * @param {any} analyzedClass comments of the class, as the analyzer reads them
  */
-function elementOf({ tag, machine, attributes, properties }, name, analyzedClass) {
-  /** Replaces the general names of types in the common class by those of this machine. @param {string} type */
-  const withMachineNames = (type) => ({ text: type.replace(/\bMachine\b/, machine).replace(/\bValues\b/, `${machine}State`) });
-  const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withMachineNames(type.text) }), description: description && oneLine(description) });
+function elementOf({ tag, className, attributes, properties }, name, analyzedClass) {
+  /** Replaces the general names of types in the common class by those of this class. @param {string} type */
+  const withClassNames = (type) => ({ text: type.replace(/\bSimulation\b/, className).replace(/\bValues\b/, `${className}State`) });
+  const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withClassNames(type.text) }), description: description && oneLine(description) });
   const documentedItems = (/** @type {any[]} */ items) => items.filter(({ description }) => description).map(itemOf);
   const memberOf = (/** @type {any} */ { kind, parameters, return: result, readonly, ...rest }) => ({
     kind,
     ...itemOf(rest),
     ...(parameters && { parameters: parameters.map(itemOf) }),
-    ...(kind === 'method' && result && { return: { type: withMachineNames(result.type.text) } }),
+    ...(kind === 'method' && result && { return: { type: withClassNames(result.type.text) } }),
     ...(readonly && { readonly }),
   });
   return {

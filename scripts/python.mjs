@@ -34,11 +34,11 @@ export async function writePython() {
 export async function elementsSource() {
   const { GLOBAL_ATTRIBUTES } = await importTypeScript('www/named.ts');
   const { classes } = await classComments();
-  const widgetClasses = (await widgets()).map(({ tag, machine, attributes, properties }) => {
+  const widgetClasses = (await widgets()).map(({ tag, className, attributes, properties }) => {
     const documentedFields = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
     const traits = documentedFields.filter(({ readonly }) => !readonly).map((field) => ({ ...field, trait: traitOf(field, tag) }));
     const globalTraits = GLOBAL_ATTRIBUTES.map((/** @type {string} */ name) => ({ name, trait: OPTIONAL_TRAITS.Unicode, description: `As the attribute \`${name}\` of HTML.` }));
-    return { machine, tag, sentence: oneLine(classes.get(`${machine}Element`).description), traits: [...traits, ...globalTraits] };
+    return { className, tag, sentence: oneLine(classes.get(`${className}Element`).description), traits: [...traits, ...globalTraits] };
   });
   const lines = [
     '# Generated from the declarations by `npm run build`: not to be edited.',
@@ -50,10 +50,10 @@ export async function elementsSource() {
     'from ._figure import Figure',
     'from ._traits import Group, Number, Sequence, Whole, Word',
     '',
-    `__all__ = [${widgetClasses.map(({ machine }) => quoted(machine)).join(', ')}]`,
+    `__all__ = [${widgetClasses.map(({ className }) => quoted(className)).join(', ')}]`,
   ];
-  for (const { machine, tag, sentence, traits } of widgetClasses) {
-    lines.push('', '', '@t.signature_has_traits', `class ${machine}(Figure):`, `    """${sentence}`, '');
+  for (const { className, tag, sentence, traits } of widgetClasses) {
+    lines.push('', '', '@t.signature_has_traits', `class ${className}(Figure):`, `    """${sentence}`, '');
     for (const { name, description, trait } of traits) lines.push(`    ${pythonName(name)}:`, `        ${withPythonNames(description)}${wordSentence(trait)}`);
     lines.push('    """', '', `    widget = t.Unicode(${quoted(tag)}, read_only=True).tag(sync=True)`);
     for (const { name, trait } of traits) lines.push(`    ${pythonName(name)} = ${trait}`);

@@ -18,19 +18,19 @@ export async function writeComponents() {
 }
 
 /** @param {Widget} widget */
-function componentOf({ tag, machine, attributes, properties }) {
+function componentOf({ tag, className, attributes, properties }) {
   const propNames = {
     attributes: Object.fromEntries(attributes.map(({ name, property = name }) => [property, name])),
     // A boolean attribute without a default is true if it is present. The others are written as true or false.
     flags: attributes.filter(({ type, opening }) => type === 'boolean' && opening === undefined).map(({ name }) => name),
     properties: properties.filter(({ readonly }) => !readonly).map(({ name }) => name),
   };
-  return `export const ${machine} = component('${machine}', '${tag}', ${JSON.stringify(propNames)});\n`;
+  return `export const ${className} = component('${className}', '${tag}', ${JSON.stringify(propNames)});\n`;
 }
 
 /** @param {Widget[]} allWidgets */
 function importLines(allWidgets) {
-  const elements = allWidgets.map(({ machine }) => `${machine}Element`);
+  const elements = allWidgets.map(({ className }) => `${className}Element`);
   return (
     "import type { ClassAttributes, ForwardRefExoticComponent, HTMLAttributes, RefAttributes } from 'react';\n" +
     `import type { ${[...elements, 'FigureElement', 'FigureEvents'].sort().join(', ')} } from '../www/types.d.ts';\n`
@@ -85,20 +85,20 @@ type Tag<Element extends FigureElement<any, any>, Names extends keyof Element> =
 `;
 
 /** @param {Widget} widget */
-function componentTypesOf({ tag, machine, attributes, properties }) {
+function componentTypesOf({ tag, className, attributes, properties }) {
   const attributeNames = unionType(attributes.map(({ name, property = name }) => property));
   const propertyNames = unionType(properties.filter(({ readonly }) => !readonly).map(({ name }) => name));
   return (
-    `type ${machine}Attributes = ${attributeNames};\n\n` +
-    `/** Props of \`<${machine}>\`. */\n` +
-    `export type ${machine}Props = Props<${machine}Element, ${machine}Attributes | ${propertyNames}>;\n\n` +
+    `type ${className}Attributes = ${attributeNames};\n\n` +
+    `/** Props of \`<${className}>\`. */\n` +
+    `export type ${className}Props = Props<${className}Element, ${className}Attributes | ${propertyNames}>;\n\n` +
     `/** \`<${tag}>\` as a component. */\n` +
-    `export declare const ${machine}: ForwardRefExoticComponent<${machine}Props & RefAttributes<${machine}Element>>;\n`
+    `export declare const ${className}: ForwardRefExoticComponent<${className}Props & RefAttributes<${className}Element>>;\n`
   );
 }
 
 /** @param {Widget[]} allWidgets */
 function jsxTags(allWidgets) {
-  const tagLines = allWidgets.map(({ tag, machine }) => `      '${tag}': Tag<${machine}Element, ${machine}Attributes>;\n`);
+  const tagLines = allWidgets.map(({ tag, className }) => `      '${tag}': Tag<${className}Element, ${className}Attributes>;\n`);
   return `declare module 'react' {\n  namespace JSX {\n    interface IntrinsicElements {\n${tagLines.join('')}    }\n  }\n}\n`;
 }

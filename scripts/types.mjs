@@ -1,4 +1,4 @@
-// Generates TypeScript types from the declarations: build/machines.d.ts of the core, build/elements.d.ts of the elements, and the tags in
+// Generates TypeScript types from the declarations: build/simulations.d.ts of the core, build/elements.d.ts of the elements, and the tags in
 // templates of Solid and Svelte. www/types.d.ts exports the first two, and contains the types that are written by hand.
 
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -25,7 +25,7 @@ const TEMPLATE_TYPES = {
 export async function writeTypes() {
   const allWidgets = await widgets();
   const core = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
-  writeFileSync(join(ROOT, 'build/machines.d.ts'), [DISPOSABLE_LIBRARY, HEADER, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
+  writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, HEADER, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
   writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEADER, importLine(allWidgets), await figureType(allWidgets), ...(await Promise.all(allWidgets.map(elementTypes))), tagNames(allWidgets)].join('\n'));
   for (const [name, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_TYPES)) {
     writeFileSync(
@@ -76,7 +76,7 @@ async function figureType([{ attributes }]) {
   /** @type {any[]} */
   const members = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
   /** Replaces the type of any widget by a type parameter. @param {{ type: { text: string } }} [typedItem] */
-  const typeIn = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bMachine\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
+  const typeIn = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
   const fields = members.map(({ kind, name, description, parameters = [], type, return: result, readonly }) => {
     const parameterTexts = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);
     return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeIn(kind === 'method' ? result : { type }), description: oneLine(description), readonly };
@@ -87,7 +87,7 @@ async function figureType([{ attributes }]) {
     return { name, type: text === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : text, description: oneLine(description) };
   });
   return (
-    `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its machine. */\n${asInterface('FigureEvents<Stats>', events)}\n` +
+    `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its class. */\n${asInterface('FigureEvents<Stats>', events)}\n` +
     '/** Members of every element. */\n' +
     asInterface('FigureElement<State extends FigureState, Stats>', [...commonFields, ...fields, ...LISTENER_FIELDS], 'HTMLElement')
   );
@@ -103,33 +103,33 @@ const LISTENER_FIELDS = ['add', 'remove'].flatMap((verb) => {
 });
 
 /** @param {import('./declarations.mjs').Widget} widget */
-async function elementTypes({ tag, machine, attributes, properties, state }) {
+async function elementTypes({ tag, className, attributes, properties, state }) {
   const { COMMON_ATTRS } = await importTypeScript('www/figure/attributes.ts');
-  const element = `FigureElement<${machine}State, ${machine}['stats']>`;
+  const element = `FigureElement<${className}State, ${className}['stats']>`;
   const widgetField = { name: 'widget', type: `'${tag}'`, description: '' };
   // Members of every figure are in FigureElement.
   const ownFields = attributes.filter(({ name }) => !(name in COMMON_ATTRS)).map((attribute) => ({ ...attribute, isText: true }));
   return (
-    `${asInterface(`${machine}State`, [widgetField, ...state], 'FigureState')}\n` +
+    `${asInterface(`${className}State`, [widgetField, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +
-    asInterface(`${machine}Element`, [...ownFields, ...properties], element)
+    asInterface(`${className}Element`, [...ownFields, ...properties], element)
   );
 }
 
 /** @param {import('./declarations.mjs').Widget[]} widgets */
 function importLine(widgets) {
   const types = widgets.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
-  const neededNames = new Set(['FigureState', ...widgets.map(({ machine }) => machine), ...types]);
+  const neededNames = new Set(['FigureState', ...widgets.map(({ className }) => className), ...types]);
   const importedNames = [...neededNames].filter((name) => !(name in globalThis));
   return `import type { ${importedNames.sort().join(', ')} } from '../www/types.d.ts';\n`;
 }
 
 /** @param {import('./declarations.mjs').Widget[]} widgets */
 function tagNames(widgets) {
-  const mapLines = widgets.map(({ tag, machine }) => `    '${tag}': ${machine}Element;\n`);
-  const tagLines = widgets.map(({ tag, machine, attributes, properties }) => {
+  const mapLines = widgets.map(({ tag, className }) => `    '${tag}': ${className}Element;\n`);
+  const tagLines = widgets.map(({ tag, className, attributes, properties }) => {
     const fields = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
-    return `  '${tag}': TemplateValues<${machine}Element, ${unionType(fields)}>;\n`;
+    return `  '${tag}': TemplateValues<${className}Element, ${unionType(fields)}>;\n`;
   });
   return `/** Values that a template gives to an element: numbers and lists also as text, as attributes have them. */
 type TemplateValues<Element, Names extends keyof Element> = { [Name in Names]?: Element[Name] | string | null } & { 'heading-level'?: string };

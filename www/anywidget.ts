@@ -58,7 +58,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
     queueMicrotask(() => {
       isScheduled = false;
       // The element was removed. The model already has the values that it showed last.
-      if (!element.machine) return;
+      if (!element.simulation) return;
       const ownTraits = traits.filter(([, property]) => !GLOBAL_ATTRIBUTES.includes(property));
       const traitValues = ownTraits.map(([trait, property]) => [trait, jsonValue(element[property])] as [string, unknown]);
       // Nulls come last, because a null (no preset, for example) follows from the other values, and other views apply values in this order.

@@ -88,9 +88,9 @@ export async function instantiateShared({ module, glue }: SharedCore): Promise<M
   return createCore(module);
 }
 
-/** Prevents the garbage collector from freeing a machine of a core that has trapped: the memory of the core may be damaged. */
-export function abandonMachine(machine: { free(): void }) {
-  (machine as unknown as { __destroy_into_raw(): number }).__destroy_into_raw();
+/** Prevents the garbage collector from freeing a simulation of a core that has trapped: the memory of the core may be damaged. */
+export function abandonSimulation(simulation: { free(): void }) {
+  (simulation as unknown as { __destroy_into_raw(): number }).__destroy_into_raw();
 }
 
 /** True after a module could not be fetched. */

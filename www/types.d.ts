@@ -1,13 +1,13 @@
-/** Types that the code imports. scripts/types.mjs generates those of settings, machines and elements from their declarations. */
+/** Types that the code imports. scripts/types.mjs generates those of settings, simulations and elements from their declarations. */
 
-import type { BananaMachineSettings, CalibrationOptions, MapSqueezeSettings, Start } from '../build/machines.d.ts';
+import type { BananaMachineSettings, CalibrationOptions, MapSqueezeSettings, Start } from '../build/simulations.d.ts';
 import type { BananaMachineElement, BananaMachineState, FigureElement } from '../build/elements.d.ts';
 
-export type * from '../build/machines.d.ts';
+export type * from '../build/simulations.d.ts';
 export type * from '../build/elements.d.ts';
 
 /** JavaScript interface of the core, as `load()` returns it. Units are metres, radians and seconds. */
-export type Motion = typeof import('../build/machines.d.ts');
+export type Motion = typeof import('../build/simulations.d.ts');
 
 /** Returns the core, see core.ts. */
 export declare function load(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;

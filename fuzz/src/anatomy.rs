@@ -18,44 +18,44 @@ pub fn run(bytes: &[u8]) {
         assert!(ArcAnatomy::new(first_settings).is_err());
         return;
     }
-    let mut machine = ArcAnatomy::new(first_settings).expect("allowed");
+    let mut simulation = ArcAnatomy::new(first_settings).expect("allowed");
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
         if input.next_choice(3) == 0 {
-            position_at(&machine, input.number_within(0.0..=1.0));
+            position_at(&simulation, input.number_within(0.0..=1.0));
         } else {
-            configure(&mut machine, &mut input);
+            configure(&mut simulation, &mut input);
         }
     }
-    assert_results(&machine);
+    assert_results(&simulation);
     // Paths are checked rarely: they have a thousand points, each with a sine and a cosine.
     if checks_paths && is_selected(4, bytes) {
-        assert_paths(&machine);
+        assert_paths(&simulation);
     }
     // Maps are checked rarely: one takes as long as hundreds of other calls.
     if is_selected(256, bytes) {
-        assert_surface(&machine, &mut input);
+        assert_surface(&simulation, &mut input);
     }
 }
 
-fn configure(machine: &mut ArcAnatomy, input: &mut Input) {
-    let settings = with_changes(machine.settings(), input);
+fn configure(simulation: &mut ArcAnatomy, input: &mut Input) {
+    let settings = with_changes(simulation.settings(), input);
     if are_allowed(&settings) {
-        machine.configure(settings).expect("allowed");
+        simulation.configure(settings).expect("allowed");
         return;
     }
-    let settings_before = *machine.settings();
-    assert!(machine.configure(settings).is_err());
-    assert_eq!(*machine.settings(), settings_before);
+    let settings_before = *simulation.settings();
+    assert!(simulation.configure(settings).is_err());
+    assert_eq!(*simulation.settings(), settings_before);
 }
 
 /// Asserts that all results are finite, or have the documented value where they are undefined.
-fn assert_results(machine: &ArcAnatomy) {
-    let settings = machine.settings();
+fn assert_results(simulation: &ArcAnatomy) {
+    let settings = simulation.settings();
     let Stats { commanded, inverted, driven, last_turn, factors, weakest, prob, share, density, xi } =
-        machine.stats();
+        simulation.stats();
     for (label, arc) in [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven)] {
         assert_arc(label, arc);
     }
@@ -79,11 +79,11 @@ fn assert_results(machine: &ArcAnatomy) {
         [start.x(), start.y(), next.x(), next.y()].iter().fold(0.0, |largest: f64, at| largest.max(at.abs()));
     let distance_to_next = |[x, y]: [f64; 2]| (x - next.x()).hypot(y - next.y());
     // With a signed radius, both the inverted arc and the constant twist lead to the final position.
-    let arc_ends = [[inverted.end[0], inverted.end[1]], position_at(machine, 1.0)];
+    let arc_ends = [[inverted.end[0], inverted.end[1]], position_at(simulation, 1.0)];
     let tolerance = laws::ROUNDING * largest_extent + f64::MIN_POSITIVE;
     assert!(arc_ends.iter().all(|end| distance_to_next(*end) <= tolerance), "{arc_ends:?} for {settings:?}");
-    assert_eq!(position_at(machine, 0.0), [start.x(), start.y()]);
-    assert_table(machine, prob);
+    assert_eq!(position_at(simulation, 0.0), [start.x(), start.y()]);
+    assert_table(simulation, prob);
 }
 
 fn poses(settings: &Settings) -> (SE2, SE2) {
@@ -91,28 +91,28 @@ fn poses(settings: &Settings) -> (SE2, SE2) {
     (SE2::new(x, y, theta), SE2::new(next.x, next.y, next.theta))
 }
 
-fn assert_table(machine: &ArcAnatomy, prob: f64) {
-    let (start, next) = poses(machine.settings());
-    let Table { lines: [mu, x, y, radius, controls @ ..], middle, normal } = machine.table();
+fn assert_table(simulation: &ArcAnatomy, prob: f64) {
+    let (start, next) = poses(simulation.settings());
+    let Table { lines: [mu, x, y, radius, controls @ ..], middle, normal } = simulation.table();
     let relative_pose = start.inverse() * next;
     let has_no_displacement = [relative_pose.x(), relative_pose.y()] == [0.0; 2];
     assert!([x, y, radius].iter().all(|line| !line.is_nan()), "{x} {y} {radius}");
     assert!(!mu.is_nan() || has_no_displacement, "{mu} for {relative_pose:?}");
-    assert!(!machine.settings().printed || radius >= 0.0, "{radius}");
+    assert!(!simulation.settings().printed || radius >= 0.0, "{radius}");
     laws::assert_finite("controls", &controls[..4]);
     laws::assert_same_numbers("p", &controls[4..], &[prob]);
     laws::assert_finite("middle and normal", &[middle, normal].concat());
 }
 
-fn assert_paths(machine: &ArcAnatomy) {
-    let Paths { commanded, inverted, driven, lie, ticks } = machine.paths();
+fn assert_paths(simulation: &ArcAnatomy) {
+    let Paths { commanded, inverted, driven, lie, ticks } = simulation.paths();
     for (label, path) in
         [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven), ("lie", &lie)]
     {
         laws::assert_finite(label, path.as_flattened());
     }
     laws::assert_finite("ticks", ticks.as_flattened());
-    let Stats { inverted: ArcWithCircle { end: [x, y, _], .. }, .. } = machine.stats();
+    let Stats { inverted: ArcWithCircle { end: [x, y, _], .. }, .. } = simulation.stats();
     assert_eq!(inverted.last(), Some(&[x, y]));
 }
 
@@ -125,17 +125,17 @@ fn assert_arc(label: &str, arc: &ArcWithCircle) {
 }
 
 /// Returns the position on the path of constant twist after a fraction of the time.
-fn position_at(machine: &ArcAnatomy, fraction: f64) -> [f64; 2] {
-    let poses = machine.poses_at(fraction);
+fn position_at(simulation: &ArcAnatomy, fraction: f64) -> [f64; 2] {
+    let poses = simulation.poses_at(fraction);
     poses.iter().for_each(|pose| laws::assert_pose("poses_at", pose));
     [poses[2].x(), poses[2].y()]
 }
 
 /// Asserts that contours have finite points inside the rectangle.
-fn assert_surface(machine: &ArcAnatomy, input: &mut Input) {
+fn assert_surface(simulation: &ArcAnatomy, input: &mut Input) {
     let Grid { min, max, .. } = banana::read_grid(input);
-    let surface = machine.surface(min, max);
-    assert_eq!(surface.is_none(), machine.settings().map == SurfaceKind::Nothing);
+    let surface = simulation.surface(min, max);
+    assert_eq!(surface.is_none(), simulation.settings().map == SurfaceKind::Nothing);
     let Some(Surface { columns, rows, shades, prob, density }) = surface else { return };
     assert!(shades.len() == columns * rows && !shades.is_empty(), "{columns} × {rows}");
     for [x, y] in prob.iter().chain(&density).flatten() {

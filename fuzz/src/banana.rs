@@ -18,29 +18,29 @@ const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let [checks_curves, checks_second_machine] = [0; 2].map(|_| input.next_choice(4) == 1);
+    let [checks_curves, checks_second_simulation] = [0; 2].map(|_| input.next_choice(4) == 1);
     let first_settings = with_changes(&limit_samples(Settings::default()), &mut input);
     if !are_allowed(&first_settings) {
         assert!(BananaMachine::with_shown_count(first_settings, 0).is_err());
         return;
     }
-    let mut machine = BananaMachine::with_shown_count(limit_samples(first_settings), 0).expect("allowed");
+    let mut simulation = BananaMachine::with_shown_count(limit_samples(first_settings), 0).expect("allowed");
     if input.next_bool() {
-        machine.add_samples(MAX_SAMPLES);
+        simulation.add_samples(MAX_SAMPLES);
     }
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
-        call_method(&mut machine, &mut input);
+        call_method(&mut simulation, &mut input);
     }
-    assert_results(&machine);
+    assert_results(&simulation);
     // Slow checks run for some inputs only.
     if checks_curves {
-        assert_contours(&machine);
+        assert_contours(&simulation);
     }
-    if checks_second_machine {
-        assert_equals_new_machine(&machine);
+    if checks_second_simulation {
+        assert_equals_new_simulation(&simulation);
     }
 }
 
@@ -49,27 +49,27 @@ fn limit_samples(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
-fn call_method(machine: &mut BananaMachine, input: &mut Input) {
+fn call_method(simulation: &mut BananaMachine, input: &mut Input) {
     match input.next_choice(9) {
-        0 => configure(machine, input),
-        1 => assert_same_in_blocks(machine, input),
+        0 => configure(simulation, input),
+        1 => assert_same_in_blocks(simulation, input),
         2 => {
-            let count_before = machine.shown_count();
+            let count_before = simulation.shown_count();
             let count = input.next_choice(MAX_SAMPLES);
-            let count_after = machine.add_samples(count);
-            assert_eq!(count_after, (count_before + count).min(machine.settings().samples));
+            let count_after = simulation.add_samples(count);
+            assert_eq!(count_after, (count_before + count).min(simulation.settings().samples));
         }
         3 => {
-            machine.configure_first(*machine.settings(), 0).expect("allowed");
-            assert_eq!(machine.shown_count(), 0);
+            simulation.configure_first(*simulation.settings(), 0).expect("allowed");
+            assert_eq!(simulation.shown_count(), 0);
         }
-        4 => assert_picture(machine, input),
-        5 => assert_nearest(machine, input),
-        6 => assert_executed(machine, usize::from(input.next_byte())),
-        7 => assert_table(machine),
+        4 => assert_picture(simulation, input),
+        5 => assert_nearest(simulation, input),
+        6 => assert_executed(simulation, usize::from(input.next_byte())),
+        7 => assert_table(simulation),
         _ => {
             let [x, y] = [0; 2].map(|_| input.number_within(QUANTITY_RANGE));
-            let current_command = machine.settings().command;
+            let current_command = simulation.settings().command;
             let reaching_command = command_reaching(x, y, &current_command);
             // The speed may be infinite, because the circle of a nearly straight arc may be too long for a double.
             assert!(!reaching_command.v.is_nan() && reaching_command.omega.is_finite(), "{reaching_command:?} to {x}, {y}");
@@ -77,47 +77,47 @@ fn call_method(machine: &mut BananaMachine, input: &mut Input) {
     }
 }
 
-fn configure(machine: &mut BananaMachine, input: &mut Input) {
-    let settings = with_changes(machine.settings(), input);
+fn configure(simulation: &mut BananaMachine, input: &mut Input) {
+    let settings = with_changes(simulation.settings(), input);
     if are_allowed(&settings) {
-        machine.configure(limit_samples(settings)).expect("allowed");
+        simulation.configure(limit_samples(settings)).expect("allowed");
         return;
     }
-    let (settings_before, results_before) = (*machine.settings(), all_results(machine));
-    assert!(machine.configure(settings).is_err() && machine.configure_first(settings, 0).is_err());
-    assert_eq!(*machine.settings(), settings_before);
-    laws::assert_same_numbers("after a refusal", &all_results(machine), &results_before);
+    let (settings_before, results_before) = (*simulation.settings(), all_results(simulation));
+    assert!(simulation.configure(settings).is_err() && simulation.configure_first(settings, 0).is_err());
+    assert_eq!(*simulation.settings(), settings_before);
+    laws::assert_same_numbers("after a refusal", &all_results(simulation), &results_before);
 }
 
 /// Asserts that samples added in blocks equal the samples of one call.
-fn assert_same_in_blocks(machine: &mut BananaMachine, input: &mut Input) {
-    let settings = with_changes(machine.settings(), input);
+fn assert_same_in_blocks(simulation: &mut BananaMachine, input: &mut Input) {
+    let settings = with_changes(simulation.settings(), input);
     if !are_allowed(&settings) {
         return;
     }
-    let mut machine_in_one_call = machine.clone();
-    machine_in_one_call.configure(limit_samples(settings)).expect("allowed");
+    let mut simulation_in_one_call = simulation.clone();
+    simulation_in_one_call.configure(limit_samples(settings)).expect("allowed");
     let count = 1 + usize::from(input.next_byte());
-    machine.configure_first(limit_samples(settings), count).expect("allowed");
-    while machine.shown_count() < machine.settings().samples {
-        machine.add_samples(count);
+    simulation.configure_first(limit_samples(settings), count).expect("allowed");
+    while simulation.shown_count() < simulation.settings().samples {
+        simulation.add_samples(count);
     }
-    laws::assert_same_numbers("in blocks", &all_results(machine), &all_results(&machine_in_one_call));
+    laws::assert_same_numbers("in blocks", &all_results(simulation), &all_results(&simulation_in_one_call));
 }
 
-/// Asserts that a machine depends on its settings only, and not on earlier calls.
-fn assert_equals_new_machine(machine: &BananaMachine) {
-    let mut new_machine = BananaMachine::with_shown_count(*machine.settings(), 0).expect("allowed");
-    if machine.shown_count() > 0 {
-        new_machine.add_samples(machine.shown_count());
-        laws::assert_same_numbers("as if new", &all_results(machine), &all_results(&new_machine));
+/// Asserts that a simulation depends on its settings only, and not on earlier calls.
+fn assert_equals_new_simulation(simulation: &BananaMachine) {
+    let mut new_simulation = BananaMachine::with_shown_count(*simulation.settings(), 0).expect("allowed");
+    if simulation.shown_count() > 0 {
+        new_simulation.add_samples(simulation.shown_count());
+        laws::assert_same_numbers("as if new", &all_results(simulation), &all_results(&new_simulation));
     }
 }
 
 /// Returns all results except curves.
-fn all_results(machine: &BananaMachine) -> Vec<f64> {
-    let mut all_numbers: Vec<f64> = machine.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
-    let stats @ Stats { cartesian, exponential, coverage, .. } = machine.stats();
+fn all_results(simulation: &BananaMachine) -> Vec<f64> {
+    let mut all_numbers: Vec<f64> = simulation.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
+    let stats @ Stats { cartesian, exponential, coverage, .. } = simulation.stats();
     all_numbers.extend(cartesian.mean.iter().chain(cartesian.cov.iter()));
     all_numbers.extend(exponential.mean.iter().chain(exponential.cov.iter()));
     all_numbers.extend([stats.cross_track_skew, stats.cross_track_skew_error]);
@@ -130,14 +130,14 @@ fn all_results(machine: &BananaMachine) -> Vec<f64> {
 }
 
 /// Asserts that all results are finite, or NaN where they are undefined.
-fn assert_results(machine: &BananaMachine) {
-    let (n, stats) = (machine.shown_count(), machine.stats());
-    machine.poses().for_each(|pose| laws::assert_pose("a pose", &pose));
-    assert_eq!(machine.poses().len(), n);
-    laws::assert_finite("executed", machine.executed_motions().collect::<Vec<_>>().as_flattened());
-    let is_charted = machine.is_chart_defined();
+fn assert_results(simulation: &BananaMachine) {
+    let (n, stats) = (simulation.shown_count(), simulation.stats());
+    simulation.poses().for_each(|pose| laws::assert_pose("a pose", &pose));
+    assert_eq!(simulation.poses().len(), n);
+    laws::assert_finite("executed", simulation.executed_motions().collect::<Vec<_>>().as_flattened());
+    let is_charted = simulation.is_chart_defined();
     if is_charted {
-        machine.twists().for_each(|twist| laws::assert_finite("a twist", twist.as_slice()));
+        simulation.twists().for_each(|twist| laws::assert_finite("a twist", twist.as_slice()));
     }
     if n > 0 {
         laws::assert_finite("mean", stats.cartesian.mean.as_slice());
@@ -168,8 +168,8 @@ fn assert_results(machine: &BananaMachine) {
     }
 }
 
-fn assert_contours(machine: &BananaMachine) {
-    let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } = machine.contours();
+fn assert_contours(simulation: &BananaMachine) {
+    let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } = simulation.contours();
     for (label, outline) in [
         ("command", &command),
         ("ellipse", &ellipse),
@@ -183,13 +183,13 @@ fn assert_contours(machine: &BananaMachine) {
     for outline in [&ellipse, &linearized, &exponential, &twist_ellipse, &additive] {
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
-    assert_eq!(ellipse.is_empty(), machine.shown_count() < 2);
-    assert_eq!(exponential.is_empty(), machine.shown_count() < 2 || !machine.is_chart_defined());
+    assert_eq!(ellipse.is_empty(), simulation.shown_count() < 2);
+    assert_eq!(exponential.is_empty(), simulation.shown_count() < 2 || !simulation.is_chart_defined());
 }
 
 /// Checks every column of the table. Quadrature makes this slow.
-fn assert_table(machine: &BananaMachine) {
-    let table = machine.table();
+fn assert_table(simulation: &BananaMachine) {
+    let table = simulation.table();
     for (label, column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
         let TableColumn { mean, cov, cross_track_skew, likelihood_gain, area_ratio } = column;
         laws::assert_moments(label, mean, cov);
@@ -203,13 +203,13 @@ fn assert_table(machine: &BananaMachine) {
     if let Some(tangent) = table.tangent {
         laws::assert_moments("tangent", &tangent.mean, &tangent.cov);
     }
-    let reading = machine.reading();
+    let reading = simulation.reading();
     laws::assert_finite("reading", &[reading.rot1, reading.trans, reading.rot2]);
 }
 
-fn assert_executed(machine: &BananaMachine, index: usize) {
-    let Some(sample) = machine.inspect(index) else {
-        assert!(index >= machine.shown_count());
+fn assert_executed(simulation: &BananaMachine, index: usize) {
+    let Some(sample) = simulation.inspect(index) else {
+        assert!(index >= simulation.shown_count());
         return;
     };
     laws::assert_pose("inspected", &sample.pose.into());
@@ -220,7 +220,7 @@ fn assert_executed(machine: &BananaMachine, index: usize) {
     let [x, y] = *sample.path.last().expect("a path has an end");
     // Paths use the scalar functions, poses the SIMD functions. They agree to 2e-15 of the length.
     let path_length = sample.path.windows(2).map(|ends| distance(ends[0], ends[1])).sum::<f64>();
-    let command = machine.settings().command;
+    let command = simulation.settings().command;
     let commanded_length = (command.v * command.dt).abs();
     let longest_motion = sample.legs.map_or((sample.v_hat * command.dt).abs(), |legs| legs.trans.abs());
     assert!(path_length <= longest_motion * (1.0 + 1e-9) + 1e-9, "{path_length}, {longest_motion}");
@@ -230,7 +230,7 @@ fn assert_executed(machine: &BananaMachine, index: usize) {
     assert!(
         distance([x, y], [sample.pose[0], sample.pose[1]]) <= rounding_error,
         "{sample:?} of {:?}",
-        machine.settings()
+        simulation.settings()
     );
 }
 
@@ -246,23 +246,23 @@ pub fn read_grid(input: &mut Input) -> Grid {
     Grid { min, max, columns, rows }
 }
 
-fn assert_picture(machine: &mut BananaMachine, input: &mut Input) {
+fn assert_picture(simulation: &mut BananaMachine, input: &mut Input) {
     let (view, grid) = (input.one_of(&[View::Plane, View::Twist]), read_grid(input));
-    let counts = machine.density(view, &grid);
+    let counts = simulation.density(view, &grid);
     assert_eq!(counts.len(), grid.columns * grid.rows);
-    assert!(counts.iter().sum::<u32>() as usize <= machine.shown_count(), "{grid:?}: {counts:?}");
-    let pixels = machine.paint(view, &grid, &[[1; 4]; RAMP_STEPS]);
+    assert!(counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{grid:?}: {counts:?}");
+    let pixels = simulation.paint(view, &grid, &[[1; 4]; RAMP_STEPS]);
     assert_eq!(pixels.len(), counts.len());
     assert!(pixels.iter().zip(&counts).all(|(pixel, count)| (pixel[3] > 0) == (*count > 0)), "{grid:?}");
 }
 
-fn assert_nearest(machine: &BananaMachine, input: &mut Input) {
+fn assert_nearest(simulation: &BananaMachine, input: &mut Input) {
     let target = [0; 2].map(|_| input.next_number());
     let radii = [0; 2].map(|_| input.number_within(0.0..=f64::INFINITY));
-    let Some(index) = machine.nearest(View::Plane, target, radii) else { return };
-    let nearest_pose: SE2 = machine.pose(index).expect("a sample that is shown");
+    let Some(index) = simulation.nearest(View::Plane, target, radii) else { return };
+    let nearest_pose: SE2 = simulation.pose(index).expect("a sample that is shown");
     let distance_to = |pose: &SE2| ((pose.x() - target[0]) / radii[0]).hypot((pose.y() - target[1]) / radii[1]);
     // The square of a distance below 1e-154 underflows to 0.
-    let least_distance = machine.poses().map(|pose| distance_to(&pose)).fold(f64::INFINITY, f64::min);
+    let least_distance = simulation.poses().map(|pose| distance_to(&pose)).fold(f64::INFINITY, f64::min);
     assert!(distance_to(&nearest_pose) <= least_distance * (1.0 + 1e-9) + 1e-150, "{target:?} {radii:?}: {index}");
 }

@@ -20,14 +20,14 @@ pub fn run(bytes: &[u8]) {
         assert!(OdometryDecomposer::new(first_settings).is_err());
         return;
     }
-    let mut machine = OdometryDecomposer::new(limit_samples(first_settings)).expect("allowed");
+    let mut simulation = OdometryDecomposer::new(limit_samples(first_settings)).expect("allowed");
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
-        call_method(&mut machine, &mut input);
+        call_method(&mut simulation, &mut input);
     }
-    assert_results(&machine);
+    assert_results(&simulation);
 }
 
 /// Returns the settings with at most `MAX_SAMPLES` outcomes.
@@ -35,45 +35,45 @@ fn limit_samples(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
-fn call_method(machine: &mut OdometryDecomposer, input: &mut Input) {
-    let shown_count = machine.poses().len();
+fn call_method(simulation: &mut OdometryDecomposer, input: &mut Input) {
+    let shown_count = simulation.poses().len();
     match input.next_choice(7) {
-        0 | 1 => configure(machine, input),
+        0 | 1 => configure(simulation, input),
         2 => {
             let count = input.next_choice(MAX_SAMPLES);
-            assert_eq!(machine.add_samples(count), (shown_count + count).min(machine.settings().samples));
+            assert_eq!(simulation.add_samples(count), (shown_count + count).min(simulation.settings().samples));
         }
         3 => {
-            machine.configure_first(*machine.settings(), 0).expect("allowed");
-            assert!(machine.poses().is_empty());
+            simulation.configure_first(*simulation.settings(), 0).expect("allowed");
+            assert!(simulation.poses().is_empty());
         }
         4 => {
-            let leg_poses = machine.sample_leg_poses(usize::from(input.next_byte()));
+            let leg_poses = simulation.sample_leg_poses(usize::from(input.next_byte()));
             assert!(leg_poses.len() <= shown_count);
             leg_poses.as_flattened().iter().for_each(|pose| laws::assert_pose("a leg pose", pose));
-            assert!(leg_poses.iter().zip(machine.poses()).all(|(outcome_poses, pose)| outcome_poses[3] == *pose));
+            assert!(leg_poses.iter().zip(simulation.poses()).all(|(outcome_poses, pose)| outcome_poses[3] == *pose));
         }
-        5 => assert_curve(machine, input.number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_choice(MAX_POINTS)),
-        _ => assert_nearest(machine, input),
+        5 => assert_curve(simulation, input.number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_choice(MAX_POINTS)),
+        _ => assert_nearest(simulation, input),
     }
 }
 
-fn configure(machine: &mut OdometryDecomposer, input: &mut Input) {
-    let settings = with_changes(machine.settings(), input);
-    let (before, poses) = (*machine.settings(), machine.poses().to_vec());
+fn configure(simulation: &mut OdometryDecomposer, input: &mut Input) {
+    let settings = with_changes(simulation.settings(), input);
+    let (before, poses) = (*simulation.settings(), simulation.poses().to_vec());
     if !are_allowed(&settings) {
-        assert!(machine.configure(settings).is_err());
-        assert_eq!(*machine.settings(), before);
-        assert_eq!(machine.poses(), poses);
+        assert!(simulation.configure(settings).is_err());
+        assert_eq!(*simulation.settings(), before);
+        assert_eq!(simulation.poses(), poses);
         return;
     }
     let settings = limit_samples(settings);
-    machine.configure(settings).expect("allowed");
-    assert_eq!(machine.poses().len(), settings.samples);
+    simulation.configure(settings).expect("allowed");
+    assert_eq!(simulation.poses().len(), settings.samples);
 }
 
-fn assert_curve(machine: &OdometryDecomposer, longest: f64, count: usize) {
-    let points = machine.deviation_curve(longest, count);
+fn assert_curve(simulation: &OdometryDecomposer, longest: f64, count: usize) {
+    let points = simulation.deviation_curve(longest, count);
     assert_eq!(points.len(), count);
     for point in points {
         laws::assert_finite("curve", &[point.trans, point.cross_track, point.lever, point.along]);
@@ -81,27 +81,27 @@ fn assert_curve(machine: &OdometryDecomposer, longest: f64, count: usize) {
     }
 }
 
-fn assert_nearest(machine: &OdometryDecomposer, input: &mut Input) {
+fn assert_nearest(simulation: &OdometryDecomposer, input: &mut Input) {
     let target = [0; 2].map(|_| input.next_number());
     let radius = input.number_within(0.0..=f64::INFINITY);
-    let Some(index) = machine.nearest(target, radius) else { return };
+    let Some(index) = simulation.nearest(target, radius) else { return };
     let distance_to = |pose: &SE2| ((pose.x() - target[0]) / radius).hypot((pose.y() - target[1]) / radius);
-    let least_distance = machine.poses().iter().map(distance_to).fold(f64::INFINITY, f64::min);
+    let least_distance = simulation.poses().iter().map(distance_to).fold(f64::INFINITY, f64::min);
     // The square of a distance below 1e-154 of the radius underflows to 0.
-    let nearest_distance = distance_to(&machine.poses()[index]);
+    let nearest_distance = distance_to(&simulation.poses()[index]);
     assert!(nearest_distance <= least_distance * (1.0 + 1e-9) + 1e-150 && nearest_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
 }
 
 /// Asserts that all results are finite, or NaN without outcomes.
-fn assert_results(machine: &OdometryDecomposer) {
-    let settings = machine.settings();
-    machine.poses().iter().for_each(|pose| laws::assert_pose("an outcome", pose));
-    machine.leg_poses().iter().for_each(|pose| laws::assert_pose("a leg pose", pose));
-    laws::assert_pose("the robot", &machine.robot_pose());
-    let DriftedOdometry { frame, from, to, legs } = machine.drifted_odometry();
+fn assert_results(simulation: &OdometryDecomposer) {
+    let settings = simulation.settings();
+    simulation.poses().iter().for_each(|pose| laws::assert_pose("an outcome", pose));
+    simulation.leg_poses().iter().for_each(|pose| laws::assert_pose("a leg pose", pose));
+    laws::assert_pose("the robot", &simulation.robot_pose());
+    let DriftedOdometry { frame, from, to, legs } = simulation.drifted_odometry();
     [frame, from, to].iter().for_each(|pose| laws::assert_pose("drifted", pose));
     assert_legs("drifted legs", &legs);
-    assert_legs("reading", &machine.reading());
+    assert_legs("reading", &simulation.reading());
 
     let Stats {
         n,
@@ -113,8 +113,8 @@ fn assert_results(machine: &OdometryDecomposer) {
         heading_error,
         exact_heading,
         independent_heading,
-    } = machine.stats();
-    assert_eq!(n, machine.poses().len());
+    } = simulation.stats();
+    assert_eq!(n, simulation.poses().len());
     let exact_values = [exact_cross_track, lever, exact_heading, independent_heading];
     let measured_values = [cross_track, cross_track_error, heading, heading_error];
     laws::assert_finite("exact", &exact_values);
@@ -125,31 +125,31 @@ fn assert_results(machine: &OdometryDecomposer) {
         "{exact_values:?} {measured_values:?}"
     );
 
-    for noise in machine.rule_noises() {
+    for noise in simulation.rule_noises() {
         assert_legs("legs", &noise.legs);
         let all_values = [&noise.deviations[..], &[noise.cross_track, noise.heading]].concat();
         laws::assert_finite("a rule", &all_values);
         assert!(all_values.iter().all(|value| *value >= 0.0), "{noise:?}");
         if noise.rule == settings.rule {
-            assert_eq!(noise.legs, machine.legs());
+            assert_eq!(noise.legs, simulation.legs());
             laws::assert_same_numbers("exact", &all_values[4..], &[exact_cross_track, exact_heading]);
         }
     }
 
     // The last leg ends at the second odometry pose, except that rules of noise may ignore the direction of a tiny translation.
     let [x, y, _] = settings.to.0;
-    let [.., end] = machine.leg_poses();
+    let [.., end] = simulation.leg_poses();
     let distance_to_end = (end.x() - x).hypot(end.y() - y);
     let largest_coordinate = settings.from.0.iter().chain(&settings.to.0).fold(0.0, |largest: f64, at| largest.max(at.abs()));
     assert!(distance_to_end <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * largest_coordinate, "{end:?} for {settings:?}: {distance_to_end}");
 
-    // Asserts that a machine depends on its settings only, and not on earlier calls.
-    let mut new_machine = OdometryDecomposer::new(*settings).expect("allowed");
+    // Asserts that a simulation depends on its settings only, and not on earlier calls.
+    let mut new_simulation = OdometryDecomposer::new(*settings).expect("allowed");
     if n < settings.samples {
-        new_machine.configure_first(*settings, 0).expect("allowed");
-        new_machine.add_samples(n);
+        new_simulation.configure_first(*settings, 0).expect("allowed");
+        new_simulation.add_samples(n);
     }
-    assert_eq!(new_machine.poses(), machine.poses());
+    assert_eq!(new_simulation.poses(), simulation.poses());
 }
 
 fn assert_legs(label: &str, legs: &OdomDelta) {

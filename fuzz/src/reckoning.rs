@@ -16,7 +16,7 @@ const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let [checks_straight_growth, checks_second_machine] = [0; 2].map(|_| input.next_choice(4) == 1);
+    let [checks_straight_growth, checks_second_simulation] = [0; 2].map(|_| input.next_choice(4) == 1);
     let first_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
     let first_settings = with_changes(&first_settings, &mut input);
     if !are_allowed(&first_settings) {
@@ -25,23 +25,23 @@ pub fn run(bytes: &[u8]) {
     }
     let max_samples = if is_selected(16, bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
     let limit_size = |settings| limit_size(settings, max_samples);
-    let mut machine = DeadReckoning::with_shown_count(limit_size(first_settings), 0).expect("allowed");
+    let mut simulation = DeadReckoning::with_shown_count(limit_size(first_settings), 0).expect("allowed");
     if input.next_bool() {
-        machine.add_samples(MAX_SAMPLES);
+        simulation.add_samples(MAX_SAMPLES);
     }
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
-        call_method(&mut machine, &limit_size, &mut input);
+        call_method(&mut simulation, &limit_size, &mut input);
     }
-    assert_results(&machine);
+    assert_results(&simulation);
     // Slow checks run for some inputs only.
     if checks_straight_growth && is_selected(8, bytes) {
-        assert_straight_growth(&machine);
+        assert_straight_growth(&simulation);
     }
-    if checks_second_machine && is_selected(8, bytes) {
-        assert_equals_new_machine(&machine);
+    if checks_second_simulation && is_selected(8, bytes) {
+        assert_equals_new_simulation(&simulation);
     }
 }
 
@@ -55,81 +55,81 @@ fn limit_size(settings: Settings, max_samples: usize) -> Settings {
     }
 }
 
-fn call_method(machine: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
-    let shown_count = machine.shown_count();
+fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+    let shown_count = simulation.shown_count();
     match input.next_choice(9) {
-        0 | 1 => configure(machine, limit_size, input),
-        2 | 3 => assert_same_in_blocks(machine, limit_size, input),
+        0 | 1 => configure(simulation, limit_size, input),
+        2 | 3 => assert_same_in_blocks(simulation, limit_size, input),
         4 => {
             let count = usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
-            assert_eq!(machine.add_samples(count), (shown_count + count).min(machine.settings().samples));
+            assert_eq!(simulation.add_samples(count), (shown_count + count).min(simulation.settings().samples));
         }
         5 => {
-            machine.configure_first(*machine.settings(), 0).expect("allowed");
-            assert_eq!(machine.shown_count(), 0);
+            simulation.configure_first(*simulation.settings(), 0).expect("allowed");
+            assert_eq!(simulation.shown_count(), 0);
         }
-        6 => assert_nearest(machine, input),
-        7 => assert_outlines(machine, 1 + input.next_choice(MAX_STEPS as usize) as u32),
-        _ => assert_rollout(machine, usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES),
+        6 => assert_nearest(simulation, input),
+        7 => assert_outlines(simulation, 1 + input.next_choice(MAX_STEPS as usize) as u32),
+        _ => assert_rollout(simulation, usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES),
     }
 }
 
-fn configure(machine: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
-    let settings = with_changes(machine.settings(), input);
+fn configure(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+    let settings = with_changes(simulation.settings(), input);
     if are_allowed(&settings) {
-        machine.configure(limit_size(settings)).expect("allowed");
+        simulation.configure(limit_size(settings)).expect("allowed");
         return;
     }
-    let results_before = all_results(machine);
-    assert!(machine.configure(settings).is_err() && machine.configure_first(settings, 0).is_err());
-    assert_eq!(all_results(machine), results_before);
+    let results_before = all_results(simulation);
+    assert!(simulation.configure(settings).is_err() && simulation.configure_first(settings, 0).is_err());
+    assert_eq!(all_results(simulation), results_before);
 }
 
 /// Asserts that robots added in blocks equal the robots of one call.
-fn assert_same_in_blocks(machine: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
-    let settings = with_changes(machine.settings(), input);
+fn assert_same_in_blocks(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+    let settings = with_changes(simulation.settings(), input);
     if !are_allowed(&settings) {
         return;
     }
     let settings = limit_size(settings);
-    let mut machine_in_one_call = machine.clone();
-    machine_in_one_call.configure(settings).expect("allowed");
+    let mut simulation_in_one_call = simulation.clone();
+    simulation_in_one_call.configure(settings).expect("allowed");
     let count = 1 + usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
-    machine.configure_first(settings, count).expect("allowed");
-    while machine.shown_count() < settings.samples {
-        machine.add_samples(count);
+    simulation.configure_first(settings, count).expect("allowed");
+    while simulation.shown_count() < settings.samples {
+        simulation.add_samples(count);
     }
-    assert_eq!(all_results(machine), all_results(&machine_in_one_call));
-    assert_results(machine);
+    assert_eq!(all_results(simulation), all_results(&simulation_in_one_call));
+    assert_results(simulation);
 }
 
-/// Asserts that a machine depends on its settings only, and not on earlier calls.
-fn assert_equals_new_machine(machine: &DeadReckoning) {
-    let mut new_machine = DeadReckoning::with_shown_count(*machine.settings(), 0).expect("allowed");
-    new_machine.add_samples(machine.shown_count());
-    assert_eq!(all_results(&new_machine), all_results(machine));
+/// Asserts that a simulation depends on its settings only, and not on earlier calls.
+fn assert_equals_new_simulation(simulation: &DeadReckoning) {
+    let mut new_simulation = DeadReckoning::with_shown_count(*simulation.settings(), 0).expect("allowed");
+    new_simulation.add_samples(simulation.shown_count());
+    assert_eq!(all_results(&new_simulation), all_results(simulation));
 }
 
 /// Returns all results: those of the selected step as bits, and the others as text, in which NaN equals NaN.
-fn all_results(machine: &DeadReckoning) -> (String, Vec<u64>) {
-    let (settings, stats, measured) = (machine.settings(), machine.stats(), machine.measured_moments());
-    let outlines = machine.outlines(settings.step);
+fn all_results(simulation: &DeadReckoning) -> (String, Vec<u64>) {
+    let (settings, stats, measured) = (simulation.settings(), simulation.stats(), simulation.measured_moments());
+    let outlines = simulation.outlines(settings.step);
     let lines = outlines.iter().flat_map(|Outlines { ellipse, exponential, predicted, measured }| {
         [ellipse, exponential, predicted, measured].into_iter().flat_map(|line| line.as_flattened())
     });
-    let numbers = machine.poses(settings.step).as_flattened().iter().chain(lines);
+    let numbers = simulation.poses(settings.step).as_flattened().iter().chain(lines);
     (format!("{settings:?} {stats:?} {measured:?}"), numbers.map(|number| number.to_bits()).collect())
 }
 
 /// Asserts that all results are finite, or NaN or empty where they are undefined.
-fn assert_results(machine: &DeadReckoning) {
-    let settings = machine.settings();
-    let (n, steps) = (machine.shown_count(), settings.steps as usize);
+fn assert_results(simulation: &DeadReckoning) {
+    let settings = simulation.settings();
+    let (n, steps) = (simulation.shown_count(), settings.steps as usize);
     assert!(n <= MAX_SAMPLES && (1..=settings.steps).contains(&settings.step), "{settings:?} of {n}");
-    assert_eq!([machine.measured_moments().len(), machine.nominal_poses().len()], [steps; 2]);
-    machine.nominal_poses().iter().for_each(|pose| laws::assert_pose("nominal", pose));
-    laws::assert_finite("commanded", machine.commanded_path().as_flattened());
-    for measured in machine.measured_moments() {
+    assert_eq!([simulation.measured_moments().len(), simulation.nominal_poses().len()], [steps; 2]);
+    simulation.nominal_poses().iter().for_each(|pose| laws::assert_pose("nominal", pose));
+    laws::assert_finite("commanded", simulation.commanded_path().as_flattened());
+    for measured in simulation.measured_moments() {
         if n > 0 {
             laws::assert_finite("mean", measured.mean.as_slice());
         }
@@ -144,13 +144,13 @@ fn assert_results(machine: &DeadReckoning) {
         }
     }
     let step = settings.step;
-    assert_eq!(machine.poses(step).len(), n.min(MAX_SHOWN_ROBOTS));
-    assert!(machine.poses(0).is_empty() && machine.poses(settings.steps + 1).is_empty());
-    laws::assert_finite("poses", machine.poses(step).as_flattened());
-    machine.twists().for_each(|twist| laws::assert_finite("a twist", &twist));
-    assert_eq!(machine.twists().len(), n.min(MAX_SHOWN_ROBOTS));
+    assert_eq!(simulation.poses(step).len(), n.min(MAX_SHOWN_ROBOTS));
+    assert!(simulation.poses(0).is_empty() && simulation.poses(settings.steps + 1).is_empty());
+    laws::assert_finite("poses", simulation.poses(step).as_flattened());
+    simulation.twists().for_each(|twist| laws::assert_finite("a twist", &twist));
+    assert_eq!(simulation.twists().len(), n.min(MAX_SHOWN_ROBOTS));
     for order in RECURSIONS {
-        let (predicted, comparison) = (machine.predicted_covariances(order), machine.comparison(order));
+        let (predicted, comparison) = (simulation.predicted_covariances(order), simulation.comparison(order));
         assert_eq!([predicted.len(), comparison.ratios.len()], [steps; 2]);
         for (cov, ratio) in predicted.iter().zip(&comparison.ratios) {
             assert!(
@@ -163,9 +163,9 @@ fn assert_results(machine: &DeadReckoning) {
         }
         comparison.misses.iter().for_each(|misses| assert_misses(misses, steps));
     }
-    let Stats { n: robot_count, .. } = machine.stats();
+    let Stats { n: robot_count, .. } = simulation.stats();
     assert_eq!(robot_count, n);
-    assert_outlines(machine, step);
+    assert_outlines(simulation, step);
 }
 
 /// Asserts that a matrix is finite and symmetric, and has no correlation above 1, to within `rounding`.
@@ -197,9 +197,9 @@ fn assert_misses(misses: &Misses, steps: usize) {
     assert!(are_in_order && !end.is_infinite() && (error.is_nan() || error >= 0.0), "{misses:?}");
 }
 
-fn assert_straight_growth(machine: &DeadReckoning) {
+fn assert_straight_growth(simulation: &DeadReckoning) {
     let StraightGrowth { durations, along, across, along_first_order, across_first_order, crossing } =
-        machine.straight_growth();
+        simulation.straight_growth();
     for curve in [&durations, &along, &across, &along_first_order, &across_first_order] {
         laws::assert_finite("straight", curve);
         assert!(curve.len() == durations.len() && curve.iter().all(|variance| *variance >= 0.0), "{curve:?}");
@@ -207,9 +207,9 @@ fn assert_straight_growth(machine: &DeadReckoning) {
     assert!(crossing.is_none_or(|crossing| crossing.is_finite() && crossing > 0.0), "{crossing:?}");
 }
 
-fn assert_outlines(machine: &DeadReckoning, step: u32) {
-    let settings = machine.settings();
-    let Some(outlines) = machine.outlines(step) else {
+fn assert_outlines(simulation: &DeadReckoning, step: u32) {
+    let settings = simulation.settings();
+    let Some(outlines) = simulation.outlines(step) else {
         assert!(step > settings.steps);
         return;
     };
@@ -218,29 +218,29 @@ fn assert_outlines(machine: &DeadReckoning, step: u32) {
         laws::assert_finite("an outline", outline.as_flattened());
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
-    let has_no_covariance = machine.predicted_covariances(settings.compounding)[step as usize - 1].is_none();
+    let has_no_covariance = simulation.predicted_covariances(settings.compounding)[step as usize - 1].is_none();
     assert!([&ellipse, &exponential, &predicted].iter().all(|outline| outline.is_empty() == has_no_covariance));
-    assert_eq!(measured.is_empty(), machine.shown_count() < 2);
+    assert_eq!(measured.is_empty(), simulation.shown_count() < 2);
 }
 
 /// Asserts that the path of one robot has the poses that the steps show.
-fn assert_rollout(machine: &DeadReckoning, index: usize) {
-    let Some(path) = machine.rollout(index) else {
-        assert!(index >= machine.shown_count());
+fn assert_rollout(simulation: &DeadReckoning, index: usize) {
+    let Some(path) = simulation.rollout(index) else {
+        assert!(index >= simulation.shown_count());
         return;
     };
-    assert_eq!(path.len(), machine.settings().steps as usize);
+    assert_eq!(path.len(), simulation.settings().steps as usize);
     laws::assert_finite("a way", path.as_flattened());
     for (step, pose) in (1..).zip(&path) {
-        assert!(machine.poses(step).get(index).is_none_or(|shown| shown == pose), "{index} at {step}");
+        assert!(simulation.poses(step).get(index).is_none_or(|shown| shown == pose), "{index} at {step}");
     }
 }
 
-fn assert_nearest(machine: &DeadReckoning, input: &mut Input) {
+fn assert_nearest(simulation: &DeadReckoning, input: &mut Input) {
     let target = [0; 2].map(|_| input.next_number());
     let radius = input.number_within(0.0..=f64::INFINITY);
-    let Some(index) = machine.nearest(target, radius) else { return };
-    let poses = machine.poses(machine.settings().step);
+    let Some(index) = simulation.nearest(target, radius) else { return };
+    let poses = simulation.poses(simulation.settings().step);
     let distance_to = |[x, y, _]: &[f64; 3]| ((x - target[0]) / radius).hypot((y - target[1]) / radius);
     let least_distance = poses.iter().map(distance_to).fold(f64::INFINITY, f64::min);
     // A square of a distance below 1e-154 of the radius is 0.

@@ -15,27 +15,27 @@ const MAX_PARTS: u32 = 3;
 const MAX_CALLS: usize = 3;
 
 thread_local! {
-    /// Machine in a room with one wall.
+    /// Simulation in a room with one wall.
     static FIRST_MACHINE: LazyCell<MapSqueeze> = LazyCell::new(|| {
         let wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
         let plan = FloorPlan::new(vec![wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
-        let mut machine = MapSqueeze::new(limit_samples(Settings::default(), false)).expect("the opening state");
-        machine.set_plan(plan);
-        assert!(machine.is_start_free());
-        machine
+        let mut simulation = MapSqueeze::new(limit_samples(Settings::default(), false)).expect("the opening state");
+        simulation.set_plan(plan);
+        assert!(simulation.is_start_free());
+        simulation
     });
 }
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let mut machine = FIRST_MACHINE.with(|opening| (**opening).clone());
+    let mut simulation = FIRST_MACHINE.with(|opening| (**opening).clone());
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
         }
-        call_method(&mut machine, &mut input);
+        call_method(&mut simulation, &mut input);
     }
-    assert_results(&machine);
+    assert_results(&simulation);
 }
 
 /// Returns the settings with few samples, and with a sampler that divides the command only if `with_parts`. Callers rarely ask for that: a
@@ -50,93 +50,93 @@ fn without_parts(sampler: Sampler) -> Sampler {
     if let Sampler::SubStepped(_) = sampler { Sampler::WholeArc } else { sampler }
 }
 
-fn call_method(machine: &mut MapSqueeze, input: &mut Input) {
+fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
     match input.next_choice(10) {
-        0 => configure(machine, input),
-        1 => assert_same_in_blocks(machine, input),
+        0 => configure(simulation, input),
+        1 => assert_same_in_blocks(simulation, input),
         2 => {
             if let Some(plan) = plan::read_plan(input) {
-                machine.set_plan(plan);
+                simulation.set_plan(plan);
             }
         }
         3 => {
             if let Some((grid, _)) = grid::read_random_grid(input) {
-                let (wall_count, was_refused) = (machine.plan().walls().len(), machine.set_grid(grid).is_err());
-                assert!(!was_refused || machine.plan().walls().len() == wall_count);
+                let (wall_count, was_refused) = (simulation.plan().walls().len(), simulation.set_grid(grid).is_err());
+                assert!(!was_refused || simulation.plan().walls().len() == wall_count);
             }
         }
         4 => {
-            let count_before = machine.attempts().len();
-            let count_after = machine.add_samples(input.next_choice(MAX_SAMPLES));
-            assert!(count_before <= count_after && count_after <= machine.settings().samples);
+            let count_before = simulation.attempts().len();
+            let count_after = simulation.add_samples(input.next_choice(MAX_SAMPLES));
+            assert!(count_before <= count_after && count_after <= simulation.settings().samples);
         }
         5 => {
-            machine.configure_first(*machine.settings(), 0).expect("allowed");
-            assert!(machine.attempts().is_empty());
+            simulation.configure_first(*simulation.settings(), 0).expect("allowed");
+            assert!(simulation.attempts().is_empty());
         }
-        6 => assert_picture(machine, input),
+        6 => assert_picture(simulation, input),
         7 => {
             let target = [0; 2].map(|_| input.next_number());
             let radius = input.number_within(0.0..=f64::INFINITY);
-            let found_index = machine.nearest(target, radius);
-            assert!(found_index.is_none_or(|index| index < machine.attempts().len()));
+            let found_index = simulation.nearest(target, radius);
+            assert!(found_index.is_none_or(|index| index < simulation.attempts().len()));
         }
         // A free pose is rarely checked: the search along 72 headings takes as long as ten other calls.
-        8 => assert_equals_new_machine(machine),
-        _ if input.next_choice(64) == 1 => assert_free_pose(machine),
+        8 => assert_equals_new_simulation(simulation),
+        _ if input.next_choice(64) == 1 => assert_free_pose(simulation),
         _ => {}
     }
 }
 
-fn configure(machine: &mut MapSqueeze, input: &mut Input) {
-    let settings = with_changes(machine.settings(), input);
-    let settings_before = *machine.settings();
+fn configure(simulation: &mut MapSqueeze, input: &mut Input) {
+    let settings = with_changes(simulation.settings(), input);
+    let settings_before = *simulation.settings();
     if are_allowed(&settings) {
         let checks_parts = input.next_choice(16) == 1;
-        machine.configure(limit_samples(settings, checks_parts)).expect("allowed");
+        simulation.configure(limit_samples(settings, checks_parts)).expect("allowed");
         return;
     }
-    let attempts = machine.attempts().to_vec();
-    assert!(machine.configure(settings).is_err());
-    assert_eq!(*machine.settings(), settings_before);
-    assert_eq!(machine.attempts(), attempts);
+    let attempts = simulation.attempts().to_vec();
+    assert!(simulation.configure(settings).is_err());
+    assert_eq!(*simulation.settings(), settings_before);
+    assert_eq!(simulation.attempts(), attempts);
 }
 
 /// Asserts that attempts made in several blocks equal the attempts of one call.
-fn assert_same_in_blocks(machine: &mut MapSqueeze, input: &mut Input) {
-    let settings = limit_samples(with_changes(machine.settings(), input), false);
+fn assert_same_in_blocks(simulation: &mut MapSqueeze, input: &mut Input) {
+    let settings = limit_samples(with_changes(simulation.settings(), input), false);
     if !are_allowed(&settings) {
         return;
     }
-    let mut machine_in_one_call = machine.clone();
-    machine_in_one_call.configure(settings).expect("allowed");
+    let mut simulation_in_one_call = simulation.clone();
+    simulation_in_one_call.configure(settings).expect("allowed");
     let count = 1 + input.next_choice(MAX_SAMPLES);
-    machine.configure_first(settings, count).expect("allowed");
-    while machine.shown_count() < settings.samples && !machine.gave_up() {
-        machine.add_samples(count);
+    simulation.configure_first(settings, count).expect("allowed");
+    while simulation.shown_count() < settings.samples && !simulation.gave_up() {
+        simulation.add_samples(count);
     }
-    assert_eq!(machine.attempts(), machine_in_one_call.attempts());
+    assert_eq!(simulation.attempts(), simulation_in_one_call.attempts());
 }
 
-/// Asserts that a machine depends on its settings and its map only, and not on earlier calls.
-fn assert_equals_new_machine(machine: &MapSqueeze) {
-    let mut new_machine = MapSqueeze::with_shown_count(*machine.settings(), 0).expect("allowed");
-    new_machine.set_plan(machine.plan().clone());
-    new_machine.add_samples(machine.attempts().len());
-    assert_eq!(new_machine.attempts(), machine.attempts());
+/// Asserts that a simulation depends on its settings and its map only, and not on earlier calls.
+fn assert_equals_new_simulation(simulation: &MapSqueeze) {
+    let mut new_simulation = MapSqueeze::with_shown_count(*simulation.settings(), 0).expect("allowed");
+    new_simulation.set_plan(simulation.plan().clone());
+    new_simulation.add_samples(simulation.attempts().len());
+    assert_eq!(new_simulation.attempts(), simulation.attempts());
 }
 
-/// Asserts that the robot fits at the free pose that the machine finds.
-fn assert_free_pose(machine: &MapSqueeze) {
-    let Some(free_pose) = machine.find_free_pose() else { return };
+/// Asserts that the robot fits at the free pose that the simulation finds.
+fn assert_free_pose(simulation: &MapSqueeze) {
+    let Some(free_pose) = simulation.find_free_pose() else { return };
     laws::assert_pose("in the open", &free_pose);
-    let fits_there = machine.plan().test_point([free_pose.x(), free_pose.y()], machine.settings().clearance).free;
+    let fits_there = simulation.plan().test_point([free_pose.x(), free_pose.y()], simulation.settings().clearance).free;
     assert!(fits_there, "{free_pose:?}");
 }
 
 /// Asserts that all results are finite and agree with each other.
-fn assert_results(machine: &MapSqueeze) {
-    let (settings, stats, attempts) = (machine.settings(), machine.stats(), machine.attempts());
+fn assert_results(simulation: &MapSqueeze) {
+    let (settings, stats, attempts) = (simulation.settings(), simulation.stats(), simulation.attempts());
     assert_eq!(stats.attempts, attempts.len());
     assert!(attempts.len() <= settings.samples);
     assert_eq!(stats.accepted, attempts.iter().filter(|attempt| attempt.accepted).count());
@@ -160,7 +160,7 @@ fn assert_results(machine: &MapSqueeze) {
             Sampler::SubStepped(_) => attempt.accepted,
         };
         assert_eq!(attempt.accepted, expected, "{attempt:?}");
-        let arcs = machine.arcs(index);
+        let arcs = simulation.arcs(index);
         if attempt.accepted || !settings.conditioned {
             assert_eq!(arcs.len(), settings.parts() as usize);
         }
@@ -168,11 +168,11 @@ fn assert_results(machine: &MapSqueeze) {
             laws::assert_finite("arc", &[arc.length, arc.turn]);
         }
     }
-    assert!(machine.arcs(attempts.len()).is_empty());
-    if let Some(arc) = machine.arcs(0).first() {
+    assert!(simulation.arcs(attempts.len()).is_empty());
+    if let Some(arc) = simulation.arcs(0).first() {
         laws::assert_finite("path", arc.points().as_flattened());
     }
-    assert_finite_plan(machine.plan());
+    assert_finite_plan(simulation.plan());
 }
 
 fn assert_finite_plan(plan: &FloorPlan) {
@@ -182,10 +182,10 @@ fn assert_finite_plan(plan: &FloorPlan) {
     }
 }
 
-fn assert_picture(machine: &mut MapSqueeze, input: &mut Input) {
+fn assert_picture(simulation: &mut MapSqueeze, input: &mut Input) {
     let grid = banana::read_grid(input);
-    let shown_count = machine.attempts().len();
-    let pixels = machine.paint(&grid, &[[[1; 4]; RAMP_STEPS]; OUTCOME_KIND_COUNT]);
+    let shown_count = simulation.attempts().len();
+    let pixels = simulation.paint(&grid, &[[[1; 4]; RAMP_STEPS]; OUTCOME_KIND_COUNT]);
     assert_eq!(pixels.len(), grid.columns * grid.rows);
     assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() <= shown_count);
 }

@@ -3,21 +3,21 @@
 use super::calibration::{calibration_to_js, columns_to_js};
 use super::fields::{read_initial_settings, read_integer, read_keyword};
 use super::log::read_logs;
-use super::machine_class::machine_class;
 use super::pictures::nearest_index;
+use super::simulation_class::simulation_class;
 use super::values::{ToJs, js_object, settings_to_js, to_plain_js};
 use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, RestoreError};
 use js_sys::TypeError;
 use wasm_bindgen::prelude::*;
 
-machine_class! {
+simulation_class! {
     /// Calibration of α's from a log, with confidence intervals and goodness of fit. It opens with a simulated log.
     JsAlphaCalibrator(AlphaCalibrator), "AlphaCalibrator", "AlphaCalibratorSettings", "Partial<AlphaCalibratorSettings>"
 }
 
 #[wasm_bindgen(js_class = AlphaCalibrator)]
 impl JsAlphaCalibrator {
-    /// Creates a machine with these settings and a fit that another machine has saved. It has no log, so that settings that need
+    /// Creates a simulation with these settings and a fit that another simulation has saved. It has no log, so that settings that need
     /// another fit stay pending.
     #[wasm_bindgen(js_name = restored)]
     pub fn restore(
@@ -25,15 +25,15 @@ impl JsAlphaCalibrator {
         saved: &[u8],
     ) -> Result<Self, JsValue> {
         match AlphaCalibrator::restore(read_initial_settings(settings)?, saved) {
-            Ok(machine) => Ok(Self(machine)),
+            Ok(simulation) => Ok(Self(simulation)),
             Err(RestoreError::Settings(error)) => Err(error.into()),
             Err(RestoreError::Bytes) => {
-                Err(TypeError::new("saved is no fit; allowed is that of another machine").into())
+                Err(TypeError::new("saved is no fit; allowed is that of another simulation").into())
             }
         }
     }
 
-    /// The fit as bytes, from which `restored` makes a machine.
+    /// The fit as bytes, from which `restored` makes a simulation.
     pub fn save(&self) -> Vec<u8> {
         self.0.save()
     }
@@ -57,7 +57,7 @@ impl JsAlphaCalibrator {
         settings_to_js(self.0.fitted_settings())
     }
 
-    /// True while the settings need another fit, which only the machine with the log can make.
+    /// True while the settings need another fit, which only the simulation with the log can make.
     #[wasm_bindgen(getter, js_name = isPending)]
     pub fn is_pending(&self) -> bool {
         self.0.is_pending()

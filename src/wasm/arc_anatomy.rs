@@ -1,14 +1,14 @@
 //! `ArcAnatomy` for JavaScript.
 
 use super::fields::check_range;
-use super::machine_class::machine_class;
 use super::pictures::read_bounds;
+use super::simulation_class::simulation_class;
 use super::values::{flat_float_array, js_object, to_plain_js};
 use crate::sim::arc_anatomy::{ArcAnatomy, form_errors};
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
-machine_class! {
+simulation_class! {
     /// The arc between two poses, and how likely it is after a command.
     JsArcAnatomy(ArcAnatomy), "ArcAnatomy", "ArcAnatomySettings", "Partial<ArcAnatomySettings>"
 }

@@ -3,8 +3,8 @@
 use std::ops::RangeInclusive;
 
 use super::fields::{check_range, not_shown_error, read_integer, read_keyword};
-use super::machine_class::cloud_machine_class;
 use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
+use super::simulation_class::cloud_simulation_class;
 use super::values::{flat_float_array, js_array, js_object, to_plain_js};
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
@@ -29,7 +29,7 @@ export type MorphedView = ViewName | number;
 export type Moments = CartesianMoments | ExponentialMoments;
 "#;
 
-cloud_machine_class! {
+cloud_simulation_class! {
     /// One command from the origin, many robots that execute it with noise, and Gaussians fitted to their end poses.
     JsBananaMachine(BananaMachine), "BananaMachine", "BananaMachineSettings", "Partial<BananaMachineSettings>", MAX_SAMPLES
 }
@@ -197,7 +197,7 @@ impl JsBananaMachine {
     }
 
     /// Density of the samples as RGBA pixels: a count c has the colour ramp[255·√(c/max)] of 256, with the largest count max. Empty
-    /// cells are transparent. A view of the core's memory, valid until the next call of the machine.
+    /// cells are transparent. A view of the core's memory, valid until the next call of the simulation.
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(

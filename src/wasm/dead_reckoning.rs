@@ -1,8 +1,8 @@
 //! `DeadReckoning` for JavaScript.
 
 use super::fields::{not_shown_error, read_integer};
-use super::machine_class::cloud_machine_class;
 use super::pictures::nearest_index;
+use super::simulation_class::cloud_simulation_class;
 use super::values::{flat_float_array, js_object, number_or_null, to_plain_js};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES, MAX_STEPS, MeasuredMoments, Settings};
@@ -21,7 +21,7 @@ export interface Milestone {
 }
 "#;
 
-cloud_machine_class! {
+cloud_simulation_class! {
     /// One command driven step after step by many identical robots from (0, 0), heading along x, and the covariance that
     /// recursions predict of it. `headingNoise` sets α₃ to α₆.
     JsDeadReckoning(DeadReckoning), "DeadReckoning", "DeadReckoningSettings",

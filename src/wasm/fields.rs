@@ -151,7 +151,7 @@ pub fn read_group_in_range(field: &str, value: &JsValue, group: &mut dyn Group) 
     Ok(check_group(field, group)?)
 }
 
-/// Returns the initial settings of a machine: the defaults, with the values in `options`.
+/// Returns the initial settings of a simulation: the defaults, with the values in `options`.
 pub fn read_initial_settings<S: Rules>(options: &JsValue) -> Result<S, JsValue> {
     if options.is_undefined() { Ok(S::default()) } else { read_settings(&S::default(), options) }
 }

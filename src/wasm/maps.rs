@@ -32,7 +32,7 @@ impl From<ImageError> for JsValue {
 }
 
 /// Reads a floor plan { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as in JSON. The walls may also be one Float64Array,
-/// as a machine returns them.
+/// as a simulation returns them.
 pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     let fields = Fields::new("plan", "", plan, &["bounds", "walls"])?;
     let bounds = read_array("bounds", &fields.value("bounds")?)?;

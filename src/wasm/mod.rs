@@ -19,13 +19,13 @@ mod dead_reckoning;
 mod fields;
 #[cfg(any(not(widget), widget = "alpha-calibrator"))]
 mod log;
-mod machine_class;
 mod maps;
 #[cfg(not(widget))]
 mod models;
 #[cfg(any(not(widget), widget = "odometry-decomposer"))]
 mod odometry_decomposer;
 mod pictures;
+mod simulation_class;
 #[cfg(any(not(widget), widget = "map-squeeze"))]
 mod squeeze;
 pub(crate) mod values;

@@ -1,8 +1,8 @@
 //! `OdometryDecomposer` for JavaScript.
 
 use super::fields::{check_range, read_integer};
-use super::machine_class::cloud_machine_class;
 use super::pictures::nearest_index;
+use super::simulation_class::cloud_simulation_class;
 use super::values::{flat_float_array, group_to_js, js_object, to_plain_js};
 use crate::sim::odometry_decomposer::{CurvePoint, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
 use crate::sim::settings::QUANTITY_RANGE;
@@ -20,7 +20,7 @@ export interface Drifted {
 }
 "#;
 
-cloud_machine_class! {
+cloud_simulation_class! {
     /// An odometry reading as rotate, drive, rotate, and its noise under the rules of several localizers.
     JsOdometryDecomposer(OdometryDecomposer), "OdometryDecomposer", "OdometryDecomposerSettings",
     "Partial<OdometryDecomposerSettings>", MAX_SAMPLES

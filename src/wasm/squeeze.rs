@@ -1,9 +1,9 @@
 //! `MapSqueeze` for JavaScript.
 
 use super::fields::{quote, read_integer, read_keyword};
-use super::machine_class::cloud_machine_class;
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
+use super::simulation_class::cloud_simulation_class;
 use super::values::{flat_float_array, float_array, group_to_js, js_object, number_or_null, to_plain_js};
 use crate::geom::segment::Segment;
 use crate::map::{Cell, FloorPlan, MAX_DRAWS, Sampler};
@@ -35,7 +35,7 @@ export interface Grid {
 }
 "#;
 
-cloud_machine_class! {
+cloud_simulation_class! {
     /// One command in a map, tried many times by a round robot. It opens facing a doorway in the apartment. `noise` sets all
     /// of `alphas`.
     JsMapSqueeze(MapSqueeze), "MapSqueeze", "MapSqueezeSettings",
@@ -111,7 +111,7 @@ impl JsMapSqueeze {
     }
 
     /// Fields of the YAML file of map_server, and the bytes of a PGM file or the pixels of another image. The whole core,
-    /// which has all machines, also takes the bytes of a PNG file.
+    /// which has all simulations, also takes the bytes of a PNG file.
     #[wasm_bindgen(js_name = setGrid)]
     pub fn set_grid(
         &mut self,
@@ -191,7 +191,7 @@ impl JsMapSqueeze {
     /// Density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. The colours are three
     /// ramps of 256: for rejected attempts, accepted ones, and those accepted through a wall. The most frequent kind in a
     /// cell selects the ramp. A count c of all attempts in the cell has its colour 255·√(c/max), with the largest count max. Empty
-    /// cells are transparent. A view of the core's memory, valid until the next call of the machine.
+    /// cells are transparent. A view of the core's memory, valid until the next call of the simulation.
     #[expect(clippy::too_many_arguments, reason = "a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(

@@ -1,5 +1,5 @@
 /**
- * Digests of the results that machines give through their JavaScript interface, to the last bit. Node and web pages can run this
+ * Digests of the results that simulations give through their JavaScript interface, to the last bit. Node and web pages can run this
  * module. For the Rust simulations tests/native/digest computes the same digests.
  *
  * @module
@@ -21,112 +21,112 @@ import { presets } from '../../www/settings.js';
 /** Bits that replace those of every NaN (not a number); tests/native/digest/encoding.rs tells why. */
 const NAN = 0x7ff8_0000_0000_0000n;
 
-/** Results of the machine of each widget, by parts. @type {Record<string, (motion: Motion, document: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
+/** Results of the simulation of each widget, by parts. @type {Record<string, (motion: Motion, document: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
 export const widgets = {
   'banana-machine'({ BananaMachine, commandReaching }, document, { preset, bounds = document.widgets['banana-machine'].bounds, settings }) {
-    const machine = new BananaMachine({ ...commandOf(presets['banana-machine'], preset), ...settings });
-    const { shown, config: { command } } = machine;
+    const simulation = new BananaMachine({ ...commandOf(presets['banana-machine'], preset), ...settings });
+    const { shown, config: { command } } = simulation;
     const [xMin, yMin, xMax, yMax] = bounds;
     const { columns, rows } = document.picture;
     const pictureOf = (/** @type {'plane' | 'twist'} */ view) =>
-      machine.picture(view, xMin, yMin, xMax, yMax, columns, rows, ramps(1)).slice();
+      simulation.picture(view, xMin, yMin, xMax, yMax, columns, rows, ramps(1)).slice();
     // The native digest has no error of the area ratio.
-    const stats = { ...machine.stats, areaRatioError: undefined };
+    const stats = { ...simulation.stats, areaRatioError: undefined };
     delete stats.areaRatioError;
     const results = {
-      poses: machine.poses,
-      twists: machine.twists,
-      executed: machine.executed,
-      statistics: { shown, chartHolds: machine.chartHolds, reading: machine.reading, stats },
-      table: machine.table,
-      contours: machine.contours,
-      curve: machine.skewCurve(-3, 3, 25),
+      poses: simulation.poses,
+      twists: simulation.twists,
+      executed: simulation.executed,
+      statistics: { shown, chartHolds: simulation.chartHolds, reading: simulation.reading, stats },
+      table: simulation.table,
+      contours: simulation.contours,
+      curve: simulation.skewCurve(-3, 3, 25),
       samples: {
-        inspected: everyOf(shown, 501).map((index) => ({ ...machine.inspect(index), heading: machine.heading(index) })),
-        nearest: VIEWS.map((view) => machine.nearest(view, 0.9, 0.2, 0.5, 0.3)),
+        inspected: everyOf(shown, 501).map((index) => ({ ...simulation.inspect(index), heading: simulation.heading(index) })),
+        nearest: VIEWS.map((view) => simulation.nearest(view, 0.9, 0.2, 0.5, 0.3)),
         reaching: [[1, 0.5], [-0.3, 0.8], [0, 0], [2, -1.5]].map(([x, y]) => commandReaching(x, y, command)),
       },
-      densities: VIEWS.map((view) => machine.density(view, xMin, yMin, xMax, yMax, columns, rows)),
+      densities: VIEWS.map((view) => simulation.density(view, xMin, yMin, xMax, yMax, columns, rows)),
       plane: pictureOf('plane'),
       twist: pictureOf('twist'),
     };
-    machine.free();
+    simulation.free();
     return results;
   },
 
   'map-squeeze'({ MapSqueeze }, document, { preset, map, bounds = document.widgets['map-squeeze'].bounds, settings }) {
     const start = presets['map-squeeze'].find(({ name }) => name === preset)?.start;
-    const machine = new MapSqueeze({ start, ...settings });
+    const simulation = new MapSqueeze({ start, ...settings });
     const { plan, description, image } = map === undefined ? {} : document.maps[map];
-    if (plan) machine.setPlan(plan);
-    if (description) machine.setGrid(description, new TextEncoder().encode(`${document.images[image].join('\n')}\n`));
-    const { shown, startFree, openPlace, noise, stats } = machine;
+    if (plan) simulation.setPlan(plan);
+    if (description) simulation.setGrid(description, new TextEncoder().encode(`${document.images[image].join('\n')}\n`));
+    const { shown, startFree, openPlace, noise, stats } = simulation;
     const [xMin, yMin, xMax, yMax] = bounds;
     const { columns, rows } = document.picture;
     const results = {
-      map: { ...machine.plan, grid: machine.grid },
-      poses: machine.poses,
-      verdicts: machine.verdicts,
+      map: { ...simulation.plan, grid: simulation.grid },
+      poses: simulation.poses,
+      verdicts: simulation.verdicts,
       statistics: { shown, startFree, openPlace, noise, stats },
       paths: {
-        commanded: machine.commanded,
-        driven: everyOf(shown, 101).map((index) => machine.path(index)),
-        nearest: machine.nearest(2.1, 2.4, 0.5),
+        commanded: simulation.commanded,
+        driven: everyOf(shown, 101).map((index) => simulation.path(index)),
+        nearest: simulation.nearest(2.1, 2.4, 0.5),
       },
       trials: SAMPLERS.map((sampler) => {
         try {
-          return machine.trial(sampler, 4, 50);
+          return simulation.trial(sampler, 4, 50);
         } catch {
           // The robot is wedged, and the trial throws.
           return null;
         }
       }),
-      picture: machine.picture(xMin, yMin, xMax, yMax, columns, rows, ramps(3)).slice(),
+      picture: simulation.picture(xMin, yMin, xMax, yMax, columns, rows, ramps(3)).slice(),
     };
-    machine.free();
+    simulation.free();
     return results;
   },
 
   'arc-anatomy'({ ArcAnatomy }, document, { preset, bounds = document.widgets['arc-anatomy'].bounds, settings }) {
     const { v, omega, dt, nextX, nextY, nextTheta } = presets['arc-anatomy'].find(({ name }) => name === (preset ?? 'left')) ?? presets['arc-anatomy'][0];
-    const machine = new ArcAnatomy({ command: { v, omega, dt }, next: { x: nextX, y: nextY, theta: nextTheta }, ...settings });
+    const simulation = new ArcAnatomy({ command: { v, omega, dt }, next: { x: nextX, y: nextY, theta: nextTheta }, ...settings });
     const [xMin, yMin, xMax, yMax] = bounds;
     const results = {
-      statistics: machine.stats,
-      table: machine.table,
-      paths: { ...machine.paths, underway: [0, 0.3, 1].map((share) => machine.underway(share)) },
-      surface: machine.surface(xMin, yMin, xMax, yMax),
+      statistics: simulation.stats,
+      table: simulation.table,
+      paths: { ...simulation.paths, underway: [0, 0.3, 1].map((share) => simulation.underway(share)) },
+      surface: simulation.surface(xMin, yMin, xMax, yMax),
       forms: ArcAnatomy.formErrors(),
     };
-    machine.free();
+    simulation.free();
     return results;
   },
 
   'dead-reckoning'({ DeadReckoning }, _, { preset, settings }) {
     const { command, steps, alphas } = presets['dead-reckoning'].find(({ name }) => name === preset) ?? {};
-    const machine = new DeadReckoning({ command, steps, alphas: alphas ?? undefined, ...settings });
-    const { shown, config, headingNoise, stats } = machine;
+    const simulation = new DeadReckoning({ command, steps, alphas: alphas ?? undefined, ...settings });
+    const { shown, config, headingNoise, stats } = simulation;
     const results = {
       statistics: { shown, headingNoise, stats },
       steps: {
-        ratios: machine.ratios, predicted: machine.predicted, measured: machine.measured, relativeErrors: machine.relativeErrors,
+        ratios: simulation.ratios, predicted: simulation.predicted, measured: simulation.measured, relativeErrors: simulation.relativeErrors,
       },
-      ways: { commanded: machine.commanded, nominal: machine.nominal },
-      poses: { poses: machine.poses, twists: machine.twists, first: machine.posesAfter(1) },
+      ways: { commanded: simulation.commanded, nominal: simulation.nominal },
+      poses: { poses: simulation.poses, twists: simulation.twists, first: simulation.posesAfter(1) },
       rollouts: {
-        driven: everyOf(shown, 501).map((index) => machine.rollout(index)),
-        nearest: machine.nearest(config.command.v * config.command.dt * config.step, 0.1, 0.5),
+        driven: everyOf(shown, 501).map((index) => simulation.rollout(index)),
+        nearest: simulation.nearest(config.command.v * config.command.dt * config.step, 0.1, 0.5),
       },
-      outlines: machine.outlines(config.step),
-      straight: machine.straightGrowth,
+      outlines: simulation.outlines(config.step),
+      straight: simulation.straightGrowth,
     };
-    machine.free();
+    simulation.free();
     return results;
   },
 
   'alpha-calibrator'({ AlphaCalibrator }, _, { settings }) {
-    const machine = new AlphaCalibrator(settings);
-    const { stats: { alphas, intervals, systematicErrors, referenceNoise, persistence, logLikelihood, diagnostics, recommended }, legs, truth } = machine;
+    const simulation = new AlphaCalibrator(settings);
+    const { stats: { alphas, intervals, systematicErrors, referenceNoise, persistence, logLikelihood, diagnostics, recommended }, legs, truth } = simulation;
     const { checks, windows } = diagnostics;
     const results = {
       alphas: { alphas, intervals, logLikelihood },
@@ -139,34 +139,34 @@ export const widgets = {
       },
       legs,
       truth,
-      panels: ['turn', 'distance'].map((regressor) => machine.panels(/** @type {'turn' | 'distance'} */ (regressor))),
-      leg: machine.leg(5),
-      nearest: machine.nearest(0.5, 1, 3),
+      panels: ['turn', 'distance'].map((regressor) => simulation.panels(/** @type {'turn' | 'distance'} */ (regressor))),
+      leg: simulation.leg(5),
+      nearest: simulation.nearest(0.5, 1, 3),
     };
     // The poses at the beginnings of the legs make another log.
     const { count, times, odometry, reference } = legs;
     const column = (/** @type {Float64Array} */ values, /** @type {number} */ size, /** @type {number} */ place) =>
       Float64Array.from({ length: count }, (_, leg) => values[size * leg + place]);
     const poses = (/** @type {Float64Array} */ ends) => ({ t: column(times, 2, 0), x: column(ends, 6, 0), y: column(ends, 6, 1), theta: column(ends, 6, 2) });
-    if (count > 1) machine.setLog(poses(odometry), poses(reference));
-    const log = [machine.fits, machine.stats.alphas, machine.stats.intervals];
-    machine.free();
+    if (count > 1) simulation.setLog(poses(odometry), poses(reference));
+    const log = [simulation.fits, simulation.stats.alphas, simulation.stats.intervals];
+    simulation.free();
     return { ...results, log };
   },
 
   'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {
     const { from, to } = presets['odometry-decomposer'].find(({ name }) => name === preset) ?? {};
-    const machine = new OdometryDecomposer({ from, to, ...settings });
-    const { shown, stats, poses, linkage, robot, rules, drifted } = machine;
+    const simulation = new OdometryDecomposer({ from, to, ...settings });
+    const { shown, stats, poses, linkage, robot, rules, drifted } = simulation;
     const results = {
       poses,
-      linkages: { linkage, ghosts: machine.ghosts(9), robot },
+      linkages: { linkage, ghosts: simulation.ghosts(9), robot },
       rules: rules.map(({ legs, deviations, crossTrack, heading }) => ({ legs, deviations, crossTrack, heading })),
-      statistics: { shown, stats, nearest: machine.nearest(1, 0.8, 0.5) },
-      curve: machine.curve(3, 31),
+      statistics: { shown, stats, nearest: simulation.nearest(1, 0.8, 0.5) },
+      curve: simulation.curve(3, 31),
       drifted,
     };
-    machine.free();
+    simulation.free();
     return results;
   },
 };

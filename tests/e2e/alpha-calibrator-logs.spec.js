@@ -31,7 +31,7 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   await chooseTables(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
   await untilSettled(widget);
   expect(await captionOf(widget).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
-  expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.truth)).toBeNull();
+  expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.truth)).toBeNull();
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
   // The summary stays visible next to the result.
   await expect(widget.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
@@ -75,7 +75,7 @@ test('results are those of the command line, to the last bit, and a recording wh
   await expect(captionOf(widget)).toHaveText(/odometry\.csv, reference\.csv[.,]/);
   await untilSettled(widget);
   const figureResults = await widget.evaluate((element) => {
-    const { machine: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
+    const { simulation: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
     return JSON.stringify({ ...stats, legs }, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value));
   });
   const files = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
@@ -156,7 +156,7 @@ test('the files of a dropped folder are one recording, and others are not used',
   const widget = await openCalibrator(page);
   const cameraRecording = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));
   const recordings = [await recordingWith(['/mocap/pose']), cameraRecording].map((bytes) => bytes.toString('base64'));
-  await widget.locator('section.machine').evaluate(async (section, encodedRecordings) => {
+  await widget.locator('section.simulation').evaluate(async (section, encodedRecordings) => {
     const [bytes, cameraBytes] = await Promise.all(encodedRecordings.map(async (base64) => (await fetch(`data:;base64,${base64}`)).arrayBuffer()));
     const metadata = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
     const journal = new File([new Uint8Array([0x37, 0x7f, 0x06, 0x82])], 'run_0.db3-wal');
@@ -239,7 +239,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   const resultsWhileFitting = await widget.evaluate((element) => {
     const figure = /** @type {any} */ (element);
     figure.distance = 0.5;
-    return { distance: figure.distance, alphas: figure.machine.stats.alphas };
+    return { distance: figure.distance, alphas: figure.simulation.stats.alphas };
   });
   expect(resultsWhileFitting).toEqual({ distance: 0.5, alphas });
   await untilSettled(widget);
@@ -281,7 +281,7 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
   const leftEdgeBefore = await leftEdge();
   const refusals = await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement} */ (element);
-    const { legs } = figure.machine;
+    const { legs } = figure.simulation;
     const t = Array.from({ length: legs.count }, (_, leg) => leg);
     const componentOf = (/** @type {Float64Array} */ poses, /** @type {number} */ component) => t.map((leg) => poses[6 * leg + component]);
     const poses = (/** @type {Float64Array} */ legPoses) => ({ t, x: componentOf(legPoses, 0).map((x) => x + 0.01), y: componentOf(legPoses, 1), theta: componentOf(legPoses, 2) });
@@ -304,7 +304,7 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
   });
   expect(refusals).toEqual([expect.stringMatching(/^odometry: sample 3 is not later than the one before/), 'log is 5; allowed is an object with keys from name, odometry, reference']);
   expect(await widget.evaluate((element) => {
-    const { log, machine: { count } } = /** @type {AlphaCalibratorElement} */ (element);
+    const { log, simulation: { count } } = /** @type {AlphaCalibratorElement} */ (element);
     return [log?.name, count > 100];
   })).toEqual(['of the page', true]);
   expect(await stateOf(widget)).toEqual(stateBefore);
@@ -324,7 +324,7 @@ test('a log without legs says so @nightly', async ({ page }) => {
     const standingPoses = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
     /** @type {AlphaCalibratorElement} */ (element).log = { odometry: standingPoses, reference: standingPoses };
   });
-  await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.count)).toBe(0);
+  await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.count)).toBe(0);
   await untilSettled(widget);
   await openDisclosures(widget);
   await expect(captionOf(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs, or the logs do not overlap in time\./);

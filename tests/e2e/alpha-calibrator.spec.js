@@ -113,7 +113,7 @@ test('every check has its value, the values that pass, and what to do where it f
 
 test('a leg is chosen in the picture, by its slider, and from one large residual to the next', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const { worst } = await widget.evaluate((element) => /** @type {any} */ (element).reading);
+  const { worst } = await widget.evaluate((element) => /** @type {any} */ (element).viewModel);
   const button = widget.getByRole('button', { name: 'Next largest residual' });
   await button.click();
   expect(await stateOf(widget)).toMatchObject({ leg: worst[0] });
@@ -125,10 +125,10 @@ test('a leg is chosen in the picture, by its slider, and from one large residual
   expect(await stateOf(widget)).toMatchObject({ leg: worst[1] + 1 });
   const canvas = widget.locator('canvas.plane');
   const midpoint = await widget.evaluate((element) => {
-    const { pictures: [{ view }], machine } = /** @type {any} */ (element);
-    const { reference } = machine.legs;
+    const { pictures: [{ view }], simulation } = /** @type {any} */ (element);
+    const { reference } = simulation.legs;
     const legMiddle = [0, 1].map((axis) => (reference[6 * 40 + axis] + reference[6 * 40 + 3 + axis]) / 2);
-    return { x: view.toPixelX(legMiddle[0]), y: view.toPixelY(legMiddle[1]), leg: machine.nearest(legMiddle[0], legMiddle[1], 1) };
+    return { x: view.toPixelX(legMiddle[0]), y: view.toPixelY(legMiddle[1]), leg: simulation.nearest(legMiddle[0], legMiddle[1], 1) };
   });
   await canvas.click({ position: { x: midpoint.x, y: midpoint.y } });
   expect(await stateOf(widget)).toMatchObject({ leg: midpoint.leg });

@@ -5,7 +5,7 @@ import { REDUCED_MOTION, centreOf, waitForFrames, mount, numberIn, pictureOf, pi
  * @import { Locator, Page } from '@playwright/test'
  * @import { ArcAnatomy } from '../../www/types.d.ts'
  */
-/** @typedef {HTMLElement & { machine: ArcAnatomy, getState(): any, toCSV(): string, toSVG(): string }} ArcAnatomyElement */
+/** @typedef {HTMLElement & { simulation: ArcAnatomy, getState(): any, toCSV(): string, toSVG(): string }} ArcAnatomyElement */
 
 test.use(REDUCED_MOTION);
 
@@ -16,7 +16,7 @@ const openArcAnatomy = (page, attributes) => mount(page, 'arc-anatomy', { attrib
 async function resultsOf(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
-    const { config, stats, table } = /** @type {ArcAnatomyElement} */ (element).machine;
+    const { config, stats, table } = /** @type {ArcAnatomyElement} */ (element).simulation;
     return { config, stats, table };
   });
 }
@@ -121,7 +121,7 @@ test('the whole wedge of the last turn is in a narrow picture', async ({ page })
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openArcAnatomy(page, 'preset="straight"');
   const [end, edge] = await widget.evaluate((element) => {
-    const { pictures: [{ view }], machine: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
+    const { pictures: [{ view }], simulation: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
     return [view.ray({ ...next, theta: next.theta - lastTurn }, 64)[1][0], view.frame.right];
   });
   expect(end).toBeLessThan(edge);

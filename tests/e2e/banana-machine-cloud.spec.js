@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, bananaReadings, boxOf, centreOf, waitForFrames, numberIn, openBanana, openBananaWithDisclosures, pauseEarly, pictureOf, pixelCountOf, posesOf, readoutValue, readoutDetail, setSliders, test } from './support.js';
+import { REDUCED_MOTION, bananaResults, boxOf, centreOf, waitForFrames, numberIn, openBanana, openBananaWithDisclosures, pauseEarly, pictureOf, pixelCountOf, posesOf, readoutValue, readoutDetail, setSliders, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -28,15 +28,15 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   const widget = await openBanana(page);
   const playButton = widget.locator('.cloud').getByRole('button', { name: 'Draw samples' });
   await expect(playButton).toBeVisible();
-  const [pausedReadings, firstPoses] = [await bananaReadings(widget), await posesOf(widget)];
-  expect(pausedReadings.shown).toBeGreaterThan(0);
-  expect(pausedReadings.shown).toBeLessThan(pausedReadings.config.samples);
+  const [pausedResults, firstPoses] = [await bananaResults(widget), await posesOf(widget)];
+  expect(pausedResults.shown).toBeGreaterThan(0);
+  expect(pausedResults.shown).toBeLessThan(pausedResults.config.samples);
   await waitForFrames(page);
-  expect((await bananaReadings(widget)).shown).toBe(pausedReadings.shown);
+  expect((await bananaResults(widget)).shown).toBe(pausedResults.shown);
 
   await playButton.click();
   await widget.getByRole('button', { name: 'Pin' }).click();
-  await expect.poll(async () => (await bananaReadings(widget)).shown, { timeout: 20_000 }).toBe(pausedReadings.config.samples);
+  await expect.poll(async () => (await bananaResults(widget)).shown, { timeout: 20_000 }).toBe(pausedResults.config.samples);
   // Numbers pinned while the cloud grows are those of the whole cloud.
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
   await expect(playButton).toBeVisible();
@@ -44,9 +44,9 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   expect((await posesOf(widget)).slice(0, firstPoses.length)).toEqual(firstPoses);
 });
 
-test('opens with the whole cloud of the opening command, and shows the numbers of the machine', async ({ page }) => {
+test('opens with the whole cloud of the opening command, and shows the numbers of the simulation', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const { config, shown: robots, stats, table } = await bananaReadings(widget);
+  const { config, shown: robots, stats, table } = await bananaResults(widget);
   expect(config).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
   expect(robots).toBe(config.samples);
   expect(Math.abs(table.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
@@ -76,16 +76,16 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
 
 test('Clear empties the cloud, Step adds a batch of the same robots', async ({ page }) => {
   const widget = await openBanana(page, 'samples="3000"');
-  const [wholeCloud, poses] = [await bananaReadings(widget), await posesOf(widget)];
+  const [wholeCloud, poses] = [await bananaResults(widget), await posesOf(widget)];
   await widget.getByRole('button', { name: 'Clear' }).click();
-  expect((await bananaReadings(widget)).shown).toBe(0);
+  expect((await bananaResults(widget)).shown).toBe(0);
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText('—');
   await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
 
   const batchSize = Math.ceil(wholeCloud.config.samples / GROWTH_STEPS);
   for (const shown of [batchSize, 2 * batchSize]) {
     await widget.getByRole('button', { name: 'Step' }).click();
-    expect((await bananaReadings(widget)).shown).toBe(shown);
+    expect((await bananaResults(widget)).shown).toBe(shown);
     expect(await posesOf(widget)).toEqual(poses.slice(0, 3 * shown));
   }
 });
@@ -127,7 +127,7 @@ test('a robot pointed at in one view is marked in both, with what it executed', 
 
   const checkedIndex = async () => {
     const index = Number(await field.inputValue()) - 1;
-    const { vHat, omegaHat, gammaHat } = await widget.evaluate((element, i) => /** @type {BananaMachineElement} */ (element).machine.inspect(i), index);
+    const { vHat, omegaHat, gammaHat } = await widget.evaluate((element, i) => /** @type {BananaMachineElement} */ (element).simulation.inspect(i), index);
     const printedNumbers = await printedNumbersOfMarked(widget);
     for (const [i, value] of [vHat, omegaHat, gammaHat].entries()) expect(printedNumbers[i]).toBeCloseTo(value, 3);
     return index;
@@ -158,7 +158,7 @@ test('the sentence says what holds exactly for the model, and what the robots sh
   // This cloud is symmetric: the skew is exactly 0 for any number of robots, and the ellipse has twice the area.
   await pressPreset('Banana');
   await waitForFrames(page);
-  const { table } = await bananaReadings(widget);
+  const { table } = await bananaResults(widget);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
   // The caption contains the number of the readout.
@@ -178,7 +178,7 @@ test('the sentence says what holds exactly for the model, and what the robots sh
 test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   await widget.getByRole('button', { name: 'Pivot' }).click();
-  const { table, config } = await bananaReadings(widget);
+  const { table, config } = await bananaResults(widget);
   const [, a2] = config.alphas;
   const deviation = Math.sqrt(config.alphas[0] * 0.06 ** 2 + a2 * 1.5 ** 2);
   await expect(captionOf(widget)).toContainText(`v̂ is 0.06 ± ${deviation.toFixed(2)} m/s`);
@@ -189,7 +189,7 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nig
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
   await widget.locator('#samples').fill('3');
-  const { stats, table: tableOfFew } = await bananaReadings(widget);
+  const { stats, table: tableOfFew } = await bananaResults(widget);
   expect(Math.abs(stats.crossTrackSkew)).toBeLessThan(2 * stats.crossTrackSkewError);
   await expect(captionOf(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(tableOfFew.exact.crossTrackSkew).toFixed(3)}\\.$`));
 });
@@ -210,10 +210,10 @@ test('the odometry model shows the noise of a marked robot’s legs, and has an 
   await widget.getByRole('spinbutton', { name: 'Robot' }).fill('5');
   await waitForFrames(page);
   const expectedNoises = await widget.evaluate((element) => {
-    const { machine } = /** @type {BananaMachineElement} */ (element);
-    const { legs } = machine.inspect(4);
+    const { simulation } = /** @type {BananaMachineElement} */ (element);
+    const { legs } = simulation.inspect(4);
     if (!legs) throw new Error('Odometry drives legs.');
-    const { rot1, trans, rot2 } = machine.reading;
+    const { rot1, trans, rot2 } = simulation.reading;
     return [rot1 - legs.rot1, trans - legs.trans, rot2 - legs.rot2];
   });
   const printedNumbers = await printedNumbersOfMarked(widget);

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { NEW_PAGE_TAG, REDUCED_MOTION, bananaReadings, boxOf, centreOf, openBanana, pictureOf, playSlider, propertyOf, readoutValue, showPage, stateOf, test, untilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, bananaResults, boxOf, centreOf, openBanana, pictureOf, playSlider, propertyOf, readoutValue, showPage, stateOf, test, untilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -45,7 +45,7 @@ test('the end of the arc is moved where the morph shows it @nightly', async ({ p
   const handle = widget.locator('.handle');
   await handle.press('ArrowUp');
   await handle.press('ArrowRight');
-  let { command } = (await bananaReadings(widget)).config;
+  let { command } = (await bananaResults(widget)).config;
   expect(command.omega * command.dt).toBeCloseTo(0.02, 9);
   expect(command.v * command.dt).toBeCloseTo(2.02, 9);
   await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
@@ -54,7 +54,7 @@ test('the end of the arc is moved where the morph shows it @nightly', async ({ p
   const [seenX, seenY] = /** @type {number[]} */ (await propertyOf(widget, 'seenEnd'));
   expect(seenX).toBeCloseTo(x, 9);
   expect(seenY).toBeCloseTo(y + 0.02, 9);
-  ({ command } = (await bananaReadings(widget)).config);
+  ({ command } = (await bananaResults(widget)).config);
   expect(command.omega).toBeGreaterThan(0.01);
 });
 
@@ -158,7 +158,7 @@ test.describe('at first sight', () => {
     await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.driving?.robots > 0);
     await page.keyboard.press('Shift');
     expect(await drivingRobots()).toBeUndefined();
-    await expect.poll(async () => (await bananaReadings(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
+    await expect.poll(async () => (await bananaResults(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
     await page.reload();
     await untilReady(page.locator('banana-machine'));
     expect(await drivingRobots()).toBeUndefined();

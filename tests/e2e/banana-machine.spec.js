@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, bananaReadings, centreOf, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, pictureOf, readoutValue, test, untilSettled } from './support.js';
+import { REDUCED_MOTION, bananaResults, centreOf, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, pictureOf, readoutValue, test, untilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -59,7 +59,7 @@ test('Home and End move the end of the arc to the ends of v, and no key scrolls 
   await page.evaluate(() => scrollTo(0, 100));
   for (const [key, v] of /** @type {const} */ ([['End', 1.5], ['Home', -1.5], ['PageDown', undefined], ['ArrowDown', undefined]])) {
     await page.keyboard.press(key);
-    const { command } = (await bananaReadings(widget)).config;
+    const { command } = (await bananaResults(widget)).config;
     if (v) expect(command.v).toBeCloseTo(v, 1);
   }
   expect(await page.evaluate(() => scrollY)).toBe(100);
@@ -85,12 +85,12 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
   const omegaMarker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
   await omegaMarker.focus();
   await omegaMarker.press('ArrowRight');
-  expect((await bananaReadings(widget)).config.command.omega).toBeCloseTo(0.51, 12);
+  expect((await bananaResults(widget)).config.command.omega).toBeCloseTo(0.51, 12);
   const chart = widget.locator('svg.plot');
   await chart.scrollIntoViewIfNeeded();
   const { x, y } = await centreOf(chart);
   await page.mouse.click(x + 80, y);
-  const { config, table } = await bananaReadings(widget);
+  const { config, table } = await bananaResults(widget);
   expect(config.command.omega).toBeGreaterThan(0.51);
   await expect(omegaMarker).toHaveAttribute('aria-valuetext', new RegExp(`skew −${Math.abs(table.exact.crossTrackSkew).toFixed(3)}`));
 });
@@ -98,16 +98,16 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
 test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   // All samples are in the first block, so that no later one changes the statistics.
   const widget = await openBananaWithDisclosures(page, `${GENTLE_PRESET} samples="20000"`);
-  const readingsBefore = await bananaReadings(widget);
+  const resultsBefore = await bananaResults(widget);
   const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
   const skew = await readoutValue(widget, 'cross-track skew').textContent();
   await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
   await untilSettled(widget);
-  const readingsAfter = await bananaReadings(widget);
-  const alpha = readingsAfter.config.alphas[3];
+  const resultsAfter = await bananaResults(widget);
+  const alpha = resultsAfter.config.alphas[3];
   expect(alpha).toBeGreaterThan(0.16);
-  expect(readingsAfter.config).toEqual({ ...readingsBefore.config, alphas: readingsBefore.config.alphas.with(3, alpha) });
-  expect(readingsAfter.shown).toBe(readingsBefore.shown);
+  expect(resultsAfter.config).toEqual({ ...resultsBefore.config, alphas: resultsBefore.config.alphas.with(3, alpha) });
+  expect(resultsAfter.shown).toBe(resultsBefore.shown);
   expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
   expect(await readoutValue(widget, 'cross-track skew').textContent()).not.toBe(skew);
   // Several inputs between two frames cause one change of the statistics.
@@ -123,23 +123,23 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
     return statsEventCount;
   });
   expect(changeCount).toBe(1);
-  expect((await bananaReadings(widget)).config.alphas[0]).toBe(0.09);
+  expect((await bananaResults(widget)).config.alphas[0]).toBe(0.09);
 });
 
 test('Isolate leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
-  const readingsBefore = await bananaReadings(widget);
+  const resultsBefore = await bananaResults(widget);
   await widget.getByLabel('Isolate one').check();
-  expect((await bananaReadings(widget)).config).toEqual({ ...readingsBefore.config, isolate: 4 });
+  expect((await bananaResults(widget)).config).toEqual({ ...resultsBefore.config, isolate: 4 });
   await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(5);
   await widget.getByRole('radio', { name: 'Only α₁' }).check();
-  expect((await bananaReadings(widget)).config.isolate).toBe(1);
+  expect((await bananaResults(widget)).config.isolate).toBe(1);
   // Moving the slider of another α selects that α.
   await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
-  const { config } = await bananaReadings(widget);
-  expect(config).toMatchObject({ isolate: 3, alphas: readingsBefore.config.alphas.with(2, 0.06) });
+  const { config } = await bananaResults(widget);
+  expect(config).toMatchObject({ isolate: 3, alphas: resultsBefore.config.alphas.with(2, 0.06) });
   await widget.getByLabel('Isolate one').uncheck();
-  expect((await bananaReadings(widget)).config.isolate).toBeNull();
+  expect((await bananaResults(widget)).config.isolate).toBeNull();
   await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(0);
 });
 

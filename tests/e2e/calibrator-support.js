@@ -11,8 +11,8 @@ import { mount, untilSettled } from './support.js';
 /**
  * @typedef {import('@playwright/test').Page} Page
  * @typedef {import('@playwright/test').Locator} Locator
- * @typedef {import('../../www/types.d.ts').AlphaCalibrator} Machine
- * @typedef {HTMLElement & { machine: Machine, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any, service: { isBusy: boolean } }} AlphaCalibratorElement
+ * @typedef {import('../../www/types.d.ts').AlphaCalibrator} Simulation
+ * @typedef {HTMLElement & { simulation: Simulation, log: import('../../www/types.d.ts').CalibrationLog | null, settings: any, service: { isBusy: boolean } }} AlphaCalibratorElement
  */
 
 /** Opens a page with the figure, and waits until its log is fitted. @param {Page} page @param {string} [attributes] */
@@ -27,12 +27,12 @@ export async function openCalibrator(page, attributes) {
 export const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
 export const alphaRowsOf = (/** @type {Locator} */ widget) => widget.locator('table.alphas tbody tr:not([aria-hidden])');
 export const foldedGroup = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
-export const statsOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).machine.stats);
+export const statsOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.stats);
 
 /** Returns two tables of the simulated drive, as a user's files have them. @param {Locator} widget */
 export const tablesOf = (widget) =>
   widget.evaluate((element) => {
-    const { legs } = /** @type {AlphaCalibratorElement} */ (element).machine;
+    const { legs } = /** @type {AlphaCalibratorElement} */ (element).simulation;
     const table = (/** @type {Float64Array} */ poses) =>
       ['t,x,y,yaw', ...Array.from({ length: legs.count }, (_, leg) => [legs.times[2 * leg], ...poses.subarray(6 * leg, 6 * leg + 3)].join(','))].join('\n');
     return { odometry: table(legs.odometry), reference: table(legs.reference) };

@@ -5,7 +5,7 @@ import { REDUCED_MOTION, dragSlider, waitForFrames, mount, pictureOf, pixelCount
  * @import { Locator, Page } from '@playwright/test'
  * @import { DeadReckoning } from '../../www/types.d.ts'
  */
-/** @typedef {HTMLElement & { machine: DeadReckoning }} DeadReckoningElement */
+/** @typedef {HTMLElement & { simulation: DeadReckoning }} DeadReckoningElement */
 
 test.use(REDUCED_MOTION);
 
@@ -17,7 +17,7 @@ async function openReckoning(page, attributes) {
 }
 
 /** @param {Locator} widget */
-const configOf = (widget) => widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.config);
+const configOf = (widget) => widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.config);
 const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
 const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.plot');
 
@@ -54,7 +54,7 @@ test('opens with the chapter’s 6 % along the track, and says that the lateral 
 test('the line of the chart walks along the path, from the keyboard too, and drives nobody', async ({ page }) => {
   const widget = await openReckoning(page);
   const slider = widget.getByRole('slider', { name: 'selected step', exact: true });
-  const measuredBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured);
+  const measuredBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.measured);
   const picturesOf = () => Promise.all(['plane', 'twist'].map((name) => pictureOf(widget.locator(`canvas.${name}`))));
   const [planeAtEnd, twistAtEnd] = await picturesOf();
   await slider.press('ArrowLeft');
@@ -63,7 +63,7 @@ test('the line of the chart walks along the path, from the keyboard too, and dri
   const [plane, twistPicture] = await picturesOf();
   expect(plane).not.toBe(planeAtEnd);
   expect(twistPicture).not.toBe(twistAtEnd);
-  expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.measured)).toEqual(measuredBefore);
+  expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.measured)).toEqual(measuredBefore);
   await expect(slider).toHaveAttribute('aria-valuetext', 'step 19');
   await slider.press('Home');
   await waitForFrames(page);
@@ -119,7 +119,7 @@ test('presets are paths, and tell which one it is', async ({ page }) => {
 
 test('more steps are shorter ones of the same path, seen from the same place', async ({ page }) => {
   const widget = await openReckoning(page, 'step="10" samples="1000"');
-  const commandedEndOf = (/** @type {Locator} */ figure) => figure.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).machine.commanded.slice(-2)]);
+  const commandedEndOf = (/** @type {Locator} */ figure) => figure.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.commanded.slice(-2)]);
   const [x, y] = await commandedEndOf(widget);
   await dragSlider(widget.locator('#steps'), 0.5);
   await untilSettled(widget);
@@ -141,7 +141,7 @@ test('with too few robots nothing is known, and without robots the caption says 
   expect(await missedSteps(widget)).toEqual(['—', '—', '—']);
   await widget.getByRole('button', { name: 'Step', exact: true }).click();
   await waitForFrames(page);
-  expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).machine.shown)).toBe(7);
+  expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.shown)).toBe(7);
 });
 
 test('no noise has no ratio, and a fourth order without a covariance neither @nightly', async ({ page }) => {
@@ -161,15 +161,15 @@ test('a robot that is chosen by its number shows its path', async ({ page }) => 
   await widget.getByRole('spinbutton', { name: 'Robot' }).fill('40000');
   await waitForFrames(page);
   expect(await pixelCountOf(canvas, 'accent')).toBeGreaterThan(pixelsBefore + 100);
-  const end = await widget.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).machine.rollout(39_999)].slice(-3));
+  const end = await widget.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.rollout(39_999)].slice(-3));
   await expect(widget.locator('.marked output')).toContainText(`x ${end[0].toFixed(3)} m`);
 });
 
 test('CSV has a row a step', async ({ page }) => {
   const widget = await openReckoning(page);
   const { text, measured, predicted } = await widget.evaluate((element) => {
-    const { machine } = /** @type {DeadReckoningElement} */ (element);
-    return { text: /** @type {any} */ (element).toCSV(), measured: [...machine.measured], predicted: [...machine.predicted['first-order']] };
+    const { simulation } = /** @type {DeadReckoningElement} */ (element);
+    return { text: /** @type {any} */ (element).toCSV(), measured: [...simulation.measured], predicted: [...simulation.predicted['first-order']] };
   });
   const lines = text.trimEnd().split('\n');
   const [, columns, ...rows] = lines;

@@ -20,7 +20,7 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
   await untilReady(banana);
   await squeeze.scrollIntoViewIfNeeded();
   await untilReady(squeeze);
-  const config = await banana.evaluate((element) => Reflect.get(element, 'machine').config);
+  const config = await banana.evaluate((element) => Reflect.get(element, 'simulation').config);
   expect(config).toMatchObject({
     model: 'odometry',
     noise: 'triangular',
@@ -31,7 +31,7 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
   });
   expect(config.alphas[3]).toBe(0.125);
   expect(await propertyOf(banana, 'overlays')).toEqual(['command', 'linearized']);
-  expect(await squeeze.evaluate((element) => Reflect.get(element, 'machine').config)).toMatchObject({
+  expect(await squeeze.evaluate((element) => Reflect.get(element, 'simulation').config)).toMatchObject({
     start: { x: 3.25, y: 2.6, theta: Math.PI / 2 },
     alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05],
     conditioned: false,
@@ -174,7 +174,7 @@ testEach('code to embed opens the settings of a state, with its attributes in an
       await Promise.all(loadPromises);
       // A log is fitted in the frames after the state.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
-      const configs = [element, embedded, reorderedCopy].map((figure) => /** @type {AnyElement} */ (figure).machine.config);
+      const configs = [element, embedded, reorderedCopy].map((figure) => /** @type {AnyElement} */ (figure).simulation.config);
       for (const box of boxes) box.remove();
       return configs;
     }, /** @type {any} */ (state));

@@ -131,7 +131,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
   await widget.evaluate((element) => {
     const callsByFrame = /** @type {string[][]} */ ([[]]);
     Object.assign(element, { callsByFrame });
-    const { prototype } = /** @type {import('./support.js').AnyElement} */ (element).machine.constructor;
+    const { prototype } = /** @type {import('./support.js').AnyElement} */ (element).simulation.constructor;
     for (const [key, { get, value }] of Object.entries(Object.getOwnPropertyDescriptors(prototype))) {
       const countingCalls = (/** @type {Function} */ member) => /** @this {unknown} */ function (/** @type {any[]} */ ...given) {
         /** @type {string[]} */ (callsByFrame.at(-1)).push(key);
@@ -146,7 +146,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
     };
     startNextFrame();
   });
-  // Returns the methods of the machine that were called, as one list for each frame.
+  // Returns the methods of the simulation that were called, as one list for each frame.
   const callsPerFrame = async () => {
     await untilSettled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'callsByFrame')).splice(0, Infinity, []));

@@ -77,7 +77,7 @@ test('a script that contains the module compiles it while it is evaluated, and n
     const figure = /** @type {any} */ (document.createElement('banana-machine'));
     document.body.prepend(figure);
     await figure.updateComplete;
-    return ['.machine', '.reserved'].map((selector) => figure.shadowRoot.querySelector(selector) !== null);
+    return ['.simulation', '.reserved'].map((selector) => figure.shadowRoot.querySelector(selector) !== null);
   });
   expect(firstContents).toEqual([true, false]);
 });
@@ -87,7 +87,7 @@ test('figures within six hundred pixels of the window start, and others do not',
   await showPage(page, sections.join(''));
   const widgets = page.locator('map-squeeze');
   await untilReady(widgets.nth(0));
-  expect(await propertyOf(widgets.nth(1), 'machine')).toBe(undefined);
+  expect(await propertyOf(widgets.nth(1), 'simulation')).toBe(undefined);
 });
 
 test('a cloud that is out of sight asks for no frames, and goes on growing where it was @nightly', async ({ page, cloud }) => {
@@ -96,7 +96,7 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
   await showPage(page, `<${cloud}></${cloud}><div style="height: 6000px"></div>`);
   const widget = page.locator(cloud);
   await untilReady(widget);
-  const shownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).machine.shown);
+  const shownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).simulation.shown);
   const samples = Number(await propertyOf(widget, 'samples'));
   await widget.evaluate(async (element) => {
     const statsChanged = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
@@ -123,7 +123,7 @@ test('settled waits for the figure and all of its samples, in sight and far from
     const [shownCount, samples, playing] = await page.locator(cloud).evaluate(async (element) => {
       const figure = /** @type {any} */ (element);
       await figure.settled;
-      return [figure.machine.shown, figure.samples, figure.playing];
+      return [figure.simulation.shown, figure.samples, figure.playing];
     });
     expect([shownCount, playing]).toEqual([samples, false]);
   }
@@ -160,12 +160,12 @@ test('a cloud that is half grown stays so over a move and over a removal', async
   expect(/** @type {any} */ (stateBefore).shown).toBeGreaterThan(0);
   expect(/** @type {any} */ (stateBefore).shown).toBeLessThan(/** @type {any} */ (stateBefore).samples);
   const picture = await pictureOf(widget.locator('canvas.plane'));
-  const isSameMachine = await widget.evaluate((element) => {
-    const { machine } = /** @type {AnyElement} */ (element);
+  const isSameSimulation = await widget.evaluate((element) => {
+    const { simulation } = /** @type {AnyElement} */ (element);
     document.querySelector('#b')?.append(element);
-    return machine === /** @type {AnyElement} */ (element).machine;
+    return simulation === /** @type {AnyElement} */ (element).simulation;
   });
-  expect(isSameMachine).toBe(true);
+  expect(isSameSimulation).toBe(true);
   await waitForFrames(page);
   expect(await stateOf(widget)).toEqual(stateBefore);
   await widget.evaluate(async (element) => {

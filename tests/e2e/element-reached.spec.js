@@ -27,7 +27,7 @@ async function showFarBelow(page, name) {
   );
   const widget = page.locator(name);
   await widget.locator('.reserved').waitFor({ state: 'attached' });
-  expect(await propertyOf(widget, 'machine')).toBe(undefined);
+  expect(await propertyOf(widget, 'simulation')).toBe(undefined);
   return widget;
 }
 

@@ -234,7 +234,7 @@ test('custom properties colour controls and canvases, also when they change', as
 test('no control has custom properties of its own, which extensions that darken pages leave behind', async ({ page, figure }) => {
   const widget = await mount(page, figure);
   await openDisclosures(widget);
-  expect(await widget.locator('.machine [style*="--"]').count()).toBe(0);
+  expect(await widget.locator('.simulation [style*="--"]').count()).toBe(0);
   const thumbs = await widget.getByRole('slider').evaluateAll((sliders) =>
     sliders.filter((slider) => slider.matches('input')).map((slider) => getComputedStyle(slider).getPropertyValue('--thumb')));
   expect(thumbs.length).toBeGreaterThan(3);

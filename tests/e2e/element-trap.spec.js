@@ -10,10 +10,10 @@ test.use(REDUCED_MOTION);
 /** Makes the next call into the core crash, and causes that call by an event of a slider. @param {Locator} widget @param {string} slider */
 function trapNextCall(widget, slider) {
   return widget.evaluate((element, id) => {
-    const { machine, shadowRoot } = /** @type {AnyElement} */ (element);
-    Object.assign(window, { trapped: machine });
+    const { simulation, shadowRoot } = /** @type {AnyElement} */ (element);
+    Object.assign(window, { trapped: simulation });
     // This address is outside of the core's memory.
-    machine.__wbg_ptr = 0x7ffffff0;
+    simulation.__wbg_ptr = 0x7ffffff0;
     shadowRoot?.querySelector(`#${id}`)?.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
   }, slider);
 }
@@ -21,8 +21,8 @@ function trapNextCall(widget, slider) {
 /** @param {Locator} widget */
 const expectRestarted = (widget) =>
   expect.poll(() => widget.evaluate((element) => {
-    const { machine } = /** @type {AnyElement} */ (element);
-    return machine !== undefined && machine !== Reflect.get(window, 'trapped');
+    const { simulation } = /** @type {AnyElement} */ (element);
+    return simulation !== undefined && simulation !== Reflect.get(window, 'trapped');
   })).toBe(true);
 
 test('a core that traps is restarted with the same state and picture, and no other element notices', async ({ page, figure }) => {
@@ -36,7 +36,7 @@ test('a core that traps is restarted with the same state and picture, and no oth
   await widget.locator(`#${slider}`).fill(String(values[0]));
   await waitForFrames(page);
   const [stateBefore, pictureBefore] = [await stateOf(widget), await pictureOf(widget.locator('canvas.plane'))];
-  await otherWidget.evaluate((element) => void Object.assign(window, { otherMachine: /** @type {AnyElement} */ (element).machine }));
+  await otherWidget.evaluate((element) => void Object.assign(window, { otherSimulation: /** @type {AnyElement} */ (element).simulation }));
   await takeEvents(page);
   await trapNextCall(widget, slider);
   await expectRestarted(widget);
@@ -45,7 +45,7 @@ test('a core that traps is restarted with the same state and picture, and no oth
   expect(errors[0].message).toMatch(/memory access out of bounds|unreachable/);
   expect(await stateOf(widget)).toEqual(stateBefore);
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
-  expect(await otherWidget.evaluate((element) => /** @type {AnyElement} */ (element).machine === Reflect.get(window, 'otherMachine'))).toBe(true);
+  expect(await otherWidget.evaluate((element) => /** @type {AnyElement} */ (element).simulation === Reflect.get(window, 'otherSimulation'))).toBe(true);
   // The figure works again.
   await widget.locator(`#${slider}`).fill(String(values[1]));
   await expect(widget).toHaveAttribute(slider, String(values[1]));
@@ -61,8 +61,8 @@ test('a core that traps twice without a picture between ends in a sentence @nigh
   await takeEvents(page);
   await widget.evaluate((element) => {
     const widget = /** @type {any} */ (element);
-    const { createMachine } = widget;
-    widget.createMachine = (/** @type {unknown[]} */ ...args) => Object.assign(createMachine.apply(widget, args), { __wbg_ptr: 0x7ffffff0 });
+    const { createSimulation } = widget;
+    widget.createSimulation = (/** @type {unknown[]} */ ...args) => Object.assign(createSimulation.apply(widget, args), { __wbg_ptr: 0x7ffffff0 });
   });
   await trapNextCall(widget, 'v');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');

@@ -90,7 +90,7 @@ test('a robot that a key led into a wall is reported @nightly', async ({ page })
   await expect(widget.locator('.verdict')).not.toContainText('start pose is in collision');
 });
 
-test('the sampler is chosen by name, and the readouts are those of the machine', async ({ page }) => {
+test('the sampler is chosen by name, and the readouts are those of the simulation', async ({ page }) => {
   const widget = await openSqueeze(page);
   const samplersByLabel = { Endpoint: 'endpoint', 'Whole arc': 'whole-arc' };
   await openDisclosures(widget);

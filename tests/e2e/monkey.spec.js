@@ -218,7 +218,7 @@ function faultsOf(page, name) {
     element.hidden = false;
     await untilShown(element);
     const failure = element.shadowRoot.querySelector('.failure');
-    if (failure || !element.machine) return [`it shows ${failure?.textContent ?? 'nothing'}`];
+    if (failure || !element.simulation) return [`it shows ${failure?.textContent ?? 'nothing'}`];
     const faults = [...element.shadowRoot.querySelectorAll('dd, td, output, .typed, .note, .caption')]
       .map((field) => field.value ?? field.textContent)
       .filter((text) => /NaN|Infinity|undefined|\[object/.test(text))

@@ -2,7 +2,7 @@ import { expect } from '@playwright/test';
 import { REDUCED_MOTION, waitForFrames, mount, pictureOf, playSlider, readoutValue, test, openDisclosures } from './support.js';
 
 /** @import { Locator, Page } from '@playwright/test' */
-/** @typedef {HTMLElement & { machine: import('../../www/types.d.ts').OdometryDecomposer }} DecomposerElement */
+/** @typedef {HTMLElement & { simulation: import('../../www/types.d.ts').OdometryDecomposer }} DecomposerElement */
 
 test.use(REDUCED_MOTION);
 
@@ -13,7 +13,7 @@ const openDecomposer = (page, attributes) => mount(page, 'odometry-decomposer', 
 async function resultsOf(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
-    const { config, stats, shown, poses, robot, drifted } = /** @type {DecomposerElement} */ (element).machine;
+    const { config, stats, shown, poses, robot, drifted } = /** @type {DecomposerElement} */ (element).simulation;
     return { config, stats, shown, poses: [...poses], robot, drifted: [...drifted.poses] };
   });
 }

@@ -41,8 +41,8 @@ testEach('the height reserved for a figure until its script is loaded is about t
   }
   // Little space is left empty below the figure.
   const emptySpace = await widget.evaluate((element) => {
-    const [machine, folds] = ['.machine', '.folds'].map((part) => element.shadowRoot?.querySelector(part)?.getBoundingClientRect().bottom ?? NaN);
-    return (machine - folds) / 16;
+    const [simulation, folds] = ['.simulation', '.folds'].map((part) => element.shadowRoot?.querySelector(part)?.getBoundingClientRect().bottom ?? NaN);
+    return (simulation - folds) / 16;
   });
   expect(emptySpace).toBeLessThan(MAX_DIFFERENCE_EM);
 }, NEW_PAGE_TAG);

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { FIGURE_FACTS } from './figures.js';
-import { REDUCED_MOTION, bananaReadings, boxOf, centreOf, waitForFrames, mount, openBanana, pictureOf, pixelCountOf, showPage, stateOf, test, testEach, openDisclosures, untilReady } from './support.js';
+import { REDUCED_MOTION, bananaResults, boxOf, centreOf, waitForFrames, mount, openBanana, pictureOf, pixelCountOf, showPage, stateOf, test, testEach, openDisclosures, untilReady } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -130,7 +130,7 @@ test('sliders speak their value with its unit, and nothing is announced while on
     await waitForFrames(page);
     expect(await status.textContent()).toBe('');
   }
-  const { config } = await bananaReadings(widget);
+  const { config } = await bananaResults(widget);
   await page.mouse.up();
   await expect(status).toContainText(`v = ${config.command.v.toFixed(2).replace('-', '−')} m/s`);
   for (const otherSlider of await widget.locator('input[type=range]').all()) {
@@ -212,11 +212,11 @@ test.describe('a finger', () => {
     await scrollToLowerHalf(chart);
     const { x, y, width, height } = await boxOf(chart);
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
-    await expect.poll(async () => (await bananaReadings(widget)).config.command.omega).toBeGreaterThan(1);
+    await expect.poll(async () => (await bananaResults(widget)).config.command.omega).toBeGreaterThan(1);
     const canvas = widget.locator('canvas.plane');
     await widget.evaluate((element) => element.scrollIntoView());
     const [right, down] = await widget.evaluate((element) => {
-      const { pictures: [{ view }], poses, reading: { end } } = /** @type {any} */ (element);
+      const { pictures: [{ view }], poses, viewModel: { end } } = /** @type {any} */ (element);
       const pixelOf = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
       const handle = [view.toPixelX(end[0]), view.toPixelY(end[1])];
       // Finds a robot inside the frame that the handle does not cover.
@@ -277,7 +277,7 @@ test('paper has figures that were far from the window, with their pictures @nigh
   await showPage(page, '<banana-machine></banana-machine><div style="height: 3000px"></div><map-squeeze></map-squeeze>');
   await untilReady(page.locator('banana-machine'));
   const farFigure = page.locator('map-squeeze');
-  expect(await farFigure.evaluate((element) => Reflect.get(element, 'machine'))).toBe(undefined);
+  expect(await farFigure.evaluate((element) => Reflect.get(element, 'simulation'))).toBe(undefined);
   await page.evaluate(() => {
     addEventListener('afterprint', () => {
       const canvas = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('canvas');

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { openSqueeze, squeezeResults } from './squeeze-support.js';
-import { REDUCED_MOTION, bananaReadings, boxOf, waitForFrames, mount, openBanana, posesOf, propertyOf, test, openDisclosures } from './support.js';
+import { REDUCED_MOTION, bananaResults, boxOf, waitForFrames, mount, openBanana, posesOf, propertyOf, test, openDisclosures } from './support.js';
 
 /** @import { Locator } from '@playwright/test' */
 /** @typedef {import('../../www/types.d.ts').BananaMachineElement} Figure any element, as far as exports are concerned */
@@ -39,7 +39,7 @@ function elementsOf(page, svg) {
 test('CSV of the Banana Machine has the samples, and the settings that bring them back', async ({ page }) => {
   const widget = await openBanana(page, 'samples="2000"');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
-  const { config, shown } = await bananaReadings(widget);
+  const { config, shown } = await bananaResults(widget);
   const poses = await posesOf(widget);
   const { settings, columns, rows } = parsedCSV(await csvOf(widget));
   expect(columns).toEqual([
@@ -52,9 +52,9 @@ test('CSV of the Banana Machine has the samples, and the settings that bring the
   expect(settings).toEqual({ element: 'banana-machine', ...config });
   const recomputedPoses = await widget.evaluate((element, { element: _name, ...given }) => {
     const { motion } = /** @type {import('./support.js').BananaMachineElement} */ (element);
-    const machine = new motion.BananaMachine(given);
-    const posesCopy = [...machine.poses];
-    machine.free();
+    const simulation = new motion.BananaMachine(given);
+    const posesCopy = [...simulation.poses];
+    simulation.free();
     return posesCopy;
   }, settings);
   expect(recomputedPoses).toEqual(poses);

@@ -11,7 +11,7 @@ test('examples of the reference start when they are opened, and are what their c
   await expect(examples).toHaveCount(5);
   for (const example of await examples.all()) {
     const element = example.locator('banana-machine, map-squeeze');
-    expect(await element.evaluate((figure) => Reflect.get(figure, 'machine') === undefined)).toBe(true);
+    expect(await element.evaluate((figure) => Reflect.get(figure, 'simulation') === undefined)).toBe(true);
     // The attributes are read before the figure starts, which adds attributes if the settings match no preset.
     const attributes = await element.evaluate((figure) => Object.fromEntries([...figure.attributes].map(({ name, value }) => [name, value])));
     await example.locator('summary').first().click();
@@ -19,7 +19,7 @@ test('examples of the reference start when they are opened, and are what their c
     await expect(element.locator('.cloud button').first()).toBeVisible();
     await waitForFrames(page);
     const code = (await example.locator('code').first().textContent()) ?? '';
-    const settings = await element.evaluate((figure) => Reflect.get(figure, 'machine').config);
+    const settings = await element.evaluate((figure) => Reflect.get(figure, 'simulation').config);
     for (const [name, value] of Object.entries(attributes)) expect(code).toContain(`${name}="${value}"`);
     if ('samples' in attributes) expect(settings.samples).toBe(Number(attributes.samples));
     if ('isolate' in attributes) expect(settings.isolate).toBe(Number(attributes.isolate));

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { FIGURE_FACTS } from './figures.js';
-import { REDUCED_MOTION, bananaReadings, waitForFrames, mount, numberIn, openBanana, pictureOf, readoutValue, showPage, test, testEach, openDisclosures, untilReady, untilSettled } from './support.js';
+import { REDUCED_MOTION, bananaResults, waitForFrames, mount, numberIn, openBanana, pictureOf, readoutValue, showPage, test, testEach, openDisclosures, untilReady, untilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -88,7 +88,7 @@ test('the nearest lang decides, also on the form of numbers; a language without 
   const germanSkew = (await readoutValue(widget, /[Qq]uer/).textContent()) ?? '';
   expect(germanSkew).toBe(englishSkew.replaceAll('.', ','));
   expect(germanSkew).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
-  expect(numberIn(germanSkew.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await bananaReadings(widget)).stats.crossTrackSkew, 3);
+  expect(numberIn(germanSkew.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await bananaResults(widget)).stats.crossTrackSkew, 3);
   await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await expectPlayButton('Draw samples');
@@ -155,7 +155,7 @@ test('a page from right to left has the same picture, and nothing beside its fig
 
 test('signs stand left of their numbers on a page from right to left, also among words from right to left', async ({ page, figure }) => {
   const headHtml = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { play: "נגן" })</script>';
-  for (const [lang, direction, values] of [['en', 'ltr', '.machine'], ['he', 'rtl', '.machine :is(bdi, [dir=ltr])']]) {
+  for (const [lang, direction, values] of [['en', 'ltr', '.simulation'], ['he', 'rtl', '.simulation :is(bdi, [dir=ltr])']]) {
     await showPage(page, `<div dir="rtl" lang="${lang}"><${figure}><p slot="caption">נגן</p></${figure}></div>`, { head: headHtml });
     const widget = page.locator(figure);
     await untilReady(widget);
@@ -181,7 +181,7 @@ test('signs stand left of their numbers on a page from right to left, also among
     expect(signsAndSides.length).toBeGreaterThan(1);
     expect(signsAndSides.filter(([, isLeftOfNumber]) => !isLeftOfNumber)).toEqual([]);
     const directionOf = (/** @type {string} */ selector) => widget.locator(selector).evaluate((element) => getComputedStyle(element).direction);
-    expect(await directionOf('.machine')).toBe(direction);
+    expect(await directionOf('.simulation')).toBe(direction);
     expect(await directionOf('[slot=caption]')).toBe('rtl');
   }
 });
@@ -194,7 +194,7 @@ test('a page translator that replaces every text freezes none @nightly', async (
   const { slider, values } = FIGURE_FACTS[figure];
   const texts = async () => {
     await waitForFrames(page);
-    return Promise.all([translated, other].map((widget) => widget.locator('.machine').evaluate((machine) => machine.textContent)));
+    return Promise.all([translated, other].map((widget) => widget.locator('.simulation').evaluate((simulation) => simulation.textContent)));
   };
   for (const widget of [translated, other]) {
     await untilReady(widget);

@@ -1,5 +1,5 @@
 /**
- * Helpers for tests of Map Squeeze: a page with the figure, readings of its machine, and map files.
+ * Helpers for tests of Map Squeeze: a page with the figure, results of its simulation, and map files.
  *
  * @module
  */
@@ -12,7 +12,7 @@ import { waitForFrames, showPage, untilReady } from './support.js';
  * @typedef {import('@playwright/test').Locator} Locator
  * @typedef {import('../../www/types.d.ts').MapSqueeze} MapSqueeze
  * @typedef {import('../../www/types.d.ts').Motion} Motion
- * @typedef {HTMLElement & { machine: MapSqueeze, motion: Motion }} MapSqueezeElement
+ * @typedef {HTMLElement & { simulation: MapSqueeze, motion: Motion }} MapSqueezeElement
  * @typedef {{ name: string, mimeType: string, buffer: Buffer }} MapFile
  * @typedef {(column: number, row: number) => boolean} CellTest of a column and a row, from the top left
  */
@@ -25,11 +25,11 @@ export async function openSqueeze(page, attributes = '') {
   return widget;
 }
 
-/** Returns the results of the machine after the next frames. @param {Locator} widget */
+/** Returns the results of the simulation after the next frames. @param {Locator} widget */
 export async function squeezeResults(widget) {
   await waitForFrames(widget.page());
   const { plan: { bounds, walls }, poses, verdicts, ...others } = await widget.evaluate((element) => {
-    const { config, shown, stats, startFree, openPlace, plan, poses, verdicts } = /** @type {MapSqueezeElement} */ (element).machine;
+    const { config, shown, stats, startFree, openPlace, plan, poses, verdicts } = /** @type {MapSqueezeElement} */ (element).simulation;
     return { config, shown, stats, startFree, openPlace, plan, poses, verdicts };
   });
   return { ...others, bounds: [...bounds], walls: [...walls], poses: [...poses], verdicts: [...verdicts] };

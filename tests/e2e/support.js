@@ -1,5 +1,5 @@
 /**
- * Helpers of the browser tests: the test function, test pages, readings of a machine, and actions on controls.
+ * Helpers of the browser tests: the test function, test pages, results of a simulation, and actions on controls.
  *
  * @module
  */
@@ -13,9 +13,9 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureFor } from './figures
  * @typedef {import('../../www/types.d.ts').BananaMachine} BananaMachine
  * @typedef {import('../../www/types.d.ts').Motion} Motion
  * @typedef {import('./figures.js').Name} Name
- * @typedef {import('../../www/types.d.ts').WidgetElement<any, any> & { machine: any, motion: any }} AnyElement
+ * @typedef {import('../../www/types.d.ts').WidgetElement<any, any> & { simulation: any, motion: any }} AnyElement
  * @typedef {{ name: string, target: string, message: string, path: number, value: unknown }} FiredEvent
- * @typedef {HTMLElement & { machine: BananaMachine, motion: Motion }} BananaMachineElement
+ * @typedef {HTMLElement & { simulation: BananaMachine, motion: Motion }} BananaMachineElement
  */
 
 /**
@@ -115,10 +115,10 @@ export async function showPage(page, body, { head = '', fragment = '', script = 
   await page.goto(`/bare.html${fragment}`);
 }
 
-/** Waits until an element has its machine, and has drawn its picture if it is visible. @param {Locator} widget */
+/** Waits until an element has its simulation, and has drawn its picture if it is visible. @param {Locator} widget */
 export async function untilReady(widget) {
   await widget.evaluate(async (element) => {
-    while (Reflect.get(element, 'machine') === undefined) await new Promise(requestAnimationFrame);
+    while (Reflect.get(element, 'simulation') === undefined) await new Promise(requestAnimationFrame);
   });
   await waitForFrames(widget.page());
 }
@@ -232,7 +232,7 @@ export async function pauseEarly(page, name) {
     const pause = () => {
       const figure = /** @type {any} */ (document.querySelector(tag));
       const button = figure.shadowRoot.querySelector('.cloud button');
-      if (!button || !figure.playing || figure.machine.shown === 0) return;
+      if (!button || !figure.playing || figure.simulation.shown === 0) return;
       document.removeEventListener('stats', pause);
       button.click();
     };
@@ -265,18 +265,18 @@ export async function waitForFrames(page) {
 }
 
 /** Returns results of a Banana Machine after the next frames, without its many poses. @param {Locator} widget */
-export async function bananaReadings(widget) {
+export async function bananaResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
-    const { config, shown, stats, table, contours } = /** @type {BananaMachineElement} */ (element).machine;
+    const { config, shown, stats, table, contours } = /** @type {BananaMachineElement} */ (element).simulation;
     return { config, shown, stats, table, end: [...contours.command.slice(-2)] };
   });
 }
 
-/** Returns the poses of a machine after the next frames. @param {Locator} widget @returns {Promise<number[]>} */
+/** Returns the poses of a simulation after the next frames. @param {Locator} widget @returns {Promise<number[]>} */
 export async function posesOf(widget) {
   await waitForFrames(widget.page());
-  return [...(await widget.evaluate((element) => /** @type {BananaMachineElement} */ (element).machine.poses))];
+  return [...(await widget.evaluate((element) => /** @type {BananaMachineElement} */ (element).simulation.poses))];
 }
 
 /** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */

@@ -28,7 +28,7 @@ import { ensureFirefox, ensureWebKit } from './programs.mjs';
 /** Size of the page within the window of the browser, CSS pixels. */
 const PAGE_SIZE = { width: 1280, height: 800 };
 
-/** Time limit of a script in a page, ms. The digest of all machines takes longest. */
+/** Time limit of a script in a page, ms. The digest of all simulations takes longest. */
 const SCRIPT_TIMEOUT = 240_000;
 
 const KEYS = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, ArrowUp: Key.ARROW_UP, ArrowDown: Key.ARROW_DOWN };

@@ -10,8 +10,8 @@ import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../www/settings.js';
 import { differences } from '../digest/digest.js';
-import { figures, machineOf } from './figures.mjs';
-import { machineState } from './inside.js';
+import { figures, simulationOf } from './figures.mjs';
+import { simulationState } from './inside.js';
 
 /** @typedef {import('./browsers.mjs').Engine} Engine */
 
@@ -127,17 +127,17 @@ async function checkDigest(page) {
 }
 
 /**
- * Compares the results of a figure with those of a machine of the same settings in Node, to the last bit.
+ * Compares the results of a figure with those of a simulation of the same settings in Node, to the last bit.
  *
  * @param {Page} page
  * @param {string} tag
- * @returns {Promise<{ machine: any, hash: string }>} the machine in Node
+ * @returns {Promise<{ simulation: any, hash: string }>} the simulation in Node
  */
 async function compareWithNode(page, tag) {
   const { config, hash } = await page.ask('stateOf', tag);
-  const machine = await machineOf(tag, config);
-  assert.equal(hash, (await machineState(machine)).hash, `Node has other bits for ${JSON.stringify(config)}.`);
-  return { machine, hash };
+  const simulation = await simulationOf(tag, config);
+  assert.equal(hash, (await simulationState(simulation)).hash, `Node has other bits for ${JSON.stringify(config)}.`);
+  return { simulation, hash };
 }
 
 /** Compares the state in which a figure opens. @type {(page: Page, tag: string) => Promise<void>} */
@@ -165,8 +165,8 @@ async function checkDragging(page, tag, { name, to, placeOf }) {
   await page.engine.drag(Array.from({ length: DRAG_STEPS + 1 }, (_, i) => pointAt(i / DRAG_STEPS)));
   await page.untilSettled(tag);
   await page.keepScreenshot(`${tag}-${name}-dragged`);
-  const { machine } = await compareWithNode(page, tag);
-  const [x, y] = placeOf(machine, to);
+  const { simulation } = await compareWithNode(page, tag);
+  const [x, y] = placeOf(simulation, to);
   const error = Math.hypot(x - to[0], y - to[1]) / handlePlaces.pixel;
   assert.ok(error <= 1, `It is ${error.toFixed(2)} pixels beside where it was dragged.`);
   assert.notEqual(await page.ask('pictureHashOf', tag), hashBefore, 'The picture is as it was.');

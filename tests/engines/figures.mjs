@@ -10,7 +10,7 @@ import { load } from '../../dist/core.js';
  * @typedef {object} Handle
  * @property {string} name class of its element
  * @property {number[]} to place to which it is dragged, m
- * @property {(machine: any, to: number[]) => number[]} placeOf position of the handle by the machine's settings, after it was
+ * @property {(simulation: any, to: number[]) => number[]} placeOf position of the handle by the simulation's settings, after it was
  *   dragged to the place `to`
  */
 
@@ -45,8 +45,8 @@ export const figures = {
   'alpha-calibrator': { handles: [] },
 };
 
-/** Returns the machine of a figure, in Node. @param {string} tag @param {any} config @returns {Promise<any>} */
-export async function machineOf(tag, config) {
+/** Returns the simulation of a figure, in Node. @param {string} tag @param {any} config @returns {Promise<any>} */
+export async function simulationOf(tag, config) {
   const motion = /** @type {any} */ (await load());
   return new motion[tag.replace(/(^|-)(\w)/g, (_, _dash, letter) => letter.toUpperCase())](config);
 }

@@ -1,5 +1,5 @@
 /**
- * Functions that checks.mjs calls in the page; `machineState` runs in Node too.
+ * Functions that checks.mjs calls in the page; `simulationState` runs in Node too.
  *
  * @module
  */
@@ -8,8 +8,8 @@ import { digest, hashOf } from '../digest/digest.js';
 
 /**
  * @typedef {{ x: number, y: number }} Point
- * @typedef {HTMLElement & { machine: any, pictures: { view: import('../../www/scene/view.ts').View }[] }} Figure
- * @typedef {{ config: any, hash: string }} State settings of a machine, and a hash of all bits of its results
+ * @typedef {HTMLElement & { simulation: any, pictures: { view: import('../../www/scene/view.ts').View }[] }} Figure
+ * @typedef {{ config: any, hash: string }} State settings of a simulation, and a hash of all bits of its results
  */
 
 const figureOf = (/** @type {string} */ tag) => /** @type {Figure} */ (document.querySelector(tag));
@@ -52,10 +52,10 @@ export async function untilSettled(tag) {
 }
 
 /** @param {string} tag */
-export const stateOf = (tag) => machineState(figureOf(tag).machine);
+export const stateOf = (tag) => simulationState(figureOf(tag).simulation);
 
-/** Returns the state of a machine of any widget. @param {any} machine @returns {Promise<State>} */
-export async function machineState({ config, poses = null, stats, verdicts = null, contours = null, grid = null }) {
+/** Returns the state of a simulation of any widget. @param {any} simulation @returns {Promise<State>} */
+export async function simulationState({ config, poses = null, stats, verdicts = null, contours = null, grid = null }) {
   return { config, hash: await hashOf({ poses, stats, verdicts, contours, grid }) };
 }
 

@@ -34,15 +34,15 @@ calibrator.setLog(logOfOneSecond, logOfOneSecond);
 const mapSqueeze = new motion.MapSqueeze({ samples: 1 });
 
 /**
- * Machines of the elements, with their attributes and opening settings.
+ * Simulations of the elements, with their attributes and opening settings.
  *
- * @type {{ attributes: ReturnType<typeof selectAttributes>, machine: any, opening: any }[]}
+ * @type {{ attributes: ReturnType<typeof selectAttributes>, simulation: any, opening: any }[]}
  */
-const widgetMachines = Object.entries(settings).map(([tag, declared]) => {
+const widgetSimulations = Object.entries(settings).map(([tag, declared]) => {
   const className = tag.replaceAll(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase());
   const hasSamples = declared.some(({ key }) => key === 'samples');
-  const machine = { 'map-squeeze': mapSqueeze, 'alpha-calibrator': calibrator }[tag] ?? new (/** @type {any} */ (motion)[className])(hasSamples ? { samples: 1 } : {});
-  return { attributes: selectAttributes(propertiesOf(declared)), machine, opening: machine.config };
+  const simulation = { 'map-squeeze': mapSqueeze, 'alpha-calibrator': calibrator }[tag] ?? new (/** @type {any} */ (motion)[className])(hasSamples ? { samples: 1 } : {});
+  return { attributes: selectAttributes(propertiesOf(declared)), simulation, opening: simulation.config };
 });
 
 /** Maximum length of the message of a refusal, in which long quotations are shortened. */
@@ -217,7 +217,7 @@ export const targets = {
       const isMapTaken = map === null || isTaken(() => applyMap(mapSqueeze, map));
       if (!isMapTaken) assert.deepEqual(mapOf(mapSqueeze, ''), mapBefore);
       const isConfigured = isTaken(() => mapSqueeze.configure(fields));
-      mapSqueeze.configure(widgetMachines[1].opening);
+      mapSqueeze.configure(widgetSimulations[1].opening);
       return isMapTaken && isConfigured;
     },
   },
@@ -225,30 +225,30 @@ export const targets = {
     corpus: bytesOfTexts('v=1', 'omega=-0.5', 'alpha1=1e-3', 'conditioned=false', 'conditioned=', 'sampler=whole-arc', 'samples=10', 'seed=7', 'x=2.05', 'noise=0.12', 'model=odometry', 'alpha6=0', 'nextY=-0.5', 'rule=nav2', 'phase=1.5', 'steps=40', 'per=path', 'map=density', 'startTheta=1'),
     async run(bytes) {
       const [name, ...values] = bytes.toString().split('=');
-      const { attributes, machine, opening } = widgetMachines[bytes.length % widgetMachines.length];
+      const { attributes, simulation, opening } = widgetSimulations[bytes.length % widgetSimulations.length];
       const attribute = Object.hasOwn(attributes, name) ? attributes[name] : Object.values(attributes)[bytes.length % 9];
       // Millions of samples would take too much memory.
       if (/^(samples|steps)$/.test(name) && Number(values.join('=')) > 1e5) return false;
-      if (!isTaken(() => machine.configure(attribute.change(attribute.converter.parse(values.join('=')), machine.config)))) return false;
-      assert.equal(typeof attribute.converter.print(attribute.get(machine.config)), 'string');
-      machine.configure(opening);
+      if (!isTaken(() => simulation.configure(attribute.change(attribute.converter.parse(values.join('=')), simulation.config)))) return false;
+      assert.equal(typeof attribute.converter.print(attribute.get(simulation.config)), 'string');
+      simulation.configure(opening);
       return true;
     },
   },
 };
 
-/** Returns the map that a machine has, as data of a link. @param {InstanceType<typeof motion.MapSqueeze>} machine @param {string} name */
-function mapOf(machine, name) {
-  return mapData(machine, name, cellsOf(machine));
+/** Returns the map that a simulation has, as data of a link. @param {InstanceType<typeof motion.MapSqueeze>} simulation @param {string} name */
+function mapOf(simulation, name) {
+  return mapData(simulation, name, cellsOf(simulation));
 }
 
 /** Returns states of Map Squeeze as links contain them. */
 function states() {
-  const machine = new motion.MapSqueeze({ samples: 1 });
-  const { config } = machine;
+  const simulation = new motion.MapSqueeze({ samples: 1 });
+  const { config } = simulation;
   const plan = { name: 'room.json', bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] };
-  machine.setGrid({ resolution: 0.5, origin: [0, 0, 0.5] }, Buffer.from('P5 3 2 255\n\0\xff\x80\0\xff\xff', 'latin1'));
-  const grid = mapOf(machine, 'map.yaml');
-  machine.free();
+  simulation.setGrid({ resolution: 0.5, origin: [0, 0, 0.5] }, Buffer.from('P5 3 2 255\n\0\xff\x80\0\xff\xff', 'latin1'));
+  const grid = mapOf(simulation, 'map.yaml');
+  simulation.free();
   return [{ ...config, map: null }, { ...config, map: plan }, { widget: 'map-squeeze', samples: 1, map: grid }];
 }

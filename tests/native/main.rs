@@ -54,7 +54,7 @@ mod models {
 mod settings {
     mod javascript;
 }
-/// The machine of each figure.
+/// The simulation of each figure.
 mod simulations {
     mod alpha_calibrator;
     pub mod arc_anatomy;

@@ -12,12 +12,12 @@ test('baseline has the statistics and the picture of the core', async () => {
 
 test('comparison finds a core with another skew', async () => {
   const motion = await (await freshModule()).load();
-  class MachineWithOtherSkew extends motion.BananaMachine {
+  class SimulationWithOtherSkew extends motion.BananaMachine {
     get stats() {
       const stats = super.stats;
       return { ...stats, crossTrackSkew: stats.crossTrackSkew * 1.1 };
     }
   }
-  const messages = differencesFromCore(/** @type {any} */ ({ BananaMachine: MachineWithOtherSkew }), 2000);
+  const messages = differencesFromCore(/** @type {any} */ ({ BananaMachine: SimulationWithOtherSkew }), 2000);
   assert.deepEqual([...new Set(messages.map((text) => text.split(':')[0]))], ['crossTrackSkew']);
 });

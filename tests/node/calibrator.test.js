@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { alphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/lines.ts';
 import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
-import { legClassesOf, truthApplies } from '../../www/widgets/alpha-calibrator/reading.ts';
+import { legClassesOf, truthApplies } from '../../www/widgets/alpha-calibrator/view-model.ts';
 import { SIMULATED_LEGS } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { localized } from '../../www/widgets/alpha-calibrator/words.ts';
 import { settings } from '../../www/settings.js';

@@ -411,6 +411,6 @@ test('the report says what failed, what is lost, and what to drive', async () =>
 
 /** Reasons for which an α is not identifiable, as the core declares them. */
 function calibrationWords() {
-  const [, declaredWords] = readFileSync(new URL('../../dist/machines.d.ts', import.meta.url), 'utf8').match(/notIdentifiable: \('(.*)' \| null\)\[\];/) ?? [];
+  const [, declaredWords] = readFileSync(new URL('../../dist/simulations.d.ts', import.meta.url), 'utf8').match(/notIdentifiable: \('(.*)' \| null\)\[\];/) ?? [];
   return declaredWords.split("' | '");
 }

@@ -1,4 +1,4 @@
-// Interface of dist/core.js in Node: how it is loaded, and which names it exports. tests/digest compares the results of machines, and
+// Interface of dist/core.js in Node: how it is loaded, and which names it exports. tests/digest compares the results of simulations, and
 // tests/web those of other exports.
 
 import assert from 'node:assert/strict';
@@ -36,9 +36,9 @@ test('load takes bytes, a compiled module, or an address, and fails with a sente
   const bytes = await readFile(address);
   for (const source of [undefined, bytes, new Uint8Array(bytes).buffer, await WebAssembly.compile(bytes), address, address.href]) {
     const motion = await (await freshModule()).load(source);
-    const machine = new motion.BananaMachine({ samples: 5 });
-    assert.equal(machine.stats.n, 5);
-    machine.free();
+    const simulation = new motion.BananaMachine({ samples: 5 });
+    assert.equal(simulation.stats.n, 5);
+    simulation.free();
   }
   const core = await freshModule();
   await assert.rejects(core.load(42), TypeError);
@@ -48,11 +48,11 @@ test('load takes bytes, a compiled module, or an address, and fails with a sente
 
 test('a page finds every name of the contract', async () => {
   const motion = await (await freshModule()).load();
-  const machines = ['AlphaCalibrator', 'ArcAnatomy', 'BananaMachine', 'DeadReckoning', 'MapSqueeze', 'OdometryDecomposer'];
+  const simulations = ['AlphaCalibrator', 'ArcAnatomy', 'BananaMachine', 'DeadReckoning', 'MapSqueeze', 'OdometryDecomposer'];
   const models = ['OdometryModel', 'VelocityModel'];
   const functions = ['calibrate', 'commandReaching', 'decompose', 'invertArc', 'propagate', 'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine'];
-  assert.deepEqual(Object.keys(motion).sort(), [...machines, ...models, ...functions, 'se2'].sort());
-  for (const [names, members] of [[machines, ['configure', 'config', 'stats']], [models, ['prob', 'poseDensity', 'sample']]]) {
+  assert.deepEqual(Object.keys(motion).sort(), [...simulations, ...models, ...functions, 'se2'].sort());
+  for (const [names, members] of [[simulations, ['configure', 'config', 'stats']], [models, ['prob', 'poseDensity', 'sample']]]) {
     for (const name of names) {
       for (const member of [...members, 'free', Symbol.dispose]) assert.ok(member in motion[name].prototype, `${name}: ${String(member)}`);
     }
@@ -61,26 +61,26 @@ test('a page finds every name of the contract', async () => {
   assert.deepEqual(Object.keys(motion.se2).sort(), se2);
 });
 
-test('a machine opens with the settings that www/settings.js declares', async () => {
+test('a simulation opens with the settings that www/settings.js declares', async () => {
   const motion = await (await freshModule()).load();
   for (const [tag, declared] of Object.entries(settings)) {
-    const MachineClass = motion[tag.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase())];
+    const SimulationClass = motion[tag.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase())];
     const fields = (/** @type {string} */ group) => declared.filter((setting) => setting.in === group).map(({ key, field = key, default: value }) => [field, value]);
     const ownSettings = declared.filter((setting) => !setting.in && !setting.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fields(key)) : value]);
-    assert.deepEqual(new MachineClass().config, Object.fromEntries(ownSettings), tag);
+    assert.deepEqual(new SimulationClass().config, Object.fromEntries(ownSettings), tag);
   }
 });
 
-test('a machine computes, refuses by class and message, and is freed', async () => {
+test('a simulation computes, refuses by class and message, and is freed', async () => {
   const { BananaMachine, invertArc } = await (await freshModule()).load();
-  const machine = new BananaMachine({ command: { v: 1, omega: 0.5, dt: 1 }, alphas: [0.02, 0.02, 0.02, 0.02, 0, 0], samples: 100 });
-  assertNear(machine.table.exact.crossTrackSkew, -0.30056, 5.1e-6);
-  assert.throws(() => machine.configure({ samples: 0 }), { name: 'RangeError', message: /^samples is 0; allowed is a whole number / });
+  const simulation = new BananaMachine({ command: { v: 1, omega: 0.5, dt: 1 }, alphas: [0.02, 0.02, 0.02, 0.02, 0, 0], samples: 100 });
+  assertNear(simulation.table.exact.crossTrackSkew, -0.30056, 5.1e-6);
+  assert.throws(() => simulation.configure({ samples: 0 }), { name: 'RangeError', message: /^samples is 0; allowed is a whole number / });
   assert.throws(() => invertArc({ x: 0, y: 0 }), { name: 'TypeError', message: 'start.theta is undefined; allowed is a number' });
-  assert.equal(machine.stats.n, 100);
-  machine.free();
-  machine.free();
-  assert.throws(() => machine.stats, { name: 'TypeError', message: 'this BananaMachine was freed; create a new one.' });
+  assert.equal(simulation.stats.n, 100);
+  simulation.free();
+  simulation.free();
+  assert.throws(() => simulation.stats, { name: 'TypeError', message: 'this BananaMachine was freed; create a new one.' });
 });
 
 test('calibrate takes all coordinates that readers of logs take, and no larger ones', async () => {

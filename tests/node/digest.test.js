@@ -1,4 +1,4 @@
-// Equal seeds give equal bits in Node. The list of configurations covers all settings of the machines.
+// Equal seeds give equal bits in Node. The list of configurations covers all settings of the simulations.
 
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -16,8 +16,8 @@ const motion = await (await freshModule()).load();
 /** Exports without a seed, and models that draw as in Rust. They are covered by tests/web and tests/native. */
 const EXCLUDED_EXPORTS = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2', 'calibrate']);
 
-/** Classes of the machines in core.js, by tag name. @type {Map<string, any>} */
-const machineClasses = new Map(
+/** Classes of the simulations in core.js, by tag name. @type {Map<string, any>} */
+const simulationClasses = new Map(
   Object.entries(motion)
     .filter(([name, exported]) => 'free' in (exported.prototype ?? {}) && !EXCLUDED_EXPORTS.has(name))
     .map(([name, exported]) => [name.replace(/\B[A-Z]/g, '-$&').toLowerCase(), exported]),
@@ -34,7 +34,7 @@ test('a seed gives the bits that it gave', async () => {
 test('every widget and every class of the core has configurations, and every function is asked', () => {
   const listedTags = [...textOf('www/widgets/index.ts').matchAll(/^import '\.\/([\w-]+)\//gm)].map(([, tag]) => tag);
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), listedTags.sort(), 'www/widgets/index.ts');
-  assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...machineClasses.keys()].sort(), 'core.js');
+  assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...simulationClasses.keys()].sort(), 'core.js');
   assert.deepEqual(Object.keys(widgets).sort(), listedTags, 'digest.js');
   const functions = Object.keys(motion).filter((name) => !('free' in (motion[name].prototype ?? {})) && !TESTED_ELSEWHERE.has(name) && !EXCLUDED_EXPORTS.has(name));
   for (const name of functions) assert.match(textOf('tests/digest/digest.js'), new RegExp(`\\b${name}\\(`));
@@ -61,9 +61,9 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
     }
   });
 
-  test(`all that a machine of ${tag} tells is in its digest`, () => {
+  test(`all that a simulation of ${tag} tells is in its digest`, () => {
     const functionText = widgets[tag].toString();
-    const members = Object.getOwnPropertyNames(machineClasses.get(tag).prototype);
+    const members = Object.getOwnPropertyNames(simulationClasses.get(tag).prototype);
     const missingNames = members.filter((name) => !TESTED_ELSEWHERE.has(name) && !new RegExp(`\\b${name}\\b`).test(functionText));
     assert.deepEqual(missingNames, [], `ask for them in digest.js and in tests/digest/`);
   });

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { limits } from '../../www/settings.js';
 import { SIGNATURE, headerChunk, pngOf } from '../png.js';
-import { mapYaml, fileWith, machineWithMap, refusalMessageOf } from './map-support.js';
+import { mapYaml, fileWith, simulationWithMap, refusalMessageOf } from './map-support.js';
 
 const PGM = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');
 
@@ -42,7 +42,7 @@ test('YAML features other than fields and values are refused at once', async () 
   await assertRefusedAtOnce('image: *a', 'unidentified alias "a"|aliases exceeded maxAliases \\(0\\)');
   // A long key, or one with the name of a property of objects, is ignored like other unknown fields.
   for (const key of ['x'.repeat(9e4), '__proto__', 'constructor', 'toString', '<<']) {
-    const { grid } = await machineWithMap(mapYaml({ image: 'map.pgm', [key]: '{resolution: 9, image: [1]}' }), PGM);
+    const { grid } = await simulationWithMap(mapYaml({ image: 'map.pgm', [key]: '{resolution: 9, image: [1]}' }), PGM);
     assert.deepEqual([grid?.columns, grid?.rows, grid?.resolution], [2, 1, 0.05]);
   }
   assert.equal(Reflect.get({}, 'resolution'), undefined);
@@ -54,13 +54,13 @@ test('two maps at a time are refused', async () => {
 });
 
 test('a description is read as leniently as map_server reads it', async () => {
-  const expected = await machineWithMap(mapYaml({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM);
+  const expected = await simulationWithMap(mapYaml({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM);
   for (const yaml of [
     'image: map.pgm\r\nresolution: "0.05"\r\norigin: ["-1.0", \'2\', 0]\r\nnegate: "1"\r\nmode: Trinary\r\n',
     'image:\tmap.pgm\nresolution:\t0.05\t\norigin:\t[-1,\t2,\t0]\n\tnegate: Yes\nmode:\tTRINARY\n',
-  ]) assert.deepEqual((await machineWithMap(fileWith('map.yaml', yaml), PGM)).grid, expected.grid, yaml);
+  ]) assert.deepEqual((await simulationWithMap(fileWith('map.yaml', yaml), PGM)).grid, expected.grid, yaml);
   const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
-  const pngMap = await machineWithMap(mapYaml({ image: 'map.pgm', origin: '[-1, 2, 0]', negate: 1 }), fileWith('map.pgm', png));
+  const pngMap = await simulationWithMap(mapYaml({ image: 'map.pgm', origin: '[-1, 2, 0]', negate: 1 }), fileWith('map.pgm', png));
   assert.deepEqual(pngMap.grid, expected.grid, 'a PNG image with another extension');
 });
 
@@ -79,11 +79,11 @@ test('a value of any kind or length is refused by a sentence that can be read', 
 test('a plan that is not quite JSON is forgiven as long as it may be written by hand', async () => {
   /** @param {number} count */
   const plan = (count) => fileWith('plan.json', `{"bounds": [0, 0, 9, 9], "walls": [${'[0, 0, 1.5, 1.5],'.repeat(count)}]}`);
-  assert.equal((await machineWithMap(plan(1000))).plan.walls.length, 4000);
+  assert.equal((await simulationWithMap(plan(1000))).plan.walls.length, 4000);
   // The tolerant parser would take seconds for the largest allowed plan. It is used for small files, and never for valid JSON.
   assert.match(await refusalMessageOf([plan(20_000)]), /^plan\.json: this is not JSON \(.+\); expected is \{"bounds"/);
   const validJson = JSON.stringify({ bounds: [0, 0, 9, 9], walls: Array(20_000).fill([0, 0, 1.5, 1.5]) });
-  assert.equal((await machineWithMap(fileWith('plan.json', validJson))).plan.walls.length, 80_000);
+  assert.equal((await simulationWithMap(fileWith('plan.json', validJson))).plan.walls.length, 80_000);
 });
 
 test('the size of a file is checked before the file is read', async () => {

@@ -18,15 +18,15 @@ export function mapYaml(fields) {
   return fileWith('map.yaml', Object.entries(allFields).map(([key, value]) => `${key}: ${value}\n`).join(''));
 }
 
-/** Returns a machine with the map of some files. @param {File[]} files */
-export async function machineWithMap(...files) {
-  const machine = new motion.MapSqueeze({ samples: 1 });
-  (await readMapFiles(files, decodePng)).apply(machine);
-  return machine;
+/** Returns a simulation with the map of some files. @param {File[]} files */
+export async function simulationWithMap(...files) {
+  const simulation = new motion.MapSqueeze({ samples: 1 });
+  (await readMapFiles(files, decodePng)).apply(simulation);
+  return simulation;
 }
 
-/** Machine to which the maps of `refusalMessageOf` are applied, one after the other. */
-const trialMachine = new motion.MapSqueeze({ samples: 1 });
+/** Simulation to which the maps of `refusalMessageOf` are applied, one after the other. */
+const trialSimulation = new motion.MapSqueeze({ samples: 1 });
 
 /**
  * Returns the message with which files are refused, or an empty text. Other errors are rethrown.
@@ -36,7 +36,7 @@ const trialMachine = new motion.MapSqueeze({ samples: 1 });
  */
 export async function refusalMessageOf(files, language = 'en') {
   try {
-    (await readMapFiles(files, decodePng)).apply(trialMachine);
+    (await readMapFiles(files, decodePng)).apply(trialSimulation);
   } catch (error) {
     if (error instanceof MapFileError) return error.sentence({ en, de }[language].refused);
     throw error;

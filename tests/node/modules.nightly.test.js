@@ -1,4 +1,4 @@
-// WebAssembly modules of single figures, which external.js loads. Each has no machine of another figure, and gives the same bits as the common
+// WebAssembly modules of single figures, which external.js loads. Each has no simulation of another figure, and gives the same bits as the common
 // module.
 
 import assert from 'node:assert/strict';
@@ -14,13 +14,13 @@ const configurations = JSON.parse(readFileSync(new URL('configurations.json', DI
 const goldenDigest = readFileSync(new URL('golden.txt', DIGESTS), 'utf8');
 
 for (const tag of Object.keys(widgets)) {
-  test(`the module of ${tag} has its machine alone, with the same bits`, async () => {
+  test(`the module of ${tag} has its simulation alone, with the same bits`, async () => {
     const moduleNames = readdirSync(new URL('chunks', DIST)).filter((name) => name.startsWith(`${tag}-`) && name.endsWith('.wasm'));
     assert.equal(moduleNames.length, 1, `one module for ${tag}`);
     const { default: instantiate } = await import(`../../build/${tag}.js`);
     const core = await instantiate(new WebAssembly.Module(readFileSync(new URL(`chunks/${moduleNames[0]}`, DIST))));
-    const machines = Object.keys(widgets).map(pascalCase).filter((name) => name in core);
-    assert.deepEqual(machines, [pascalCase(tag)]);
+    const simulations = Object.keys(widgets).map(pascalCase).filter((name) => name in core);
+    assert.deepEqual(simulations, [pascalCase(tag)]);
     const goldenOfTag = goldenDigest.split('\n').filter((line) => line.startsWith(`${tag}/`)).map((line) => `${line}\n`).join('');
     assert.deepEqual(differences(goldenOfTag, await digest(core, configurations, [tag])), []);
   });

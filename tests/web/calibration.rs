@@ -148,34 +148,34 @@ fn the_figure_opens_with_a_log_of_known_alphas() {
 #[wasm_bindgen_test]
 fn a_log_of_ones_own_replaces_it_and_its_fit_can_be_restored() {
     let it = simulated_logs();
-    it.run("it.machine = new motion.AlphaCalibrator({ outliers: 'keep', duration: 1 })");
-    it.run("it.machine.setLog(it.odometry, it.reference)");
-    assert_eq!(it.get::<Option<()>>("it.machine.truth"), None);
+    it.run("it.simulation = new motion.AlphaCalibrator({ outliers: 'keep', duration: 1 })");
+    it.run("it.simulation.setLog(it.odometry, it.reference)");
+    assert_eq!(it.get::<Option<()>>("it.simulation.truth"), None);
     assert_eq!(
-        it.get::<Vec<f64>>("it.machine.stats.alphas"),
+        it.get::<Vec<f64>>("it.simulation.stats.alphas"),
         it.get::<Vec<f64>>(
             "motion.calibrate({ odometry: it.odometry, reference: it.reference,
         legs: { duration: 1 }, outliers: 'keep' }).alphas"
         )
     );
-    it.run("it.restored = motion.AlphaCalibrator.restored(it.machine.config, it.machine.save())");
+    it.run("it.restored = motion.AlphaCalibrator.restored(it.simulation.config, it.simulation.save())");
     let results = |name: &str| {
         it.get::<String>(&format!("JSON.stringify([it.{name}.config, it.{name}.stats, it.{name}.count])"))
     };
-    assert_eq!(results("restored"), results("machine"));
+    assert_eq!(results("restored"), results("simulation"));
     it.run("it.restored.configure({ rule: 'nav2' })");
     it.assert("it.restored.isPending && it.restored.fittedConfig.rule === 'thrun' && it.restored.fits === 1");
-    it.run("it.machine.configure({ rule: 'nav2' })");
-    it.assert("!it.machine.isPending && it.machine.fits === 3");
+    it.run("it.simulation.configure({ rule: 'nav2' })");
+    it.assert("!it.simulation.isPending && it.simulation.fits === 3");
 }
 
 #[wasm_bindgen_test]
 fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
     let it = simulated_logs();
     it.run("it.few = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] }");
-    it.run("it.machine = new motion.AlphaCalibrator()");
+    it.run("it.simulation = new motion.AlphaCalibrator()");
     it.assert_refused(
-        "it.machine.config",
+        "it.simulation.config",
         r#"
         motion.calibrate({})
         TypeError: odometry is undefined; allowed is an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks
@@ -207,10 +207,10 @@ fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
         RangeError: legs.duration is given beside a distance or an angle; allowed is one of the two
         motion.calibrate({ odometry: it.few, reference: it.few, correct: { yaw: true } })
         TypeError: correct.yaw is an unknown key; allowed are clockOffset, mountYaw, leverArm, distanceScale, turnScale
-        it.machine.configure({ seed: 1, rule: 'omnibus' })
+        it.simulation.configure({ seed: 1, rule: 'omnibus' })
         RangeError: rule is "omnibus"; allowed is "thrun" or "nav2" or "beluga" or "omni"
         motion.AlphaCalibrator.restored({}, new Uint8Array(3))
-        TypeError: saved is no fit; allowed is that of another machine
+        TypeError: saved is no fit; allowed is that of another simulation
         "#,
     );
 }

@@ -60,13 +60,13 @@ fn the_largest_cloud_fits_and_outlives_refused_settings() {
 #[wasm_bindgen_test]
 fn the_largest_cloud_fits_in_the_largest_plan() {
     let settings = squeeze::Settings { samples: squeeze::MAX_SAMPLES, ..Default::default() };
-    let mut machine = MapSqueeze::new(settings).expect("memory for the largest cloud");
-    let tally = *machine.tally();
+    let mut simulation = MapSqueeze::new(settings).expect("memory for the largest cloud");
+    let tally = *simulation.tally();
     assert_eq!(tally.draws, settings.samples);
     let wall = Segment { from: [0.0, 0.0], to: [12.0, 0.0] };
     let plan = FloorPlan::new(vec![wall; FloorPlan::MAX_WALLS], [0.0, 0.0, 12.0, 9.0]).expect("a valid plan");
-    machine.set_plan(plan);
-    assert!(machine.tally().accepted > tally.accepted, "the other walls are gone");
+    simulation.set_plan(plan);
+    assert!(simulation.tally().accepted > tally.accepted, "the other walls are gone");
 }
 
 #[wasm_bindgen_test]

@@ -5,14 +5,13 @@ use wasm_bindgen_test::wasm_bindgen_test;
 
 /// Map of 4 × 3 cells of half a metre, of which the lower left one is occupied: the fields of its YAML file, and its image as a PGM
 /// file.
-const MAP: &str = "({ machine: new motion.MapSqueeze({ samples: 50, clearance: 0.1 }),
+const MAP: &str = "({ simulation: new motion.MapSqueeze({ samples: 50, clearance: 0.1 }),
     yaml: { image: 'map.pgm', resolution: 0.5, origin: [1, 2, 0], negate: 0, occupied_thresh: 0.65, free_thresh: 0.196 },
     pgm: new TextEncoder().encode('P2\\n# by hand\\n4 3\\n255\\n255 255 255 255\\n255 255 255 255\\n0 255 255 255\\n'),
     image: (greys, opacity = 255, width = 4, height = greys.length / width) =>
         new ImageData(new Uint8ClampedArray(greys.flatMap((grey) => [grey, grey, grey, opacity])), width, height),
 })";
-const STATE: &str =
-    "[it.machine.config, it.machine.stats, it.machine.plan, it.machine.grid, [...it.machine.verdicts]]";
+const STATE: &str = "[it.simulation.config, it.simulation.stats, it.simulation.plan, it.simulation.grid, [...it.simulation.verdicts]]";
 
 #[wasm_bindgen_test]
 fn a_noise_level_sets_all_alphas() {
@@ -45,15 +44,15 @@ fn a_floor_plan_replaces_the_apartment_and_gives_way_to_it() {
 #[wasm_bindgen_test]
 fn a_map_is_read_from_a_file_or_from_pixels() {
     let it = Object::new(MAP);
-    it.run("it.machine.setGrid(it.yaml, it.pgm)");
-    let plan: String = it.get("JSON.stringify(it.machine.plan)");
-    assert_eq!(it.get::<[f64; 4]>("it.machine.plan.bounds"), [1.0, 2.0, 3.0, 3.5]);
-    assert_eq!(it.get::<Vec<f64>>("it.machine.plan.walls.slice(0, 4)"), [1.0, 2.0, 1.5, 2.0]);
+    it.run("it.simulation.setGrid(it.yaml, it.pgm)");
+    let plan: String = it.get("JSON.stringify(it.simulation.plan)");
+    assert_eq!(it.get::<[f64; 4]>("it.simulation.plan.bounds"), [1.0, 2.0, 3.0, 3.5]);
+    assert_eq!(it.get::<Vec<f64>>("it.simulation.plan.walls.slice(0, 4)"), [1.0, 2.0, 1.5, 2.0]);
     let grid: (usize, usize, f64, [f64; 3]) =
-        it.get("pick(it.machine.grid, 'columns', 'rows', 'resolution', 'origin')");
+        it.get("pick(it.simulation.grid, 'columns', 'rows', 'resolution', 'origin')");
     assert_eq!(grid, (4, 3, 0.5, [1.0, 2.0, 0.0]));
-    assert_eq!(it.get::<Vec<u8>>("it.machine.grid.occupied"), [1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
-    assert_eq!(it.get::<[f64; 2]>("pick(it.machine.openPlace, 'x', 'y')"), [2.25, 2.75]);
+    assert_eq!(it.get::<Vec<u8>>("it.simulation.grid.occupied"), [1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+    assert_eq!(it.get::<[f64; 2]>("pick(it.simulation.openPlace, 'x', 'y')"), [2.25, 2.75]);
     for call in [
         "{ resolution: 0.5, origin: [1, 2, 0] }, it.pgm",
         "it.yaml, it.image([...Array(8).fill(255), 0, 255, 255, 255])",
@@ -61,25 +60,25 @@ fn a_map_is_read_from_a_file_or_from_pixels() {
         "{ ...it.yaml, mode: 'raw' }, { width: 4, height: 3, data: it.image([...Array(8).fill(0), 100, 99, \
          101, 255]).data }",
     ] {
-        it.run(&format!("[it.machine.setPlan(undefined), it.machine.setGrid({call})]"));
-        assert_eq!(it.get::<String>("JSON.stringify(it.machine.plan)"), plan, "{call}");
+        it.run(&format!("[it.simulation.setPlan(undefined), it.simulation.setGrid({call})]"));
+        assert_eq!(it.get::<String>("JSON.stringify(it.simulation.plan)"), plan, "{call}");
     }
-    it.run("it.machine.setGrid({ ...it.yaml, origin: [1, 2, Math.PI / 2] }, it.pgm)");
-    assert_near([it.get("it.machine.plan.bounds[0]")], [-0.5], 1e-12);
+    it.run("it.simulation.setGrid({ ...it.yaml, origin: [1, 2, Math.PI / 2] }, it.pgm)");
+    assert_near([it.get("it.simulation.plan.bounds[0]")], [-0.5], 1e-12);
 
     // Free, unknown and occupied, in one row.
     it.run(
-        "it.machine.setGrid({ resolution: 1, origin: [0, 0, 0], free_thresh: 0.196 }, it.image([255,
+        "it.simulation.setGrid({ resolution: 1, origin: [0, 0, 0], free_thresh: 0.196 }, it.image([255,
         205, 0, 255, 205, 0], 255, 3))",
     );
     assert_eq!(
-        it.get::<(Vec<u8>, Vec<u8>)>("[it.machine.grid.unknown, it.machine.grid.occupied]"),
+        it.get::<(Vec<u8>, Vec<u8>)>("[it.simulation.grid.unknown, it.simulation.grid.occupied]"),
         (vec![0, 1, 0, 0, 1, 0], vec![0, 0, 1, 0, 0, 1])
     );
-    it.run("it.machine.configure({ start: { x: 1.5, y: 1, theta: 0 } })");
-    it.assert("it.machine.startFree");
-    it.run("it.machine.configure({ unknown: 'blocked' })");
-    assert!(!it.get::<bool>("it.machine.startFree"));
+    it.run("it.simulation.configure({ start: { x: 1.5, y: 1, theta: 0 } })");
+    it.assert("it.simulation.startFree");
+    it.run("it.simulation.configure({ unknown: 'blocked' })");
+    assert!(!it.get::<bool>("it.simulation.startFree"));
 }
 
 #[wasm_bindgen_test]
@@ -88,15 +87,15 @@ fn a_refused_setting_changes_nothing() {
     it.assert_refused(
         STATE,
         r#"
-        it.machine.configure({ seed: 9, clearance: -1 })
+        it.simulation.configure({ seed: 9, clearance: -1 })
         RangeError: clearance is -1; allowed is a number from 0 to 10
-        it.machine.configure({ noise: 0.1, alphas: Array(6).fill(0.1) })
+        it.simulation.configure({ noise: 0.1, alphas: Array(6).fill(0.1) })
         TypeError: noise is given beside alphas; allowed is one of the two
-        it.machine.path(NaN)
+        it.simulation.path(NaN)
         RangeError: index is NaN; allowed is a whole number from 0 to 1000000
-        it.machine.trial('endpoint', 1, 0)
+        it.simulation.trial('endpoint', 1, 0)
         RangeError: count is 0; allowed is a whole number from 1 to 100000
-        it.machine.picture(0, 0, 1, 1, 1, 1, new Uint8Array(1024))
+        it.simulation.picture(0, 0, 1, 1, 1, 1, new Uint8Array(1024))
         RangeError: ramps has length 1024; allowed is a Uint8Array of 3072 bytes, 768 colours of four
         "#,
     );
@@ -108,30 +107,30 @@ fn a_malformed_plan_or_map_is_explained_and_the_present_one_stays() {
     it.assert_refused(
         STATE,
         r#"
-        it.machine.setPlan('apartment')
+        it.simulation.setPlan('apartment')
         TypeError: plan is "apartment"; allowed is an object with keys from bounds, walls
-        it.machine.setPlan({ bounds: [0, 0, 1], walls: [] })
+        it.simulation.setPlan({ bounds: [0, 0, 1], walls: [] })
         RangeError: bounds has length 3; allowed is an array of 4 numbers
-        it.machine.setPlan({ bounds: [1, 0, 0, 1], walls: [] })
+        it.simulation.setPlan({ bounds: [1, 0, 0, 1], walls: [] })
         RangeError: bounds is [1, 0, 0, 1]; allowed is min x, min y, max x,
             max y: numbers from -1000000 to 1000000, the sides from 0.01 to 100000
-        it.machine.setPlan({ bounds: [0, 0, 1, 1] })
+        it.simulation.setPlan({ bounds: [0, 0, 1, 1] })
         TypeError: walls is undefined; allowed is an array of walls, each [x, y, x, y]
-        it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 1]] })
+        it.simulation.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 1]] })
         RangeError: walls[0] has length 3; allowed is an array of 4 numbers
-        it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 2, 0]] })
+        it.simulation.setPlan({ bounds: [0, 0, 1, 1], walls: [[0, 0, 2, 0]] })
         RangeError: walls[0] ends at [2, 0]; allowed is a point inside the bounds
-        it.machine.setPlan({ bounds: [0, 0, 1, 1], walls: new Float64Array(3) })
+        it.simulation.setPlan({ bounds: [0, 0, 1, 1], walls: new Float64Array(3) })
         TypeError: walls is an object; allowed is an array of walls, or a Float64Array of four numbers a wall
-        it.machine.setGrid(null, it.pgm)
+        it.simulation.setGrid(null, it.pgm)
         TypeError: description is null; allowed is an object
-        it.machine.setGrid({ ...it.yaml, free_thresh: 0.7 }, it.pgm)
+        it.simulation.setGrid({ ...it.yaml, free_thresh: 0.7 }, it.pgm)
         RangeError: free_thresh is 0.7; allowed is at most occupied_thresh, 0.65
-        it.machine.setGrid(it.yaml, undefined)
+        it.simulation.setGrid(it.yaml, undefined)
         TypeError: image is undefined; allowed is an object
-        it.machine.setGrid(it.yaml, { width: 4, height: 4, data: new Uint8ClampedArray(48) })
+        it.simulation.setGrid(it.yaml, { width: 4, height: 4, data: new Uint8ClampedArray(48) })
         RangeError: image.data has length 48; allowed is 64
-        it.machine.setGrid(it.yaml, new TextEncoder().encode('GIF89a'))
+        it.simulation.setGrid(it.yaml, new TextEncoder().encode('GIF89a'))
         RangeError: line 1: the magic number is "GIF89a"; allowed is P5 or P2
         "#,
     );

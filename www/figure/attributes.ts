@@ -11,7 +11,7 @@ export interface Converter {
   print: (value: any) => string | null;
 }
 
-/** Settings of the machine, with pending changes, and the state of the element. */
+/** Settings of the simulation, with pending changes, and the state of the element. */
 export type Config = Record<string, any>;
 
 export interface Property {
@@ -90,7 +90,7 @@ export const fieldProperty = (key: string, converter?: Converter): Property => (
 
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type }: Declaration): Property {
   const plainProperty = fieldProperty(key, CONVERTERS[type]);
-  // This setting is a level, which scales several settings of the machine.
+  // This setting is a level, which scales several settings of the simulation.
   if (of) return { ...plainProperty, get: (config) => commonFactorOf(config[of], weights) };
   if (!group) return plainProperty;
   const memberKey = index ?? field;

@@ -12,14 +12,14 @@ import { prefersReducedMotion } from './renderer.ts';
 import type { Figure } from './figure.ts';
 import type { Values } from './settings.ts';
 
-/** Sample counts of a machine, or of a reading of it. */
+/** Sample counts of a simulation, or of a view model of it. */
 interface SampleCount {
   shown: number;
   /** Number of samples that take a few milliseconds. */
   block: number;
 }
 
-export interface GrowingMachine extends SampleCount {
+export interface GrowingSimulation extends SampleCount {
   config: { samples: number, seed: number };
   /** Changes settings and shows the first block of `goal` samples. Returns all settings. */
   configureFirst: (settings: Values, goal: number) => Values;
@@ -38,22 +38,22 @@ export class Cloud extends FigureController {
   #requestedCount = Infinity;
   #hasGivenUp;
 
-  /** Creates the cloud. `hasGivenUp` returns true for a reading or machine that has stopped before it had all samples. */
+  /** Creates the cloud. `hasGivenUp` returns true for a view model or simulation that has stopped before it had all samples. */
   constructor(host: Figure, hasGivenUp: (latest: any) => boolean = () => false) {
     super(host);
     this.#hasGivenUp = hasGivenUp;
   }
 
-  get #machine(): GrowingMachine {
-    return this.host.machine as GrowingMachine;
+  get #simulation(): GrowingSimulation {
+    return this.host.simulation as GrowingSimulation;
   }
 
-  /** Latest sample counts: those of the reading, or of the machine if it has changed since. */
+  /** Latest sample counts: those of the view model, or of the simulation if it has changed since. */
   get #latest(): SampleCount {
-    return this.host.settings.isStale ? this.#machine : this.host.reading;
+    return this.host.settings.isStale ? this.#simulation : this.host.viewModel;
   }
 
-  /** True if all samples are requested, or the machine has given up. */
+  /** True if all samples are requested, or the simulation has given up. */
   get isComplete() {
     return this.#requestedCount >= this.#samples || this.#hasGivenUp(this.#latest);
   }
@@ -68,7 +68,7 @@ export class Cloud extends FigureController {
     return Math.ceil(this.#samples / GROWTH_STEPS);
   }
 
-  /** Number of samples to show; all of them if the machine has given up. */
+  /** Number of samples to show; all of them if the simulation has given up. */
   get targetCount() {
     return this.isComplete ? this.#samples : this.#requestedCount;
   }
@@ -88,7 +88,7 @@ export class Cloud extends FigureController {
 
   /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
   configure(values: Values): Values {
-    return this.#machine.configureFirst(values, this.#requestedCount);
+    return this.#simulation.configureFirst(values, this.#requestedCount);
   }
 
   #restart() {
@@ -120,8 +120,8 @@ export class Cloud extends FigureController {
     while (shown < targetCount) {
       if (performance.now() > endTime) return false;
       const shownBefore = shown;
-      shown = this.#machine.addSamples(Math.min(targetCount - shown, block));
-      // The machine has given up.
+      shown = this.#simulation.addSamples(Math.min(targetCount - shown, block));
+      // The simulation has given up.
       if (shown === shownBefore) break;
       this.host.settings.isStale = true;
     }
@@ -157,11 +157,11 @@ export class Cloud extends FigureController {
   /** Selects the sample nearest to the pointer. */
   selectAtPointer(picture: import('../scene/picture.ts').Picture<any>, event: PointerEvent) {
     this.host.runtime.attempt(() => {
-      const { machine, gesture } = this.host;
+      const { simulation, gesture } = this.host;
       // A moving finger scrolls; a tap is a click.
-      if (!machine || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
+      if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
       const [x, y] = pointOn(event.currentTarget as Element, picture.view, event);
-      const index = picture.nearest(machine, x, y);
+      const index = picture.nearest(simulation, x, y);
       if (index >= 0 || event.type === 'click') this.mark(index);
     });
   }
@@ -221,7 +221,7 @@ export class Cloud extends FigureController {
   /** Runs the action of a button of the cloud, and sets `playing`. */
   #control(playing: boolean, action: () => void) {
     this.host.runtime.attempt(() => {
-      if (!this.host.machine) return;
+      if (!this.host.simulation) return;
       action();
       this.playing = playing;
       this.host.gesture.complete();
@@ -243,19 +243,19 @@ export class Cloud extends FigureController {
 }
 
 /**
- * Sets a new machine to a state if there is one, with the first block of its samples, and returns it. An invalid state frees the machine and
+ * Sets a new simulation to a state if there is one, with the first block of its samples, and returns it. An invalid state frees the simulation and
  * throws a TypeError or RangeError.
  */
-export function enterCloud<M extends GrowingMachine & { free(): void }>({ settings }: Figure, machine: M, state?: Values): M {
-  if (!state) return machine;
-  return freeOnError(machine, () => {
-    machine.configureFirst(settings.pick(state), 0);
-    machine.configureFirst({}, checkedInteger('state.shown', state.shown, 0, machine.config.samples));
+export function enterCloud<M extends GrowingSimulation & { free(): void }>({ settings }: Figure, simulation: M, state?: Values): M {
+  if (!state) return simulation;
+  return freeOnError(simulation, () => {
+    simulation.configureFirst(settings.pick(state), 0);
+    simulation.configureFirst({}, checkedInteger('state.shown', state.shown, 0, simulation.config.samples));
   });
 }
 
 /** Read-only properties of elements with a cloud. */
 export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
   playing: { get() { return (this.cloud as Cloud).playing; } },
-  poses: { get() { return this.queryMachine((machine) => machine.poses); } },
+  poses: { get() { return this.querySimulation((simulation) => simulation.poses); } },
 };

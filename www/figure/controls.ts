@@ -125,7 +125,7 @@ interface DisclosureOptions {
 }
 
 /** Returns the two disclosures below a figure, the button that copies a link, and the button that starts the presentation. */
-export function disclosures(figure: Figure, { controls, numbers, fileNameMark = figure.reading.config.seed, csvTitle }: DisclosureOptions) {
+export function disclosures(figure: Figure, { controls, numbers, fileNameMark = figure.viewModel.config.seed, csvTitle }: DisclosureOptions) {
   return html`<div class="folds">
     ${disclosure(words.moreControls, controls, 'more')}
     ${disclosure(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, fileNameMark, csvTitle)} ${figure.copyMenu.codeButton()}`, 'numbers')}

@@ -6,7 +6,7 @@ import { checkedNumber, checkedSubset, checkedInteger, checkedWord } from './che
 import type { SliderSpec } from './controls.ts';
 import type { LineStyle } from '../scene/draw.ts';
 
-/** Field of the state that the element keeps, because the machine does not have it. */
+/** Field of the state that the element keeps, because the simulation does not have it. */
 export interface ElementField extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {
   /** Default. */
   opening: unknown;
@@ -26,7 +26,7 @@ export interface Definition {
   properties: Properties;
   /** Properties that are also attributes. */
   attributes: Record<string, Attribute>;
-  /** Fields of the state that the element keeps, because the machine does not have them. */
+  /** Fields of the state that the element keeps, because the simulation does not have them. */
   elementFields: Record<string, ElementField>;
   /** Appearance of the settings that have a slider. */
   sliderSpecs: Record<string, SliderSpec>;

@@ -35,7 +35,7 @@ export type Figure = FigureElement<any, any>;
 addEnglish(en);
 
 /**
- * Figure with one simulation object of the core. A widget defines its machine, readings, pictures, HTML and export.
+ * Figure with one simulation object of the core. A widget defines its simulation, readings, pictures, HTML and export.
  *
  * Attributes and properties have the values that the figure shows, also after changes by the user, and set them; properties accept texts.
  * A value out of range causes an `error` event that names the field, the value and what is allowed, and the last valid value stays;
@@ -80,7 +80,7 @@ addEnglish(en);
  * @cssprop --motion-sticky-bottom - Height of text below the figure beside which the picture still sticks. The text needs a `position` to
  *   be above the figure.
  */
-export abstract class FigureElement<Machine extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, Reading extends { config: Values, stats: object }> extends LitElement {
+export abstract class FigureElement<Simulation extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, ViewModel extends { config: Values, stats: object }> extends LitElement {
   static definition: import('./definition.ts').Definition;
 
   /** Puts the styles of all figures before those of the widget. */
@@ -126,8 +126,8 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
   /** Picture for export, with its own size. */
   exportPicture: import('../scene/picture.ts').Picture<any> & { size: { width: number, height: number } } | undefined;
-  /** Reading of the machine: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
-  reading: Reading = undefined as any;
+  /** View model of the simulation: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
+  viewModel: ViewModel = undefined as any;
   #highlight: string | null = null;
   /** Functions that resolve the promises of `settled`. */
   #settledResolvers: (() => void)[] = [];
@@ -139,31 +139,31 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
 
   // Members that widgets override; the abstract ones are required.
 
-  /** Creates a machine in a state, or in the default one; throws a TypeError or RangeError. */
-  abstract createMachine(motion: Motion, state?: Values): Machine;
+  /** Creates a simulation in a state, or in the default one; throws a TypeError or RangeError. */
+  abstract createSimulation(motion: Motion, state?: Values): Simulation;
 
-  /** Applies the fields of a state that are not settings to a new machine, and adds missing fields. */
-  restore(_machine: Machine, _state: Values) {}
+  /** Applies the fields of a state that are not settings to a new simulation, and adds missing fields. */
+  restore(_simulation: Simulation, _state: Values) {}
 
-  /** Returns the reading of the machine. It is called once for each change. */
-  abstract read(machine: Machine): Reading;
+  /** Returns the view model of the simulation. It is called once for each change. */
+  abstract read(simulation: Simulation): ViewModel;
 
-  /** Scene of the pictures: the reading, and other values that they draw. */
+  /** Scene of the pictures: the view model, and other values that they draw. */
   get scene(): any {
-    return this.currentReading;
+    return this.currentViewModel;
   }
 
   /** Returns the HTML of the figure. */
-  abstract content(reading: Reading): unknown;
+  abstract content(viewModel: ViewModel): unknown;
 
   /** Content for export, after all pending changes. */
   abstract get exportData(): import('./export.ts').ExportData;
 
   /** Returns the announcement for screen readers after a completed change. */
-  abstract announcement(reading: Reading): string;
+  abstract announcement(viewModel: ViewModel): string;
 
-  /** Runs after the machine was replaced. */
-  machineChanged() {}
+  /** Runs after the simulation was replaced. */
+  simulationChanged() {}
 
   /** Moves the handles to their places in the pictures. */
   placeHandles(_scene: any) {}
@@ -178,8 +178,8 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
     return { ...this.cloud?.withDerivedFields(currentState, changes), ...changes };
   }
 
-  get machine() {
-    return this.runtime.machine as Machine | undefined;
+  get simulation() {
+    return this.runtime.simulation as Simulation | undefined;
   }
 
   get motion() {
@@ -187,36 +187,36 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   }
 
   refresh() {
-    const { machine } = this;
-    if (!machine) return;
+    const { simulation } = this;
+    if (!simulation) return;
     useLanguageOf(this);
     this.cloud?.unmark();
-    this.reading = this.read(machine);
+    this.viewModel = this.read(simulation);
     this.settings.isStale = false;
     this.finishChange();
-    this.dispatchEvent(new CustomEvent('stats', { detail: this.reading.stats, bubbles: true, composed: true }));
+    this.dispatchEvent(new CustomEvent('stats', { detail: this.viewModel.stats, bubbles: true, composed: true }));
   }
 
   /** Stores the state, and announces the outcome of a change unless the cloud is still growing. */
   finishChange() {
-    if (this.cloud?.isSettled ?? true) this.announcer.setOutcome(() => this.announcement(this.reading));
+    if (this.cloud?.isSettled ?? true) this.announcer.setOutcome(() => this.announcement(this.viewModel));
     this.state.storeState();
   }
 
-  /** Reading of the machine after all pending changes are applied. */
-  get currentReading(): Reading {
-    if (!this.machine) throw new Error('There is no figure yet: it is there from the load event on.');
+  /** View model of the simulation after all pending changes are applied. */
+  get currentViewModel(): ViewModel {
+    if (!this.simulation) throw new Error('There is no figure yet: it is there from the load event on.');
     useLanguageOf(this);
     this.settings.applyPending();
     if (this.settings.isStale) this.refresh();
-    return this.reading;
+    return this.viewModel;
   }
 
-  /** Returns the answer of the machine to a question, after all pending changes; null without a machine. */
-  queryMachine<Answer>(question: (machine: Machine) => Answer): Answer | null {
+  /** Returns the answer of the simulation to a question, after all pending changes; null without a simulation. */
+  querySimulation<Answer>(question: (simulation: Simulation) => Answer): Answer | null {
     return this.runtime.attempt(() => {
       this.settings.applyPending();
-      return this.machine && question(this.machine);
+      return this.simulation && question(this.simulation);
     }) ?? null;
   }
 
@@ -226,8 +226,8 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
    * Statistics of the samples shown, with their number; null before there are any. A large cloud takes a few frames to complete: see `settled`.
    * @public
    */
-  get stats(): Machine['stats'] | null {
-    return this.queryMachine((machine) => machine.stats);
+  get stats(): Simulation['stats'] | null {
+    return this.querySimulation((simulation) => simulation.stats);
   }
 
   /**
@@ -256,8 +256,8 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
   /** Resolves `settled` if the figure is settled or cannot run. */
   resolveSettled() {
     if (!this.isAwaited) return;
-    const { machine, cloud, settings, runtime, renderer } = this;
-    const isSettled = machine ? !this.isBusy && !settings.isWaiting && !renderer.isBehind && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
+    const { simulation, cloud, settings, runtime, renderer } = this;
+    const isSettled = simulation ? !this.isBusy && !settings.isWaiting && !renderer.isBehind && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
     if (isSettled) for (const resolve of this.#settledResolvers.splice(0)) resolve();
   }
 
@@ -280,7 +280,7 @@ export abstract class FigureElement<Machine extends { free(): void, stats: objec
    * @public
    */
   getState(): Values | null {
-    return structuredClone(this.queryMachine(() => this.snapshot()) ?? this.state.lastValidState ?? null);
+    return structuredClone(this.querySimulation(() => this.snapshot()) ?? this.state.lastValidState ?? null);
   }
 
   /**

@@ -41,7 +41,7 @@ export async function moveFocusInto(figure: Figure, origin: EventTarget | null) 
   while (figure.renderer.isOpening) await new Promise(requestAnimationFrame);
   await figure.updateComplete;
   // After the removal of the focused placeholder, the focus is on the body unless the user has moved it.
-  if (!figure.machine || document.activeElement !== document.body) return;
+  if (!figure.simulation || document.activeElement !== document.body) return;
   const focusableElements = focusableIn(figure.renderRoot);
   // With Shift+Tab the focus comes from an element below the figure.
   const comesFromBelow = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;

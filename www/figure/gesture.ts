@@ -10,8 +10,8 @@ export class Gesture extends FigureController {
   #isOpen = false;
   /** Removes the listeners of a press. */
   #pressListeners: AbortController | undefined;
-  /** Reading of the machine (see Figure.reading) before the present or latest gesture. */
-  previousReading: any;
+  /** View model of the simulation (see FigureElement.viewModel) before the present or latest gesture. */
+  previousViewModel: any;
 
   /** True while a pointer is down on the figure. Pictures with handles keep their scale meanwhile. */
   get isPressed() {
@@ -42,7 +42,7 @@ export class Gesture extends FigureController {
 
   /** Records a step of a change that may continue. */
   step() {
-    if (!this.#isOpen && !this.#hasStep) this.previousReading = this.host.reading;
+    if (!this.#isOpen && !this.#hasStep) this.previousViewModel = this.host.viewModel;
     this.#hasStep = true;
     this.#isAtEnd = false;
     this.#queueEvents();
@@ -55,7 +55,7 @@ export class Gesture extends FigureController {
     host.announcer.announceNext();
     this.#finish();
     if (host.settings.isStale) host.renderer.requestFrame();
-    else if (host.machine) {
+    else if (host.simulation) {
       host.finishChange();
       host.requestUpdate();
     }

@@ -48,12 +48,12 @@ export class Link extends FigureController {
     void host.updateComplete.then(() => host.scrollIntoView());
   }
 
-  /** Reads the initial state from the address, before the first machine is created. */
+  /** Reads the initial state from the address, before the first simulation is created. */
   async prepare() {
     if (!this.host.state.lastValidState) await this.#applyAddress();
   }
 
-  /** Applies the state in the page's address, if any, now or as soon as there is a machine. */
+  /** Applies the state in the page's address, if any, now or as soon as there is a simulation. */
   async #applyAddress() {
     const { host } = this;
     const token = (this.#latestRead = {});

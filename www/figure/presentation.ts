@@ -39,7 +39,7 @@ export class Presentation extends FigureController {
 
   async #beginPresentation() {
     const { host } = this;
-    this.#stateAtBegin = host.machine && host.snapshot();
+    this.#stateAtBegin = host.simulation && host.snapshot();
     host.copyMenu.clearMessage();
     this.#keyListeners = new AbortController();
     addEventListener('keydown', this.#onKey, { signal: this.#keyListeners.signal });
@@ -83,16 +83,16 @@ export class Presentation extends FigureController {
 
   #onKey = ({ key, ctrlKey, altKey, metaKey, defaultPrevented }: KeyboardEvent) => {
     if (defaultPrevented || ctrlKey || altKey || metaKey) return;
-    const { definition, machine, state } = this.host;
+    const { definition, simulation, state } = this.host;
     const preset = definition.attributes.preset?.words?.[Number(key) - 1];
     if (key === 'Escape') this.host.presentation = false;
     else if (key.toLowerCase() === CONTROLS_KEY) this.#toggle();
     else if (key === RESTORE_KEY) this.#restoreState();
-    else if (preset !== undefined && machine) state.choosePreset(preset);
+    else if (preset !== undefined && simulation) state.choosePreset(preset);
   };
 
   #restoreState() {
-    if (this.host.machine) this.host.state.restoreAsUser(this.#stateAtBegin);
+    if (this.host.simulation) this.host.state.restoreAsUser(this.#stateAtBegin);
   }
 
   #toggle() {

@@ -15,9 +15,9 @@ export class Reflection extends FigureController {
   #properties = this.host.definition.properties;
   /** Order in which pending properties are applied. Properties that others depend on come first, and a log, which takes long, last. */
   #order = ['preset', 'map', ...Object.keys(this.#properties), 'log'];
-  /** Attributes that were set before there was a machine. */
+  /** Attributes that were set before there was a simulation. */
   #pendingAttributes: Map<string, string | null> = new Map();
-  /** Properties and states set before there was a machine. The key is the name of a property, or a new object for each state. */
+  /** Properties and states set before there was a simulation. The key is the name of a property, or a new object for each state. */
   #pendingProperties: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
   /** True after the first connection: an element that is moved in the page keeps its settings. */
   #hasConnected = false;
@@ -53,7 +53,7 @@ export class Reflection extends FigureController {
     }
   }
 
-  /** Applies attributes and properties that were set before there was a machine. */
+  /** Applies attributes and properties that were set before there was a simulation. */
   applyPending() {
     for (const name of Object.keys(this.#attributes)) {
       const text = this.#pendingAttributes.get(name);
@@ -69,9 +69,9 @@ export class Reflection extends FigureController {
     for (const { apply } of pendingEntries) this.host.runtime.attemptOrReport(apply);
   }
 
-  /** Applies a state, now or as soon as there is a machine. */
+  /** Applies a state, now or as soon as there is a simulation. */
   whenReady(applyState: () => void) {
-    if (this.host.machine) this.host.runtime.attempt(applyState);
+    if (this.host.simulation) this.host.runtime.attempt(applyState);
     else this.#pendingProperties.set({}, { apply: applyState });
   }
 
@@ -85,7 +85,7 @@ export class Reflection extends FigureController {
       // A group of settings may be given in part. A map or a log is replaced as a whole.
       if (!includesFields(currentValue, newValue) || (!property && !includesFields(newValue, currentValue))) apply(newValue);
     };
-    if (this.host.machine) {
+    if (this.host.simulation) {
       this.host.runtime.attemptOrReport(applyIfChanged);
     } else {
       // The latest assignment is applied last.
@@ -94,13 +94,13 @@ export class Reflection extends FigureController {
     }
   }
 
-  /** Returns the value of a property. Before there is a machine, that is the pending value. */
+  /** Returns the value of a property. Before there is a simulation, that is the pending value. */
   get(name: string) {
-    const { machine, state } = this.host;
+    const { simulation, state } = this.host;
     const pending = this.pendingValue(name);
     if (pending !== undefined) return pending;
     if (name in state.elementState) return structuredClone(state.elementState[name]);
-    return machine ? this.host.queryMachine(() => this.#properties[name].get(state.config)) : undefined;
+    return simulation ? this.host.querySimulation(() => this.#properties[name].get(state.config)) : undefined;
   }
 
   /** Sets a property of the definition, as `setProperty` does. */
@@ -108,7 +108,7 @@ export class Reflection extends FigureController {
     this.setProperty(name, value, (newValue) => this.#assign(name, newValue));
   }
 
-  /** Returns the value of a property that waits for the machine; undefined for none. */
+  /** Returns the value of a property that waits for the simulation; undefined for none. */
   pendingValue(name: string) {
     return this.#pendingProperties.get(name)?.value;
   }
@@ -127,7 +127,7 @@ export class Reflection extends FigureController {
     if (words && text !== null) this.host.runtime.attemptOrReport(() => checkedWord(attribute, text, words));
     const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
     if (this.#isWriting || name === undefined) return;
-    if (this.host.machine) this.#apply(name, text);
+    if (this.host.simulation) this.#apply(name, text);
     else this.#pendingAttributes.set(name, text);
   }
 
@@ -168,7 +168,7 @@ export class Reflection extends FigureController {
   /** Writes the attributes that have changed; the first call only remembers their texts. */
   updateAttributes() {
     this.host.runtime.attempt(() => {
-      if (this.host.machine) this.#write(this.#textsOf(this.host.state.config));
+      if (this.host.simulation) this.#write(this.#textsOf(this.host.state.config));
     });
   }
 

@@ -62,7 +62,7 @@ export class Renderer extends FigureController {
     const { host } = this;
     host.resolveSettled();
     if (!host.canvases.elements) host.colours.update();
-    if (!host.machine || host.canvases.elements) return;
+    if (!host.simulation || host.canvases.elements) return;
     host.canvases.find();
     this.requestFrame();
     if (matchMedia('print').matches) this.#print(true);
@@ -90,7 +90,7 @@ export class Renderer extends FigureController {
   }
 
   #schedule() {
-    if (!this.host.machine || this.#frameRequest !== undefined) return;
+    if (!this.host.simulation || this.#frameRequest !== undefined) return;
     this.#previousTime = performance.now();
     this.#frameRequest = requestAnimationFrame((now) => {
       this.#frameRequest = undefined;
@@ -106,8 +106,8 @@ export class Renderer extends FigureController {
   #updateUnseen() {
     const { host } = this;
     host.runtime.attemptOrFail(() => {
-      const { machine, cloud, settings } = host;
-      if (!machine) return;
+      const { simulation, cloud, settings } = host;
+      if (!simulation) return;
       settings.applyPending();
       // A script awaits all samples. Nobody sees the cloud grow.
       if (host.isAwaited) cloud?.finish();
@@ -124,7 +124,7 @@ export class Renderer extends FigureController {
 
   /** True until a visible figure has drawn its first picture and rendered its text. */
   get isOpening() {
-    return this.host.machine !== undefined && !this.#hasRenderedText && this.isVisible && !document.hidden;
+    return this.host.simulation !== undefined && !this.#hasRenderedText && this.isVisible && !document.hidden;
   }
 
   /** Returns the content, or nothing in the first frame, so that the first picture is drawn earlier. */
@@ -135,25 +135,25 @@ export class Renderer extends FigureController {
   /** @param elapsed milliseconds since the frame before */
   #drawNow(elapsed: number) {
     // In a closed disclosure all sizes are 0.
-    if (!this.host.machine || !this.host.canvases.elements?.some(hasPixels)) return;
+    if (!this.host.simulation || !this.host.canvases.elements?.some(hasPixels)) return;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsed);
-      if (this.host.machine) this.host.runtime.confirmHealthy();
+      if (this.host.simulation) this.host.runtime.confirmHealthy();
     });
   }
 
   #draw(elapsed: number) {
     const host = this.host;
-    const { reading } = host;
+    const { viewModel } = host;
     const startTime = performance.now();
     host.settings.applyPending();
-    // The machine is missing after a trap.
-    if (!host.machine) return;
+    // The simulation is missing after a trap.
+    if (!host.simulation) return;
     host.cloud?.advance(this.isPrinting);
     const { scene } = host;
-    if (host.reading !== reading) this.#addPictures();
-    const { isPressed, previousReading } = host.gesture;
-    const options = { elapsed, atOnce: this.isPrinting || prefersReducedMotion(), previousReading, highlight: host.highlight, handles: this.isPrinting };
+    if (host.viewModel !== viewModel) this.#addPictures();
+    const { isPressed, previousViewModel } = host.gesture;
+    const options = { elapsed, atOnce: this.isPrinting || prefersReducedMotion(), previousViewModel, highlight: host.highlight, handles: this.isPrinting };
     let isMoving = false;
     this.#hasPicturesLeft = false;
     for (const picture of this.#undrawn) {
@@ -207,8 +207,8 @@ export class Renderer extends FigureController {
   /** Draws for print, in light colours and with all samples, or for the screen again. */
   #print(isPrinting: boolean) {
     this.isPrinting = isPrinting;
-    const { machine, cloud } = this.host;
-    if (!machine) {
+    const { simulation, cloud } = this.host;
+    if (!simulation) {
       // Browsers run microtasks before they print. The start needs no more than these if another figure has loaded the module.
       if (isPrinting) void this.#startAndPrint();
       return;
@@ -223,6 +223,6 @@ export class Renderer extends FigureController {
   async #startAndPrint() {
     await this.host.runtime.start();
     await this.host.updateComplete;
-    if (this.host.machine) this.#print(this.isPrinting);
+    if (this.host.simulation) this.#print(this.isPrinting);
   }
 }

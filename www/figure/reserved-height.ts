@@ -33,7 +33,7 @@ function heightCss(tag: string, unit: '%' | 'cqi') {
 export const reservedHeight = (tag: string) => {
   const reserveCss = heightCss(tag, 'cqi');
   return css`
-    ${unsafeCSS(`.reserved{min-height:${reserveCss}}.machine{min-height:calc(${reserveCss} + var(--motion-sticky-bottom,0px))}`)}
+    ${unsafeCSS(`.reserved{min-height:${reserveCss}}.simulation{min-height:calc(${reserveCss} + var(--motion-sticky-bottom,0px))}`)}
   `;
 };
 

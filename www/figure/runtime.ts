@@ -1,12 +1,12 @@
 /** Core of a figure. It is freed when the element is removed. After a trap, a new core gets the last valid state. */
 
-import { abandonMachine, instantiateFor, precompile } from '../core.ts';
+import { abandonSimulation, instantiateFor, precompile } from '../core.ts';
 import { FigureController } from './controller.ts';
 
 export class Runtime extends FigureController {
   motion: import('../types.d.ts').Motion | undefined;
   /** Simulation object of the core. */
-  machine: any;
+  simulation: any;
   /** Message of the error that stops the figure. */
   failure: string | undefined;
   /** True once the `load` event was fired. */
@@ -17,7 +17,7 @@ export class Runtime extends FigureController {
 
   /** Starts the core, if it is not running. Resolves when it has started or failed. */
   start(): Promise<void> {
-    if (!this.machine && this.host.isConnected) this.#startPromise ??= this.#create();
+    if (!this.simulation && this.host.isConnected) this.#startPromise ??= this.#create();
     return this.#startPromise ?? Promise.resolve();
   }
 
@@ -30,14 +30,14 @@ export class Runtime extends FigureController {
     queueMicrotask(() => {
       if (this.host.isConnected) return;
       this.host.renderer.setVisible(false);
-      this.#stopMachine();
+      this.#stopSimulation();
     });
   }
 
-  /** Replaces the machine and frees the present one. */
-  replace(machine: any) {
-    this.machine.free();
-    this.machine = machine;
+  /** Replaces the simulation and frees the present one. */
+  replace(simulation: any) {
+    this.simulation.free();
+    this.simulation = simulation;
   }
 
   /** Runs work. After a trap, replaces the core and returns undefined. Throws other errors. */
@@ -83,7 +83,7 @@ export class Runtime extends FigureController {
   /** Shows an error in the figure's place and fires it. */
   fail(error: unknown) {
     if (isWasmTrap(error)) this.#abandon();
-    this.#stopMachine();
+    this.#stopSimulation();
     this.failure = messageOf(error);
     this.report(error);
   }
@@ -99,17 +99,17 @@ export class Runtime extends FigureController {
   }
 
   #abandon() {
-    if (this.machine) abandonMachine(this.machine);
+    if (this.simulation) abandonSimulation(this.simulation);
     this.host.settings.reset();
-    this.machine = this.motion = undefined;
+    this.simulation = this.motion = undefined;
   }
 
   async #create() {
     try {
       const [motion] = await Promise.all([instantiateFor(this.host.localName), this.host.link.prepare()]);
       if (!this.host.isConnected) return;
-      const machine = this.host.createMachine(motion, this.host.state.lastValidState);
-      Object.assign(this, { motion, machine, failure: undefined });
+      const simulation = this.host.createSimulation(motion, this.host.state.lastValidState);
+      Object.assign(this, { motion, simulation, failure: undefined });
       this.host.state.resume();
       await this.#showContent();
     } catch (error) {
@@ -125,14 +125,14 @@ export class Runtime extends FigureController {
     this.host.requestUpdate();
     await this.host.updateComplete;
     // Rendering may have trapped, and the element may be removed.
-    if (!this.machine) return;
+    if (!this.simulation) return;
     this.host.renderer.requestFrame();
     if (this.#hasLoaded) return;
     this.#hasLoaded = true;
     this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
   }
 
-  #stopMachine() {
+  #stopSimulation() {
     this.#hasLoaded = false;
     this.#hasTrapped = false;
     this.host.canvases.clear();
@@ -142,24 +142,24 @@ export class Runtime extends FigureController {
       this.host.settings.applyPending();
       this.host.state.storeState();
     });
-    this.machine?.free();
-    this.machine = this.motion = undefined;
+    this.simulation?.free();
+    this.simulation = this.motion = undefined;
     this.host.requestUpdate();
   }
 }
 
-/** Runs work with a new machine, which is freed if that throws. */
-export function freeOnError<Machine extends { free(): void }>(machine: Machine, work: (machine: Machine) => void) {
+/** Runs work with a new simulation, which is freed if that throws. */
+export function freeOnError<Simulation extends { free(): void }>(simulation: Simulation, work: (simulation: Simulation) => void) {
   try {
-    work(machine);
-    return machine;
+    work(simulation);
+    return simulation;
   } catch (error) {
-    machine.free();
+    simulation.free();
     throw error;
   }
 }
 
-/** Returns true for a trap, and for the error of a machine used after one: see writeGlue in scripts/build.mjs. */
+/** Returns true for a trap, and for the error of a simulation used after one: see writeGlue in scripts/build.mjs. */
 const isWasmTrap = (error: unknown) => typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
 
 /** Error message if Trusted Types refuse the figure's templates. */

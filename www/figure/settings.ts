@@ -1,4 +1,4 @@
-/** Settings of the machine: those in effect, and changes that wait for the next frame. */
+/** Settings of the simulation: those in effect, and changes that wait for the next frame. */
 
 import { FigureController } from './controller.ts';
 
@@ -6,16 +6,16 @@ import { FigureController } from './controller.ts';
 export type Values = Record<string, any>;
 
 export class Settings extends FigureController {
-  /** True if the machine has changed since it was read. */
+  /** True if the simulation has changed since it was read. */
   isStale: boolean | undefined;
-  /** Cache of the settings in effect; undefined until the machine is asked. */
+  /** Cache of the settings in effect; undefined until the simulation is asked. */
   #current: Values | undefined;
   /** Changes of the user that wait for the next frame. */
   #pending: Values = {};
   /** Message about the text that the user typed last, if it was refused, and the setting's key. */
   #refusal: { key: string, message: string } | undefined;
 
-  /** Drops pending changes and stops the player, for another machine. */
+  /** Drops pending changes and stops the player, for another simulation. */
   reset() {
     this.host.player?.stop();
     this.isStale = true;
@@ -31,9 +31,9 @@ export class Settings extends FigureController {
 
   /** Settings in effect. */
   get current(): Values {
-    const { machine, reading } = this.host;
-    if (machine) this.#current ??= machine.config as Values;
-    return this.#current ?? reading.config;
+    const { simulation, viewModel } = this.host;
+    if (simulation) this.#current ??= simulation.config as Values;
+    return this.#current ?? viewModel.config;
   }
 
   /** Settings in effect with the pending changes. */
@@ -41,19 +41,19 @@ export class Settings extends FigureController {
     return { ...this.current, ...this.#pending };
   }
 
-  /** True if changes are pending, or not in the reading yet. */
+  /** True if changes are pending, or not in the view model yet. */
   get isWaiting() {
     return this.isStale || Object.keys(this.#pending).length > 0;
   }
 
   /**
-   * Changes settings in the next frame, as a change by the user, so that a drag configures the machine once in each frame. State of the
+   * Changes settings in the next frame, as a change by the user, so that a drag configures the simulation once in each frame. State of the
    * element is changed at once.
    */
   request(change: Values | ((requested: Values) => Values)) {
     const { runtime, definition, state, gesture, renderer } = this.host;
     runtime.attempt(() => {
-      if (!this.host.machine) return;
+      if (!this.host.simulation) return;
       this.forgetRefusal();
       const computeChange = () => (typeof change === 'function' ? change(this.requested) : change);
       const changeNow = computeChange();
@@ -101,9 +101,9 @@ export class Settings extends FigureController {
   }
 
   #configure(values: Values) {
-    const { machine, cloud } = this.host;
-    if (!machine) return;
-    this.#current = Object.freeze(cloud ? cloud.configure(values) : machine.configure(values));
+    const { simulation, cloud } = this.host;
+    if (!simulation) return;
+    this.#current = Object.freeze(cloud ? cloud.configure(values) : simulation.configure(values));
     this.isStale = true;
   }
 }

@@ -15,27 +15,27 @@ export class State extends FigureController {
   #fields = this.host.definition.elementFields;
   /** Default of each field of `elementState`. */
   defaults: Values = Object.fromEntries(Object.entries(this.#fields).map(([name, { opening }]) => [name, opening]));
-  /** Fields of the state that the element keeps, because the machine does not have them. */
+  /** Fields of the state that the element keeps, because the simulation does not have them. */
   elementState = { ...this.defaults };
 
-  /** Settings of the machine, with pending changes, and the state of the element. */
+  /** Settings of the simulation, with pending changes, and the state of the element. */
   get config(): Values {
     return { ...this.host.settings.requested, ...this.elementState };
   }
 
   storeState() {
-    if (this.host.machine) this.lastValidState = this.host.snapshot();
+    if (this.host.simulation) this.lastValidState = this.host.snapshot();
   }
 
-  /** Applies pending changes of the page to a new machine that has the last valid state. */
+  /** Applies pending changes of the page to a new simulation that has the last valid state. */
   resume() {
     const { host } = this;
     host.settings.reset();
-    if (this.lastValidState) host.restore(host.machine, this.lastValidState);
-    host.machineChanged();
+    if (this.lastValidState) host.restore(host.simulation, this.lastValidState);
+    host.simulationChanged();
     host.reflection.applyPending();
-    // The machine is missing after a trap. The settings are not stale if a pending state was shown already.
-    if (host.machine && host.settings.isStale) this.#showState(this.lastValidState);
+    // The simulation is missing after a trap. The settings are not stale if a pending state was shown already.
+    if (host.simulation && host.settings.isStale) this.#showState(this.lastValidState);
   }
 
   /** Applies a state with its widget and version. Missing fields keep their values; an error changes nothing. */
@@ -48,15 +48,15 @@ export class State extends FigureController {
       if (version !== STATE_VERSION) throw refusalError('state.version', version, String(STATE_VERSION));
     });
     const wholeState: Values = { ...currentState, ...host.withDerivedFields(currentState, checkedState) };
-    const machine = freeOnError(host.createMachine(host.motion, wholeState), (newMachine) => {
-      const selectableCount = wholeState.playing ? newMachine.config.samples : wholeState.shown;
+    const simulation = freeOnError(host.createSimulation(host.motion, wholeState), (newSimulation) => {
+      const selectableCount = wholeState.playing ? newSimulation.config.samples : wholeState.shown;
       for (const [name, field] of Object.entries(this.#fields)) wholeState[name] = validatedValue(field, `state.${name}`, wholeState[name], selectableCount);
-      host.restore(newMachine, wholeState);
+      host.restore(newSimulation, wholeState);
     });
     for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];
-    host.runtime.replace(machine);
+    host.runtime.replace(simulation);
     host.settings.reset();
-    host.machineChanged();
+    host.simulationChanged();
     host.renderer.releaseViews(1);
     this.#showState(wholeState);
   }
@@ -82,7 +82,7 @@ export class State extends FigureController {
     });
   }
 
-  /** Shows a state of the machine, by default the opening state. */
+  /** Shows a state of the simulation, by default the opening state. */
   #showState(state?: Values) {
     const { host } = this;
     host.cloud?.introduce(state);

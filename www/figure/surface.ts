@@ -25,21 +25,21 @@ export function figureHtml(figure: Figure) {
   `;
 }
 
-/** Returns the content, or `noChange` without a machine, as after a trap or a removal. */
+/** Returns the content, or `noChange` without a simulation, as after a trap or a removal. */
 function contentHtml(figure: Figure) {
   const { failure } = figure.runtime;
   if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
-  if (!figure.machine) return figure.reading ? noChange : placeholderHtml(figure);
-  const { announcer, dropHandlers, reading } = figure;
+  if (!figure.simulation) return figure.viewModel ? noChange : placeholderHtml(figure);
+  const { announcer, dropHandlers, viewModel } = figure;
   return html`<section
-      class="machine"
+      class="simulation"
       aria-label=${nameOf(figure)}
       @dragenter=${dropHandlers?.enter}
       @dragover=${dropHandlers?.over}
       @dragleave=${dropHandlers?.leave}
       @drop=${dropHandlers?.drop}
     >
-      ${figure.content(reading)}
+      ${figure.content(viewModel)}
     </section>
     ${announcer.render()}`;
 }

@@ -42,7 +42,7 @@ export class Visibility extends FigureController {
 
   /** Observes the content too. A sticky picture stays in sight while the page scrolls on, outside of the element's box. */
   hostUpdated() {
-    const content = this.host.shadowRoot?.querySelector('.machine');
+    const content = this.host.shadowRoot?.querySelector('.simulation');
     if (content) this.#visibleObserver?.observe(content);
   }
 

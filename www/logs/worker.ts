@@ -41,11 +41,11 @@ export type WorkerAnswer = { number: number } & ({ progress: number } | { result
 class LogSession {
   #motion: Motion;
   #recordings: Recording[] = [];
-  #machine: AlphaCalibrator;
+  #simulation: AlphaCalibrator;
 
   constructor(motion: Motion) {
     this.#motion = motion;
-    this.#machine = new this.#motion.AlphaCalibrator();
+    this.#simulation = new this.#motion.AlphaCalibrator();
   }
 
   async open(_: OnProgress, sources: { file: Source; path: string }[], answers: Record<string, OpenOptions>): Promise<{ recordings: OpenedRecording[]; skipped: PostedFailure[] }> {
@@ -69,12 +69,12 @@ class LogSession {
   /** Returns the fit to `log`, or to the log that was read last, for `AlphaCalibrator.restored`. */
   calibrate(_: OnProgress, config: AlphaCalibratorSettings, log?: CalibrationLog): Uint8Array {
     if (log) this.#setLog(log);
-    this.#machine.configure(config);
-    return this.#machine.save();
+    this.#simulation.configure(config);
+    return this.#simulation.save();
   }
 
   #setLog({ odometry, reference }: CalibrationLog) {
-    this.#machine.setLog(odometry, reference);
+    this.#simulation.setLog(odometry, reference);
   }
 }
 

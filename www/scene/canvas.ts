@@ -34,8 +34,8 @@ export interface Brush {
   handles?: boolean;
   /** Name of the highlighted line. It is drawn thicker, and all others faint. */
   highlight?: string | null;
-  /** Reading of the machine before the current gesture. Its outlines stay visible for comparison if the gesture zooms the view out. */
-  previousReading?: any;
+  /** View model of the simulation before the current gesture. Its outlines stay visible for comparison if the gesture zooms the view out. */
+  previousViewModel?: any;
 }
 
 /** Font size of a picture in pixels of its view. The text of the figure has 16, as in the style of canvases in ui/layout.ts. */

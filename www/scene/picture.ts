@@ -1,4 +1,4 @@
-/** Picture: a canvas that shows a machine through its own view. */
+/** Picture: a canvas that shows a simulation through its own view. */
 
 import { brushOn } from './canvas.ts';
 import type { Brush, Surface } from './canvas.ts';
@@ -6,7 +6,7 @@ import type { View } from './view.ts';
 import type { Palette } from '../ui/theme.ts';
 
 /** Options of `Picture.draw`. */
-export interface DrawOptions extends Pick<Brush, 'exported' | 'handles' | 'highlight' | 'previousReading'> {
+export interface DrawOptions extends Pick<Brush, 'exported' | 'handles' | 'highlight' | 'previousViewModel'> {
   /** Milliseconds since the previous frame. */
   elapsed?: number;
   /** True if the view must not zoom. */
@@ -16,8 +16,8 @@ export interface DrawOptions extends Pick<Brush, 'exported' | 'handles' | 'highl
 }
 
 export class Picture<Scene, Name extends string = string> {
-  /** `previousReading` of the latest drawing. Another one means that a new gesture began, which has not zoomed the view out yet. */
-  #previousReading: any;
+  /** `previousViewModel` of the latest drawing. Another one means that a new gesture began, which has not zoomed the view out yet. */
+  #previousViewModel: any;
 
   /** Class of the canvas. */
   declare name: Name;
@@ -30,21 +30,21 @@ export class Picture<Scene, Name extends string = string> {
   paint(_brush: Brush, _scene: Scene): boolean | void {}
 
   /** Draws the scene. Returns true if the view is still moving, or there is more to paint. */
-  draw(surface: Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, previousReading, exported, handles = exported, highlight }: DrawOptions = {}): boolean {
+  draw(surface: Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, previousViewModel, exported, handles = exported, highlight }: DrawOptions = {}): boolean {
     const { view } = this;
     const brush = brushOn(surface, view, palette);
-    if (previousReading !== this.#previousReading && !exported) {
-      this.#previousReading = previousReading;
+    if (previousViewModel !== this.#previousViewModel && !exported) {
+      this.#previousViewModel = previousViewModel;
       view.hasZoomedOut = false;
     }
     if (!still || !view.hasTarget) this.fit(scene);
     const isViewMoving = view.ease(elapsed, atOnce);
-    const isUnfinished = this.paint({ ...brush, highlight, exported, handles, previousReading: view.hasZoomedOut && !exported ? previousReading : undefined }, scene);
+    const isUnfinished = this.paint({ ...brush, highlight, exported, handles, previousViewModel: view.hasZoomedOut && !exported ? previousViewModel : undefined }, scene);
     return isViewMoving || isUnfinished === true;
   }
 
   /** Returns the index of the sample nearest to a point in CSS pixels; −1 for none. */
-  nearest(_machine: any, _x: number, _y: number) {
+  nearest(_simulation: any, _x: number, _y: number) {
     return -1;
   }
 
@@ -60,5 +60,5 @@ const PICK_RADIUS = 14;
 
 /** Picture of samples that the pointer can select, with the same scale on both axes. */
 export class SamplesPicture<Scene> extends Picture<Scene> {
-  nearest: Picture<any>['nearest'] = (machine, x, y) => machine.nearest(...this.toWorldCircle(x, y, PICK_RADIUS).slice(0, 3));
+  nearest: Picture<any>['nearest'] = (simulation, x, y) => simulation.nearest(...this.toWorldCircle(x, y, PICK_RADIUS).slice(0, 3));
 }

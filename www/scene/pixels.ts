@@ -44,7 +44,7 @@ export class Density {
   /**
    * @param cell side in CSS pixels
    * @param cacheKey values, besides the view, that the pixels depend on; the pixels are cached until one changes
-   * @param pixelsOf returns the machine's picture of a part of the plane
+   * @param pixelsOf returns the simulation's picture of a part of the plane
    */
   draw(brush: Brush, cell: number, cacheKey: unknown[], pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
     const { left, right, top, bottom } = brush.view.frame;

@@ -32,12 +32,12 @@ const stickyPicture = css`
 
 const figureLayout = css`
   /* Sticky pictures stay visible within this box, which extends below text of the page that follows the figure. */
-  .machine {
+  .simulation {
     text-wrap: pretty;
     margin-bottom: calc(-1 * var(--motion-sticky-bottom, 0px));
   }
 
-  .machine::after {
+  .simulation::after {
     content: '';
     display: block;
     height: var(--motion-sticky-bottom, 0);
@@ -73,43 +73,43 @@ const figureLayout = css`
 
   /* A group of sliders is a row of three columns. */
   @container (38em <= width < 56em) {
-    .machine > .controls:has(> fieldset) {
+    .simulation > .controls:has(> fieldset) {
       grid-template-columns: repeat(3, minmax(min-content, 1fr));
       column-gap: 1.25em;
     }
 
-    .machine > .controls > fieldset {
+    .simulation > .controls > fieldset {
       grid-column: 1 / -1;
       grid-template-columns: repeat(3, minmax(min-content, 1fr));
       column-gap: inherit;
     }
 
-    .machine > .controls > .single {
+    .simulation > .controls > .single {
       grid-column: auto;
       grid-template-columns: 1fr;
     }
 
-    .machine > .controls > .single + .cloud {
+    .simulation > .controls > .single + .cloud {
       grid-column: 2 / -1;
       grid-template-columns: minmax(min-content, 1fr) minmax(0, 1.7fr);
       align-items: start;
     }
 
-    .machine > .controls > .pair {
+    .simulation > .controls > .pair {
       grid-column: span 2;
       grid-template-columns: repeat(2, minmax(min-content, 1fr));
     }
 
-    .machine > .controls > .pair + .cloud {
+    .simulation > .controls > .pair + .cloud {
       grid-column: auto;
       grid-template-columns: 1fr;
     }
 
-    .machine > .controls > fieldset:not(.pair + .cloud) > .buttons {
+    .simulation > .controls > fieldset:not(.pair + .cloud) > .buttons {
       grid-column: 2 / -1;
     }
 
-    .machine > .controls > fieldset > .underway {
+    .simulation > .controls > fieldset > .underway {
       grid-column: 1 / -1;
     }
   }
@@ -142,7 +142,7 @@ const figureLayout = css`
   }
 
   /* Open tables and charts cover the sticky pictures when the page scrolls, unless a handle of a picture has the focus. */
-  .machine:not(:has(.views :focus-visible)) #numbers[open] {
+  .simulation:not(:has(.views :focus-visible)) #numbers[open] {
     position: relative;
     z-index: 3;
     background: var(--paper);
@@ -403,7 +403,7 @@ const figureLayout = css`
     }
 
     /* Covers handles that overlap the sides, and fades text that scrolls below. */
-    .machine {
+    .simulation {
       --fade: -0.5em 0 var(--paper), 0.5em 0 var(--paper), 0 0.4em 0.4em var(--paper);
     }
 

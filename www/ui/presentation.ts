@@ -37,7 +37,7 @@ export const presentationStyles = css`
     overscroll-behavior: contain;
   }
 
-  :host([presentation]) .machine {
+  :host([presentation]) .simulation {
     flex: 1 0 auto;
     display: flex;
     flex-direction: column;
@@ -94,7 +94,7 @@ export const presentationStyles = css`
     }
   }
 
-  :host([presentation]) .surface:not(.with-controls) .machine > :not(.views, .morphing, .presets, .about, [part~='legend'], [part~='caption'], [part~='readouts']),
+  :host([presentation]) .surface:not(.with-controls) .simulation > :not(.views, .morphing, .presets, .about, [part~='legend'], [part~='caption'], [part~='readouts']),
   :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts'], .result, .presets, .judge),
   :host([presentation]) .surface:not(.with-controls) :is(.result, .looked) > :is(fieldset, .choices, button),
   :host([presentation]) .surface:not(.with-controls) .start-over,

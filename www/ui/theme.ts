@@ -173,7 +173,7 @@ export const theme = css`
       position: static !important;
     }
 
-    .machine {
+    .simulation {
       min-height: 0 !important;
     }
 

@@ -90,7 +90,7 @@ enum Source {
     Simulated,
     /// Logs that the user has loaded, one for each drive.
     Loaded(Vec<Log>),
-    /// Log of another machine, from which the fit is restored.
+    /// Log of another simulation, from which the fit is restored.
     Restored,
 }
 
@@ -102,7 +102,7 @@ struct Fit {
 }
 
 impl AlphaCalibrator {
-    /// Creates a machine with the simulated log.
+    /// Creates a simulation with the simulated log.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
@@ -110,7 +110,7 @@ impl AlphaCalibrator {
         Self::from_source(settings, Source::Simulated, OnceCell::new())
     }
 
-    /// Creates a machine with a fit that another machine has saved. It has no log. Settings that need another fit are therefore
+    /// Creates a simulation with a fit that another simulation has saved. It has no log. Settings that need another fit are therefore
     /// [pending](AlphaCalibrator::is_pending).
     ///
     /// # Errors
@@ -145,7 +145,7 @@ impl AlphaCalibrator {
         &self.fit.settings
     }
 
-    /// Returns true while the settings need another fit, which only a machine with the log can compute.
+    /// Returns true while the settings need another fit, which only a simulation with the log can compute.
     pub fn is_pending(&self) -> bool {
         !self.fit.settings.has_same_fit(&self.settings)
     }

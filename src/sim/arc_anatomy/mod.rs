@@ -48,7 +48,7 @@ pub struct ArcAnatomy {
 }
 
 impl ArcAnatomy {
-    /// Creates a machine with these settings.
+    /// Creates a simulation with these settings.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.

@@ -149,7 +149,7 @@ pub struct BananaMachine {
 }
 
 impl BananaMachine {
-    /// Creates a machine that shows all samples.
+    /// Creates a simulation that shows all samples.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
@@ -157,16 +157,16 @@ impl BananaMachine {
         Self::with_shown_count(settings, settings.samples)
     }
 
-    /// Creates a machine that shows the first `count` samples.
+    /// Creates a simulation that shows the first `count` samples.
     /// Errors are those of [`BananaMachine::new`].
     pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
         let drive = settings.model_with_input(settings.command).drive(&settings.command);
         let cloud = Cloud::new(settings.seed, settings.noise, drive);
-        let mut machine = Self { settings, cloud, stats: Stats::UNDEFINED, picture: Vec::new() };
-        machine.reserve_memory(&settings)?;
-        machine.show_samples(count.min(settings.samples));
-        Ok(machine)
+        let mut simulation = Self { settings, cloud, stats: Stats::UNDEFINED, picture: Vec::new() };
+        simulation.reserve_memory(&settings)?;
+        simulation.show_samples(count.min(settings.samples));
+        Ok(simulation)
     }
 
     /// Returns the settings.

@@ -4,7 +4,7 @@ use crate::models::VelocityCmd;
 use crate::noise::NoiseKind;
 use crate::sim::settings::{ALPHA_RANGE, Keywords, MAX_SEED, Rules, settings};
 
-/// Motion model of the machine.
+/// Motion model of the simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModelKind {
     /// Velocity model; its input is the command.

@@ -91,7 +91,7 @@ js_structs! {
 }
 
 impl DeadReckoning {
-    /// Creates a machine with all of its robots driven.
+    /// Creates a simulation with all of its robots driven.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice.
@@ -99,7 +99,7 @@ impl DeadReckoning {
         Self::with_shown_count(settings, settings.samples)
     }
 
-    /// Creates a machine that has driven the first `count` robots.
+    /// Creates a simulation that has driven the first `count` robots.
     /// Errors are those of [`DeadReckoning::new`].
     pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
@@ -111,9 +111,9 @@ impl DeadReckoning {
         let predicted = RECURSIONS.map(|order| propagate_covariances(&settings, order));
         let measured = rollouts.measured_moments(0);
         let comparisons = compare_all(&settings, &predicted, &measured);
-        let mut machine = Self { settings, rollouts, shown_count: 0, predicted, measured, comparisons };
-        machine.drive_robots(count.min(settings.samples));
-        Ok(machine)
+        let mut simulation = Self { settings, rollouts, shown_count: 0, predicted, measured, comparisons };
+        simulation.drive_robots(count.min(settings.samples));
+        Ok(simulation)
     }
 
     /// Returns the settings.

@@ -95,7 +95,7 @@ pub struct OdometryDecomposer {
 }
 
 impl OdometryDecomposer {
-    /// Creates a machine that shows all outcomes.
+    /// Creates a simulation that shows all outcomes.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
@@ -103,15 +103,15 @@ impl OdometryDecomposer {
         Self::with_shown_count(settings, settings.samples)
     }
 
-    /// Creates a machine that shows the first `count` outcomes.
+    /// Creates a simulation that shows the first `count` outcomes.
     /// Errors are those of [`OdometryDecomposer::new`].
     pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
         settings.check()?;
         let draws = Draws::new(settings.seed, settings.noise);
-        let mut machine =
+        let mut simulation =
             Self { settings, draws, shown_count: count.min(settings.samples), poses: Vec::new() };
-        machine.update_poses();
-        Ok(machine)
+        simulation.update_poses();
+        Ok(simulation)
     }
 
     /// Returns the settings.

@@ -50,7 +50,7 @@ struct ShownAttempts {
     gave_up: bool,
 }
 
-/// Average number of draws for a part of a motion at which the machine gives up: an acceptance of 5 %. With a smaller
+/// Average number of draws for a part of a motion at which the simulation gives up: an acceptance of 5 %. With a smaller
 /// limit it would stop where a filter still works; with a larger one a page would wait for seconds.
 const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 
@@ -58,7 +58,7 @@ const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 const BLOCK_PARTS: usize = 4096;
 
 impl MapSqueeze {
-    /// Creates a machine in the apartment that has made all attempts.
+    /// Creates a simulation in the apartment that has made all attempts.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
@@ -66,19 +66,19 @@ impl MapSqueeze {
         Self::with_shown_count(settings, settings.samples)
     }
 
-    /// Creates a machine in the apartment that shows the first `count` attempts.
+    /// Creates a simulation in the apartment that shows the first `count` attempts.
     /// Errors are those of [`MapSqueeze::new`].
     pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
-        let mut machine = Self {
+        let mut simulation = Self {
             plan: FloorPlan::apartment(),
             settings,
             draws: Draws::new(settings.seed, NoiseKind::Normal),
             shown: ShownAttempts::default(),
             picture: Vec::new(),
         };
-        machine.configure_first(settings, 0)?;
-        machine.add_samples(count);
-        Ok(machine)
+        simulation.configure_first(settings, 0)?;
+        simulation.add_samples(count);
+        Ok(simulation)
     }
 
     /// Returns the settings.
@@ -92,7 +92,7 @@ impl MapSqueeze {
     }
 
     /// Replaces the map, and keeps the start pose and the draws. The number of attempts stays, or becomes the full
-    /// number if the machine had given up.
+    /// number if the simulation had given up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
         let attempt_count = if self.gave_up() { self.settings.samples } else { self.shown_count() };
@@ -152,7 +152,7 @@ impl MapSqueeze {
         (self.shown.tally, self.shown.gave_up) = (Tally::default(), false);
     }
 
-    /// Draws up to `count` more samples, and returns the total. If nearly every draw collides, the machine gives up,
+    /// Draws up to `count` more samples, and returns the total. If nearly every draw collides, the simulation gives up,
     /// and further calls draw none.
     pub fn add_samples(&mut self, count: usize) -> usize {
         let target_count = self.shown_count().saturating_add(count).min(self.settings.samples);
@@ -196,7 +196,7 @@ impl MapSqueeze {
         &self.shown.tally
     }
 
-    /// Returns true if the machine stopped short of its samples because too few draws were accepted.
+    /// Returns true if the simulation stopped short of its samples because too few draws were accepted.
     pub fn gave_up(&self) -> bool {
         self.shown.gave_up
     }
@@ -248,7 +248,7 @@ impl MapSqueeze {
     /// Draws `count` accepted samples with a sampler and returns their cost. The caller measures the time.
     ///
     /// # Errors
-    /// [`NoAcceptedSample`] if one of the samples is not accepted, or if all together take so many draws that the machine would give up.
+    /// [`NoAcceptedSample`] if one of the samples is not accepted, or if all together take so many draws that the simulation would give up.
     pub fn sampling_trial(&self, sampler: Sampler, count: usize) -> Result<Cost, NoAcceptedSample> {
         let model = conditioned_model(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
@@ -283,7 +283,7 @@ impl MapSqueeze {
     }
 }
 
-/// Returns the maximum number of draws for this many parts of motions, after which the machine gives up.
+/// Returns the maximum number of draws for this many parts of motions, after which the simulation gives up.
 pub fn max_draws(parts: usize) -> usize {
     MAX_DRAWS + MAX_MEAN_DRAWS_PER_PART * parts
 }

@@ -69,7 +69,7 @@ js_structs! {
         pub draws_per_accepted: f64,
         /// Walls whose distance was computed, per accepted attempt.
         pub wall_tests_per_accepted: f64,
-        /// True if the machine stopped before it had all samples, because too few draws were accepted.
+        /// True if the simulation stopped before it had all samples, because too few draws were accepted.
         pub gave_up: bool,
     }
 }

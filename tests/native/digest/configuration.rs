@@ -1,4 +1,4 @@
-//! Reads configurations.json: settings of machines, and arguments of the methods whose results are digested.
+//! Reads configurations.json: settings of simulations, and arguments of the methods whose results are digested.
 
 use motion::sim::picture::{RAMP_STEPS, Ramp};
 use motion::sim::settings::{Rules, Setting};

@@ -1,4 +1,4 @@
-//! Digest of a machine's results, from the same bytes as digest.js makes from the JavaScript results.
+//! Digest of a simulation's results, from the same bytes as digest.js makes from the JavaScript results.
 
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
@@ -93,7 +93,7 @@ encode_fields! {
     A B C D E F G H I J;
 }
 
-/// Named part of a machine's results, with its hash.
+/// Named part of a simulation's results, with its hash.
 pub struct HashedPart(pub &'static str, pub String);
 
 impl HashedPart {

@@ -1,9 +1,9 @@
 //! Equal seeds give equal bits: poses, statistics, outlines, pixels and fits of many configurations are compared with golden.txt.
-//! digest.js compares all results of all machines of the JavaScript interface, in Node and in browsers.
+//! digest.js compares all results of all simulations of the JavaScript interface, in Node and in browsers.
 
 mod configuration;
 mod encoding;
-mod machines;
+mod simulations;
 
 use encoding::{HashedPart, hex};
 use sha2::{Digest, Sha256};
@@ -17,10 +17,10 @@ fn the_same_seed_gives_the_same_bits() {
     let mut differences = Vec::new();
     for configuration in configuration::configurations_of(&configurations) {
         let parts = match configuration.widget {
-            "banana-machine" => machines::banana_machine(&configuration),
-            "map-squeeze" => machines::map_squeeze(&configuration),
-            "alpha-calibrator" => machines::alpha_calibrator(&configuration),
-            "dead-reckoning" => machines::dead_reckoning(&configuration),
+            "banana-machine" => simulations::banana_machine(&configuration),
+            "map-squeeze" => simulations::map_squeeze(&configuration),
+            "alpha-calibrator" => simulations::alpha_calibrator(&configuration),
+            "dead-reckoning" => simulations::dead_reckoning(&configuration),
             _ => continue,
         };
         let name = format!("{}/{} ", configuration.widget, configuration.name);

@@ -3,7 +3,7 @@
 use super::page;
 use crate::common::text::{Number, Text};
 use crate::common::{MAX_STANDARD_ERRORS, preset, winds_around};
-use crate::simulations::banana::machine;
+use crate::simulations::banana::simulation;
 use motion::VelocityCmd;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 
@@ -33,21 +33,21 @@ fn the_presets_are_those_in_the_document() {
 
 /// Checks the rows of the table, and sentences of the page about their presets. Fractions may differ by 4.5 standard errors.
 #[test]
-fn numbers_in_the_table_and_on_the_page_are_those_of_the_machine() {
+fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     const ROBOTS: usize = 300_000;
     let error = MAX_STANDARD_ERRORS * (0.117 / ROBOTS as f64).sqrt();
-    let machine_of = |name| machine(Settings { samples: ROBOTS, ..preset(name) });
-    let assert_row = |machine: &BananaMachine, [floor, area, ellipse, skew]: [Number; 4]| {
-        let exact = machine.table().exact;
+    let simulation_of = |name| simulation(Settings { samples: ROBOTS, ..preset(name) });
+    let assert_row = |simulation: &BananaMachine, [floor, area, ellipse, skew]: [Number; 4]| {
+        let exact = simulation.table().exact;
         floor.assert(exact.likelihood_gain.floor, 0.0);
         area.assert(exact.area_ratio, 0.0);
-        ellipse.assert_percent(machine.stats().coverage.ellipse, error);
+        ellipse.assert_percent(simulation.stats().coverage.ellipse, error);
         skew.assert(exact.cross_track_skew, 1e-12);
         exact
     };
     let worked_row = document().numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
-    assert_row(&machine_of("worked"), worked_row);
-    let [(gentle, _), (hard, hard_machine), (banana, _)] = [
+    assert_row(&simulation_of("worked"), worked_row);
+    let [(gentle, _), (hard, hard_simulation), (banana, _)] = [
         ("gentle", "| 1, 0.5, 1; (0.05, 0.05, 0.05, 0.09, 0.01, 0.01)"),
         ("hard", "| 1, 1.2, 1.4; the same"),
         ("banana", "| 1, 0, 2; (0.002, 0.002, 0.1, 0.1, 0.002, 0.002)"),
@@ -55,19 +55,19 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_machine() {
     .map(|(name, row_start)| {
         let [pose, floor, area, ellipse, skew] =
             document().numbers(&format!("{row_start} | # | # | # | # % | # |"));
-        let machine = machine_of(name);
-        let exact = assert_row(&machine, [floor, area, ellipse, skew]);
+        let simulation = simulation_of(name);
+        let exact = assert_row(&simulation, [floor, area, ellipse, skew]);
         pose.assert(exact.likelihood_gain.pose, 0.0);
-        (exact, machine)
+        (exact, simulation)
     });
     let [ellipse, outline_share, skew, gaussian_skew] = page().numbers(
         "do not give the ellipse away, # % and # %. The cross-track skew, the lopsidedness across the path, does: #, \
          where any Gaussian in (x, y) has #, and so has the banana.",
     );
-    ellipse.assert_percent(hard_machine.stats().coverage.ellipse, error);
-    outline_share.assert_percent(hard_machine.stats().coverage.exponential, error);
+    ellipse.assert_percent(hard_simulation.stats().coverage.ellipse, error);
+    outline_share.assert_percent(hard_simulation.stats().coverage.exponential, error);
     skew.assert(hard.cross_track_skew, 0.0);
-    gaussian_skew.assert(hard_machine.table().linearized.cross_track_skew, 0.0);
+    gaussian_skew.assert(hard_simulation.table().linearized.cross_track_skew, 0.0);
     assert!(banana.cross_track_skew.abs() < 1e-9);
     let [banana_gain, gentle_gain, hard_gain] =
         [&banana, &gentle, &hard].map(|exact| exact.likelihood_gain.pose);
@@ -78,15 +78,15 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_machine() {
         [banana.area_ratio, banana_gain, 1.0, gentle_gain, hard_gain],
     );
     assert_eq!(Settings::default(), preset("banana"));
-    let opening_machine = machine(Settings::default());
+    let opening_simulation = simulation(Settings::default());
     document().assert(
         "α₁₋₄ = 0.02, α₅,₆ = 0: skew #; the Gentle arc's α = (0.05, 0.05, 0.05, 0.09, 0.01, 0.01): #.",
-        [machine(preset("worked")), machine(preset("gentle"))]
-            .map(|machine| machine.exact_moments().cross_track_skew),
+        [simulation(preset("worked")), simulation(preset("gentle"))]
+            .map(|simulation| simulation.exact_moments().cross_track_skew),
     );
     document().assert(
         "The widget opens with # robots. They give the skew of the Banana to ±#.",
-        [opening_machine.settings().samples as f64, opening_machine.stats().cross_track_skew_error],
+        [opening_simulation.settings().samples as f64, opening_simulation.stats().cross_track_skew_error],
     );
 }
 
@@ -96,15 +96,15 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
     page().assert_says(
         "where it alone lies, robots stop a seventh as densely as where the outline alone does.",
     );
-    let machine = machine(Settings { samples: 300_000, ..preset("banana") });
-    let contours = machine.contours();
+    let simulation = simulation(Settings { samples: 300_000, ..preset("banana") });
+    let contours = simulation.contours();
     let is_inside = |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
     const CELL_SIZE: f64 = 0.02;
     let grid = (0..250).flat_map(|column| (0..250).map(move |row| (column, row)));
     let cells: Vec<[bool; 2]> = grid
         .map(|(column, row)| is_inside([f64::from(column) * CELL_SIZE, f64::from(row) * CELL_SIZE - 2.5]))
         .collect();
-    let robots: Vec<[bool; 2]> = machine.poses().map(|pose| is_inside([pose.x(), pose.y()])).collect();
+    let robots: Vec<[bool; 2]> = simulation.poses().map(|pose| is_inside([pose.x(), pose.y()])).collect();
     let density = |inside: [bool; 2]| {
         let count = |points: &[[bool; 2]]| points.iter().filter(|point| **point == inside).count() as f64;
         count(&robots) / (count(&cells) * CELL_SIZE * CELL_SIZE)
@@ -123,9 +123,9 @@ fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
         ..long_drive
     };
     let [long_cloud, short_cloud] =
-        [long_drive, short_drive].map(|settings| machine(Settings { samples: 10, ..settings }));
-    let size = |machine: &BananaMachine| {
-        let cov = machine.table().exact.cov;
+        [long_drive, short_drive].map(|settings| simulation(Settings { samples: 10, ..settings }));
+    let size = |simulation: &BananaMachine| {
+        let cov = simulation.table().exact.cov;
         (cov[(0, 0)] + cov[(1, 1)]).sqrt()
     };
     assert!(size(&short_cloud) < 0.1 * size(&long_cloud), "{} {}", size(&short_cloud), size(&long_cloud));
@@ -139,8 +139,8 @@ fn the_predicted_skew_misses_under_the_odometry_model() {
     let mut velocity_alphas = settings.velocity_alphas;
     velocity_alphas[4..].fill(0.0);
     let relative_miss = |settings| {
-        let machine = machine(settings);
-        let stats = machine.stats();
+        let simulation = simulation(settings);
+        let stats = simulation.stats();
         (stats.cross_track_skew - stats.gaussian_skew).abs() / stats.cross_track_skew_error
     };
     assert!(relative_miss(Settings { velocity_alphas, ..settings }) < MAX_STANDARD_ERRORS);
@@ -150,7 +150,7 @@ fn the_predicted_skew_misses_under_the_odometry_model() {
 #[test]
 fn a_hundred_times_the_robots_leave_a_tenth_of_the_error() {
     page().assert_says("A hundred times the robots leave a tenth of the standard error.");
-    let error = |samples| machine(Settings { samples, ..preset("gentle") }).stats().cross_track_skew_error;
+    let error = |samples| simulation(Settings { samples, ..preset("gentle") }).stats().cross_track_skew_error;
     let ratio = error(2000) / error(200_000);
     assert!((ratio - 10.0).abs() < 1.0, "{ratio}");
 }

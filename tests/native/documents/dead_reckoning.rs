@@ -3,20 +3,23 @@
 use super::{exercises_document, page};
 use crate::common::MAX_STANDARD_ERRORS;
 use crate::common::text::Number;
-use crate::simulations::dead_reckoning::machine;
+use crate::simulations::dead_reckoning::simulation;
 use motion::Compounding;
 use motion::sim::dead_reckoning::{DeadReckoning, MISS_TOLERANCE, PRESETS, Settings};
 
 fn preset(name: &str) -> DeadReckoning {
     let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
     let (command, steps, alphas) = (preset.command, preset.steps, preset.alphas);
-    machine(Settings { command, steps, alphas, samples: 50_000, ..Settings::default() })
+    simulation(Settings { command, steps, alphas, samples: 50_000, ..Settings::default() })
 }
 
 /// Returns ratios of predicted variances of an axis after each step: to those of the fourth order, which is accurate to a few thousandths.
-fn exact_ratios(machine: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
+fn exact_ratios(simulation: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
     let covs = |order| {
-        machine.predicted_covariances(order).iter().map(move |cov| cov.expect("a covariance")[(axis, axis)])
+        simulation
+            .predicted_covariances(order)
+            .iter()
+            .map(move |cov| cov.expect("a covariance")[(axis, axis)])
     };
     covs(order).zip(covs(Compounding::FourthOrder)).map(|(cov, exact)| cov / exact).collect()
 }
@@ -27,28 +30,28 @@ fn steps_off(ratios: &[f64]) -> Vec<usize> {
 }
 
 #[test]
-fn printed_losses_of_variance_equal_those_of_the_machine() {
-    let initial_machine = machine(Settings::default());
+fn printed_losses_of_variance_equal_those_of_the_simulation() {
+    let initial_simulation = simulation(Settings::default());
     let [printed_loss]: [Number; 1] =
         page().numbers("what its own loses by the end: # % of the variance along the track");
-    let comparison = initial_machine.comparison(Compounding::Chapter);
+    let comparison = initial_simulation.comparison(Compounding::Chapter);
     printed_loss.assert_percent(-comparison.misses[0].end, 0.0);
-    printed_loss.assert_percent(1.0 - exact_ratios(&initial_machine, Compounding::Chapter, 0)[19], 0.0);
+    printed_loss.assert_percent(1.0 - exact_ratios(&initial_simulation, Compounding::Chapter, 0)[19], 0.0);
     let [along_loss, lateral_loss]: [Number; 2] = page().numbers(
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
     );
     for (loss, axis) in [(along_loss, 0), (lateral_loss, 1)] {
         loss.assert_percent(-comparison.misses[axis].end, 0.0);
-        loss.assert_percent(1.0 - exact_ratios(&initial_machine, Compounding::Chapter, axis)[19], 0.0);
+        loss.assert_percent(1.0 - exact_ratios(&initial_simulation, Compounding::Chapter, axis)[19], 0.0);
     }
     page().assert_says("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
     assert_eq!(comparison.ratios[0].y, 0.0);
-    assert!(initial_machine.measured_moments()[0].cov[(1, 1)] > 0.0);
+    assert!(initial_simulation.measured_moments()[0].cov[(1, 1)] > 0.0);
     let [ratio_at_2, ratio_at_5]: [Number; 2] =
         page().numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
     for ratios in [
-        exact_ratios(&initial_machine, Compounding::Chapter, 1),
+        exact_ratios(&initial_simulation, Compounding::Chapter, 1),
         comparison.ratios.iter().map(|ratio| ratio.y).collect(),
     ] {
         ratio_at_2.assert(ratios[1], 0.0);
@@ -58,7 +61,7 @@ fn printed_losses_of_variance_equal_those_of_the_machine() {
         "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
     );
     for order in [Compounding::FirstOrder, Compounding::FourthOrder] {
-        for ratio in &initial_machine.comparison(order).ratios {
+        for ratio in &initial_simulation.comparison(order).ratios {
             assert!(ratio.iter().all(|ratio| (ratio - 1.0).abs() < 0.01), "{order:?}: {ratio}");
         }
     }
@@ -69,18 +72,18 @@ fn printed_losses_of_variance_equal_those_of_the_machine() {
 #[test]
 fn ratios_and_crossings_are_those_of_exercise_7() {
     let document = exercises_document();
-    let machines = ["chapter", "doubled"].map(preset);
+    let simulations = ["chapter", "doubled"].map(preset);
     for k in [1, 2, 5, 10, 20] {
-        let ratios_of = |order| [0, 1, 2].map(|axis| exact_ratios(&machines[0], order, axis)[k - 1]);
+        let ratios_of = |order| [0, 1, 2].map(|axis| exact_ratios(&simulations[0], order, axis)[k - 1]);
         let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(ratios_of);
         document.assert(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
     }
-    let crossings = machines.map(|machine| {
-        let error = MAX_STANDARD_ERRORS * (2.3 / machine.settings().samples as f64).sqrt();
-        let fourth_order = &machine.comparison(Compounding::FourthOrder).ratios;
+    let crossings = simulations.map(|simulation| {
+        let error = MAX_STANDARD_ERRORS * (2.3 / simulation.settings().samples as f64).sqrt();
+        let fourth_order = &simulation.comparison(Compounding::FourthOrder).ratios;
         assert!(fourth_order.iter().all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < error)));
-        let first = machine.comparison(Compounding::Chapter).misses[0].first.expect("a miss");
-        assert_eq!(first as usize, steps_off(&exact_ratios(&machine, Compounding::Chapter, 0))[0]);
+        let first = simulation.comparison(Compounding::Chapter).misses[0].first.expect("a miss");
+        assert_eq!(first as usize, steps_off(&exact_ratios(&simulation, Compounding::Chapter, 0))[0]);
         f64::from(first)
     });
     document.assert(
@@ -99,15 +102,15 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
 /// Checks the numbers on the page and in doc/exercises.md.
 #[test]
 fn the_crossing_times_are_those_of_exercise_2() {
-    let initial_machine = machine(Settings { samples: 1, ..Settings::default() });
-    let growth = initial_machine.straight_growth();
+    let initial_simulation = simulation(Settings { samples: 1, ..Settings::default() });
+    let growth = initial_simulation.straight_growth();
     let end = growth.durations.len() - 1;
     let power =
         |stds: &[f64]| (stds[end] / stds[0]).ln() / (growth.durations[end] / growth.durations[0]).ln();
     let powers = [&growth.along_first_order, &growth.across_first_order].map(|stds| power(stds));
-    let h = 4.0 * initial_machine.settings().heading_noise().expect("a level");
+    let h = 4.0 * initial_simulation.settings().heading_noise().expect("a level");
     let alphas = [0.02, 0.02, h, h, h / 4.0, h / 4.0];
-    let doubled = machine(Settings { alphas, samples: 1, ..Settings::default() });
+    let doubled = simulation(Settings { alphas, samples: 1, ..Settings::default() });
     let times = [&growth, &doubled.straight_growth()].map(|growth| growth.crossing.expect("a crossing"));
     let exercises = exercises_document();
     page().assert("along the track with the power #, across it with the power #. They cross", powers);
@@ -127,9 +130,9 @@ fn two_hundred_steps_miss_for_half_a_second() {
     let [chapter_drive, fine_drive] = ["chapter", "fine"].map(preset);
     assert_eq!(fine_drive.settings().steps, 200);
     assert!(steps_off(&exact_ratios(&fine_drive, Compounding::Chapter, 0)).is_empty());
-    let missed_time = |machine: &DeadReckoning| {
-        let last = steps_off(&exact_ratios(machine, Compounding::Chapter, 1)).last().copied().unwrap_or(0);
-        last as f64 * machine.settings().command.dt
+    let missed_time = |simulation: &DeadReckoning| {
+        let last = steps_off(&exact_ratios(simulation, Compounding::Chapter, 1)).last().copied().unwrap_or(0);
+        last as f64 * simulation.settings().command.dt
     };
     assert_eq!((2.0 * missed_time(&fine_drive)).round() / 2.0, 0.5, "{}", missed_time(&fine_drive));
     assert_eq!(missed_time(&chapter_drive).round(), 3.0, "{}", missed_time(&chapter_drive));

@@ -93,9 +93,9 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
         let mut alphas = [0.0; 6];
         alphas[index] = 0.09;
         let settings = Settings { command, velocity_alphas: alphas, samples: 1000, ..preset("straight") };
-        let machine = BananaMachine::new(settings).expect("valid settings");
-        let end = machine.poses().next();
-        (machine.table().exact, machine.poses().all(|pose| Some(pose) == end))
+        let simulation = BananaMachine::new(settings).expect("valid settings");
+        let end = simulation.poses().next();
+        (simulation.table().exact, simulation.poses().all(|pose| Some(pose) == end))
     };
     let straight_command = preset("straight").command;
     assert_eq!(straight_command.omega, 0.0);
@@ -181,8 +181,8 @@ fn exercise_6_prints_the_skew_of_the_triangular_sampler() {
     let printed: [Number; 2] =
         exercises_document().numbers("the skew is # with normal noise and # with triangular noise");
     for (printed, noise) in printed.into_iter().zip([NoiseKind::Normal, NoiseKind::Triangular]) {
-        let machine =
+        let simulation =
             BananaMachine::new(Settings { noise, samples: 10, ..preset("worked") }).expect("valid settings");
-        printed.assert(machine.table().exact.cross_track_skew, 0.0);
+        printed.assert(simulation.table().exact.cross_track_skew, 0.0);
     }
 }

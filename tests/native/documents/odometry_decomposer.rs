@@ -1,12 +1,12 @@
 //! Numbers of the Odometry Decomposer on the page and of the rules in doc/model.md, compared with computed ones.
 
 use super::{model_document, page};
-use crate::simulations::odometry_decomposer::{machine, settings_of_preset};
+use crate::simulations::odometry_decomposer::{settings_of_preset, simulation};
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
 use motion::sim::odometry_decomposer::{OdometryPose, RuleNoise, Settings};
 
 fn noise_of(settings: Settings, rule: OdometryRule) -> RuleNoise {
-    machine(settings).rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules")
+    simulation(settings).rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules")
 }
 
 #[test]
@@ -16,12 +16,12 @@ fn the_lever_grows_faster_than_the_drive() {
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
     let settings = settings_of_preset("all");
-    let stats = machine(settings).stats();
+    let stats = simulation(settings).stats();
     deviation.assert(noise_of(settings, Table).deviations[0], 0.0);
     lateral.assert(stats.exact_cross_track, 0.0);
     let OdometryPose([x, y, theta]) = settings.to;
     let long_drive = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
-    growth.assert(machine(long_drive).stats().exact_cross_track / stats.exact_cross_track, 0.0);
+    growth.assert(simulation(long_drive).stats().exact_cross_track / stats.exact_cross_track, 0.0);
 }
 
 #[test]
@@ -43,10 +43,10 @@ fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
 fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
     let [min_deviation, max_deviation] =
         page().numbers("No outcome moves, and the standard deviation of the heading goes from # to # rad.");
-    let machine_with = |correlation| machine(Settings { correlation, ..settings_of_preset("all") });
-    min_deviation.assert(machine_with(-1.0).stats().exact_heading, 0.0);
-    max_deviation.assert(machine_with(1.0).stats().exact_heading, 0.0);
-    for (a, b) in machine_with(-1.0).poses().iter().zip(machine_with(1.0).poses()) {
+    let simulation_with = |correlation| simulation(Settings { correlation, ..settings_of_preset("all") });
+    min_deviation.assert(simulation_with(-1.0).stats().exact_heading, 0.0);
+    max_deviation.assert(simulation_with(1.0).stats().exact_heading, 0.0);
+    for (a, b) in simulation_with(-1.0).poses().iter().zip(simulation_with(1.0).poses()) {
         assert_eq!((a.x(), a.y()), (b.x(), b.y()));
     }
 }
@@ -74,6 +74,6 @@ fn encoders_at_rest_are_noisy_by_the_table_alone() {
     page().assert_says("The encoders have jittered by half a centimetre.");
     let at_rest = settings_of_preset("rest");
     assert_eq!((1000.0 * at_rest.to.0[0].hypot(at_rest.to.0[1])).round(), 5.0);
-    let stats = machine(at_rest).stats();
+    let stats = simulation(at_rest).stats();
     heading.assert(stats.exact_heading, 0.0);
 }

@@ -23,15 +23,15 @@ fn settings(preset: usize, sampler: Sampler, omega: f64) -> Settings {
     Settings { start: PRESETS[preset].1, sampler, steps, command, samples, seed: 3, ..Settings::default() }
 }
 
-fn machine(settings: Settings) -> MapSqueeze {
+fn simulation(settings: Settings) -> MapSqueeze {
     MapSqueeze::new(settings).expect("valid settings")
 }
 
 /// Returns the fraction through a wall, and its standard error.
 fn fraction_through_wall(settings: Settings) -> (f64, f64) {
-    let machine = machine(settings);
-    assert!(!machine.gave_up(), "{settings:?}");
-    let (fraction, count) = (machine.tally().through_wall_rate(), machine.tally().accepted as f64);
+    let simulation = simulation(settings);
+    assert!(!simulation.gave_up(), "{settings:?}");
+    let (fraction, count) = (simulation.tally().through_wall_rate(), simulation.tally().accepted as f64);
     // The standard error of a fraction of 0 would be 0. It is taken from one sample through the wall instead.
     (fraction, ((fraction * (1.0 - fraction)).max(1.0 / count) / count).sqrt())
 }
@@ -61,9 +61,9 @@ fn most_accepted_samples_lie_behind_the_wall() {
     );
     assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), fraction);
     let fraction_behind_wall = |sampler| {
-        let machine = machine(settings(WALL, sampler, 0.0));
+        let simulation = simulation(settings(WALL, sampler, 0.0));
         let accepted: Vec<f64> =
-            machine.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
+            simulation.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
         // The wall ahead is at y = 3.8; robots that turn aside end before it too.
         accepted.iter().filter(|y| **y > 3.8).count() as f64 / accepted.len() as f64
     };
@@ -135,11 +135,11 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
     assert_eq!(wedged_parts.value, 16.0);
-    assert!(!machine(settings(WALL, Sampler::SubStepped(12), 0.0)).gave_up());
+    assert!(!simulation(settings(WALL, Sampler::SubStepped(12), 0.0)).gave_up());
     for parts in [16, 24, 32, 64] {
         for samples in [600, 10_000] {
             let settings = Settings { samples, ..settings(WALL, Sampler::SubStepped(parts), 0.0) };
-            assert!(machine(settings).gave_up(), "{parts} parts");
+            assert!(simulation(settings).gave_up(), "{parts} parts");
         }
     }
 }

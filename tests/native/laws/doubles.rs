@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Returns the configuration for a number of cases from a fixed seed, so that results are equal on every machine. Failing cases are
+/// Returns the configuration for a number of cases from a fixed seed, so that results are equal on every simulation. Failing cases are
 /// not stored: each becomes a test of its own in `regressions.rs`.
 pub fn cases(count: u32) -> ProptestConfig {
     ProptestConfig {

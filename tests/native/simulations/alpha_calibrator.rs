@@ -1,4 +1,4 @@
-//! The Alpha Calibrator's machine. The result for the simulated log is compared with the simulated α's and errors. Panels and legs
+//! The Alpha Calibrator's simulation. The result for the simulated log is compared with the simulated α's and errors. Panels and legs
 //! are compared with an independent computation.
 
 use crate::common::seeded;
@@ -9,14 +9,14 @@ use motion::sim::alpha_calibrator::{AlphaCalibrator, Log, Model, Regressor, Rest
 use motion::{NoiseKind, OdomDelta, Variance};
 use nalgebra::Vector3;
 
-fn machine(settings: Settings) -> AlphaCalibrator {
+fn simulation(settings: Settings) -> AlphaCalibrator {
     AlphaCalibrator::new(settings).expect("allowed")
 }
 
 /// Returns true for each α, and then for each systematic error, whose interval holds the value of the simulation.
-fn intervals_contain_truth(machine: &AlphaCalibrator) -> [bool; 10] {
-    let calibration = machine.calibration();
-    let truth = machine.truth().expect("a simulated log");
+fn intervals_contain_truth(simulation: &AlphaCalibrator) -> [bool; 10] {
+    let calibration = simulation.calibration();
+    let truth = simulation.truth().expect("a simulated log");
     let [ahead, left] = truth.lever_arm;
     let errors = [truth.clock_offset, truth.mount_yaw, ahead, left, truth.distance_scale, truth.turn_scale];
     std::array::from_fn(|i| {
@@ -31,33 +31,33 @@ fn intervals_contain_truth(machine: &AlphaCalibrator) -> [bool; 10] {
 
 #[test]
 fn the_initial_intervals_contain_the_true_values() {
-    let machine = machine(Settings::default());
-    assert_eq!(intervals_contain_truth(&machine), [true; 10]);
-    assert_eq!(machine.calibration().diagnostics.verdict, Verdict::Consistent);
+    let simulation = simulation(Settings::default());
+    assert_eq!(intervals_contain_truth(&simulation), [true; 10]);
+    assert_eq!(simulation.calibration().diagnostics.verdict, Verdict::Consistent);
 }
 
 /// With a duration, the settings of distance and angle have no effect.
 #[test]
 fn legs_end_after_a_duration_where_one_is_set() {
     let settings = Settings { duration: 0.8, ..Settings::default() };
-    let mut machine = machine(settings);
-    assert!(machine.legs().len() > 100, "{}", machine.legs().len());
-    for Leg { times: [from, to], .. } in machine.legs() {
+    let mut simulation = simulation(settings);
+    assert!(simulation.legs().len() > 100, "{}", simulation.legs().len());
+    for Leg { times: [from, to], .. } in simulation.legs() {
         assert!((to - from - 0.8).abs() < 0.06, "{from} {to}");
     }
-    let legs_before = machine.legs().to_vec();
-    machine.configure(Settings { distance: 3.0, angle: 2.0, ..settings }).expect("allowed");
-    assert_eq!(machine.legs(), legs_before);
-    machine.configure(Settings { distance: 3.0, angle: 2.0, ..Settings::default() }).expect("allowed");
-    assert!(machine.legs().len() < legs_before.len() / 2);
+    let legs_before = simulation.legs().to_vec();
+    simulation.configure(Settings { distance: 3.0, angle: 2.0, ..settings }).expect("allowed");
+    assert_eq!(simulation.legs(), legs_before);
+    simulation.configure(Settings { distance: 3.0, angle: 2.0, ..Settings::default() }).expect("allowed");
+    assert!(simulation.legs().len() < legs_before.len() / 2);
 }
 
 /// A standard deviation of 0 is estimated from the log; any other is used as stated.
 #[test]
 fn the_reference_noise_is_estimated_unless_it_is_stated() {
     let reference_noise = |position_std: f64, yaw_std: f64| {
-        let machine = machine(Settings { position_std, yaw_std, ..Settings::default() });
-        machine.calibration().reference_noise.map(|std| (std.value, std.interval[0] == std.interval[1]))
+        let simulation = simulation(Settings { position_std, yaw_std, ..Settings::default() });
+        simulation.calibration().reference_noise.map(|std| (std.value, std.interval[0] == std.interval[1]))
     };
     let [position, yaw] = reference_noise(0.0, 0.003);
     assert_eq!((position.1, yaw.1), (false, true));
@@ -70,11 +70,11 @@ fn the_reference_noise_is_estimated_unless_it_is_stated() {
 /// Panels are compared with means of squared innovations, less the variance due to the other α and the reference, in bins made here.
 #[test]
 fn panels_are_means_of_squared_innovations() {
-    let machine = machine(Settings::default());
-    let Calibration { alphas, intervals, observations, leg_fits, .. } = machine.calibration();
-    let [rot1, trans, rot2] = machine.panels(Regressor::Turn);
+    let simulation = simulation(Settings::default());
+    let Calibration { alphas, intervals, observations, leg_fits, .. } = simulation.calibration();
+    let [rot1, trans, rot2] = simulation.panels(Regressor::Turn);
     assert_eq!([rot1.alpha, trans.alpha, rot2.alpha], [0, 3, 0]);
-    assert_eq!(machine.panels(Regressor::Distance).map(|panel| panel.alpha), [1, 2, 1]);
+    assert_eq!(simulation.panels(Regressor::Distance).map(|panel| panel.alpha), [1, 2, 1]);
     assert_eq!((trans.slope, trans.interval), (alphas[3], intervals[3]));
     let slope = alphas[3].expect("the log turns");
     // By the rule of Table 5.6 the variance of `trans` is α₃·trans² + α₄·(rot1² + rot2²).
@@ -113,9 +113,10 @@ fn panels_are_means_of_squared_innovations() {
 fn the_error_bars_of_panels_hold_the_fitted_lines() {
     let [mut bins, mut over2, mut over3] = [0; 3];
     for seed in 0..40 {
-        let machine = machine(Settings { seed, ..Settings::default() });
-        for panel in
-            [Regressor::Distance, Regressor::Turn].into_iter().flat_map(|regressor| machine.panels(regressor))
+        let simulation = simulation(Settings { seed, ..Settings::default() });
+        for panel in [Regressor::Distance, Regressor::Turn]
+            .into_iter()
+            .flat_map(|regressor| simulation.panels(regressor))
         {
             let slope = panel.slope.expect("the log turns and drives");
             for ((x, y), error) in panel.x.iter().zip(&panel.y).zip(&panel.error) {
@@ -133,7 +134,7 @@ fn the_error_bars_of_panels_hold_the_fitted_lines() {
 /// A turn on the spot may end a tenth of a millimetre behind its start. Table 5.6 then counts it as two half turns.
 #[test]
 fn turns_that_the_robot_did_not_make_are_in_no_panel() {
-    let mut machine = machine(Settings::default());
+    let mut simulation = simulation(Settings::default());
     let mut rng = seeded(1);
     let mut pose = SE2::identity();
     let odometry: Vec<(f64, SE2)> = (0..3000)
@@ -148,20 +149,20 @@ fn turns_that_the_robot_did_not_make_are_in_no_panel() {
         (*time, pose.boxplus([0; 3].map(error).into()))
     });
     let reference = Trajectory::new(reference.collect::<Vec<_>>()).expect("times rise");
-    machine.set_log(vec![Log { odometry: Trajectory::new(odometry).expect("times rise"), reference }]);
-    let readings = machine.calibration().observations.iter().map(|observation| observation.reading[0]);
+    simulation.set_log(vec![Log { odometry: Trajectory::new(odometry).expect("times rise"), reference }]);
+    let readings = simulation.calibration().observations.iter().map(|observation| observation.reading[0]);
     assert!(readings.filter(|rot1| rot1.abs() > 3.0).count() > 50);
-    for panel in machine.panels(Regressor::Turn) {
+    for panel in simulation.panels(Regressor::Turn) {
         assert!(panel.x.iter().all(|turn_square| *turn_square < 1.0), "{:?}", panel.x);
     }
 }
 
 #[test]
 fn a_leg_is_shown_in_the_frame_of_its_start() {
-    let machine = machine(Settings { inflation: 4.0, ..Settings::default() });
-    let calibration = machine.calibration();
+    let simulation = simulation(Settings { inflation: 4.0, ..Settings::default() });
+    let calibration = simulation.calibration();
     let index = 100;
-    let view = machine.leg(index).expect("a leg");
+    let view = simulation.leg(index).expect("a leg");
     let [from, to] = calibration.legs[index].reference.map(|pose| pose * calibration.corrected.base());
     let motion = from.inverse() * to;
     assert_eq!(view.ended, [motion.x(), motion.y(), motion.theta()]);
@@ -195,22 +196,22 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
         (turn_variance / expected - 1.0).abs() < 4.0 * (2.0 / count).sqrt(),
         "{turn_variance}, {expected}"
     );
-    assert!(machine.leg(calibration.legs.len()).is_none());
+    assert!(simulation.leg(calibration.legs.len()).is_none());
 }
 
 #[test]
 fn the_nearest_leg_passes_through_the_point() {
-    let machine = machine(Settings::default());
-    let calibration = machine.calibration();
+    let simulation = simulation(Settings::default());
+    let calibration = simulation.calibration();
     let [from, to] = calibration.legs[7].reference.map(|pose| pose * calibration.corrected.base());
     let midpoint = [0.5 * (from.x() + to.x()), 0.5 * (from.y() + to.y())];
-    let nearest = machine.nearest(midpoint, 1e-9).expect("it leads through there");
+    let nearest = simulation.nearest(midpoint, 1e-9).expect("it leads through there");
     let [from, to] = calibration.legs[nearest].reference.map(|pose| pose * calibration.corrected.base());
     let distance = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
     let [from, to] = [from, to].map(|pose| [pose.x(), pose.y()]);
     assert!(distance(from, midpoint) + distance(midpoint, to) - distance(from, to) < 1e-9);
-    assert_eq!(machine.nearest([1e6, 0.0], 1.0), None);
-    assert_eq!(machine.nearest(midpoint, 0.0), None);
+    assert_eq!(simulation.nearest([1e6, 0.0], 1.0), None);
+    assert_eq!(simulation.nearest(midpoint, 0.0), None);
 }
 
 #[test]
@@ -234,44 +235,46 @@ fn changing_the_model_or_the_rule_adjusts_the_other() {
 #[test]
 fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
     let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
-    let machine = machine(settings);
-    let mut restored_machine = AlphaCalibrator::restore(settings, &machine.save()).expect("a fit");
+    let simulation = simulation(settings);
+    let mut restored_simulation = AlphaCalibrator::restore(settings, &simulation.save()).expect("a fit");
     // Residuals that a leg does not show are NaN, which equals nothing.
     let results = |fit: &AlphaCalibrator| {
         let panels = [Regressor::Turn, Regressor::Distance].map(|regressor| fit.panels(regressor));
         format!("{:?} {panels:?} {:?} {:?}", fit.calibration(), fit.leg(5), fit.nearest([0.5, 1.0], 3.0))
     };
-    let results_before = results(&machine);
+    let results_before = results(&simulation);
     assert!(
-        results(&restored_machine) == results_before
-            && restored_machine.truth().is_none()
-            && !restored_machine.is_pending()
+        results(&restored_simulation) == results_before
+            && restored_simulation.truth().is_none()
+            && !restored_simulation.is_pending()
     );
     // A new inflation changes only predictions. Another rule needs the log.
-    restored_machine.configure(Settings { inflation: 2.0, ..settings }).expect("allowed");
-    assert!(!restored_machine.is_pending() && results(&restored_machine) != results_before);
-    restored_machine.configure(Settings::default()).expect("allowed");
+    restored_simulation.configure(Settings { inflation: 2.0, ..settings }).expect("allowed");
+    assert!(!restored_simulation.is_pending() && results(&restored_simulation) != results_before);
+    restored_simulation.configure(Settings::default()).expect("allowed");
     assert!(
-        restored_machine.is_pending()
-            && results(&restored_machine) == results_before
-            && *restored_machine.fitted_settings() == settings
+        restored_simulation.is_pending()
+            && results(&restored_simulation) == results_before
+            && *restored_simulation.fitted_settings() == settings
     );
     assert_eq!(AlphaCalibrator::restore(settings, &[1, 2]).unwrap_err(), RestoreError::Bytes);
 }
 
 #[test]
 fn a_log_without_legs_gives_an_empty_calibration() {
-    let mut machine = machine(Settings::default());
+    let mut simulation = simulation(Settings::default());
     let poses =
         |count: usize| Trajectory::new((0..count).map(|i| (i as f64, SE2::identity()))).expect("times rise");
-    machine.set_log(vec![Log { odometry: poses(10), reference: poses(10) }]);
-    assert!(machine.truth().is_none());
-    let Calibration { alphas, legs, diagnostics, recommended, .. } = machine.calibration();
+    simulation.set_log(vec![Log { odometry: poses(10), reference: poses(10) }]);
+    assert!(simulation.truth().is_none());
+    let Calibration { alphas, legs, diagnostics, recommended, .. } = simulation.calibration();
     assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommended.is_none());
     assert_eq!(diagnostics.verdict, Verdict::Unusable);
-    assert!(machine.leg(0).is_none() && machine.nearest([0.0; 2], 1.0).is_none());
-    assert!(machine.panels(Regressor::Turn).iter().all(|panel| panel.x.is_empty() && panel.slope.is_none()));
+    assert!(simulation.leg(0).is_none() && simulation.nearest([0.0; 2], 1.0).is_none());
+    assert!(
+        simulation.panels(Regressor::Turn).iter().all(|panel| panel.x.is_empty() && panel.slope.is_none())
+    );
     // Another seed does not bring the simulated log back.
-    machine.configure(Settings { seed: 1, ..Settings::default() }).expect("allowed");
-    assert!(machine.truth().is_none());
+    simulation.configure(Settings { seed: 1, ..Settings::default() }).expect("allowed");
+    assert!(simulation.truth().is_none());
 }

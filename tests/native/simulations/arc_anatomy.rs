@@ -6,12 +6,12 @@ use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, PRESETS, Settings, Stats};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use std::f64::consts::PI;
 
-fn machine(settings: Settings) -> ArcAnatomy {
+fn simulation(settings: Settings) -> ArcAnatomy {
     ArcAnatomy::new(settings).expect("valid settings")
 }
 
 pub fn stats(settings: Settings) -> Stats {
-    machine(settings).stats()
+    simulation(settings).stats()
 }
 
 pub fn preset(name: &str) -> Settings {
@@ -61,7 +61,7 @@ fn table_as_printed(settings: &Settings) -> [f64; 8] {
 #[test]
 fn the_printed_option_computes_the_lines_of_the_table() {
     for settings in random_settings(1).take(20_000) {
-        let printed = machine(Settings { printed: true, ..settings }).table().lines;
+        let printed = simulation(Settings { printed: true, ..settings }).table().lines;
         let expected = table_as_printed(&settings);
         // The table loses digits if the radius is much larger than the distance, and for nearly full circles.
         let scale = 1.0 + expected[0].abs() + expected[3].abs();
@@ -83,7 +83,7 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
         let (_, next) = poses(&settings);
         let Stats { commanded, driven, last_turn, .. } = stats(settings);
         assert!(wrap_angle(driven.end[2] + last_turn - next.theta()).abs() < 1e-13, "{settings:?}");
-        let [commanded_end, driven_end, _] = machine(settings).poses_at(1.0);
+        let [commanded_end, driven_end, _] = simulation(settings).poses_at(1.0);
         for (robot, arc) in [(commanded_end, commanded), (driven_end, driven)] {
             assert_eq!([robot.x(), robot.y()], arc.end[..2], "{settings:?}");
         }
@@ -155,13 +155,13 @@ fn without_noise_a_residual_is_zero_or_infinite() {
 #[test]
 fn a_last_turn_gives_the_twist_a_lateral_velocity() {
     for settings in random_settings(6).take(200) {
-        let machine = machine(settings);
-        let [along, lateral, _] = machine.stats().xi;
+        let simulation = simulation(settings);
+        let [along, lateral, _] = simulation.stats().xi;
         let step = 1e-5;
-        for (i, tick) in machine.paths().ticks.iter().enumerate().take(8) {
+        for (i, tick) in simulation.paths().ticks.iter().enumerate().take(8) {
             let progress = 0.125 * i as f64 + step;
             let [before, middle, after] =
-                [progress - step, progress, progress + step].map(|progress| machine.poses_at(progress)[2]);
+                [progress - step, progress, progress + step].map(|progress| simulation.poses_at(progress)[2]);
             let velocity = [(after.x() - before.x()) / (2.0 * step), (after.y() - before.y()) / (2.0 * step)];
             let (sin, cos) = middle.theta().sin_cos();
             let sideways = cos * velocity[1] - sin * velocity[0];
@@ -171,7 +171,7 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
             assert!((before.x() - x).hypot(before.y() - y) < 1e-12 * (1.0 + along.abs()));
         }
         // Without the last turn the lateral component of the twist is 0.
-        let Stats { driven, .. } = machine.stats();
+        let Stats { driven, .. } = simulation.stats();
         let next = FinalPose { theta: driven.end[2], ..settings.next };
         let xi = stats(Settings { next, ..settings }).xi;
         assert!(xi[1].abs() < 1e-12 * (1.0 + xi[0].abs()), "{xi:?}");
@@ -181,16 +181,16 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
 #[test]
 fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
     let settings = Settings { next: FinalPose { x: 2.0, y: 0.0, theta: 0.0 }, ..Settings::default() };
-    let machine = machine(settings);
-    let Stats { inverted, factors, .. } = machine.stats();
+    let simulation = simulation(settings);
+    let Stats { inverted, factors, .. } = simulation.stats();
     assert_eq!((inverted.centre, inverted.radius, inverted.turn), (None, f64::INFINITY, 0.0));
     assert_eq!(factors[0].estimate, 2.0);
-    let [mu, x, y, radius, turn, v, ..] = machine.table().lines;
+    let [mu, x, y, radius, turn, v, ..] = simulation.table().lines;
     assert!([mu, x, y, radius].iter().all(|line| line.is_infinite()) && turn == 0.0 && v == 2.0);
     let nearest_pose = FinalPose { x: f64::from_bits(1), y: 0.0, theta: 0.0 };
-    let machine_with_tiny_motion =
+    let simulation_with_tiny_motion =
         ArcAnatomy::new(Settings { next: nearest_pose, ..settings }).expect("valid settings");
-    assert!(machine_with_tiny_motion.table().lines[0].is_infinite());
+    assert!(simulation_with_tiny_motion.table().lines[0].is_infinite());
     let backward_stats =
         stats(Settings { next: FinalPose { x: -2.0, y: 0.0, theta: 0.0 }, printed: true, ..settings });
     assert_eq!(backward_stats.factors[0].estimate, -2.0);

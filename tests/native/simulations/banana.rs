@@ -18,21 +18,27 @@ use std::f64::consts::PI;
 
 const GENTLE_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
-pub fn machine(settings: Settings) -> BananaMachine {
+pub fn simulation(settings: Settings) -> BananaMachine {
     BananaMachine::new(settings).expect("a valid setting")
 }
 
-fn poses(machine: &BananaMachine) -> Vec<SE2> {
-    machine.poses().collect()
+fn poses(simulation: &BananaMachine) -> Vec<SE2> {
+    simulation.poses().collect()
 }
 
 fn settings_of_models() -> [Settings; 2] {
     [preset("gentle"), Settings { model: ModelKind::Odometry, ..preset("gentle") }]
 }
 
-/// Returns all results of a machine as text.
-fn results(machine: &BananaMachine) -> String {
-    format!("{:?} {:?} {:?} {:?}", machine.settings(), poses(machine), machine.stats(), machine.contours())
+/// Returns all results of a simulation as text.
+fn results(simulation: &BananaMachine) -> String {
+    format!(
+        "{:?} {:?} {:?} {:?}",
+        simulation.settings(),
+        poses(simulation),
+        simulation.stats(),
+        simulation.contours()
+    )
 }
 
 /// Accuracy of a pose after a metre or two. Each factor of a coordinate has the accuracy of a sine or cosine.
@@ -50,7 +56,7 @@ fn the_cloud_equals_samples_of_the_model() {
         let settings = Settings { noise, command, samples: 500, seed: 2005, ..preset("gentle") };
         let assert_same = |settings: Settings, draw: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
             let mut rng = seeded(2005);
-            for pose in machine(settings).poses() {
+            for pose in simulation(settings).poses() {
                 assert!(pose_distance(&pose, &draw(&mut rng)) < POSE_ACCURACY, "{settings:?}");
             }
         };
@@ -70,14 +76,14 @@ fn the_cloud_equals_samples_of_the_model() {
 #[test]
 fn changed_settings_move_the_same_robots() {
     let first_settings = Settings { samples: 300, ..preset("gentle") };
-    let mut machine = machine(first_settings);
-    let unit_noises = |machine: &BananaMachine| -> Vec<[f64; 3]> {
-        let settings = machine.settings();
+    let mut simulation = simulation(first_settings);
+    let unit_noises = |simulation: &BananaMachine| -> Vec<[f64; 3]> {
+        let settings = simulation.settings();
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise: settings.noise };
         let [v, omega, gamma] = model.variances(&settings.command).map(|b2| b2.0.sqrt());
         (0..300)
             .map(|i| {
-                let sample = machine.inspect(i).unwrap();
+                let sample = simulation.inspect(i).unwrap();
                 [
                     (sample.v_hat - settings.command.v) / v,
                     (sample.omega_hat - settings.command.omega) / omega,
@@ -86,21 +92,24 @@ fn changed_settings_move_the_same_robots() {
             })
             .collect()
     };
-    let initial_noises = unit_noises(&machine);
+    let initial_noises = unit_noises(&simulation);
     let command = VelocityCmd { v: -0.6, omega: 1.1, dt: 0.7 };
     for settings in [
         Settings { velocity_alphas: [0.01, 0.2, 0.03, 0.04, 0.3, 0.2], ..first_settings },
         Settings { command, ..first_settings },
     ] {
-        machine.configure(settings).unwrap();
-        for (a, b) in unit_noises(&machine).iter().zip(&initial_noises) {
+        simulation.configure(settings).unwrap();
+        for (a, b) in unit_noises(&simulation).iter().zip(&initial_noises) {
             assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} was {b:?}");
         }
     }
-    machine.configure(first_settings).unwrap();
-    assert_eq!(unit_noises(&machine), initial_noises, "and back again to the bit");
-    machine.configure(Settings { seed: 8, ..first_settings }).unwrap();
-    assert!(unit_noises(&machine).iter().zip(&initial_noises).all(|(a, b)| a != b), "a new seed changes it");
+    simulation.configure(first_settings).unwrap();
+    assert_eq!(unit_noises(&simulation), initial_noises, "and back again to the bit");
+    simulation.configure(Settings { seed: 8, ..first_settings }).unwrap();
+    assert!(
+        unit_noises(&simulation).iter().zip(&initial_noises).all(|(a, b)| a != b),
+        "a new seed changes it"
+    );
 }
 
 /// Blocks have 25,000 robots or more. The growth of smaller clouds is tested in `tests/fuzz.rs`.
@@ -108,13 +117,13 @@ fn changed_settings_move_the_same_robots() {
 fn a_large_cloud_grows_in_blocks() {
     for settings in settings_of_models() {
         let larger_settings = Settings { samples: 60_000, ..settings };
-        let mut growing_machine = BananaMachine::with_shown_count(settings, 0).unwrap();
-        growing_machine.configure_first(larger_settings, usize::MAX).unwrap();
-        assert_eq!(growing_machine.shown_count(), 25_000);
-        while growing_machine.shown_count() < larger_settings.samples {
-            growing_machine.add_samples(growing_machine.block_size());
+        let mut growing_simulation = BananaMachine::with_shown_count(settings, 0).unwrap();
+        growing_simulation.configure_first(larger_settings, usize::MAX).unwrap();
+        assert_eq!(growing_simulation.shown_count(), 25_000);
+        while growing_simulation.shown_count() < larger_settings.samples {
+            growing_simulation.add_samples(growing_simulation.block_size());
         }
-        assert_eq!(results(&growing_machine), results(&machine(larger_settings)));
+        assert_eq!(results(&growing_simulation), results(&simulation(larger_settings)));
     }
 }
 
@@ -124,8 +133,9 @@ fn long_turns_stay_on_the_branch_of_the_command() {
     for omega in [3.1, -4.5, 5.0] {
         let command = VelocityCmd { v: 1.0, omega, dt: 1.0 };
         let velocity_alphas = [0.01, 0.0, 0.0, 0.001, 0.0, 0.0];
-        let machine = machine(Settings { command, velocity_alphas, samples: 20_000, ..preset("gentle") });
-        let ExponentialMoments { mean, cov } = machine.stats().exponential;
+        let simulation =
+            simulation(Settings { command, velocity_alphas, samples: 20_000, ..preset("gentle") });
+        let ExponentialMoments { mean, cov } = simulation.stats().exponential;
         let turn_variance = 0.001 * omega * omega;
         assert!((mean.x - 1.0).abs() < MAX_STANDARD_ERRORS * 0.1 / 20_000f64.sqrt(), "{omega}: {mean}");
         assert!(
@@ -136,7 +146,7 @@ fn long_turns_stay_on_the_branch_of_the_command() {
             (cov[(2, 2)] / turn_variance - 1.0).abs() < MAX_STANDARD_ERRORS * (2.0f64 / 20_000.0).sqrt(),
             "{omega}: {cov}"
         );
-        for (pose, twist) in machine.poses().zip(machine.twists()) {
+        for (pose, twist) in simulation.poses().zip(simulation.twists()) {
             assert!((twist.z - omega).abs() <= PI);
             assert!(pose_distance(&SE2::exp(&twist), &pose) < 1e-12);
         }
@@ -147,31 +157,34 @@ fn long_turns_stay_on_the_branch_of_the_command() {
 fn isolating_an_alpha_sets_the_others_to_zero() {
     let straight_settings = Settings { command: PRESETS[0].command, samples: 1000, ..preset("gentle") };
     let end = SE2::new(2.0, 0.0, 0.0);
-    let isolated_machine = |alpha| machine(Settings { isolate: Some(alpha), ..straight_settings });
+    let isolated_simulation = |alpha| simulation(Settings { isolate: Some(alpha), ..straight_settings });
     for alpha in [4, 6] {
-        let machine = isolated_machine(alpha);
-        assert!(machine.poses().all(|pose| pose == end), "α₄ and α₆ are silent where nothing is turned");
-        assert!(machine.stats().cross_track_skew.is_nan());
-        assert_eq!(machine.stats().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
+        let simulation = isolated_simulation(alpha);
+        assert!(simulation.poses().all(|pose| pose == end), "α₄ and α₆ are silent where nothing is turned");
+        assert!(simulation.stats().cross_track_skew.is_nan());
+        assert_eq!(simulation.stats().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
     }
     assert!(
-        isolated_machine(1).poses().all(|pose| (pose.y(), pose.theta()) == (0.0, 0.0)),
+        isolated_simulation(1).poses().all(|pose| (pose.y(), pose.theta()) == (0.0, 0.0)),
         "α₁ turns nobody"
     );
     assert!(
-        isolated_machine(3).poses().all(|pose| (pose.log().x - 2.0).abs() < 1e-14),
+        isolated_simulation(3).poses().all(|pose| (pose.log().x - 2.0).abs() < 1e-14),
         "α₃ fans arcs of one length"
     );
-    assert!(isolated_machine(5).poses().all(|pose| (pose.x(), pose.y()) == (2.0, 0.0)), "α₅ moves nothing");
-    assert!(isolated_machine(5).poses().any(|pose| pose.theta().abs() > 0.1), "and turns");
-    let mut reconfigured = isolated_machine(3);
+    assert!(
+        isolated_simulation(5).poses().all(|pose| (pose.x(), pose.y()) == (2.0, 0.0)),
+        "α₅ moves nothing"
+    );
+    assert!(isolated_simulation(5).poses().any(|pose| pose.theta().abs() > 0.1), "and turns");
+    let mut reconfigured = isolated_simulation(3);
     assert_eq!(
         reconfigured.settings().velocity_alphas,
         straight_settings.velocity_alphas,
         "the sliders stay where they are"
     );
     reconfigured.configure(straight_settings).unwrap();
-    assert_eq!(results(&reconfigured), results(&machine(straight_settings)));
+    assert_eq!(results(&reconfigured), results(&simulation(straight_settings)));
 }
 
 #[test]
@@ -180,7 +193,7 @@ fn the_reaching_command_ends_at_the_target() {
         for (omega, dt) in [(0.3, 0.5), (-0.2, 2.0), (2.0, 3.0), (-1.5, 2.5)] {
             let command = command_reaching(x, y, &VelocityCmd { v: 1.0, omega, dt });
             let settings = Settings { command, ..preset("gentle") };
-            let end = machine(settings).linearized_moments().mean;
+            let end = simulation(settings).linearized_moments().mean;
             let end_position = SE2::new(end.x, end.y, 0.0);
             // A chord d on an arc of length s = |v|Δt carries the rounding of s.
             let rounding = 1e-14 * (1.0 + (command.v * dt).abs());
@@ -196,15 +209,15 @@ fn the_reaching_command_ends_at_the_target() {
 /// Exponential coordinates are infinite for a full turn. Statistics in them are then undefined, and the others are not.
 #[test]
 fn exponential_statistics_are_undefined_near_a_full_turn() {
-    let machine_with_turn = |omega: f64| {
+    let simulation_with_turn = |omega: f64| {
         let command = VelocityCmd { v: 1.0, omega, dt: 3.0 };
-        machine(Settings { command, velocity_alphas: [0.01; 6], samples: 500, ..preset("gentle") })
+        simulation(Settings { command, velocity_alphas: [0.01; 6], samples: 500, ..preset("gentle") })
     };
     // sd of the turn: 3·√(0.02·(1 + ω²)), 0.7 and 0.9 rad.
     for (omega, is_defined) in [(0.9, true), (2.0, false), (-2.0, false)] {
-        let machine = machine_with_turn(omega);
-        assert_eq!(machine.is_chart_defined(), is_defined, "ω = {omega}");
-        let (stats, contours) = (machine.stats(), machine.contours());
+        let simulation = simulation_with_turn(omega);
+        assert_eq!(simulation.is_chart_defined(), is_defined, "ω = {omega}");
+        let (stats, contours) = (simulation.stats(), simulation.contours());
         let exponential_values = [stats.gaussian_skew, stats.coverage.exponential, stats.exponential.mean.x];
         assert!(
             exponential_values.iter().all(|value| value.is_nan() != is_defined),
@@ -219,29 +232,29 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
 
 #[test]
 fn both_views_find_the_nearest_sample() {
-    let machine = machine(Settings { samples: 3000, ..preset("gentle") });
+    let simulation = simulation(Settings { samples: 3000, ..preset("gentle") });
     for view in [View::Plane, View::Twist] {
-        let points: Vec<[f64; 2]> = machine
+        let points: Vec<[f64; 2]> = simulation
             .poses()
-            .zip(machine.twists())
+            .zip(simulation.twists())
             .map(|(pose, twist)| if view == View::Plane { [pose.x(), pose.y()] } else { [twist.x, twist.z] })
             .collect();
-        assert_eq!(machine.nearest(view, points[17], [1e-9, 1e-9]), Some(17));
-        assert_eq!(machine.nearest(view, [50.0, 50.0], [1.0, 1.0]), None);
+        assert_eq!(simulation.nearest(view, points[17], [1e-9, 1e-9]), Some(17));
+        assert_eq!(simulation.nearest(view, [50.0, 50.0], [1.0, 1.0]), None);
         // The search ends at its radii: the outermost sample is found from a target just inside of its radius, and not from just outside.
         let rightmost = (0..points.len()).max_by(|&a, &b| points[a][0].total_cmp(&points[b][0])).unwrap();
         let right_of_rightmost = |distance| [points[rightmost][0] + distance, points[rightmost][1]];
-        assert_eq!(machine.nearest(view, right_of_rightmost(0.0099), [0.01, 1e-9]), Some(rightmost));
-        assert_eq!(machine.nearest(view, right_of_rightmost(0.0101), [0.01, 1e-9]), None);
+        assert_eq!(simulation.nearest(view, right_of_rightmost(0.0099), [0.01, 1e-9]), Some(rightmost));
+        assert_eq!(simulation.nearest(view, right_of_rightmost(0.0101), [0.01, 1e-9]), None);
     }
 }
 
 #[test]
 fn the_executed_motion_leads_to_the_pose() {
     for settings in settings_of_models() {
-        let machine = machine(Settings { samples: 200, ..settings });
-        for ((i, sample), pose) in machine.executed_motions().enumerate().zip(machine.poses()) {
-            let Sample { v_hat, omega_hat, gamma_hat, legs, .. } = machine.inspect(i).unwrap();
+        let simulation = simulation(Settings { samples: 200, ..settings });
+        for ((i, sample), pose) in simulation.executed_motions().enumerate().zip(simulation.poses()) {
+            let Sample { v_hat, omega_hat, gamma_hat, legs, .. } = simulation.inspect(i).unwrap();
             let end = match legs {
                 None => {
                     assert_eq!(sample, [v_hat, omega_hat, gamma_hat]);
@@ -264,15 +277,15 @@ fn the_executed_motion_leads_to_the_pose() {
 fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
     let command = VelocityCmd { v: -1.0, ..GENTLE_COMMAND };
     let odometry = Settings { model: ModelKind::Odometry, command, samples: 10, ..preset("gentle") };
-    let machines = [false, true].map(|reverse_aware| machine(Settings { reverse_aware, ..odometry }));
+    let simulations = [false, true].map(|reverse_aware| simulation(Settings { reverse_aware, ..odometry }));
     let [alpha1, alpha2, ..] = odometry.odometry_alphas;
-    let reading = machines[0].reading();
+    let reading = simulations[0].reading();
     // Without the option both rotations are a half turn less half the turn of the command. With it they are half that turn.
     let rotations = [reading.rot1.abs(), PI - reading.rot1.abs()];
-    for (machine, rotation) in machines.iter().zip(rotations) {
+    for (simulation, rotation) in simulations.iter().zip(rotations) {
         let variance = 2.0 * (alpha1 * rotation * rotation + alpha2 * reading.trans * reading.trans);
-        assert!((machine.exact_moments().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
-        assert!((machine.linearized_moments().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
+        assert!((simulation.exact_moments().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
+        assert!((simulation.linearized_moments().cov[(2, 2)] / variance - 1.0).abs() < 1e-12);
     }
 }
 
@@ -282,14 +295,14 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
 fn additive_noise_does_not_depend_on_the_motion() {
     for [v, omega, dt] in [[0.05, 0.0, 1.0], [1.0, 0.5, 1.0], [1.0, 0.5, 10.0]] {
         let command = VelocityCmd { v, omega, dt };
-        let machine = machine(Settings { command, samples: 10, ..preset("gentle") });
-        let end = machine.linearized_moments().mean;
-        for [x, y] in machine.contours().additive {
+        let simulation = simulation(Settings { command, samples: 10, ..preset("gentle") });
+        let end = simulation.linearized_moments().mean;
+        for [x, y] in simulation.contours().additive {
             let radius = libm::hypot(x - end.x, y - end.y);
             assert!((radius - 2.0 * ADDITIVE_DEVIATION).abs() < 1e-12);
         }
     }
-    let cov = machine(Settings { samples: 10, ..preset("gentle") }).exact_moments().cov;
+    let cov = simulation(Settings { samples: 10, ..preset("gentle") }).exact_moments().cov;
     let rounded_deviation = (10.0 * (0.5 * (cov[(0, 0)] + cov[(1, 1)])).sqrt()).round() / 10.0;
     assert_eq!(rounded_deviation, ADDITIVE_DEVIATION);
 }
@@ -298,8 +311,8 @@ fn additive_noise_does_not_depend_on_the_motion() {
 /// Only one seed in 250 has such small differences.
 #[test]
 fn the_initial_cloud_is_close_to_the_exact_values() {
-    let machine = machine(Settings::default());
-    let (cloud, exact) = (machine.stats(), machine.table().exact);
+    let simulation = simulation(Settings::default());
+    let (cloud, exact) = (simulation.stats(), simulation.table().exact);
     assert!((cloud.cross_track_skew - exact.cross_track_skew).abs() < 0.2 * cloud.cross_track_skew_error);
     assert!((cloud.area_ratio - exact.area_ratio).abs() < 0.2 * cloud.area_ratio_error);
     assert!(

@@ -1,4 +1,4 @@
-//! The machine of Dead Reckoning: rollouts are compared with poses of the models, and statistics with simple sums.
+//! The simulation of Dead Reckoning: rollouts are compared with poses of the models, and statistics with simple sums.
 
 use crate::common::seeded;
 use motion::geom::se2::SE2;
@@ -6,8 +6,8 @@ use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, PRESETS, RECURSIONS, 
 use motion::{Compounding, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{Matrix3, Vector3};
 
-/// Returns a machine. If the path has fewer steps than the selected one, the last step is selected.
-pub fn machine(settings: Settings) -> DeadReckoning {
+/// Returns a simulation. If the path has fewer steps than the selected one, the last step is selected.
+pub fn simulation(settings: Settings) -> DeadReckoning {
     let step = settings.step.min(settings.steps);
     DeadReckoning::new(Settings { step, ..settings }).expect("valid settings")
 }
@@ -50,14 +50,14 @@ fn assert_same([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
 fn lanes_agree_with_poses_composed_one_by_one() {
     use motion::noise::centred_uniform;
     for settings in difficult_settings() {
-        let machine = machine(settings);
+        let simulation = simulation(settings);
         let (u, model) = (settings.command, settings.model());
         // Robot 513 is the second robot of the third block of 256. Each block has its own stream of random numbers.
         let mut block_rng = seeded(settings.seed);
         block_rng.jump();
         block_rng.jump();
         let mut pose = SE2::identity();
-        let poses = machine.rollout(513).expect("a robot");
+        let poses = simulation.rollout(513).expect("a robot");
         let mut path_size = 1.0;
         for rollout_pose in poses {
             let uniforms: Vec<[f64; 3]> =
@@ -77,12 +77,12 @@ fn lanes_agree_with_poses_composed_one_by_one() {
 #[test]
 fn moments_are_those_of_the_cloud() {
     for (i, settings) in difficult_settings().into_iter().enumerate() {
-        let machine = machine(settings);
+        let simulation = simulation(settings);
         let n = settings.samples as f64;
         let paths: Vec<_> =
-            (0..settings.samples).map(|index| machine.rollout(index).expect("a robot")).collect();
+            (0..settings.samples).map(|index| simulation.rollout(index).expect("a robot")).collect();
         for k in [0, settings.steps as usize / 2, settings.steps as usize - 1] {
-            let nominal = machine.nominal_poses()[k];
+            let nominal = simulation.nominal_poses()[k];
             let xi: Vec<Vector3<f64>> = paths
                 .iter()
                 .map(|path| SE2::new(path[k][0], path[k][1], path[k][2]).boxminus(&nominal))
@@ -90,7 +90,7 @@ fn moments_are_those_of_the_cloud() {
             let mean = xi.iter().sum::<Vector3<f64>>() / n;
             let cov =
                 xi.iter().map(|xi| (xi - mean) * (xi - mean).transpose()).sum::<Matrix3<f64>>() / (n - 1.0);
-            let measured = machine.measured_moments()[k];
+            let measured = simulation.measured_moments()[k];
             let scale = 1e-11 * (1.0 + cov.amax());
             assert!((measured.mean - mean).amax() < scale, "{i}, {k}: {} {mean}", measured.mean);
             assert!((measured.cov - cov).amax() < scale, "{i}, {k}: {} {cov}", measured.cov);
@@ -112,14 +112,14 @@ fn moments_are_those_of_the_cloud() {
 /// A ratio is the predicted variance over the measured one. Steps with a miss (a ratio off by more than 5 %) are counted from 1.
 #[test]
 fn ratios_and_misses_are_counted() {
-    let machine = machine(Settings::default());
+    let simulation = simulation(Settings::default());
     for order in RECURSIONS {
-        let comparison = machine.comparison(order);
+        let comparison = simulation.comparison(order);
         for (axis, misses) in comparison.misses.iter().enumerate() {
             let ratios: Vec<f64> = (0..20)
                 .map(|k| {
-                    let predicted = machine.predicted_covariances(order)[k].expect("a covariance");
-                    predicted[(axis, axis)] / machine.measured_moments()[k].cov[(axis, axis)]
+                    let predicted = simulation.predicted_covariances(order)[k].expect("a covariance");
+                    predicted[(axis, axis)] / simulation.measured_moments()[k].cov[(axis, axis)]
                 })
                 .collect();
             assert!(comparison.ratios.iter().zip(&ratios).all(|(row, ratio)| row[axis] == *ratio));
@@ -133,7 +133,7 @@ fn ratios_and_misses_are_counted() {
 
 /// Returns, for each component, whether misses of the chapter's recursion can be established.
 fn are_misses_decidable(settings: Settings) -> [bool; 3] {
-    machine(settings).comparison(Compounding::Chapter).misses.map(|misses| misses.decidable)
+    simulation(settings).comparison(Compounding::Chapter).misses.map(|misses| misses.decidable)
 }
 
 /// Misses of the chapter's recursion are reported only if the robots have a spread and are enough to measure it.
@@ -145,21 +145,21 @@ fn misses_are_reported_with_enough_robots_only() {
         are_misses_decidable(Settings { alphas: [0.0; 6], ..settings_with_robots(20_000) }),
         [false; 3]
     );
-    let empty_machine = DeadReckoning::with_shown_count(Settings::default(), 0).expect("valid settings");
+    let empty_simulation = DeadReckoning::with_shown_count(Settings::default(), 0).expect("valid settings");
     assert!(
-        empty_machine
+        empty_simulation
             .comparison(Compounding::Chapter)
             .misses
             .iter()
             .all(|misses| !misses.decidable && misses.end.is_nan())
     );
-    assert_eq!(empty_machine.stats().n, 0);
+    assert_eq!(empty_simulation.stats().n, 0);
 }
 
 /// A component without variance has no relative error, however small the numbers are.
 #[test]
 fn a_zero_variance_has_no_relative_error() {
-    let errors = |settings| machine(settings).measured_moments()[1].relative_error;
+    let errors = |settings| simulation(settings).measured_moments()[1].relative_error;
     for samples in [1, 2] {
         assert!(
             errors(Settings { alphas: [0.0; 6], ..settings_with_robots(samples) })
@@ -189,12 +189,14 @@ fn a_zero_variance_has_no_relative_error() {
 #[test]
 fn a_fourth_order_without_a_covariance_has_no_ratio() {
     let settings = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..settings_with_robots(1000) };
-    let machine = machine(settings);
-    let covs = machine.predicted_covariances(Compounding::FourthOrder);
+    let simulation = simulation(settings);
+    let covs = simulation.predicted_covariances(Compounding::FourthOrder);
     let end = covs.iter().position(Option::is_none).expect("some step without");
     assert!(covs[end..].iter().all(Option::is_none));
-    assert!(machine.comparison(Compounding::FourthOrder).ratios[end..].iter().all(|ratio| ratio.x.is_nan()));
-    assert!(machine.predicted_covariances(Compounding::FirstOrder).iter().all(Option::is_some));
+    assert!(
+        simulation.comparison(Compounding::FourthOrder).ratios[end..].iter().all(|ratio| ratio.x.is_nan())
+    );
+    assert!(simulation.predicted_covariances(Compounding::FirstOrder).iter().all(Option::is_some));
     let settings = Settings { step: end as u32 + 1, compounding: Compounding::FourthOrder, ..settings };
     let outlines =
         DeadReckoning::new(settings).expect("valid settings").outlines(settings.step).expect("a step");
@@ -206,11 +208,11 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
 /// Other α's scale the noise.
 #[test]
 fn a_seed_gives_the_same_draws() {
-    let large_cloud = machine(settings_with_robots(1500));
-    let small_cloud = machine(settings_with_robots(300));
-    let short_path = machine(Settings { steps: 7, ..settings_with_robots(300) });
+    let large_cloud = simulation(settings_with_robots(1500));
+    let small_cloud = simulation(settings_with_robots(300));
+    let short_path = simulation(Settings { steps: 7, ..settings_with_robots(300) });
     let noisy_cloud =
-        machine(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..settings_with_robots(300) });
+        simulation(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..settings_with_robots(300) });
     for index in [0, 1, 255, 256, 299] {
         let path = large_cloud.rollout(index).expect("a robot");
         assert_eq!(small_cloud.rollout(index).as_ref(), Some(&path));
@@ -225,7 +227,10 @@ fn a_seed_gives_the_same_draws() {
         let double_noise = noise(&noisy_cloud.rollout(index).expect("a robot"));
         assert!((double_noise - noise(&path) * 2.0).amax() < 1e-12, "{double_noise}");
     }
-    assert_ne!(large_cloud.rollout(0), machine(Settings { seed: 4, ..settings_with_robots(300) }).rollout(0));
+    assert_ne!(
+        large_cloud.rollout(0),
+        simulation(Settings { seed: 4, ..settings_with_robots(300) }).rollout(0)
+    );
     assert_eq!(large_cloud.rollout(1500), None);
 }
 
@@ -245,7 +250,8 @@ fn noise_of_the_whole_path_is_divided_among_its_steps() {
             assert!((noise[i] * f64::from(steps) / expected[i] - 1.0).abs() < 1e-12, "{steps}, {i}");
         }
         // The heading's variance adds up.
-        let covariance = machine(settings).predicted_covariances(Compounding::FirstOrder)[steps as usize - 1]
+        let covariance = simulation(settings).predicted_covariances(Compounding::FirstOrder)
+            [steps as usize - 1]
             .expect("a covariance");
         assert!((covariance[(2, 2)] / (expected[1] + expected[2]) - 1.0).abs() < 1e-12);
     }
@@ -265,11 +271,11 @@ fn the_level_of_heading_noise_is_that_of_four_alphas() {
 #[test]
 fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
     let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..settings_with_robots(300) };
-    let machine = machine(settings);
-    let covariance = machine.predicted_covariances(Compounding::FirstOrder)[19].expect("a covariance");
-    let nominal = machine.nominal_poses()[19];
-    let outlines = machine.outlines(20).expect("a step");
-    assert_eq!([machine.outlines(0), machine.outlines(21)], [None, None]);
+    let simulation = simulation(settings);
+    let covariance = simulation.predicted_covariances(Compounding::FirstOrder)[19].expect("a covariance");
+    let nominal = simulation.nominal_poses()[19];
+    let outlines = simulation.outlines(20).expect("a step");
+    assert_eq!([simulation.outlines(0), simulation.outlines(21)], [None, None]);
     let information = covariance.fixed_view::<2, 2>(0, 0).into_owned().try_inverse().expect("full rank");
     for [x, y] in &outlines.ellipse {
         let relative_pose = nominal.inverse() * SE2::new(*x, *y, 0.0);
@@ -289,15 +295,15 @@ fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
 #[test]
 fn the_commanded_path_leads_through_its_poses() {
     for settings in difficult_settings() {
-        let machine = machine(settings);
-        let path = machine.commanded_path();
+        let simulation = simulation(settings);
+        let path = simulation.commanded_path();
         let chords_per_step = (path.len() - 1) / settings.steps as usize;
         assert_eq!((path.len() - 1) % settings.steps as usize, 0);
         let twist = TangentNoiseModel::twist(&settings.command);
         let mut pose = SE2::identity();
         for k in 1..=settings.steps as usize {
             pose = pose.boxplus(twist);
-            let nominal = machine.nominal_poses()[k - 1];
+            let nominal = simulation.nominal_poses()[k - 1];
             assert!(nominal.boxminus(&pose).amax() < 1e-11, "{nominal:?}, not {pose:?}");
             assert_eq!(path[k * chords_per_step], [nominal.x(), nominal.y()]);
         }
@@ -311,8 +317,8 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
     for (v, [along, turn]) in [(1.0, [1e-6, 1e-6]), (-0.5, [2e-6, 1e-6]), (1.4, [1e-6, 7e-6])] {
         let command = VelocityCmd { v, omega: 0.3, dt: 0.2 };
         let alphas = [along, 1e-6, turn, 1e-6, 0.0, 0.0];
-        let machine = machine(Settings { command, alphas, ..settings_with_robots(1) });
-        let growth = machine.straight_growth();
+        let simulation = simulation(Settings { command, alphas, ..settings_with_robots(1) });
+        let growth = simulation.straight_growth();
         let crossing = growth.crossing.expect("a crossing");
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let exact_ratio = |dt: f64| {
@@ -338,7 +344,7 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
     }
     let crossing_time_of = |v, alphas| {
         let command = VelocityCmd { v, ..Settings::default().command };
-        machine(Settings { command, alphas, ..settings_with_robots(1) }).straight_growth().crossing
+        simulation(Settings { command, alphas, ..settings_with_robots(1) }).straight_growth().crossing
     };
     for (v, alphas) in [(0.0, [0.02; 6]), (1.0, [0.0; 6]), (1.0, [0.02, 0.0, 0.0, 0.0, 0.0, 0.0])] {
         assert_eq!(crossing_time_of(v, alphas), None, "{v} {alphas:?}");

@@ -1,7 +1,7 @@
 //! Statistics of up to ten million robots, compared with sums in twice the precision.
 
 use crate::common::preset;
-use crate::simulations::banana::machine;
+use crate::simulations::banana::simulation;
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, MAX_SAMPLES, ModelKind, Settings, Stats};
 use motion::stats::{CartesianMoments, CrossTrack, Ellipse};
@@ -90,20 +90,20 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
     assert_close("rho", cross_track[2], rho, 1.0);
 }
 
-/// Asserts that the machine's statistics of its cloud equal their definitions.
-fn assert_exact(machine: &BananaMachine) {
-    let poses: Vec<SE2> = machine.poses().collect();
+/// Asserts that the simulation's statistics of its cloud equal their definitions.
+fn assert_exact(simulation: &BananaMachine) {
+    let poses: Vec<SE2> = simulation.poses().collect();
     let n = poses.len() as f64;
-    let stats @ Stats { cartesian, exponential, .. } = *machine.stats();
+    let stats @ Stats { cartesian, exponential, .. } = *simulation.stats();
     let cross_track = [stats.cross_track_skew, stats.cross_track_skew_error, stats.rho_cross_heading];
     assert_exact_moments(&poses, &cartesian, cross_track);
 
     let twist_of =
-        |pose: &SE2| pose.log_near(machine.settings().command.omega * machine.settings().command.dt);
+        |pose: &SE2| pose.log_near(simulation.settings().command.omega * simulation.settings().command.dt);
     let twists = || poses.iter().map(twist_of);
     let twist_mean = Vector3::from_fn(|i, _| mean(twists().map(|twist_of| twist_of[i])));
     // A cloud that turns a full circle has no exponential coordinates to compare.
-    for i in if machine.is_chart_defined() { 0..3 } else { 0..0 } {
+    for i in if simulation.is_chart_defined() { 0..3 } else { 0..0 } {
         assert_close(&format!("twist {i}"), exponential.mean[i], twist_mean[i], 1.0);
         for j in 0..3 {
             let cov = mean(twists().map(|t| (t[i] - twist_mean[i]) * (t[j] - twist_mean[j]))) * n / (n - 1.0);
@@ -122,7 +122,7 @@ fn assert_exact(machine: &BananaMachine) {
 #[ignore = "nightly: 10 million robots"]
 fn ten_million_agree_with_exact_sums() {
     let command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
-    assert_exact(&machine(Settings { command, samples: MAX_SAMPLES, ..preset("gentle") }));
+    assert_exact(&simulation(Settings { command, samples: MAX_SAMPLES, ..preset("gentle") }));
 }
 
 /// Clouds of many shapes. In some of them robots turn by more than a full circle, or end far from the noise-free pose.
@@ -139,9 +139,9 @@ fn small_and_unusual_clouds_agree_with_exact_sums() {
                     let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
                     let settings =
                         Settings { model, noise, command, odometry_alphas, samples, ..preset("gentle") };
-                    let machine = machine(settings);
-                    assert_exact(&machine);
-                    let poses: Vec<SE2> = machine.poses().collect();
+                    let simulation = simulation(settings);
+                    assert_exact(&simulation);
+                    let poses: Vec<SE2> = simulation.poses().collect();
                     let CrossTrack { skew, skew_error, rho_heading } = CrossTrack::from_poses(&poses);
                     let cartesian = CartesianMoments::from_poses(&poses);
                     assert_exact_moments(&poses, &cartesian, [skew, skew_error, rho_heading]);

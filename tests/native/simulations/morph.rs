@@ -1,7 +1,7 @@
 //! The morph from the floor to exponential coordinates.
 
 use crate::common::{preset, winds_around};
-use crate::simulations::banana::machine;
+use crate::simulations::banana::simulation;
 use motion::VelocityCmd;
 use motion::geom::se2::SE2;
 use motion::geom::unbend::{find_arc, unbend, unbend_line};
@@ -35,12 +35,12 @@ fn nearest_finds_robots_at_their_morphed_positions() {
         Settings { model: ModelKind::Odometry, ..preset("hard") },
         Settings { command: VelocityCmd { v: 1.0, omega: 2.4, dt: 1.5 }, ..preset("banana") },
     ] {
-        let machine = machine(Settings { samples: 103, ..settings });
-        for (index, (pose, twist)) in machine.poses().zip(machine.twists()).enumerate() {
+        let simulation = simulation(Settings { samples: 103, ..settings });
+        for (index, (pose, twist)) in simulation.poses().zip(simulation.twists()).enumerate() {
             for morph in MORPHS {
                 let position = unbend(&twist, morph);
                 assert_eq!(
-                    machine.nearest(View::from_morph(morph), position, [1e-10; 2]),
+                    simulation.nearest(View::from_morph(morph), position, [1e-10; 2]),
                     Some(index),
                     "{morph}"
                 );
@@ -57,8 +57,8 @@ fn nearest_finds_robots_at_their_morphed_positions() {
 #[test]
 fn robots_move_smoothly() {
     const STEP: f64 = 1e-3;
-    let machine = machine(Settings { samples: 200, ..preset("banana") });
-    for twist in machine.twists() {
+    let simulation = simulation(Settings { samples: 200, ..preset("banana") });
+    for twist in simulation.twists() {
         let speed = twist.y.abs() + twist.z.abs() * (1.0 + twist.x.abs() + twist.y.abs());
         for morph in (0..1000).map(|i| f64::from(i) * STEP) {
             let displacement = distance(unbend(&twist, morph), unbend(&twist, morph + STEP));
@@ -74,14 +74,14 @@ fn the_same_robots_stay_inside_an_outline() {
     let alphas = [0.002, 0.002, 0.1, 0.1, 0.0, 0.0];
     for omega in [0.0, 0.4] {
         let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
-        let machine =
-            machine(Settings { command, velocity_alphas: alphas, samples: 5000, ..preset("banana") });
-        let contour = ExponentialContour::new(&machine.stats().exponential, &SE2::identity());
+        let simulation =
+            simulation(Settings { command, velocity_alphas: alphas, samples: 5000, ..preset("banana") });
+        let contour = ExponentialContour::new(&simulation.stats().exponential, &SE2::identity());
         let inside = |morph: f64| {
-            let ellipse = unbend_line(&machine.contours().ellipse, omega * 2.0, morph);
+            let ellipse = unbend_line(&simulation.contours().ellipse, omega * 2.0, morph);
             let outline = contour.morphed_boundary(OUTLINE_SEGMENTS, morph);
             [ellipse, outline].map(|outline| {
-                machine
+                simulation
                     .twists()
                     .map(|twist| winds_around(&outline, unbend(&twist, morph)))
                     .collect::<Vec<_>>()
@@ -101,10 +101,10 @@ fn the_same_robots_stay_inside_an_outline() {
 /// At both ends of the morph, the outline of the Gaussian in exponential coordinates equals that of the view, also with a last turn γ̂.
 #[test]
 fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
-    let machine = machine(Settings { samples: 5000, ..preset("hard") });
-    let stats = machine.stats();
+    let simulation = simulation(Settings { samples: 5000, ..preset("hard") });
+    let stats = simulation.stats();
     let contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
-    assert_eq!(contour.morphed_boundary(OUTLINE_SEGMENTS, 0.0), machine.contours().exponential);
+    assert_eq!(contour.morphed_boundary(OUTLINE_SEGMENTS, 0.0), simulation.contours().exponential);
     for point in contour.morphed_boundary(OUTLINE_SEGMENTS, 1.0) {
         assert!((contour.ellipse().distance(point) - 2.0).abs() < 1e-9);
     }
@@ -141,14 +141,14 @@ fn find_arc_inverts_the_morph() {
 
 #[test]
 fn gaps_are_inside_the_ellipse_only_and_contain_no_robot() {
-    let machine = machine(preset("banana"));
-    let (gaps, contours) = (machine.gaps(), machine.contours());
+    let simulation = simulation(preset("banana"));
+    let (gaps, contours) = (simulation.gaps(), simulation.contours());
     assert_eq!(gaps.len(), 2);
     for gap in gaps {
         assert!(winds_around(&contours.ellipse, gap) && !winds_around(&contours.exponential, gap));
-        assert_eq!(machine.nearest(View::Plane, gap, [0.03; 2]), None, "{gap:?}");
+        assert_eq!(simulation.nearest(View::Plane, gap, [0.03; 2]), None, "{gap:?}");
     }
     for name in ["straight", "gentle", "hard", "pivot", "worked"] {
-        assert!(self::machine(preset(name)).gaps().is_empty(), "{name}");
+        assert!(self::simulation(preset(name)).gaps().is_empty(), "{name}");
     }
 }

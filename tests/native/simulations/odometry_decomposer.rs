@@ -1,4 +1,4 @@
-//! The machine of the Odometry Decomposer: common random numbers, poses of the legs, drifting frame and curve.
+//! The simulation of the Odometry Decomposer: common random numbers, poses of the legs, drifting frame and curve.
 
 use crate::common::{NOISE_KINDS, pose_distance, seeded};
 use motion::geom::se2::SE2;
@@ -6,7 +6,7 @@ use motion::models::OdometryRule;
 use motion::sim::odometry_decomposer::{CurvePoint, OdometryDecomposer, OdometryPose, PRESETS, Settings};
 use motion::{MotionModel, OdomAlphas, OdometryModel};
 
-pub fn machine(settings: Settings) -> OdometryDecomposer {
+pub fn simulation(settings: Settings) -> OdometryDecomposer {
     OdometryDecomposer::new(settings).expect("a valid setting")
 }
 
@@ -21,13 +21,13 @@ fn the_outcomes_equal_samples_of_the_model() {
     for noise in NOISE_KINDS {
         let settings =
             Settings { from: OdometryPose([0.5, -1.0, 2.0]), noise, samples: 1001, ..Settings::default() };
-        let machine = machine(settings);
+        let simulation = simulation(settings);
         let [a1, a2, a3, a4, _] = settings.alphas;
         let model = OdometryModel { alphas: OdomAlphas([a1, a2, a3, a4]), noise };
         let mut rng = seeded(settings.seed);
-        assert_eq!(machine.poses().len(), 1001);
-        for pose in machine.poses() {
-            let expected_pose = model.sample(&machine.reading(), &settings.from.into(), &mut rng);
+        assert_eq!(simulation.poses().len(), 1001);
+        for pose in simulation.poses() {
+            let expected_pose = model.sample(&simulation.reading(), &settings.from.into(), &mut rng);
             assert!(pose_distance(pose, &expected_pose) < 1e-14, "{pose:?}, drawn {expected_pose:?}");
         }
     }
@@ -38,29 +38,29 @@ fn the_outcomes_equal_samples_of_the_model() {
 fn changed_settings_move_the_same_outcomes() {
     let with_alpha3_only =
         |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..settings_of_preset("drive-turn") };
-    let mut machine = machine(with_alpha3_only(0.01));
-    let excess_lengths = |machine: &OdometryDecomposer| -> Vec<f64> {
-        machine.poses().iter().map(|pose| pose.x() - 1.5).collect()
+    let mut simulation = simulation(with_alpha3_only(0.01));
+    let excess_lengths = |simulation: &OdometryDecomposer| -> Vec<f64> {
+        simulation.poses().iter().map(|pose| pose.x() - 1.5).collect()
     };
-    let lengths_before = excess_lengths(&machine);
-    machine.configure(with_alpha3_only(0.04)).expect("a valid setting");
-    for (lengths_before, after) in lengths_before.iter().zip(excess_lengths(&machine)) {
+    let lengths_before = excess_lengths(&simulation);
+    simulation.configure(with_alpha3_only(0.04)).expect("a valid setting");
+    for (lengths_before, after) in lengths_before.iter().zip(excess_lengths(&simulation)) {
         assert!((2.0 * lengths_before - after).abs() < 1e-14);
     }
     // A larger cloud begins with the smaller one.
     let more_samples = Settings { samples: 900, ..with_alpha3_only(0.01) };
-    machine.configure_first(more_samples, 700).expect("a valid setting");
-    assert_eq!((machine.poses().len(), &excess_lengths(&machine)[..500]), (700, &lengths_before[..]));
-    assert_eq!(machine.add_samples(usize::MAX), 900);
+    simulation.configure_first(more_samples, 700).expect("a valid setting");
+    assert_eq!((simulation.poses().len(), &excess_lengths(&simulation)[..500]), (700, &lengths_before[..]));
+    assert_eq!(simulation.add_samples(usize::MAX), 900);
 }
 
 #[test]
 fn the_leg_poses_follow_the_legs_of_the_reading() {
     for preset in PRESETS {
         for rule in OdometryRule::ALL {
-            let machine = machine(Settings { rule, ..settings_of_preset(preset.name) });
-            let [start, after_rot1, after_drive, end] = machine.leg_poses();
-            let legs = machine.legs();
+            let simulation = simulation(Settings { rule, ..settings_of_preset(preset.name) });
+            let [start, after_rot1, after_drive, end] = simulation.leg_poses();
+            let legs = simulation.legs();
             assert_eq!(start, preset.from.into());
             assert_eq!((after_rot1.x(), after_rot1.y()), (start.x(), start.y()));
             assert!(
@@ -72,7 +72,7 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
             );
             assert!(pose_distance(&end, &preset.to.into()) < 0.01, "{} by {rule:?}", preset.name);
             let robot_at = |phase| {
-                let settings = Settings { phase, ..*machine.settings() };
+                let settings = Settings { phase, ..*simulation.settings() };
                 OdometryDecomposer::new(settings).expect("a valid setting").robot_pose()
             };
             for (phase, pose) in [(0.0, start), (1.0, after_rot1), (2.0, after_drive), (3.0, end)] {
@@ -82,11 +82,11 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
         }
     }
     // Without noise the leg poses of every outcome equal those of the reading.
-    let noise_free_machine = machine(Settings { alphas: [0.0; 5], ..Settings::default() });
-    assert_eq!(noise_free_machine.sample_leg_poses(7), [noise_free_machine.leg_poses(); 7]);
-    assert_eq!(noise_free_machine.sample_leg_poses(usize::MAX).len(), 500);
-    let initial_machine = machine(Settings::default());
-    for (leg_poses, pose) in initial_machine.sample_leg_poses(20).iter().zip(initial_machine.poses()) {
+    let noise_free_simulation = simulation(Settings { alphas: [0.0; 5], ..Settings::default() });
+    assert_eq!(noise_free_simulation.sample_leg_poses(7), [noise_free_simulation.leg_poses(); 7]);
+    assert_eq!(noise_free_simulation.sample_leg_poses(usize::MAX).len(), 500);
+    let initial_simulation = simulation(Settings::default());
+    for (leg_poses, pose) in initial_simulation.sample_leg_poses(20).iter().zip(initial_simulation.poses()) {
         assert_eq!(leg_poses[3], *pose);
     }
 }
@@ -94,7 +94,7 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
 /// The prediction depends only on the relative motion. A drift of the odometry's frame does not change it.
 #[test]
 fn the_prediction_does_not_depend_on_the_drift() {
-    let with_drift = |drift| machine(Settings { drift, ..Settings::default() });
+    let with_drift = |drift| simulation(Settings { drift, ..Settings::default() });
     let (without_drift, with_long_drift) = (with_drift(0.0), with_drift(300.0));
     assert_eq!(without_drift.poses(), with_long_drift.poses());
     assert_eq!(without_drift.rule_noises(), with_long_drift.rule_noises());
@@ -115,18 +115,19 @@ fn the_prediction_does_not_depend_on_the_drift() {
 #[test]
 fn the_curve_contains_the_values_of_the_readouts() {
     for rule in OdometryRule::ALL {
-        let machine = machine(Settings { rule, ..Settings::default() });
-        let stats = machine.stats();
-        let trans = machine.legs().trans;
-        let points = machine.deviation_curve(2.0 * trans, 3);
+        let simulation = simulation(Settings { rule, ..Settings::default() });
+        let stats = simulation.stats();
+        let trans = simulation.legs().trans;
+        let points = simulation.deviation_curve(2.0 * trans, 3);
         assert_eq!(points.iter().map(|point| point.trans).collect::<Vec<_>>(), [0.0, trans, 2.0 * trans]);
         let CurvePoint { cross_track, lever, along, .. } = points[1];
         assert_eq!((cross_track, lever), (stats.exact_cross_track, stats.lever));
-        let of_rule = machine.rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules");
+        let of_rule =
+            simulation.rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules");
         assert_eq!((of_rule.deviations[1], of_rule.cross_track), (along, cross_track));
-        assert_eq!(machine.deviation_curve(1.0, 1).len(), 1);
+        assert_eq!(simulation.deviation_curve(1.0, 1).len(), 1);
     }
-    let large_noise = machine(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
+    let large_noise = simulation(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
     let long_drive = large_noise.deviation_curve(10.0, 2)[1];
     assert!(long_drive.cross_track < long_drive.trans && long_drive.lever > 10.0 * long_drive.trans);
 }

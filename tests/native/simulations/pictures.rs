@@ -35,9 +35,9 @@ fn ramp_step(count: u32, max_count: u32) -> u8 {
 #[test]
 fn pixels_show_the_density_of_the_cloud() {
     let settings = Settings { samples: 3000, ..preset("gentle") };
-    let mut machine = BananaMachine::new(settings).expect("a valid setting");
-    let positions: Vec<[f64; 2]> = machine.poses().map(|pose| [pose.x(), pose.y()]).collect();
-    let twists: Vec<[f64; 2]> = machine.twists().map(|twist| [twist.x, twist.z]).collect();
+    let mut simulation = BananaMachine::new(settings).expect("a valid setting");
+    let positions: Vec<[f64; 2]> = simulation.poses().map(|pose| [pose.x(), pose.y()]).collect();
+    let twists: Vec<[f64; 2]> = simulation.twists().map(|twist| [twist.x, twist.z]).collect();
     let to_case = |view, points| move |grid| (view, points, grid);
     let plane_cases = grids([0.75, -0.2], [1.2, 0.4]).map(to_case(View::Plane, &positions));
     let twist_cases = grids([0.75, 0.1], [1.2, 0.7]).map(to_case(View::Twist, &twists));
@@ -51,13 +51,13 @@ fn pixels_show_the_density_of_the_cloud() {
         assert!((1..3000).contains(&counts.iter().sum::<u32>()), "some are outside");
         // Painted twice, because nothing of an image may remain in the next one.
         for time in ["first", "second"] {
-            let pixels = machine.paint(view, &grid, &ramp(3));
+            let pixels = simulation.paint(view, &grid, &ramp(3));
             assert_eq!(pixels.len(), counts.len());
             for (i, (pixel, count)) in pixels.iter().zip(&counts).enumerate() {
                 let expected = if *count == 0 { [0; 4] } else { [ramp_step(*count, max_count), 3, 7, 255] };
                 assert_eq!(*pixel, expected, "{time}, cell {i} of {grid:?}");
             }
-            assert_eq!(machine.density(view, &grid), counts, "{time}");
+            assert_eq!(simulation.density(view, &grid), counts, "{time}");
         }
     }
 }
@@ -67,11 +67,11 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
     // The robot faces a wall. The sampler tests only end poses, so that many attempts that end behind the wall are accepted.
     let (_, start) = PRESETS[1];
     let settings = squeeze::Settings { start, samples: 3000, ..squeeze::Settings::default() };
-    let mut machine = MapSqueeze::new(settings).expect("a valid setting");
+    let mut simulation = MapSqueeze::new(settings).expect("a valid setting");
     let mut painted_cells = [0; OUTCOME_KIND_COUNT];
     for grid in grids([2.9, 3.4], [3.7, 4.9]) {
         let mut counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
-        for attempt in machine.attempts() {
+        for attempt in simulation.attempts() {
             if let Some(cell_index) = cell_index(&grid, [attempt.pose.x(), attempt.pose.y()]) {
                 counts[cell_index][attempt.outcome_kind() as usize] += 1;
             }
@@ -81,7 +81,7 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
         assert!((1..3000).contains(&totals.iter().sum::<u32>()), "some are outside");
         for _ in 0..2 {
             let ramps = std::array::from_fn(|kind| ramp(kind as u8));
-            let pixels = machine.paint(&grid, &ramps);
+            let pixels = simulation.paint(&grid, &ramps);
             assert_eq!(pixels.len(), totals.len());
             for ((pixel, kinds), total) in pixels.iter().zip(&counts).zip(&totals) {
                 if *total == 0 {

@@ -1,4 +1,4 @@
-//! The machine of Map Squeeze: common random numbers, draw budget, tally and its interval.
+//! The simulation of Map Squeeze: common random numbers, draw budget, tally and its interval.
 
 use crate::common::seeded;
 use crate::map::conditioned::{SAMPLERS, STRAIGHT_COMMAND, too_small_room};
@@ -8,22 +8,22 @@ use motion::sim::settings::Rules;
 use motion::sim::squeeze::{Attempt, MapSqueeze, Settings, Tally};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
-fn machine(settings: Settings) -> MapSqueeze {
+fn simulation(settings: Settings) -> MapSqueeze {
     MapSqueeze::new(settings).expect("a valid setting")
 }
 
-fn poses(machine: &MapSqueeze) -> Vec<SE2> {
-    machine.attempts().iter().map(|attempt| attempt.pose).collect()
+fn poses(simulation: &MapSqueeze) -> Vec<SE2> {
+    simulation.attempts().iter().map(|attempt| attempt.pose).collect()
 }
 
-/// Returns all results of a machine as text.
-fn results(machine: &MapSqueeze) -> String {
-    let (settings, tally) = (machine.settings(), machine.tally());
+/// Returns all results of a simulation as text.
+fn results(simulation: &MapSqueeze) -> String {
+    let (settings, tally) = (simulation.settings(), simulation.tally());
     format!(
         "{settings:?} {:?} {tally:?} {} {:?}",
-        machine.attempts(),
-        machine.gave_up(),
-        machine.plan().walls()
+        simulation.attempts(),
+        simulation.gave_up(),
+        simulation.plan().walls()
     )
 }
 
@@ -31,52 +31,59 @@ fn results(machine: &MapSqueeze) -> String {
 #[test]
 fn changed_samplers_and_maps_move_no_sample() {
     let settings = Settings { samples: 3000, ..Settings::default() };
-    let mut machine = machine(settings);
-    let (old_results, cloud) = (results(&machine), poses(&machine));
-    let verdicts = |machine: &MapSqueeze| -> Vec<[bool; 2]> {
-        machine.attempts().iter().map(|Attempt { end_free, path_free, .. }| [*end_free, *path_free]).collect()
+    let mut simulation = simulation(settings);
+    let (old_results, cloud) = (results(&simulation), poses(&simulation));
+    let verdicts = |simulation: &MapSqueeze| -> Vec<[bool; 2]> {
+        simulation
+            .attempts()
+            .iter()
+            .map(|Attempt { end_free, path_free, .. }| [*end_free, *path_free])
+            .collect()
     };
-    let outcomes = verdicts(&machine);
-    let are_accepted = |machine: &MapSqueeze| -> Vec<bool> {
-        machine.attempts().iter().map(|attempt| attempt.accepted).collect()
+    let outcomes = verdicts(&simulation);
+    let are_accepted = |simulation: &MapSqueeze| -> Vec<bool> {
+        simulation.attempts().iter().map(|attempt| attempt.accepted).collect()
     };
-    assert!(are_accepted(&machine).iter().zip(&outcomes).all(|(accepted, [end, _])| accepted == end));
-    machine.configure(Settings { sampler: Sampler::WholeArc, ..settings }).expect("valid");
-    assert!(are_accepted(&machine).iter().zip(&outcomes).all(|(accepted, [_, path])| accepted == path));
-    assert_eq!((poses(&machine), verdicts(&machine)), (cloud.clone(), outcomes.clone()));
-    assert_eq!(machine.tally().through_wall, 0);
+    assert!(are_accepted(&simulation).iter().zip(&outcomes).all(|(accepted, [end, _])| accepted == end));
+    simulation.configure(Settings { sampler: Sampler::WholeArc, ..settings }).expect("valid");
+    assert!(are_accepted(&simulation).iter().zip(&outcomes).all(|(accepted, [_, path])| accepted == path));
+    assert_eq!((poses(&simulation), verdicts(&simulation)), (cloud.clone(), outcomes.clone()));
+    assert_eq!(simulation.tally().through_wall, 0);
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
-        machine.configure(Settings { conditioned: false, sampler, ..settings }).expect("valid");
-        assert!((poses(&machine), verdicts(&machine)) == (cloud.clone(), outcomes.clone()), "{sampler:?}");
-        assert_eq!(machine.tally().accepted, 3000, "no attempt is rejected");
-        assert_eq!((machine.tally().draws, machine.tally().wall_tests), (3000, 0));
+        simulation.configure(Settings { conditioned: false, sampler, ..settings }).expect("valid");
+        assert!(
+            (poses(&simulation), verdicts(&simulation)) == (cloud.clone(), outcomes.clone()),
+            "{sampler:?}"
+        );
+        assert_eq!(simulation.tally().accepted, 3000, "no attempt is rejected");
+        assert_eq!((simulation.tally().draws, simulation.tally().wall_tests), (3000, 0));
     }
-    machine.set_plan(too_small_room());
-    assert_eq!(poses(&machine), cloud);
-    assert_eq!(machine.tally().through_wall, 3000);
-    machine.set_plan(FloorPlan::apartment());
-    machine.configure(settings).expect("valid");
-    assert_eq!(results(&machine), old_results, "and back again to the bit");
-    machine.configure(Settings { seed: 8, ..settings }).expect("valid");
-    assert!(poses(&machine).iter().zip(&cloud).all(|(a, b)| a != b), "a new seed changes it");
+    simulation.set_plan(too_small_room());
+    assert_eq!(poses(&simulation), cloud);
+    assert_eq!(simulation.tally().through_wall, 3000);
+    simulation.set_plan(FloorPlan::apartment());
+    simulation.configure(settings).expect("valid");
+    assert_eq!(results(&simulation), old_results, "and back again to the bit");
+    simulation.configure(Settings { seed: 8, ..settings }).expect("valid");
+    assert!(poses(&simulation).iter().zip(&cloud).all(|(a, b)| a != b), "a new seed changes it");
 }
 
 /// A rejected part is drawn again, which moves the parts after it. Without a rejection conditioning moves no sample.
 #[test]
 fn only_rejected_parts_move_samples() {
     let settings = Settings { sampler: Sampler::SubStepped(4), samples: 500, ..Settings::default() };
-    let mut machine = machine(settings);
-    machine.set_plan(FloorPlan::new(Vec::new(), [-50.0, -50.0, 50.0, 50.0]).expect("an open field"));
-    let poses_in_open_field = poses(&machine);
-    machine.configure(Settings { conditioned: false, ..settings }).expect("valid");
-    assert!(poses(&machine) == poses_in_open_field);
-    machine.set_plan(FloorPlan::apartment());
-    assert!(poses(&machine) == poses_in_open_field, "without conditioning walls have no effect");
-    let tally = machine.tally();
+    let mut simulation = simulation(settings);
+    simulation.set_plan(FloorPlan::new(Vec::new(), [-50.0, -50.0, 50.0, 50.0]).expect("an open field"));
+    let poses_in_open_field = poses(&simulation);
+    simulation.configure(Settings { conditioned: false, ..settings }).expect("valid");
+    assert!(poses(&simulation) == poses_in_open_field);
+    simulation.set_plan(FloorPlan::apartment());
+    assert!(poses(&simulation) == poses_in_open_field, "without conditioning walls have no effect");
+    let tally = simulation.tally();
     assert_eq!((tally.accepted, tally.draws, tally.wall_tests), (500, 2000, 0));
-    machine.configure(settings).expect("valid");
-    let moved_count = poses(&machine).iter().zip(&poses_in_open_field).filter(|(a, b)| a != b).count();
-    let rejected_draws = machine.tally().draws - 2000;
+    simulation.configure(settings).expect("valid");
+    let moved_count = poses(&simulation).iter().zip(&poses_in_open_field).filter(|(a, b)| a != b).count();
+    let rejected_draws = simulation.tally().draws - 2000;
     assert!(
         moved_count > 0 && moved_count <= rejected_draws,
         "{moved_count} moved by {rejected_draws} rejections"
@@ -86,19 +93,19 @@ fn only_rejected_parts_move_samples() {
 #[test]
 fn the_arcs_of_an_attempt_end_at_its_pose() {
     for sampler in SAMPLERS {
-        let machine = machine(Settings { sampler, samples: 2000, ..Settings::default() });
-        let (tally, attempts) = (machine.tally(), machine.attempts());
+        let simulation = simulation(Settings { sampler, samples: 2000, ..Settings::default() });
+        let (tally, attempts) = (simulation.tally(), simulation.attempts());
         let parts = if let Sampler::SubStepped(parts) = sampler { parts } else { 1 };
         assert!(tally.draws >= attempts.len() * parts as usize);
         let rate = tally.acceptance_rate(parts);
         assert!((rate - (tally.accepted * parts as usize) as f64 / tally.draws as f64).abs() < 1e-15);
         assert!(tally.wall_tests > 0 && rate > 0.4 && rate < 1.0, "{tally:?}");
         for (index, attempt) in attempts.iter().enumerate().step_by(17) {
-            let arcs = machine.arcs(index);
+            let arcs = simulation.arcs(index);
             assert_eq!(arcs.len(), parts as usize);
             let end = arcs[arcs.len() - 1].end();
             assert!((end.x() - attempt.pose.x()).abs() + (end.y() - attempt.pose.y()).abs() < 1e-12);
-            let is_path_free = arcs.iter().all(|arc| machine.plan().test_arc(arc, 0.13).free);
+            let is_path_free = arcs.iter().all(|arc| simulation.plan().test_arc(arc, 0.13).free);
             assert_eq!(attempt.path_free, is_path_free);
             let are_joined = arcs.windows(2).all(|pair| {
                 let end = pair[0].end();
@@ -112,18 +119,18 @@ fn the_arcs_of_an_attempt_end_at_its_pose() {
 #[test]
 fn the_commanded_arc_and_the_test_of_its_start_follow_the_settings() {
     let command = VelocityCmd { v: -0.5, omega: 0.8, dt: 1.5 };
-    let mut machine = machine(Settings { command, ..Settings::default() });
-    let arc = machine.commanded_arc();
+    let mut simulation = simulation(Settings { command, ..Settings::default() });
+    let arc = simulation.commanded_arc();
     assert_eq!((arc.start.x(), arc.start.y(), arc.length), (2.05, 2.6, -0.75));
     assert!((arc.turn - 1.2).abs() < 1e-15);
     // The doorposts are 1.2 m ahead and 0.45 m to either side: √(1.2² + 0.45²) = 1.2816 m away.
-    assert!(machine.is_start_free());
+    assert!(simulation.is_start_free());
     for (clearance, is_start_free) in [(1.282, false), (1.281, true)] {
-        machine.configure(Settings { clearance, ..Settings::default() }).expect("valid");
-        assert_eq!(machine.is_start_free(), is_start_free, "{clearance}");
+        simulation.configure(Settings { clearance, ..Settings::default() }).expect("valid");
+        assert_eq!(simulation.is_start_free(), is_start_free, "{clearance}");
     }
-    machine.set_plan(too_small_room());
-    assert!(!machine.is_start_free());
+    simulation.set_plan(too_small_room());
+    assert!(!simulation.is_start_free());
 }
 
 #[test]
@@ -139,49 +146,49 @@ fn the_product_of_samples_and_parts_is_limited() {
     }
 }
 
-/// If no motion fits, the machine stops after a bounded number of draws and reports it. It goes on once the settings let the robot move.
+/// If no motion fits, the simulation stops after a bounded number of draws and reports it. It goes on once the settings let the robot move.
 #[test]
-fn the_machine_stops_after_a_bounded_number_of_draws() {
+fn the_simulation_stops_after_a_bounded_number_of_draws() {
     let settings =
         Settings { start: [2.1, 2.1, 0.0], sampler: Sampler::SubStepped(4), ..Settings::default() };
-    let mut machine = machine(settings);
-    assert!(!machine.gave_up());
-    machine.set_plan(too_small_room());
-    assert!(machine.gave_up());
-    let tally = *machine.tally();
+    let mut simulation = simulation(settings);
+    assert!(!simulation.gave_up());
+    simulation.set_plan(too_small_room());
+    assert!(simulation.gave_up());
+    let tally = *simulation.tally();
     assert_eq!((tally.accepted, tally.through_wall), (0, 0));
     assert!((MAX_DRAWS..=3 * MAX_DRAWS).contains(&tally.draws), "{tally:?}");
-    let attempt_count = machine.attempts().len();
+    let attempt_count = simulation.attempts().len();
     assert!((1..10).contains(&attempt_count));
-    assert!(machine.attempts().iter().all(|a| !(a.accepted || a.end_free || a.path_free)));
-    assert_eq!(machine.add_samples(100), attempt_count, "it stops for good");
-    assert_eq!(*machine.tally(), tally);
-    machine.configure(Settings { sampler: Sampler::Endpoint, ..settings }).expect("valid");
-    assert!(!machine.gave_up());
-    assert_eq!((machine.attempts().len(), machine.tally().accepted), (600, 0));
-    assert_eq!(machine.tally().acceptance_rate(1), 0.0);
-    assert!(machine.tally().through_wall_rate().is_nan());
-    assert_eq!(machine.tally().through_wall_interval(), [0.0, 1.0], "nothing is known");
+    assert!(simulation.attempts().iter().all(|a| !(a.accepted || a.end_free || a.path_free)));
+    assert_eq!(simulation.add_samples(100), attempt_count, "it stops for good");
+    assert_eq!(*simulation.tally(), tally);
+    simulation.configure(Settings { sampler: Sampler::Endpoint, ..settings }).expect("valid");
+    assert!(!simulation.gave_up());
+    assert_eq!((simulation.attempts().len(), simulation.tally().accepted), (600, 0));
+    assert_eq!(simulation.tally().acceptance_rate(1), 0.0);
+    assert!(simulation.tally().through_wall_rate().is_nan());
+    assert_eq!(simulation.tally().through_wall_interval(), [0.0, 1.0], "nothing is known");
     for sampler in SAMPLERS {
-        assert_eq!(machine.sampling_trial(sampler, 10).expect_err("no room").0.draws, MAX_DRAWS);
+        assert_eq!(simulation.sampling_trial(sampler, 10).expect_err("no room").0.draws, MAX_DRAWS);
     }
-    machine.configure(settings).expect("valid");
-    assert!(machine.gave_up());
-    machine.set_plan(FloorPlan::apartment());
-    assert!(!machine.gave_up());
-    assert_eq!((machine.attempts().len(), machine.tally().accepted), (600, 600));
+    simulation.configure(settings).expect("valid");
+    assert!(simulation.gave_up());
+    simulation.set_plan(FloorPlan::apartment());
+    assert!(!simulation.gave_up());
+    assert_eq!((simulation.attempts().len(), simulation.tally().accepted), (600, 600));
 }
 
 #[test]
 fn a_trial_reports_its_cost_and_changes_nothing() {
     let settings = Settings::default();
-    let machine = machine(settings);
+    let simulation = simulation(settings);
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let [x, y, theta] = settings.start;
     let start = SE2::new(x, y, theta);
-    let before = results(&machine);
+    let before = results(&simulation);
     for sampler in SAMPLERS {
-        let cost = machine.sampling_trial(sampler, 500).expect("it fits");
+        let cost = simulation.sampling_trial(sampler, 500).expect("it fits");
         let plan = FloorPlan::apartment();
         let conditioned = MapConditioned { model, plan: &plan, clearance: 0.13, sampler };
         let mut rng = seeded(7);
@@ -192,7 +199,7 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
         }
         assert_eq!((cost.draws, cost.wall_tests), expected);
     }
-    assert_eq!(results(&machine), before);
+    assert_eq!(results(&simulation), before);
 }
 
 // ------------------------------------------------------------------------------------------------ Wilson's interval

@@ -38,11 +38,11 @@ fn assert_covered(case: &str, fraction: f64, repetitions: u64) {
 
 /// Returns shares of clouds: those whose skew, pose gain and floor gain differ by at most 1.96 standard errors from the exact value.
 fn fractions_within_errors(settings: Settings, repetitions: u64) -> [f64; 3] {
-    let mut machine = BananaMachine::new(settings).expect("valid settings");
-    let (skew, gain) = (machine.exact_moments().cross_track_skew, machine.exact_gain().value);
+    let mut simulation = BananaMachine::new(settings).expect("valid settings");
+    let (skew, gain) = (simulation.exact_moments().cross_track_skew, simulation.exact_gain().value);
     coverage_fractions(repetitions, |seed| {
-        machine.configure(Settings { seed, ..settings }).expect("valid settings");
-        let stats = machine.stats();
+        simulation.configure(Settings { seed, ..settings }).expect("valid settings");
+        let stats = simulation.stats();
         let (gains, error) = (stats.likelihood_gain, stats.likelihood_gain_error);
         let is_within = |value: f64, error: f64, exact: f64| (value - exact).abs() <= 1.959_964 * error;
         [
@@ -127,10 +127,10 @@ fn the_interval_of_the_fraction_through_walls_covers_95_percent() {
     for (name, start) in PRESETS {
         let settings = squeeze::Settings { start, ..squeeze::Settings::default() };
         let exact = fraction_through_walls(&settings);
-        let mut machine = MapSqueeze::new(settings).expect("valid settings");
+        let mut simulation = MapSqueeze::new(settings).expect("valid settings");
         let [fraction] = coverage_fractions(REPETITIONS, |seed| {
-            machine.configure(squeeze::Settings { seed, ..settings }).expect("valid settings");
-            let [low, high] = machine.tally().through_wall_interval();
+            simulation.configure(squeeze::Settings { seed, ..settings }).expect("valid settings");
+            let [low, high] = simulation.tally().through_wall_interval();
             [low <= exact && exact <= high]
         });
         assert_covered(&format!("{name}, exactly {exact}"), fraction, REPETITIONS);

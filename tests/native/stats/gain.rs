@@ -16,13 +16,13 @@ const GENTLE_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 const SHARP_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
 const STRAIGHT_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
 
-fn machine(command: VelocityCmd, velocity_alphas: [f64; 6], samples: usize) -> BananaMachine {
+fn simulation(command: VelocityCmd, velocity_alphas: [f64; 6], samples: usize) -> BananaMachine {
     let settings = Settings { command, velocity_alphas, samples, ..Settings::default() };
     BananaMachine::new(settings).expect("a valid setting")
 }
 
-fn poses(machine: &BananaMachine) -> Vec<SE2> {
-    machine.poses().collect()
+fn poses(simulation: &BananaMachine) -> Vec<SE2> {
+    simulation.poses().collect()
 }
 
 /// Returns value and standard error of the likelihood gain of poses, and of that of positions (x, y).
@@ -100,7 +100,7 @@ fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
     [gains_of(&coordinates, &twists, &pose_of_twist), gains_of(&positions, &arcs, &position_of_arc)]
 }
 
-/// The machine computes the gain from sums, for every model and size. It computes the error from all robots up to 2048, and from a sample
+/// The simulation computes the gain from sums, for every model and size. It computes the error from all robots up to 2048, and from a sample
 /// of a larger cloud.
 #[test]
 fn the_gain_equals_its_definition_over_all_poses() {
@@ -114,11 +114,11 @@ fn the_gain_equals_its_definition_over_all_poses() {
                     let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
                     let settings =
                         Settings { model, noise, command, odometry_alphas, samples, ..preset("gentle") };
-                    let machine = BananaMachine::new(settings).expect("a valid setting");
-                    let gains_found = gains(machine.stats());
+                    let simulation = BananaMachine::new(settings).expect("a valid setting");
+                    let gains_found = gains(simulation.stats());
                     let case_name = format!("{model:?} {noise:?} {command:?} {samples}");
                     if samples > 4 {
-                        let robot_gains = robot_gains(&poses(&machine), omega * dt);
+                        let robot_gains = robot_gains(&poses(&simulation), omega * dt);
                         for ([value, error], robot_gains) in gains_found.into_iter().zip(robot_gains) {
                             assert_close(&case_name, value, mean(&robot_gains), 1e-9);
                             if samples <= 2048 {
@@ -162,8 +162,8 @@ fn exact_gains_match_the_references() {
 fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
     for Preset { command, .. } in PRESETS {
         let floor_gains = |last: f64| {
-            let machine = machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 10_000);
-            [machine.stats().likelihood_gain.floor, machine.exact_gain().value.floor]
+            let simulation = simulation(command, [0.05, 0.05, 0.05, 0.09, last, last], 10_000);
+            [simulation.stats().likelihood_gain.floor, simulation.exact_gain().value.floor]
         };
         let without_turn = floor_gains(0.0);
         assert!(without_turn.iter().all(|gain| gain.is_finite()), "{command:?}");
@@ -174,14 +174,14 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
         }
     }
     // The gain on the floor is also defined if headings spread over a full turn, where exponential coordinates are undefined.
-    let wide_cloud = machine(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
+    let wide_cloud = simulation(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
     assert!(!wide_cloud.is_chart_defined());
     let Stats { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } = wide_cloud.stats();
     assert!(gain.pose.is_nan() && error.pose.is_nan() && area_ratio.is_nan());
     assert_close(
         "floor",
         gain.floor,
-        machine(GENTLE_COMMAND, GENTLE_ALPHAS, 10_000).stats().likelihood_gain.floor,
+        simulation(GENTLE_COMMAND, GENTLE_ALPHAS, 10_000).stats().likelihood_gain.floor,
         1e-12,
     );
 }
@@ -200,10 +200,10 @@ fn the_area_ratio_is_that_of_the_drawn_outlines() {
         (STRAIGHT_COMMAND, BANANA_ALPHAS),
         (VelocityCmd { v: -1.0, ..SHARP_COMMAND }, BANANA_ALPHAS),
     ] {
-        let machine = machine(command, alphas, 5000);
-        let contours = machine.contours();
+        let simulation = simulation(command, alphas, 5000);
+        let contours = simulation.contours();
         let ratio = area(&contours.ellipse) / area(&contours.exponential);
-        assert_close("ratio", machine.stats().area_ratio, ratio, 1e-12 * ratio);
+        assert_close("ratio", simulation.stats().area_ratio, ratio, 1e-12 * ratio);
     }
 }
 
@@ -237,25 +237,26 @@ fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
             for samples in [5, 2000, 30_000] {
                 let velocity_alphas = [0.05, 0.05, 0.05, 0.09, 0.0, 0.0];
                 let settings = Settings { command, velocity_alphas, noise, samples, ..Settings::default() };
-                let flat_machine = BananaMachine::new(settings).expect("a valid setting");
-                let Stats { likelihood_gain: value, likelihood_gain_error: error, .. } = flat_machine.stats();
+                let flat_simulation = BananaMachine::new(settings).expect("a valid setting");
+                let Stats { likelihood_gain: value, likelihood_gain_error: error, .. } =
+                    flat_simulation.stats();
                 assert!(
                     value.pose == f64::INFINITY && error.pose.is_nan(),
                     "{command:?} {samples}: {value:?}"
                 );
                 assert!(value.floor.is_finite() && error.floor > 0.0, "{command:?} {samples}");
-                let exact = flat_machine.table().exact.likelihood_gain;
+                let exact = flat_simulation.table().exact.likelihood_gain;
                 assert!(exact.pose == f64::INFINITY && exact.floor.is_finite(), "{command:?}");
             }
             // With a tiny variance of γ̂ the gain is finite. It grows by half a nat if that variance falls by a factor e.
             let pose_gain = |last: f64| {
-                machine(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000).stats().likelihood_gain.pose
+                simulation(command, [0.05, 0.05, 0.05, 0.09, last, last], 5000).stats().likelihood_gain.pose
             };
             assert_close("growth", pose_gain(1e-16) - pose_gain(1e-14), 100f64.ln() / 2.0, 1e-4);
         }
     }
     // The cloud is a curve in the plane, and a straight line in exponential coordinates.
-    let fan = machine(STRAIGHT_COMMAND, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0], 2000);
+    let fan = simulation(STRAIGHT_COMMAND, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0], 2000);
     let Stats { likelihood_gain: gain, area_ratio, .. } = fan.stats();
     assert!(gain.pose == f64::INFINITY && gain.floor == f64::INFINITY && area_ratio.is_nan());
     assert_eq!(fan.table().exact.likelihood_gain, *gain);
@@ -269,10 +270,10 @@ fn robots_on_a_line_have_no_gain() {
         (STRAIGHT_COMMAND, [0.1, 0.0, 0.0, 0.0, 0.1, 0.0]),
         (GENTLE_COMMAND, [0.1, 0.1, 0.0, 0.0, 0.0, 0.0]),
     ] {
-        let machine = machine(command, alphas, 5000);
-        for gain in [machine.stats().likelihood_gain, machine.table().exact.likelihood_gain] {
+        let simulation = simulation(command, alphas, 5000);
+        for gain in [simulation.stats().likelihood_gain, simulation.table().exact.likelihood_gain] {
             assert!(gain.pose.is_nan() && gain.floor.is_nan(), "{command:?} {alphas:?}: {gain:?}");
         }
-        assert!(machine.stats().area_ratio.is_nan() && machine.stats().coverage.ellipse.is_nan());
+        assert!(simulation.stats().area_ratio.is_nan() && simulation.stats().coverage.ellipse.is_nan());
     }
 }

@@ -58,8 +58,8 @@ fn small_or_flat_fields_have_no_lines() {
 }
 
 fn surface(settings: Settings) -> Surface {
-    let machine = ArcAnatomy::new(settings).expect("valid settings");
-    machine.surface([-0.5, -1.0], [2.0, 1.5]).expect("a map")
+    let simulation = ArcAnatomy::new(settings).expect("valid settings");
+    simulation.surface([-0.5, -1.0], [2.0, 1.5]).expect("a map")
 }
 
 /// The heights of contour points are computed by the models. In a cell of h = 0.028 m, linear interpolation of log p has an error of h²/8

@@ -198,9 +198,9 @@ fn a_width_of_the_size_of_rounding_counts_as_zero() {
         let velocity_alphas = [1e6, 0.0, turn_per_speed * turn_per_speed, 0.0, 0.0, 0.0];
         let command = VelocityCmd { v: TINY_SPEED, omega: 0.0, dt: 1.0 };
         let settings = Settings { command, velocity_alphas, samples: 1000, ..Settings::default() };
-        let machine = BananaMachine::new(settings).expect("a valid setting");
-        let poses: Vec<SE2> = machine.poses().collect();
-        [machine.stats().cross_track_skew, CrossTrack::from_poses(&poses).skew]
+        let simulation = BananaMachine::new(settings).expect("a valid setting");
+        let poses: Vec<SE2> = simulation.poses().collect();
+        [simulation.stats().cross_track_skew, CrossTrack::from_poses(&poses).skew]
     };
     // The bearing is half the turn. The width of the cloud is therefore 5e-14 of its length.
     assert!(skews(1e-13).into_iter().all(f64::is_nan));

@@ -20,13 +20,13 @@ import { copyMessage, copyButton, nav2Exports } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
 import { SummaryPicture } from './summary-picture.ts';
-import { shownLegOf, readingOf, type Reading } from './reading.ts';
+import { shownLegOf, viewModelOf, type ViewModel } from './view-model.ts';
 import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
 import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf } from './settings.ts';
 import { styles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
 import { captionOf, judgementOf, legText, recommendationReason, pathText } from './words.ts';
-import type { AlphaCalibrator as Machine, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
+import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
 /** Log of the user or of the page, with its fit as computed by the service, and the settings of the fit. */
@@ -34,7 +34,7 @@ interface OpenedLog {
   log: CalibrationLog;
   /** Notes on the logs that make the α's doubtful. */
   warnings: Warning[];
-  config: Machine['config'];
+  config: Simulation['config'];
   fit: Uint8Array;
 }
 
@@ -45,7 +45,7 @@ interface OpenedLog {
  * @csspart drop - The line that logs are dropped on.
  * @csspart chart - A plot of residuals.
  */
-export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
+export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel> {
   static styles = styles;
 
   static definition = definition;
@@ -64,23 +64,23 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   /** Log of the page; null for the simulated log. */
   #pageLog: CalibrationLog | null = null;
 
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) =>
-    state ? this.#machineOf(motion, this.settings.pick(state), this.#givenLog) : new motion.AlphaCalibrator();
+  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) =>
+    state ? this.#simulationOf(motion, this.settings.pick(state), this.#givenLog) : new motion.AlphaCalibrator();
 
-  #machineOf({ AlphaCalibrator }: Motion, requested: Partial<Machine['config']>, given: OpenedLog | null): Machine {
+  #simulationOf({ AlphaCalibrator }: Motion, requested: Partial<Simulation['config']>, given: OpenedLog | null): Simulation {
     if (!given) return new AlphaCalibrator(requested);
-    return freeOnError(AlphaCalibrator.restored(given.config, given.fit), (machine) => machine.configure(requested));
+    return freeOnError(AlphaCalibrator.restored(given.config, given.fit), (simulation) => simulation.configure(requested));
   }
 
-  read(machine: Machine) {
-    const reading = readingOf(machine, this.log, this.reading);
-    if (reading.isPending) this.#refit();
-    return reading;
+  read(simulation: Simulation) {
+    const viewModel = viewModelOf(simulation, this.log, this.viewModel);
+    if (viewModel.isPending) this.#refit();
+    return viewModel;
   }
 
   /** True while a log is read or fitted. */
   get isBusy() {
-    return this.service.isBusy || this.#opener.share !== undefined || this.reading?.isPending;
+    return this.service.isBusy || this.#opener.share !== undefined || this.viewModel?.isPending;
   }
 
   disconnectedCallback() {
@@ -90,33 +90,33 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
 
   /** Index of the leg that is shown; −1 if there is none. */
   get chosen() {
-    return shownLegOf(this.reading, this.state.elementState.leg);
+    return shownLegOf(this.viewModel, this.state.elementState.leg);
   }
 
   /** Predicted cloud and ends of the leg that is shown, by the latest complete fit; null without a leg. */
   get predicted() {
-    const { chosen, machine, reading: { config } } = this;
-    return chosen < 0 || !machine ? null : this.#predictedLeg.get([config, chosen], () => machine.leg(chosen));
+    const { chosen, simulation, viewModel: { config } } = this;
+    return chosen < 0 || !simulation ? null : this.#predictedLeg.get([config, chosen], () => simulation.leg(chosen));
   }
 
   /** Squared residuals, binned by the chosen regressor; empty without legs. */
   get panels() {
-    const { machine, reading: { stats, legs }, state: { elementState: { regressor } } } = this;
-    return legs.count > 0 && machine ? this.#panels.get([stats, regressor], () => machine.panels(regressor)) : [];
+    const { simulation, viewModel: { stats, legs }, state: { elementState: { regressor } } } = this;
+    return legs.count > 0 && simulation ? this.#panels.get([stats, regressor], () => simulation.panels(regressor)) : [];
   }
 
   get scene() {
-    const reading = this.currentReading;
-    return { ...reading, chosen: this.chosen, leg: this.predicted, overlays: this.state.elementState.overlays };
+    const viewModel = this.currentViewModel;
+    return { ...viewModel, chosen: this.chosen, leg: this.predicted, overlays: this.state.elementState.overlays };
   }
 
   /** Shows the leg that was clicked in the picture. */
   #chooseLegAt = (event: MouseEvent) => {
     this.runtime.attempt(() => {
-      const { machine } = this;
-      if (!machine || !(event.target instanceof HTMLCanvasElement)) return;
+      const { simulation } = this;
+      if (!simulation || !(event.target instanceof HTMLCanvasElement)) return;
       const [x, y] = pointOn(event.target, this.#pathPicture.view, event);
-      const leg = this.#pathPicture.nearest(machine, x, y);
+      const leg = this.#pathPicture.nearest(simulation, x, y);
       if (leg >= 0) this.gesture.decide({ leg });
     });
   };
@@ -156,19 +156,19 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
    * Fits a log, and then replaces the present log by it; null is the simulated log. If `check` throws, the present log stays. `warnings` are
    * notes on the new log that make its α's doubtful.
    */
-  async open(log: CalibrationLog | null, warnings: Warning[], check?: (machine: Machine) => void) {
-    const config = this.settings.pick(this.settings.current) as Machine['config'];
+  async open(log: CalibrationLog | null, warnings: Warning[], check?: (simulation: Simulation) => void) {
+    const config = this.settings.pick(this.settings.current) as Simulation['config'];
     const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attempt(() => {
-      if (!this.machine) return;
-      const machine = this.#machineOf(this.motion, this.settings.pick(this.settings.current), openedLog);
-      freeOnError(machine, () => check?.(machine));
+      if (!this.simulation) return;
+      const simulation = this.#simulationOf(this.motion, this.settings.pick(this.settings.current), openedLog);
+      freeOnError(simulation, () => check?.(simulation));
       if (log !== this.log) {
         this.state.elementState.leg = null;
         for (const { view } of this.pictures) view.reset();
       }
       this.#givenLog = openedLog;
-      this.runtime.replace(machine);
+      this.runtime.replace(simulation);
       this.settings.isStale = true;
       this.renderer.requestFrame();
     });
@@ -189,7 +189,7 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   /** Returns to the settings of the fit that is shown. */
   #revertSettings() {
     this.service.stop();
-    this.settings.assign(this.reading.fitted);
+    this.settings.assign(this.viewModel.fitted);
   }
 
   /** Notes on the logs that make the α's doubtful. */
@@ -198,17 +198,17 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
   }
 
   get logName() {
-    const { log } = this.reading;
+    const { log } = this.viewModel;
     return log ? log.name || words.calibrator.own.odometry : words.calibrator.simulated;
   }
 
   get exportData() {
-    const { fitted, legs } = this.currentReading;
+    const { fitted, legs } = this.currentViewModel;
     const missingNote = this.log ? words.calibrator.logNotInCopies : '';
     const legEntries = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
     const poseColumns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`));
     return {
-      description: [pathText(this.reading, this.chosen), ...alphaTexts(this.reading).map((text) => `${text}.`), captionOf(this), recommendationReason(this.reading), ...systematicTexts(this.reading)].join(' '),
+      description: [pathText(this.viewModel, this.chosen), ...alphaTexts(this.viewModel).map((text) => `${text}.`), captionOf(this), recommendationReason(this.viewModel), ...systematicTexts(this.viewModel)].join(' '),
       settings: { ...(this.log && { log: this.log.name }), ...fitted },
       columns: [
         'begins_s', 'ends_s', ...poseColumns('odometry'), ...poseColumns('reference'), 'reading_1', 'reading_2', 'reading_3',
@@ -224,18 +224,18 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
     };
   }
 
-  announcement(reading: Reading) {
-    return captionOf({ reading, warnings: this.warnings, logName: this.logName });
+  announcement(viewModel: ViewModel) {
+    return captionOf({ viewModel, warnings: this.warnings, logName: this.logName });
   }
 
-  content(reading: Reading) {
+  content(viewModel: ViewModel) {
     const say = words.calibrator;
     const { chosen } = this;
     return html`
       ${dropZone(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictLine(this))}</p>
-        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvas(this, this.#pathPicture, pathText(reading, chosen))}</div>`)}
+        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvas(this, this.#pathPicture, pathText(viewModel, chosen))}</div>`)}
         <div class="one">
           ${titledPicture(say.oneLeg(integer(chosen + 1)), html`<div class="stage">${pictureCanvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
           ${this.renderer.afterFirstPicture(() => html`<div class="looked">${legControls(this)}</div>`)}
@@ -243,12 +243,12 @@ export class AlphaCalibratorElement extends FigureElement<Machine, Reading> {
         ${this.renderer.afterFirstPicture(() => html`
         <div class="fitted" part="readouts">
           <div class="buttons result">
-            <p class="panel-title">${say.alphas.title(say.kinds[modelRuleOf(reading.fitted)])}</p>
+            <p class="panel-title">${say.alphas.title(say.kinds[modelRuleOf(viewModel.fitted)])}</p>
             ${copyButton(this, this.#opener.otherResults)} ${startOverButton(this, this.#startOver)}
           </div>
-          <p class="to-do">${this.#opener.otherResults || judgementOf(reading, this.warnings).toDo}</p>
-          ${alphaTable(reading)}
-          <p class="muted reason">${recommendationReason(reading)}</p>
+          <p class="to-do">${this.#opener.otherResults || judgementOf(viewModel, this.warnings).toDo}</p>
+          ${alphaTable(viewModel)}
+          <p class="muted reason">${recommendationReason(viewModel)}</p>
           ${copyMessage(this)}
         </div>`)}
       </div>

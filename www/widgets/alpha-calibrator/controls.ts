@@ -6,12 +6,12 @@ import { words } from '../../messages/registry.ts';
 import { button, group, radioGroup } from '../../ui/controls.ts';
 import { NO_VALUE, integer, fixed, formatEditable } from '../../ui/format.ts';
 import { readoutList } from '../../ui/readouts.ts';
-import { observedCount } from './reading.ts';
+import { observedCount } from './view-model.ts';
 import { modelRuleOf, settingsFor } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 export function legControls(figure: Figure) {
-  const { reading: { legs, worst }, chosen } = figure;
+  const { viewModel: { legs, worst }, chosen } = figure;
   const say = words.calibrator.leg;
   // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
   const nextLeg = worst[(worst.indexOf(figure.state.elementState.leg) + 1) % Math.max(1, worst.length)];
@@ -35,7 +35,7 @@ export function legControls(figure: Figure) {
     ${button(say.worst, () => figure.gesture.decide({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
 }
 
-export function legReadouts({ reading: { legs }, chosen, predicted: leg }: Figure) {
+export function legReadouts({ viewModel: { legs }, chosen, predicted: leg }: Figure) {
   const say = words.calibrator.leg;
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
   return readoutList([

@@ -22,7 +22,7 @@ export function diagnostics(figure: Figure) {
     ${group(largest.title, largestResiduals(figure))}`;
 }
 
-function checksTable({ reading: { stats: { diagnostics: { checks } } } }: Figure) {
+function checksTable({ viewModel: { stats: { diagnostics: { checks } } } }: Figure) {
   const say = words.calibrator.checks;
   return figureTable({
     caption: say.caption,
@@ -36,7 +36,7 @@ function checksTable({ reading: { stats: { diagnostics: { checks } } } }: Figure
   });
 }
 
-function windowsTable({ reading: { stats: { diagnostics: { windows } } } }: Figure) {
+function windowsTable({ viewModel: { stats: { diagnostics: { windows } } } }: Figure) {
   const say = words.calibrator.windows;
   return figureTable({
     caption: say.caption,
@@ -45,7 +45,7 @@ function windowsTable({ reading: { stats: { diagnostics: { windows } } } }: Figu
   });
 }
 
-function noiseTable({ reading: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
+function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
   const { noise: say, settings, alphas: { interval: intervalName, between } } = words.calibrator;
   const formatStd = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? formatRounded(value, 2) : '∞');
   const row = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, formatStd(value), between(formatStd(low), formatStd(high))];
@@ -61,7 +61,7 @@ function noiseTable({ reading: { stats: { referenceNoise: { positionStd, yawStd 
   });
 }
 
-function lostLegs({ reading: { stats: { lost }, legs } }: Figure) {
+function lostLegs({ viewModel: { stats: { lost }, legs } }: Figure) {
   const say = words.calibrator.lost;
   const causes = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
   const outliers = legs.outliers.reduce((sum, is) => sum + is, 0);
@@ -70,7 +70,7 @@ function lostLegs({ reading: { stats: { lost }, legs } }: Figure) {
 
 function largestResiduals(figure: Figure) {
   const say = words.calibrator.largest;
-  const { worst, legs } = figure.reading;
+  const { worst, legs } = figure.viewModel;
   return html`<div class="buttons" role="group" aria-label=${say.title}>
     ${worst.map((leg) => button(say.leg(integer(leg + 1), legs.outliers[leg] > 0), () => figure.gesture.decide({ leg }), { pressed: leg === figure.chosen }))}
   </div>`;
@@ -81,16 +81,16 @@ const MIN_REGRESSOR = 1e-6;
 
 /** Returns a plot for each noise component: its squared residuals against the regressor. */
 export function regressionPanels(figure: Figure) {
-  const { reading, reading: { fitted: { model } }, state: { elementState: { regressor } }, gesture } = figure;
+  const { viewModel, viewModel: { fitted: { model } }, state: { elementState: { regressor } }, gesture } = figure;
   const say = words.calibrator.panels;
   const axisNames = model === 'velocity' ? { turn: say.turnRate, distance: say.speed } : { turn: say.turn, distance: say.distance };
-  if (reading.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
+  if (viewModel.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
   const chooseRegressor = (name: Regressor) => gesture.choose('regressor', name);
   return html`${radioGroup(say.against, 'regressor', say.regressors, regressor, chooseRegressor)}
     <figure><div class="panels">
       ${figure.panels.map((panel, i) => html`<figure>
         ${plot(panelPlot(panel, say.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}
-        ${identifiabilityNote(panel, reading)}
+        ${identifiabilityNote(panel, viewModel)}
       </figure>`)}
     </div>
     <figcaption>${formatMarkup(say.caption)}</figcaption></figure>`;
@@ -122,7 +122,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
 }
 
 /** Returns a note on an α that is not identifiable, or not distinguishable from 0. */
-function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./reading.ts').Reading) {
+function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./view-model.ts').ViewModel) {
   const { panels: say, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';
   const sub = subscriptOf(alpha);

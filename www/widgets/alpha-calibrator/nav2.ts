@@ -9,8 +9,8 @@ import { legLengthOption, modelRuleOf, settingsFor } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
-function yamlOf({ reading, logName, warnings }: Figure): string {
-  const { fitted: config, stats, legs: { count } } = reading;
+function yamlOf({ viewModel, logName, warnings }: Figure): string {
+  const { fitted: config, stats, legs: { count } } = viewModel;
   const { model, rule } = config;
   const date = new Date().toISOString().slice(0, 10);
   const fittedLog = { calibration: stats, count, model, rule, legs: legLengthOption(config), log: logName, warnings, date };
@@ -18,7 +18,7 @@ function yamlOf({ reading, logName, warnings }: Figure): string {
 }
 
 /** Returns all results as JSON, with typed arrays as plain arrays. */
-function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
+function jsonOf({ viewModel: { fitted, stats, legs, truth }, logName }: Figure) {
   const allResults = { log: logName, date: new Date().toISOString(), settings: fitted, ...stats, ...(truth && { truth }), legs };
   return JSON.stringify(allResults, (_, value) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value), 1);
 }
@@ -29,7 +29,7 @@ function jsonOf({ reading: { fitted, stats, legs, truth }, logName }: Figure) {
  */
 export function copyButton(figure: Figure, obstacle: string) {
   const say = words.calibrator.nav2;
-  if (!NAV2_RULES.includes(modelRuleOf(figure.reading.fitted))) return button(say.fit, () => figure.gesture.decide(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || say.fitTitle });
+  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fitted))) return button(say.fit, () => figure.gesture.decide(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || say.fitTitle });
   const yaml = yamlOf(figure);
   return figure.copyMenu.button('nav2', say.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? say.label : say.none) });
 }
@@ -41,7 +41,7 @@ export const copyMessage = (figure: Figure) => figure.copyMenu.messageHtml('nav2
 export function nav2Exports(figure: Figure, obstacle: string) {
   const say = words.calibrator.nav2;
   const yaml = yamlOf(figure);
-  const fileName = `${figure.localName}-${figure.reading.config.seed}.json`;
+  const fileName = `${figure.localName}-${figure.viewModel.config.seed}.json`;
   return html`${yaml ? html`<textarea class="yaml" readonly rows=${yaml.split('\n').length} aria-label=${say.label} .value=${yaml}></textarea>` : html`<p>${say.none}</p>`}
     <div class="buttons">
       ${button(say.json, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}

@@ -60,7 +60,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Kind of odometry that is preferred if a log has several: commands for the velocity model. */
   get kind(): 'commands' | undefined {
-    return this.host.reading.config.model === 'velocity' ? 'commands' : undefined;
+    return this.host.viewModel.config.model === 'velocity' ? 'commands' : undefined;
   }
 
   /** Words of logs in the present language. */

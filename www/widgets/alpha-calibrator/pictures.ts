@@ -8,10 +8,10 @@ import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName } from './settings.ts';
 import { PathLayer, drawRings, pathStyle } from './path-layer.ts';
 import type { LegView } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
+import type { ViewModel } from './view-model.ts';
 
 /** View model of the pictures: the fit, and the leg that is shown. */
-export type Scene = Reading & { chosen: number, leg: LegView | null, overlays: LineName[] };
+export type Scene = ViewModel & { chosen: number, leg: LegView | null, overlays: LineName[] };
 
 /** Width of the lines of a single leg, CSS pixels. */
 const LEG_LINE_WIDTH = 2.25;

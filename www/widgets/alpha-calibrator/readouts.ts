@@ -6,7 +6,7 @@ import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, formatPowerOfTen, tick } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { adviceOf, alphaOrBound, formatEstimate } from './lines.ts';
-import { truthApplies, type Reading } from './reading.ts';
+import { truthApplies, type ViewModel } from './view-model.ts';
 import { judgementOf, legsText, localized, noiseNames } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -20,17 +20,17 @@ const MAX_AXIS_INTERVALS = 4;
 const RATING_ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 
 /** Returns the badge that rates the α's, the finding, and the number of legs. On a wide page it has at most two lines. */
-export function verdictLine({ reading, logName, warnings }: Figure) {
-  const { rating, badge, finding } = judgementOf(reading, warnings);
+export function verdictLine({ viewModel, logName, warnings }: Figure) {
+  const { rating, badge, finding } = judgementOf(viewModel, warnings);
   return html`<span class="badge ${rating}"><span aria-hidden="true">${RATING_ICONS[rating]}</span> ${badge}</span>
-    <strong>${finding}</strong> <span class="muted">${legsText(reading, logName)}</span>`;
+    <strong>${finding}</strong> <span class="muted">${legsText(viewModel, logName)}</span>`;
 }
 
-export function alphaTable(reading: Reading) {
-  const { alphas, intervals } = reading.stats;
+export function alphaTable(viewModel: ViewModel) {
+  const { alphas, intervals } = viewModel.stats;
   const say = words.calibrator.alphas;
-  const noiseLabels = noiseNames(reading.fitted.model);
-  const truth = truthApplies(reading) ? reading.truth?.alphas : undefined;
+  const noiseLabels = noiseNames(viewModel.fitted.model);
+  const truth = truthApplies(viewModel) ? viewModel.truth?.alphas : undefined;
   const axis = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
     <thead>
@@ -40,10 +40,10 @@ export function alphaTable(reading: Reading) {
       ${alphas.map((alpha, i) => html`<tr>
         <th scope="row">${formatMarkup(`*α*${subscriptOf(i)}`)}</th>
         ${alpha === null
-          ? html`<td colspan="3"><div class="of">${noiseLabels[i]}</div><span class="unknown">${missingText(reading, i)}</span></td>`
+          ? html`<td colspan="3"><div class="of">${noiseLabels[i]}</div><span class="unknown">${missingText(viewModel, i)}</span></td>`
           : html`<td class="chart"><div class="line"><div class="of">${noiseLabels[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
-            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedText(reading, i)}</div><div class="between" data-longest=${say.between('0.00000', '0.00000')}>${intervalText(reading, i)}</div></div></td>
-            <td class="recommended" data-longest="0.00000">${recommendedOf(reading, i)}</td>`}
+            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedText(viewModel, i)}</div><div class="between" data-longest=${say.between('0.00000', '0.00000')}>${intervalText(viewModel, i)}</div></div></td>
+            <td class="recommended" data-longest="0.00000">${recommendedOf(viewModel, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
         <td></td>
@@ -56,14 +56,14 @@ export function alphaTable(reading: Reading) {
   </table>`;
 }
 
-function recommendedOf({ stats: { recommended, alphas, intervals } }: Reading, index: number) {
+function recommendedOf({ stats: { recommended, alphas, intervals } }: ViewModel, index: number) {
   return recommended && alphas[index] !== null ? localized(alphaOrBound(alphas[index], intervals[index], recommended.inflation)) : NO_VALUE;
 }
 
-const fittedText = ({ stats: { alphas, intervals } }: Reading, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
+const fittedText = ({ stats: { alphas, intervals } }: ViewModel, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
 
 /** Returns the reason why an α is not identifiable, and the drive that would identify it. */
-function missingText({ stats: { notIdentifiable }, fitted: { model } }: Reading, index: number) {
+function missingText({ stats: { notIdentifiable }, fitted: { model } }: ViewModel, index: number) {
   const say = words.calibrator.alphas;
   const reason = notIdentifiable[index];
   if (!reason) return NO_VALUE;
@@ -72,16 +72,16 @@ function missingText({ stats: { notIdentifiable }, fitted: { model } }: Reading,
 }
 
 /** Returns all α's as texts, each with its interval. */
-export function alphaTexts(reading: Reading) {
-  const { stats: { alphas }, fitted } = reading;
+export function alphaTexts(viewModel: ViewModel) {
+  const { stats: { alphas }, fitted } = viewModel;
   const { recommendedText } = words.calibrator.alphas;
   return alphas.map((alpha, i) => {
-    const alphaParts = alpha === null ? [missingText(reading, i)] : [fittedText(reading, i), intervalText(reading, i), recommendedText(recommendedOf(reading, i))];
+    const alphaParts = alpha === null ? [missingText(viewModel, i)] : [fittedText(viewModel, i), intervalText(viewModel, i), recommendedText(recommendedOf(viewModel, i))];
     return `α${subscriptOf(i)} ${noiseNames(fitted.model)[i]}: ${alphaParts.join(', ')}`;
   });
 }
 
-function intervalText({ stats: { intervals } }: Reading, index: number) {
+function intervalText({ stats: { intervals } }: ViewModel, index: number) {
   const interval = intervals[index];
   return interval ? words.calibrator.alphas.between(localized(formatEstimate(interval[0], interval)), localized(formatEstimate(interval[1], interval))) : NO_VALUE;
 }

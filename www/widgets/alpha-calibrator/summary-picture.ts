@@ -33,7 +33,7 @@ export class SummaryPicture extends Picture<Scene> {
   }
 
   draw(surface: Parameters<Picture<Scene>['draw']>[0], scene: Parameters<Picture<Scene>['draw']>[1], palette: Parameters<Picture<Scene>['draw']>[2]) {
-    const { reading } = this.#figure;
+    const { viewModel } = this.#figure;
     const brush = { ...brushOn(surface, this.view, palette), exported: true };
     const pathPicture = this.#path;
     pathPicture.view.resize(PATH_SIZE.width, PATH_SIZE.height);
@@ -49,9 +49,9 @@ export class SummaryPicture extends Picture<Scene> {
     context.textBaseline = 'top';
     const alphasLeft = PATH_SIZE.width + 20;
     let y = 2;
-    for (const sentence of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(reading)]) y = writeText(context, sentence, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
+    for (const sentence of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(viewModel)]) y = writeText(context, sentence, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
     y = Math.max(PATH_SIZE.height, y) + LINE_HEIGHT;
-    for (const sentence of [captionOf(this.#figure), recommendationReason(reading), ...systematicTexts(reading)]) y = writeText(context, sentence, 2, y, WIDTH - 2);
+    for (const sentence of [captionOf(this.#figure), recommendationReason(viewModel), ...systematicTexts(viewModel)]) y = writeText(context, sentence, 2, y, WIDTH - 2);
     return false;
   }
 }

@@ -7,16 +7,16 @@ import { fixed } from '../../ui/format.ts';
 import { figureTable } from '../../ui/readouts.ts';
 import { SYSTEMATIC_ERRORS } from './lines.ts';
 import type { Interval } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
+import type { ViewModel } from './view-model.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-type SystematicError = Reading['stats']['systematicErrors']['mountYaw' | 'leverArm'];
+type SystematicError = ViewModel['stats']['systematicErrors']['mountYaw' | 'leverArm'];
 
 /** Maximum number of decimals of a systematic error. */
 const MAX_DECIMALS = 6;
 
 /** Returns two sentences: one on the systematic errors that were corrected, and one on those that the α's include as noise. */
-export function systematicTexts({ stats: { systematicErrors: errors } }: Reading) {
+export function systematicTexts({ stats: { systematicErrors: errors } }: ViewModel) {
   const say = words.calibrator.systematic;
   const errorTexts = (corrected: boolean) => SYSTEMATIC_ERRORS.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
   const [corrected, left] = [errorTexts(true), errorTexts(false)];
@@ -24,7 +24,7 @@ export function systematicTexts({ stats: { systematicErrors: errors } }: Reading
 }
 
 /** Returns a sentence on significant systematic errors that the settings leave uncorrected; empty if there are none. */
-export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }: Reading): string {
+export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }: ViewModel): string {
   const say = words.calibrator.systematic;
   const uncorrectedTexts = SYSTEMATIC_ERRORS.filter((key) => !fitted[key] && isSignificant(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
   return uncorrectedTexts.length > 0 ? say.matters(uncorrectedTexts.join('; ')) : '';
@@ -49,7 +49,7 @@ function intervalsOf(interval: SystematicError['interval']) {
 }
 
 export function systematicTable(figure: Figure) {
-  const { stats: { systematicErrors: errors }, truth } = figure.reading;
+  const { stats: { systematicErrors: errors }, truth } = figure.viewModel;
   const say = words.calibrator.systematic;
   const { requested } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((key) => {

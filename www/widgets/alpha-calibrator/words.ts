@@ -8,11 +8,11 @@ import { correctionAdvice, failedChecksOf, missingAlphas } from './lines.ts';
 import { uncorrectedText } from './systematic.ts';
 import type { CalibrationCheck, LegView } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
-import type { Reading } from './reading.ts';
+import type { ViewModel } from './view-model.ts';
 
 addEnglish({ calibrator: en });
 
-type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'reading' | 'warnings' | 'logName'>;
+type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'viewModel' | 'warnings' | 'logName'>;
 
 /** Pattern of the names of checks whose value is a fraction. */
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
@@ -21,12 +21,12 @@ const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
  * Returns the rating of the α's, the finding in a sentence, and the advice. A missing α, or a warning such as a localizer as the reference,
  * makes consistent α's questionable.
  */
-export function judgementOf(reading: Reading, logWarnings: Warning[]) {
-  const { stats, legs, fitted } = reading;
+export function judgementOf(viewModel: ViewModel, logWarnings: Warning[]) {
+  const { stats, legs, fitted } = viewModel;
   const { verdict, checks } = stats.diagnostics;
   const say = words.calibrator;
   const missingAlphaTexts = missingAlphas(say.alphas.lacking, fitted.model, stats).map(({ indices, drive }) => say.missing(indices.map((i) => `α${subscriptOf(i)}`).join(', '), drive));
-  const warnings = [...missingAlphaTexts, uncorrectedText(reading), ...logWarnings.map((name) => say.nav2[name])].filter(Boolean);
+  const warnings = [...missingAlphaTexts, uncorrectedText(viewModel), ...logWarnings.map((name) => say.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
   const useSentences = {
     consistent: [say.use, ...correctionAdvice(stats, say.nav2, localized)],
@@ -57,7 +57,7 @@ export function expectedRangeText({ name, expected: [low, high] }: CalibrationCh
 }
 
 /** Returns the reason for the recommended α's. */
-export function recommendationReason({ stats: { recommended, diagnostics: { checks, windows } } }: Reading) {
+export function recommendationReason({ stats: { recommended, diagnostics: { checks, windows } } }: ViewModel) {
   const say = words.calibrator.recommended;
   if (!recommended) return say.none;
   const [{ count, coverage, nees }] = windows;
@@ -66,7 +66,7 @@ export function recommendationReason({ stats: { recommended, diagnostics: { chec
   return inflation === 1 ? say.covered(percent(coverage), integer(count)) : say.inflated(fixed(inflation, 2), percent(coverage), integer(count), fixed(nees, 2));
 }
 
-export const noiseNames = (model: Reading['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
+export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
 
 /** Converts a number as printed in files (1.5e-7) to the decimal sign of the language and a power of ten. */
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
@@ -78,18 +78,18 @@ export function scaleByPowerOf1000(highest: number): { scaled: (value: number) =
 }
 
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
-export function legsText({ legs }: Reading, log: string) {
+export function legsText({ legs }: ViewModel, log: string) {
   if (legs.count === 0) return '';
   const outlierCount = legs.outliers.reduce((sum, is) => sum + is, 0);
   return words.calibrator.present(log, integer(legs.count), outlierCount > 0 ? integer(outlierCount) : '');
 }
 
-export function captionOf({ reading, warnings, logName }: Figure) {
-  const { badge, finding, toDo } = judgementOf(reading, warnings);
-  return [`${badge}.`, finding, legsText(reading, logName), toDo].filter(Boolean).join(' ');
+export function captionOf({ viewModel, warnings, logName }: Figure) {
+  const { badge, finding, toDo } = judgementOf(viewModel, warnings);
+  return [`${badge}.`, finding, legsText(viewModel, logName), toDo].filter(Boolean).join(' ');
 }
 
-export function pathText({ legs, classes }: Reading, chosen: number) {
+export function pathText({ legs, classes }: ViewModel, chosen: number) {
   if (chosen < 0) return words.calibrator.noWay;
   const unlikelyCount = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
   return words.calibrator.way(integer(legs.count), integer(unlikelyCount), integer(chosen + 1));

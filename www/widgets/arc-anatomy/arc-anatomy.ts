@@ -14,8 +14,8 @@ import { formsPlot, factorBars, headline, likelihoodReadouts, tableLines } from 
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
 import { LINE_STYLES, MAX_COORDINATE, UNDERWAY_AT_END, definition } from './settings.ts';
 import { styles } from './styles.ts';
-import { captionOf, pictureText, type Reading } from './words.ts';
-import type { ArcAnatomy as Machine } from '../../types.d.ts';
+import { captionOf, pictureText, type ViewModel } from './words.ts';
+import type { ArcAnatomy as Simulation } from '../../types.d.ts';
 
 /** Bounds of both poses, m. */
 const POSE_BOUNDS = [-MAX_COORDINATE, -MAX_COORDINATE, MAX_COORDINATE, MAX_COORDINATE];
@@ -27,7 +27,7 @@ const POSE_BOUNDS = [-MAX_COORDINATE, -MAX_COORDINATE, MAX_COORDINATE, MAX_COORD
  * @attr overlays - The lines that are drawn; in the attribute with spaces between.
  * @csspart chart - The plot of three forms of the arc near straight.
  */
-export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
+export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   static styles = styles;
 
   static definition = definition;
@@ -40,21 +40,21 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
   /** Animation of the arcs, which always takes the same time. The duration of the command is displayed next to it. */
   player: Player<'underway'> = new Player(this, { underway: { to: UNDERWAY_AT_END, duration: 2000, whole: true } });
 
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.pick(state));
+  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.pick(state));
 
-  read = (machine: Machine): Reading => machine.read();
+  read = (simulation: Simulation): ViewModel => simulation.read();
 
   get scene() {
     const { overlays, line, underway } = this.state.elementState;
-    const reading = this.currentReading;
-    const robots = underway < UNDERWAY_AT_END ? this.machine?.underway(underway / UNDERWAY_AT_END) : undefined;
-    return { ...reading, machine: this.machine, overlays, line, underway: robots };
+    const viewModel = this.currentViewModel;
+    const robots = underway < UNDERWAY_AT_END ? this.simulation?.underway(underway / UNDERWAY_AT_END) : undefined;
+    return { ...viewModel, simulation: this.simulation, overlays, line, underway: robots };
   }
 
   get exportData() {
-    const { config, stats: { factors } } = this.currentReading;
+    const { config, stats: { factors } } = this.currentViewModel;
     return {
-      description: pictureText(this.reading),
+      description: pictureText(this.viewModel),
       settings: config,
       columns: ['estimate', 'residual', 'standard_deviation', 'residual_over_deviation', 'prob', 'share_of_peak'],
       row: (i: number) => {
@@ -67,28 +67,28 @@ export class ArcAnatomyElement extends FigureElement<Machine, Reading> {
 
   announcement = captionOf;
 
-  placeHandles({ config }: Reading) {
+  placeHandles({ config }: ViewModel) {
     for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);
   }
 
-  content(reading: Reading) {
+  content(viewModel: ViewModel) {
     const say = words.anatomy;
     return html`
       <div class="views">
         ${titledPicture(say.floor, html`<div class="stage" part="picture">
-          ${pictureCanvas(this, this.#picture, pictureText(reading))} ${this.#handles.map((handle) => handle.render())}
+          ${pictureCanvas(this, this.#picture, pictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`)}
         ${this.renderer.afterFirstPicture(() => html`
-        <div class="aside">${headline(reading)} ${factorBars(reading, this.state.elementState.line)}</div>`)}
+        <div class="aside">${headline(viewModel)} ${factorBars(viewModel, this.state.elementState.line)}</div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINE_STYLES)}
-      <p class="verdict caption" part="caption">${captionOf(reading)}</p>
+      <p class="verdict caption" part="caption">${captionOf(viewModel)}</p>
       ${presetButtons(this)}
       <div class="controls" part="controls">${commandControls(this)} ${timeControl(this)}</div>
       ${disclosures(this, {
         controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
-        numbers: () => html`${lineStepper(this)} ${tableLines(reading, this.state.elementState.line)} ${likelihoodReadouts(reading)} ${formsPlot(this.motion)}`,
+        numbers: () => html`${lineStepper(this)} ${tableLines(viewModel, this.state.elementState.line)} ${likelihoodReadouts(viewModel)} ${formsPlot(this.motion)}`,
         fileNameMark: 'figure',
         csvTitle: say.csvTitle,
       })}`)}

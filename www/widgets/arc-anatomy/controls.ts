@@ -35,13 +35,13 @@ export function lineStepper(figure: Figure) {
   return html`<div class="stepper" role="group" aria-label=${say.label}>
     ${button(iconWithText('‹', say.back), chooseLine(line - 1), { disabled: line === 0, title: say.back })}
     ${button(iconWithText('›', say.on), chooseLine(line + 1), { disabled: line === TABLE_LINES, title: say.on })}
-    <p role="status">${line === 0 ? say.begin : formatMarkup(lineText(figure.reading, line))}</p>
+    <p role="status">${line === 0 ? say.begin : formatMarkup(lineText(figure.viewModel, line))}</p>
   </div>`;
 }
 
-export function timeControl({ player, gesture, reading, state }: Figure) {
+export function timeControl({ player, gesture, viewModel, state }: Figure) {
   const { underway } = state.elementState;
-  const { dt } = reading.config.command;
+  const { dt } = viewModel.config.command;
   const timeText = words.anatomy.timeOf(fixed((underway / UNDERWAY_AT_END) * dt, 2), fixed(dt, 2));
   return group(words.anatomy.time, html`<div class="underway">
     ${player.button('underway', words.play)}

@@ -15,9 +15,9 @@ import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { CONTOUR_STYLES, LINE_STYLES, type LineName } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
 import type { Palette } from '../../ui/theme.ts';
-import type { Reading } from './words.ts';
+import type { ViewModel } from './words.ts';
 
-export type Scene = Reading & { machine: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
+export type Scene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
 
 /** Radius of the robots, m. */
 export const ROBOT_RADIUS = 0.06;
@@ -82,7 +82,7 @@ export class ArcPicture extends Picture<Scene> {
     const styles = lineStyles(brush, LINE_STYLES);
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, scene));
     clipToPlot(brush, () => {
-      this.#surface.draw(brush, scene.machine, scene.config);
+      this.#surface.draw(brush, scene.simulation, scene.config);
       const { commanded, inverted, driven, lastTurn } = stats;
       if (showsLine('commanded')) {
         drawCircle(brush, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${fixed(commanded.turn, 2)}`, radius: '' });
@@ -259,9 +259,9 @@ class SurfaceLayer {
   #coloured: Memo<void> = new Memo();
 
   /** Draws the surface for `config`, which is a new object after every change. */
-  draw(brush: Brush, machine: ArcAnatomy, config: import('../../types.d.ts').ArcAnatomySettings) {
+  draw(brush: Brush, simulation: ArcAnatomy, config: import('../../types.d.ts').ArcAnatomySettings) {
     const { palette, view: { extent: { xMin, yMin, xMax, yMax } } } = brush;
-    const surface = this.#surface.get([config, xMin, yMin, xMax, yMax], () => machine.surface(xMin, yMin, xMax, yMax));
+    const surface = this.#surface.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
     if (!surface) return;
     const { columns, shades, prob, density } = surface;
     this.#coloured.get([surface, palette], () => this.#pixels.put(colouredPixels(shades, palette), columns));

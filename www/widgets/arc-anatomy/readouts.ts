@@ -8,7 +8,7 @@ import { fixed, formatPowerOfTen } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import { TABLE_LINES } from './settings.ts';
-import { densityText, isTiny, shareText, type Reading } from './words.ts';
+import { densityText, isTiny, shareText, type ViewModel } from './words.ts';
 import type { FormErrors, Motion } from '../../types.d.ts';
 
 /** Scale of the bars: maximum number of standard deviations to either side, and pixels per standard deviation. */
@@ -25,7 +25,7 @@ const FACTOR_SYMBOLS = [
   { symbol: '*γ̂*', error: '*γ̂*', sign: 1, unit: 'rad/s' },
 ];
 
-export function headline({ stats: { share } }: Reading) {
+export function headline({ stats: { share } }: ViewModel) {
   const say = words.anatomy.headline;
   return html`<p class="headline" part="readouts"><strong>${shareText(share)}</strong> ${isTiny(share) ? say.times : say.share}</p>`;
 }
@@ -34,7 +34,7 @@ export function headline({ stats: { share } }: Reading) {
  * Returns the three errors in standard deviations, each with its factor as a share of the peak. The last line of Table 5.1 highlights
  * them.
  */
-export function factorBars({ stats: { factors, weakest, share } }: Reading, line: number) {
+export function factorBars({ stats: { factors, weakest, share } }: ViewModel, line: number) {
   const say = words.anatomy.bars;
   return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${say.label}>
     ${factors.map((factor, i) => {
@@ -63,7 +63,7 @@ function bar(deviations: number) {
   </svg>`;
 }
 
-export function likelihoodReadouts({ stats: { prob, density, xi } }: Reading) {
+export function likelihoodReadouts({ stats: { prob, density, xi } }: ViewModel) {
   const say = words.anatomy.likelihoods;
   const [along, lateral, heading] = xi;
   return readoutList([
@@ -89,17 +89,17 @@ const TABLE_FORMULAS = [
 const LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
 
 /** Returns a line of the table, counted from 1, with its value. */
-export function lineText({ table: { lines }, config: { printed } }: Reading, line: number) {
+export function lineText({ table: { lines }, config: { printed } }: ViewModel, line: number) {
   const value = lines[line - 1];
   const lineFormula = printed ? TABLE_FORMULAS[line - 1].replace('±', '') : TABLE_FORMULAS[line - 1];
   const valueText = line === TABLE_LINES ? densityText(value) : fixed(value, 3);
   return `${line}. ${lineFormula} = ${valueText}${LINE_UNITS[line - 1]}`;
 }
 
-export function tableLines(reading: Reading, lit: number) {
+export function tableLines(viewModel: ViewModel, lit: number) {
   const say = words.anatomy.table;
   return html`<ol class="lines" part="table">
-      ${TABLE_FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${formatMarkup(lineText(reading, i + 1))}</li>`)}
+      ${TABLE_FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${formatMarkup(lineText(viewModel, i + 1))}</li>`)}
     </ol>
     <p class="about">${formatMarkup(say.sign)}</p>`;
 }

@@ -8,8 +8,8 @@ import type { ArcAnatomy, Pose } from '../../types.d.ts';
 
 addEnglish({ anatomy: en });
 
-/** Values of the machine that the picture and the readouts need. */
-export type Reading = ReturnType<ArcAnatomy['read']>;
+/** Values of the simulation that the picture and the readouts need. */
+export type ViewModel = ReturnType<ArcAnatomy['read']>;
 
 /** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
 const MIN_DECIMAL = 0.0005;
@@ -29,7 +29,7 @@ export const densityText = (density: number) => (isTiny(density) ? powerText(den
 const ESTIMATE_SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
 
 /** Returns a sentence about the factor that makes p small. */
-export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: Reading) {
+export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: ViewModel) {
   const say = words.anatomy.verdict;
   const { deviations, share: keptShare, deviation } = factors[weakest];
   const estimateName = `${words.anatomy.bars.names[weakest]} ${ESTIMATE_SYMBOLS[weakest]}`;
@@ -41,14 +41,14 @@ export function captionOf({ config, stats: { factors, weakest, share, driven, in
 
 const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(fixed(x, 2), fixed(y, 2), fixed(theta, 2));
 
-export function pictureText(reading: Reading) {
-  const { config, stats: { inverted, factors } } = reading;
+export function pictureText(viewModel: ViewModel) {
+  const { config, stats: { inverted, factors } } = viewModel;
   const say = words.anatomy.picture;
   const [v, omega, gamma] = factors.map(({ estimate }) => fixed(estimate, 2));
   return [
     say.poses(poseText(config.start), commandText(config.command), poseText(config.next)),
     inverted.center === null ? say.straight : say.arc(fixed(inverted.radius, 2), inverted.radius > 0),
     say.estimates(v, omega, gamma),
-    captionOf(reading),
+    captionOf(viewModel),
   ].join(' ');
 }

@@ -23,12 +23,12 @@ import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint, confidenceRings } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { readingOf, readingOfSettings, type Reading } from './reading.ts';
+import { viewModelOf, viewModelOfSettings, type ViewModel } from './view-model.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
 import { LINE_STYLES, OVERLAYS, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
 import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
-import type { BananaMachine as Machine, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
+import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/settings.ts';
 
 /** Columns of a robot in a table: its end, its exponential coordinates, and the executed command. */
@@ -54,7 +54,7 @@ const CHART_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
  * @csspart figures - Readouts, chart and table.
  * @csspart chart - The chart of the skew.
  */
-export class BananaMachineElement extends FigureElement<Machine, Reading> {
+export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   static styles = styles;
 
   static definition = definition;
@@ -67,73 +67,73 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   pictures = [this.#planePicture, this.#twistPicture];
   #handle = new ArcHandle(this);
 
-  #pinnedReading: Memo<Reading> = new Memo();
+  #pinnedViewModel: Memo<ViewModel> = new Memo();
 
   player: Player<'morph'> = new Player(this, { morph: { to: 1, duration: MORPH_MS } });
 
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => {
-    // The machine starts empty: the cloud grows visibly, and the first frame need not wait for samples.
-    const machine = motion.BananaMachine.empty();
-    if (!state) return machine;
+  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => {
+    // The simulation starts empty: the cloud grows visibly, and the first frame need not wait for samples.
+    const simulation = motion.BananaMachine.empty();
+    if (!state) return simulation;
     const { model, alphas } = state;
     // Each model keeps its own α's.
     const otherModel = model === 'velocity' ? 'odometry' : 'velocity';
-    freeOnError(machine, () => machine.configureFirst({ model: otherModel, alphas: alphas[otherModel] }, 0));
-    return enterCloud(this, machine, { ...state, alphas: alphas[model] });
+    freeOnError(simulation, () => simulation.configureFirst({ model: otherModel, alphas: alphas[otherModel] }, 0));
+    return enterCloud(this, simulation, { ...state, alphas: alphas[model] });
   };
 
-  read = readingOf;
+  read = viewModelOf;
 
   get scene() {
-    const reading = this.currentReading;
+    const viewModel = this.currentViewModel;
     const { motion } = this;
     const pinned = this.#pinned;
     const { overlays, morph } = this.state.elementState;
     const shownOverlays = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
     // Callouts are hidden while a cloud grows or is dragged, because outlines move. During a morph their texts would be wrong.
-    const isMoving = this.cloud.playing || (this.gesture.isPressed && reading !== this.gesture.previousReading);
-    const otherOverlays = OVERLAYS.filter((name) => name !== 'command' && shownOverlays[name] && hasLength(reading.contours[name]));
-    const callouts = isMoving || morph > 0 || otherOverlays.join() !== 'ellipse,exponential' ? [] : calloutsOf(reading);
+    const isMoving = this.cloud.playing || (this.gesture.isPressed && viewModel !== this.gesture.previousViewModel);
+    const otherOverlays = OVERLAYS.filter((name) => name !== 'command' && shownOverlays[name] && hasLength(viewModel.contours[name]));
+    const callouts = isMoving || morph > 0 || otherOverlays.join() !== 'ellipse,exponential' ? [] : calloutsOf(viewModel);
     return {
-      ...reading,
-      machine: this.machine,
+      ...viewModel,
+      simulation: this.simulation,
       overlays: shownOverlays,
       marked: this.#inspection,
       morph,
-      outlinesOf: (otherReading: Reading) => outlinesAt(motion, otherReading, morph),
+      outlinesOf: (otherViewModel: ViewModel) => outlinesAt(motion, otherViewModel, morph),
       callouts,
-      ringsOf: () => confidenceRings(motion, reading),
+      ringsOf: () => confidenceRings(motion, viewModel),
       pinned,
       pinnedAt: (otherMorph: number) =>
         pinned ? Object.entries(outlinesAt(motion, pinned, otherMorph)).flatMap(([name, line]) => (shownOverlays[name] ? [...line] : [])) : [],
       driving: this.cloud.driving,
-      morphedEllipse: morph > 0 ? lineMorphOf(motion, reading, 1)(reading.contours.ellipse) : reading.contours.ellipse,
+      morphedEllipse: morph > 0 ? lineMorphOf(motion, viewModel, 1)(viewModel.contours.ellipse) : viewModel.contours.ellipse,
     };
   }
 
   /** Checks the pinned settings of a state. */
-  restore(_machine: Machine, { pinned }: Values) {
-    this.#readingOfPinned(pinned);
+  restore(_simulation: Simulation, { pinned }: Values) {
+    this.#viewModelOfPinned(pinned);
   }
 
   /** View model of the pinned settings, with which the current cloud is compared. */
   get #pinned() {
-    return this.#readingOfPinned(this.state.elementState.pinned);
+    return this.#viewModelOfPinned(this.state.elementState.pinned);
   }
 
-  #readingOfPinned(pinned: Settings | null): Reading | undefined {
-    return pinned ? this.#pinnedReading.get([pinned], () => readingOfSettings(this.motion, pinned)) : undefined;
+  #viewModelOfPinned(pinned: Settings | null): ViewModel | undefined {
+    return pinned ? this.#pinnedViewModel.get([pinned], () => viewModelOfSettings(this.motion, pinned)) : undefined;
   }
 
   /** Pins the current settings for comparison, or unpins them. The pinned outlines and numbers are those of the complete cloud. */
   #pin() {
-    const { config } = this.currentReading;
+    const { config } = this.currentViewModel;
     this.gesture.choose('pinned', this.state.elementState.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
   }
 
   get exportData() {
-    const { config, shown: count } = this.currentReading;
-    const { poses, twists, executed } = this.machine as Machine;
+    const { config, shown: count } = this.currentViewModel;
+    const { poses, twists, executed } = this.simulation as Simulation;
     return {
       description: this.#description,
       settings: config,
@@ -147,7 +147,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
   announcement = announcementOf;
 
   snapshot() {
-    return { ...super.snapshot(), alphas: this.settings.isStale ? this.machine?.alphasOfModels : this.reading.alphasOfModels };
+    return { ...super.snapshot(), alphas: this.settings.isStale ? this.simulation?.alphasOfModels : this.viewModel.alphasOfModels };
   }
 
   withDerivedFields(currentState: Values, changes: Values) {
@@ -157,7 +157,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   /** Position at which the end of the commanded arc is drawn, in the view's world. */
   get seenEnd() {
-    const { v, omega, dt } = this.currentReading.config.command;
+    const { v, omega, dt } = this.currentViewModel.config.command;
     return morphedPoint([v * dt, 0, omega * dt], this.state.elementState.morph);
   }
 
@@ -173,7 +173,7 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
    * @public
    */
   get twists(): Float64Array | null {
-    return this.queryMachine((machine) => machine.twists);
+    return this.querySimulation((simulation) => simulation.twists);
   }
 
   /**
@@ -183,13 +183,13 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
    * @public
    */
   get executed(): Float64Array | null {
-    return this.queryMachine((machine) => machine.executed);
+    return this.querySimulation((simulation) => simulation.executed);
   }
 
   /** Selected robot, if it is among those shown. */
   get #inspection() {
-    const { machine, reading, cloud: { isMarked, selectedIndex: index } } = this;
-    return isMarked && machine ? this.#inspectedSample.get([reading.stats, index], () => machine.inspect(index)) : undefined;
+    const { simulation, viewModel, cloud: { isMarked, selectedIndex: index } } = this;
+    return isMarked && simulation ? this.#inspectedSample.get([viewModel.stats, index], () => simulation.inspect(index)) : undefined;
   }
 
   /**
@@ -206,66 +206,66 @@ export class BananaMachineElement extends FigureElement<Machine, Reading> {
 
   get #title() {
     const { morph } = this.state.elementState;
-    return morph === 0 ? floorTitle(this.reading) : morph === 1 ? words.banana.morph.arrived : words.banana.morph.title;
+    return morph === 0 ? floorTitle(this.viewModel) : morph === 1 ? words.banana.morph.arrived : words.banana.morph.title;
   }
 
   /** Returns a note for each outline that is on, but has no image under the morph. */
-  #missingOutlineNotes(reading: Reading) {
+  #missingOutlineNotes(viewModel: ViewModel) {
     const { morph, overlays } = this.state.elementState;
-    const missingOutlines = morph === 0 ? [] : Object.entries(outlinesAt(this.motion, reading, morph)).filter(([name, { length }]) => length === 0 && overlays.includes(name));
+    const missingOutlines = morph === 0 ? [] : Object.entries(outlinesAt(this.motion, viewModel, morph)).filter(([name, { length }]) => length === 0 && overlays.includes(name));
     return Object.fromEntries(missingOutlines.map(([name]) => [name, words.banana.notCarried]));
   }
 
   get #description() {
     const { overlays } = this.state.elementState as { overlays: (typeof OVERLAYS)[number][] };
-    const drawnOutlines = overlays.filter((name) => hasLength(this.reading.contours[name]));
-    return planeText(this.reading, drawnOutlines.map((name) => words.banana.overlays[name]), this.state.elementState.morph);
+    const drawnOutlines = overlays.filter((name) => hasLength(this.viewModel.contours[name]));
+    return planeText(this.viewModel, drawnOutlines.map((name) => words.banana.overlays[name]), this.state.elementState.morph);
   }
 
-  content(reading: Reading) {
-    const { config, note } = reading;
+  content(viewModel: ViewModel) {
+    const { config, note } = viewModel;
     const say = words.banana;
     return html`
       <div class="views">
         ${titledPicture(this.#title, html`<div class="stage" part="picture">
           ${pictureCanvas(this, this.#planePicture, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
         </div>`)}
-        ${titledPicture(say.twist, html`<div class="stage">${pictureCanvas(this, this.#twistPicture, twistText(reading))}</div>`, 'twist')}
+        ${titledPicture(say.twist, html`<div class="stage">${pictureCanvas(this, this.#twistPicture, twistText(viewModel))}</div>`, 'twist')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       <div class="morphing">
         ${morphControl(this)}
         ${button(this.#pinned ? say.unpin : say.pin, () => this.#pin(), { title: say.pinTitle, otherLabel: this.#pinned ? say.pin : say.unpin })}
       </div>
-      ${legend(this, LINE_STYLES, this.#missingOutlineNotes(reading))}
-      <p part="caption" class="caption ${note && 'note'}">${captionOf(reading)}</p>
-      ${readouts(reading, this.#pinned)} ${presetButtons(this)}
+      ${legend(this, LINE_STYLES, this.#missingOutlineNotes(viewModel))}
+      <p part="caption" class="caption ${note && 'note'}">${captionOf(viewModel)}</p>
+      ${readouts(viewModel, this.#pinned)} ${presetButtons(this)}
       <div class="controls" part="controls">
         ${commandControls(this)} ${visibleAlphaControls(this)} ${growthControls(this)}
       </div>
       ${disclosures(this, {
         controls: () => html`<div class="controls">${otherAlphaControls(this)} ${modelControls(this)} ${samplesControl(this)}</div>`,
-        numbers: () => html`${markedRobot(this, this.#inspection)} ${this.#figuresHtml(reading)}`,
+        numbers: () => html`${markedRobot(this, this.#inspection)} ${this.#figuresHtml(viewModel)}`,
       })}`)}
     `;
   }
 
-  #figuresHtml(reading: Reading) {
+  #figuresHtml(viewModel: ViewModel) {
     const say = words.banana;
-    return html`${otherReadouts(reading)}<p>${formatMarkup(say.gainIs)}</p>
+    return html`${otherReadouts(viewModel)}<p>${formatMarkup(say.gainIs)}</p>
       <div class="figures" part="figures">
-        <figure>${this.#skewChart(reading)}<figcaption>${formatMarkup(say.chartCaption)}</figcaption></figure>
-        <figure>${workedExample(reading)}</figure>
-        <figure>${twistTable(reading)}<p>${twistCaption(reading)}</p></figure>
+        <figure>${this.#skewChart(viewModel)}<figcaption>${formatMarkup(say.chartCaption)}</figcaption></figure>
+        <figure>${workedExample(viewModel)}</figure>
+        <figure>${twistTable(viewModel)}<p>${twistCaption(viewModel)}</p></figure>
       </div>`;
   }
 
-  #skewChart({ config, stats, exactSkew }: Reading) {
+  #skewChart({ config, stats, exactSkew }: ViewModel) {
     const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
     const say = words.banana;
     const { min, max, step } = sliderSpecs.omega;
     // The curve is cached by the settings on which it depends.
-    const curve = this.#skewCurve.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.machine as Machine).skewCurve(min, max, CURVE_POINTS));
+    const curve = this.#skewCurve.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINTS));
     const maxSkew = curve.reduce((largest, value) => Math.max(largest, Math.abs(value) || 0), 0);
     const chartHeight = CHART_HEIGHTS.find((height) => height >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];

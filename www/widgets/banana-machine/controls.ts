@@ -5,7 +5,7 @@ import { cloudButtons, samplesSlider, settingCheckbox, settingRadios, settingSli
 import { words } from '../../messages/registry.ts';
 import { radioButton, group, toggle } from '../../ui/controls.ts';
 import { formatEditable } from '../../ui/format.ts';
-import { alphaName } from './reading.ts';
+import { alphaName } from './view-model.ts';
 import { COMMAND_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
 import type { BananaMachineElement as Figure } from './banana-machine.ts';
 
@@ -14,7 +14,7 @@ export function commandControls(figure: Figure) {
 }
 
 export function modelControls(figure: Figure) {
-  const { model, alphas, isolate } = figure.reading.config;
+  const { model, alphas, isolate } = figure.viewModel.config;
   const say = words.banana;
   // The choice counts from 1. It may be larger than the number of α's, because it was made under the other model.
   const isolatedAlpha = Math.min(figure.state.elementState.isolateChoice, alphas.length);
@@ -33,7 +33,7 @@ export function modelControls(figure: Figure) {
  */
 const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [1, 2] };
 
-const isVisible = (figure: Figure, index: number) => VISIBLE_ALPHAS[figure.reading.config.model].includes(index);
+const isVisible = (figure: Figure, index: number) => VISIBLE_ALPHAS[figure.viewModel.config.model].includes(index);
 
 export const visibleAlphaControls = (figure: Figure) => alphaGroup(figure, (index) => isVisible(figure, index), 'pair');
 
@@ -45,7 +45,7 @@ export const samplesControl = (figure: Figure) => group(words.samples, samplesSl
 
 /** Returns a group with the sliders of those α's whose indices `isIn` accepts. */
 function alphaGroup(figure: Figure, isIn: (index: number) => boolean, name: string) {
-  const { model, alphas } = figure.reading.config;
+  const { model, alphas } = figure.viewModel.config;
   const { effects } = words.banana.settings.alphas;
   const alphaNames = words.alphas[(model as 'velocity' | 'odometry')];
   const sliderOfAlpha = (index: number) => alphaSlider(figure, `alpha${index + 1}`, index + 1, alphaNames[index], effects[model][index]);
@@ -57,7 +57,7 @@ function alphaGroup(figure: Figure, isIn: (index: number) => boolean, name: stri
  * on the cloud.
  */
 function alphaSlider(figure: Figure, key: string, number: number, name: string, [path, picture]: string[]) {
-  const { isolate } = figure.reading.config;
+  const { isolate } = figure.viewModel.config;
   const off = isolate !== null && isolate !== number;
   const chooseAlpha = () => figure.gesture.decide({ isolate: number, isolateChoice: number });
   return settingSlider(figure, key, {

@@ -17,7 +17,7 @@ export class ArcHandle extends Handle {
       key: (event) => {
         const keySteps = stepsOfKey(event);
         if (!keySteps) return false;
-        const [x, y] = figure.runtime.attempt(() => figure.machine && figure.seenEnd) ?? [0, 0];
+        const [x, y] = figure.runtime.attempt(() => figure.simulation && figure.seenEnd) ?? [0, 0];
         // The straight arc reaches furthest.
         const maxX = sliderSpecs.v.max * figure.settings.requested.command.dt;
         figure.reach(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);

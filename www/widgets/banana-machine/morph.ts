@@ -8,10 +8,10 @@ import { View, type Extent } from '../../scene/view.ts';
 import { percent } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
 import type { Motion } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
+import type { ViewModel } from './view-model.ts';
 
 /** Lines on the floor, or their images under the morph. */
-export type Outlines = Omit<Reading['contours'], 'twistEllipse'>;
+export type Outlines = Omit<ViewModel['contours'], 'twistEllipse'>;
 
 /** Duration of the animated morph, ms. */
 export const MORPH_MS = 5000;
@@ -32,17 +32,17 @@ export function morphedPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<num
 }
 
 /** Returns the function that transforms a line of points on the floor by a morph. */
-export const lineMorphOf = (motion: Motion, { config: { command } }: Reading, morph: number) => (line: Float64Array) =>
+export const lineMorphOf = (motion: Motion, { config: { command } }: ViewModel, morph: number) => (line: Float64Array) =>
   morph === 0 ? line : motion.unbendLine(line, command.omega * command.dt, morph);
 
 /** Returns the outlines after a morph. The outlines on the floor are transformed point by point; the exponential one is computed anew. */
-export function outlinesAt(motion: Motion, reading: Reading, morph: number): Outlines {
-  const { contours, stats } = reading;
+export function outlinesAt(motion: Motion, viewModel: ViewModel, morph: number): Outlines {
+  const { contours, stats } = viewModel;
   if (morph === 0) return contours;
-  const morphLine = lineMorphOf(motion, reading, morph);
+  const morphLine = lineMorphOf(motion, viewModel, morph);
   const { mean, cov } = stats.exponential;
   return {
-    command: commandedArcAt(reading, morph),
+    command: commandedArcAt(viewModel, morph),
     ellipse: morphLine(contours.ellipse),
     linearized: morphLine(contours.linearized),
     additive: morphLine(contours.additive),
@@ -54,13 +54,13 @@ export function outlinesAt(motion: Motion, reading: Reading, morph: number): Out
 const RING_SIZES = [0.5, 1, 1.5];
 
 /** Returns outlines, on the floor, of the Gaussian in exponential coordinates. The largest contains nearly the whole cloud. */
-export function confidenceRings(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: Reading) {
+export function confidenceRings(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: ViewModel) {
   if (contours.exponential.length === 0) return [];
   return RING_SIZES.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((entry) => size ** 2 * entry)]), 0));
 }
 
 /** Returns the commanded arc at a morph. */
-function commandedArcAt({ config: { command: { v, omega, dt } }, contours }: Reading, morph: number) {
+function commandedArcAt({ config: { command: { v, omega, dt } }, contours }: ViewModel, morph: number) {
   const chordCount = contours.command.length / 2 - 1;
   const pointAtChord = (i: number) => morphedPoint([(i / chordCount) * v * dt, 0, (i / chordCount) * omega * dt], morph);
   return Float64Array.from(Array.from({ length: chordCount + 1 }, (_, i) => pointAtChord(i)).flat());

@@ -13,7 +13,7 @@ import { View, extentOf } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { integer } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
-import { deviation, type Reading } from './reading.ts';
+import { deviation, type ViewModel } from './view-model.ts';
 import { LINE_STYLES, type LineName } from './settings.ts';
 import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, strokePath, type Brush } from '../../scene/canvas.ts';
@@ -22,16 +22,16 @@ import { addLine, drawDisc, strokePath, type Brush } from '../../scene/canvas.ts
  * View model of both pictures. Outlines are transformed by the present morph. `morphedEllipse` is the ellipse after a complete morph.
  * Callouts, and the rings that they avoid, have coordinates of the floor.
  */
-export interface Scene extends Reading {
-  machine: BananaMachine;
+export interface Scene extends ViewModel {
+  simulation: BananaMachine;
   overlays: Record<LineName, boolean>;
   marked: Inspection | undefined;
   morph: number;
-  pinned: Reading | undefined;
+  pinned: ViewModel | undefined;
   /** Points of the pinned outlines that are shown, at a morph. */
   pinnedAt: (morph: number) => number[];
   driving: { robots: number, share: number } | undefined;
-  outlinesOf: (reading: Reading) => Outlines;
+  outlinesOf: (viewModel: ViewModel) => Outlines;
   callouts: Callout[];
   ringsOf: () => Float64Array[];
   morphedEllipse: Float64Array;
@@ -65,27 +65,27 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   }
 
   /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
-  nearest(machine: BananaMachine, x: number, y: number) {
-    return machine.nearest(this.morph, ...this.toWorldCircle(x, y, PICK_RADIUS));
+  nearest(simulation: BananaMachine, x: number, y: number) {
+    return simulation.nearest(this.morph, ...this.toWorldCircle(x, y, PICK_RADIUS));
   }
 
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
-  dotPositions({ machine, stats }: Scene): Float64Array {
+  dotPositions({ simulation, stats }: Scene): Float64Array {
     const { morph } = this;
-    return this.#dotPositions.get([stats, morph], () => (morph === 0 ? machine.firstPoses(MAX_DOTS) : morphedTriples(machine.firstTwists(MAX_DOTS), morph)));
+    return this.#dotPositions.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOTS) : morphedTriples(simulation.firstTwists(MAX_DOTS), morph)));
   }
 
   /** Draws the robots. `area` is the area that they cover, in square pixels. */
   paintCloud(brush: Brush, scene: Scene, area: number) {
     const { morph } = this;
     const { palette } = brush;
-    const { machine, shown, stats } = scene;
+    const { simulation, shown, stats } = scene;
     if (shown <= MAX_DOTS) {
       // Ticks for headings shrink during the morph: exponential coordinates show the turn as an axis.
       drawDots(brush, this.dotPositions(scene), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
       return;
     }
-    this.#density.draw(brush, cellSize(area, shown), [stats, morph, palette], (...part) => machine.picture(morph, ...part, densityRamp(palette)));
+    this.#density.draw(brush, cellSize(area, shown), [stats, morph, palette], (...part) => simulation.picture(morph, ...part, densityRamp(palette)));
   }
 }
 
@@ -145,7 +145,7 @@ export class PlanePicture extends CloudPicture {
 
   paint: Picture<Scene>['paint'] = (brush, scene) => {
     const { context, view, palette } = brush;
-    const { machine, overlays, table, marked, end, morph } = scene;
+    const { simulation, overlays, table, marked, end, morph } = scene;
     const outlines = scene.outlinesOf(scene);
     const styles = lineStyles(brush, LINE_STYLES);
     const isDrawn = (name: OutlineName) => overlays[name] && hasLength(outlines[name]);
@@ -164,13 +164,13 @@ export class PlanePicture extends CloudPicture {
     context.globalAlpha = 1;
     const cloudMiddle = morphedMiddle(scene, morph);
     const outlinesInStyle = (outlinePoints: Outlines) => PAINT_ORDER.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...styles[name] }));
-    const earlierReading = earlierReadingOf(brush, scene);
-    const earlierOutlines = earlierReading ? outlinesInStyle(scene.outlinesOf(earlierReading)) : [];
+    const earlierViewModel = earlierViewModelOf(brush, scene);
+    const earlierOutlines = earlierViewModel ? outlinesInStyle(scene.outlinesOf(earlierViewModel)) : [];
     const callouts = [...scene.callouts];
     clipToPlot(brush, () => {
       if (morph > 0 && morph < 1) drawMorphGrid(brush, twist, morph);
       if (scene.driving) {
-        drawDrivingRobots(brush, machine, scene.driving);
+        drawDrivingRobots(brush, simulation, scene.driving);
         return;
       }
       const { cov } = table.exact;
@@ -200,15 +200,15 @@ export class PlanePicture extends CloudPicture {
   };
 }
 
-/** Returns the reading of the machine whose outlines stay in the picture: the pinned one, or the one before the latest change. */
-const earlierReadingOf = ({ previousReading }: Brush, { pinned }: Scene): Reading | undefined => pinned ?? previousReading;
+/** Returns the view model of the simulation whose outlines stay in the picture: the pinned one, or the one before the latest change. */
+const earlierViewModelOf = ({ previousViewModel }: Brush, { pinned }: Scene): ViewModel | undefined => pinned ?? previousViewModel;
 
 const earlierName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
 
-function drawDrivingRobots(brush: Brush, machine: BananaMachine, { robots, share }: { robots: number, share: number }) {
+function drawDrivingRobots(brush: Brush, simulation: BananaMachine, { robots, share }: { robots: number, share: number }) {
   const { palette } = brush;
   for (let i = 0; i < robots; i++) {
-    const { path, pose } = machine.inspect(i);
+    const { path, pose } = simulation.inspect(i);
     // The first robot has arrived when the others start.
     const chordCount = path.length / 2 - 1;
     const position = (i === 0 && robots > 1 ? 1 : share) * chordCount;
@@ -285,7 +285,7 @@ function pointsOfTwists(scene: Scene) {
   const { v, omega, dt } = scene.config.command;
   const points = [v * dt, omega * dt];
   if (!scene.chartHolds && scene.shown > 0) {
-    const twists = scene.machine.firstTwists(MAX_DOTS);
+    const twists = scene.simulation.firstTwists(MAX_DOTS);
     const [along, heading] = [0, 2].map((coordinate) => twists.filter((_, i) => i % 3 === coordinate));
     for (const share of VIEW_QUANTILES) points.push(quantile(along, share)!, quantile(heading, share)!);
   }
@@ -318,13 +318,13 @@ export class TwistPicture extends CloudPicture {
     const showsOutline = overlays.exponential && hasLength(contours.twistEllipse);
     drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, lineKeys(brush, LINE_STYLES, showsOutline ? ['exponential'] : [], words.banana.overlays));
     const twistMiddle = morphedMiddle(scene, 1);
-    const earlierReading = earlierReadingOf(brush, scene);
+    const earlierViewModel = earlierViewModelOf(brush, scene);
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       if (scene.driving) return;
       this.paintCloud(brush, scene, 4 * Math.PI * deviationProduct(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
-        if (earlierReading) callouts.push(...drawEarlier(brush, [{ points: earlierReading.contours.twistEllipse, ...exponential }], [twistMiddle], earlierName(scene)));
+        if (earlierViewModel) callouts.push(...drawEarlier(brush, [{ points: earlierViewModel.contours.twistEllipse, ...exponential }], [twistMiddle], earlierName(scene)));
         drawOutline(brush, contours.twistEllipse, exponential);
       }
       if (overlays.command) {
@@ -333,6 +333,6 @@ export class TwistPicture extends CloudPicture {
       }
       if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });
-    drawCallouts(brush, callouts, { from: twistMiddle, lines: [contours.twistEllipse, Float64Array.of(...twistMiddle), ...(earlierReading ? [earlierReading.contours.twistEllipse] : [])] });
+    drawCallouts(brush, callouts, { from: twistMiddle, lines: [contours.twistEllipse, Float64Array.of(...twistMiddle), ...(earlierViewModel ? [earlierViewModel.contours.twistEllipse] : [])] });
   };
 }

@@ -7,7 +7,7 @@ import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, integer, fixed, percent, formatSignificant, formatWithError } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import type { Inspection, Moments, Table } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
+import type { ViewModel } from './view-model.ts';
 
 /** Fraction of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
 const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
@@ -16,10 +16,10 @@ const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
  * Returns the three main numbers: the area ratio of the ellipse, the gain of exponential coordinates, and the skew of the cloud. The
  * numbers of a pinned cloud are next to them.
  */
-export function readouts(reading: Reading, pinned?: Reading) {
+export function readouts(viewModel: ViewModel, pinned?: ViewModel) {
   const say = words.banana.readouts;
-  const { stats: { coverage, areaRatioError }, exactSkew, gain } = reading;
-  const printedValues = printedStatistics(reading);
+  const { stats: { coverage, areaRatioError }, exactSkew, gain } = viewModel;
+  const printedValues = printedStatistics(viewModel);
   const pinnedValues = pinned && printedStatistics(pinned).map((value) => `${words.banana.pinned}: ${value}`);
   const coverages = [coverage.ellipse, coverage.exponential];
   return readoutList([
@@ -31,7 +31,7 @@ export function readouts(reading: Reading, pinned?: Reading) {
 }
 
 /** Returns the area ratio, the gain and the skew as they are printed. */
-function printedStatistics({ stats, gain }: Reading) {
+function printedStatistics({ stats, gain }: ViewModel) {
   return [
     Number.isNaN(stats.areaRatio) ? NO_VALUE : `${fixed(stats.areaRatio, 2)} ×`,
     formatWithError(gain.value, gain.error, 3),
@@ -40,7 +40,7 @@ function printedStatistics({ stats, gain }: Reading) {
 }
 
 /** Returns the exact gain, or the reason why it has no limit. */
-function gainText({ unbounded, value, exact, wraps }: Reading['gain']) {
+function gainText({ unbounded, value, exact, wraps }: ViewModel['gain']) {
   const { withoutLimit, onLine, exactly, unwrapped, nat } = words.banana.readouts;
   if (Number.isNaN(value)) return NO_VALUE;
   if (value === Infinity) return onLine;
@@ -49,7 +49,7 @@ function gainText({ unbounded, value, exact, wraps }: Reading['gain']) {
   return wraps ? unwrapped(fixed(exact, 3)) : `${exactly(fixed(exact, 3))}; ${nat}`;
 }
 
-export function otherReadouts({ config, stats, table }: Reading) {
+export function otherReadouts({ config, stats, table }: ViewModel) {
   const say = words.banana.readouts;
   const { nOfAll } = words.banana;
   return readoutList([
@@ -64,11 +64,11 @@ export function otherReadouts({ config, stats, table }: Reading) {
 /** Returns the field with the number of the marked robot, and the motion of that robot. */
 export function markedRobot(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
   const { robot, markHint } = words.banana;
-  const { shown } = figure.reading;
+  const { shown } = figure.viewModel;
   const quantityHtml = (symbol: string, value: number, unit: string) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
   const selectedHtml = inspection && (inspection.legs
-    ? legNoise(inspection.legs, figure.reading.reading as import('../../types.d.ts').OdomDelta)
+    ? legNoise(inspection.legs, figure.viewModel.reading as import('../../types.d.ts').OdomDelta)
     : [
         quantityHtml('v̂', inspection.vHat, 'm/s'),
         quantityHtml('ω̂', inspection.omegaHat, 'rad/s'),
@@ -91,7 +91,7 @@ const MEASURED_DIGITS = 3;
 
 const covarianceName = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 
-export function workedExample({ table: { linearized, exact, measured }, stats }: Reading) {
+export function workedExample({ table: { linearized, exact, measured }, stats }: ViewModel) {
   const computedColumns = [linearized, exact];
   const [skew, ...error] = formatWithError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
   // Two lines, also without an error, so that the row keeps its height.
@@ -121,7 +121,7 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
   });
 }
 
-export function twistTable({ table: { tangent }, stats: { exponential } }: Reading) {
+export function twistTable({ table: { tangent }, stats: { exponential } }: ViewModel) {
   const say = words.banana.table;
   const twistRows = say.axes.flatMap((axis, i) => [
     [say.mean(axis), ({ mean }) => mean[i]],

@@ -81,7 +81,7 @@ export const styles = css`
   }
 
   /* The three main readouts, in columns of equal width where there is room. */
-  .surface .machine > .readouts {
+  .surface .simulation > .readouts {
     display: grid;
     gap: 0.4em 1.25em;
   }
@@ -92,7 +92,7 @@ export const styles = css`
       column-gap: 1em;
     }
 
-    .surface .machine > .readouts {
+    .surface .simulation > .readouts {
       grid-template-columns: repeat(3, 1fr);
     }
   }

@@ -4,12 +4,12 @@ import { addEnglish, words } from '../../messages/registry.ts';
 import { integer, fixed, percent, formatWithError } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { deviation, spreadKind, type Reading } from './reading.ts';
+import { deviation, spreadKind, type ViewModel } from './view-model.ts';
 import type { Callout } from '../../scene/callout.ts';
 
 addEnglish({ banana: en });
 
-export function announcementOf({ config, stats, note }: Reading) {
+export function announcementOf({ config, stats, note }: ViewModel) {
   const { announcement, skew, noSkew } = words.banana;
   const outcomeText = Number.isNaN(stats.crossTrackSkew)
     ? noSkew
@@ -18,8 +18,8 @@ export function announcementOf({ config, stats, note }: Reading) {
 }
 
 /** Returns the text equivalent of the view of the floor, with the names of the outlines that are shown. */
-export function planeText(reading: Reading, overlays: string[], morph: number) {
-  const { config, stats, table, note } = reading;
+export function planeText(viewModel: ViewModel, overlays: string[], morph: number) {
+  const { config, stats, table, note } = viewModel;
   const { plane, between, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
   const commandPhrase = commandText(config.command);
   const planeSentences = [morph === 0 ? plane(commandPhrase) : between(percent(morph), commandPhrase)];
@@ -28,7 +28,7 @@ export function planeText(reading: Reading, overlays: string[], morph: number) {
     const { mean: centre, cov } = stats.cartesian;
     planeSentences.push((spreadKind(table) === 'cloud' ? mean : onePlace)(integer(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
     if (note) planeSentences.push(note);
-    else planeSentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(reading));
+    else planeSentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(viewModel));
   }
   if (overlays.length) planeSentences.push(drawnOver(overlays.join(', ')));
   return planeSentences.filter(Boolean).join(' ');
@@ -54,7 +54,7 @@ const VISIBLE_AREA_RATIO = 1.1;
 const VISIBLE_GAINS = { floor: 0.05, pose: 0.1 };
 
 /** Returns the title of the view of the floor: how the ellipse fits, by exact values, or by the samples where there are no exact values. */
-export function floorTitle({ stats, table: { exact } }: Pick<Reading, 'stats' | 'table'>) {
+export function floorTitle({ stats, table: { exact } }: Pick<ViewModel, 'stats' | 'table'>) {
   const { floor, ellipseIs } = words.banana;
   if (stats.n < 2 || Number.isNaN(stats.areaRatio)) return floor;
   const { areaRatio, likelihoodGain: { floor: onFloor, pose } } = Number.isNaN(exact.areaRatio) ? stats : exact;
@@ -65,11 +65,11 @@ export function floorTitle({ stats, table: { exact } }: Pick<Reading, 'stats' | 
 }
 
 /** Returns the callouts of the floor, at points that only the ellipse covers. */
-export const calloutsOf = ({ gaps }: Reading): Callout[] =>
+export const calloutsOf = ({ gaps }: ViewModel): Callout[] =>
   words.banana.callouts.slice(0, gaps.length / 2).map((text, i) => ({ text, at: [gaps[2 * i], gaps[2 * i + 1]] }));
 
 /** Returns a sentence on the bend of the cloud. The exact skew determines its side, and the skew of the samples its significance. */
-function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio }, exactSkew, bowTie, table, gain }: Pick<Reading, 'stats' | 'exactSkew' | 'bowTie' | 'table' | 'gain'>) {
+function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio }, exactSkew, bowTie, table, gain }: Pick<ViewModel, 'stats' | 'exactSkew' | 'bowTie' | 'table' | 'gain'>) {
   if (Number.isNaN(skew)) return '';
   const say = words.banana.bend;
   // A line break must not separate a number from its error.
@@ -88,9 +88,9 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   return exactSkew < 0 ? say.right(measuredSkew) : say.left(measuredSkew);
 }
 
-export function captionOf(reading: Reading) {
-  const { note, stats } = reading;
-  return note || (stats.n === 0 ? words.banana.noRobots : bendText(reading) || words.banana.fewRobots);
+export function captionOf(viewModel: ViewModel) {
+  const { note, stats } = viewModel;
+  return note || (stats.n === 0 ? words.banana.noRobots : bendText(viewModel) || words.banana.fewRobots);
 }
 
 export function skewText(skew: number) {
@@ -98,7 +98,7 @@ export function skewText(skew: number) {
 }
 
 /** Returns the caption of the view in exponential coordinates: how Gaussian they make the cloud, or another note about it. */
-export function twistCaption({ config: { model, noise, alphas, isolate }, note }: Reading) {
+export function twistCaption({ config: { model, noise, alphas, isolate }, note }: ViewModel) {
   const { twist, twistIs } = words.banana;
   if (note) return `${twist}.`;
   const hasFinalTurn = alphas.some((alpha, i) => i >= 4 && alpha > 0 && (isolate === null || isolate === i + 1));
@@ -106,7 +106,7 @@ export function twistCaption({ config: { model, noise, alphas, isolate }, note }
   return `${twist}: ${twistIs[captionKind]}`;
 }
 
-export function twistText({ stats: { n, exponential, coverage } }: Reading) {
+export function twistText({ stats: { n, exponential, coverage } }: ViewModel) {
   const { mean, cov } = exponential;
   const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;
   const textStart = `${twist}, ${twistAxes}.`;

@@ -11,13 +11,13 @@ import { Memo } from '../../scene/memo.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { moreControls, pathControls } from './controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
-import { COMPONENTS, readingOf, type Reading } from './reading.ts';
+import { COMPONENTS, viewModelOf, type ViewModel } from './view-model.ts';
 import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './readouts.ts';
 import { OUTLINE_STYLES, RECURSIONS, definition } from './settings.ts';
 import { styles } from './styles.ts';
 import { announcementOf, captionOf, planeText, stepText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
-import type { DeadReckoning as Machine } from '../../types.d.ts';
+import type { DeadReckoning as Simulation } from '../../types.d.ts';
 
 /** Units of the components' variances. */
 const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
@@ -32,7 +32,7 @@ const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${
  * @attr overlays - Curves and outlines that are drawn; in the attribute with spaces between.
  * @csspart chart - The plot of predicted over measured variance.
  */
-export class DeadReckoningElement extends FigureElement<Machine, Reading> {
+export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   static styles = styles;
 
   static definition = definition;
@@ -43,10 +43,10 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
   pictures = [this.#floor, this.#step];
 
   #rollout: Memo<Float64Array> = new Memo();
-  #straightGrowth: Memo<Machine['straightGrowth']> = new Memo();
+  #straightGrowth: Memo<Simulation['straightGrowth']> = new Memo();
 
-  // The machine starts without robots: the user sees them appear, and the first frame does not wait for them.
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.DeadReckoning.empty(), state);
+  // The simulation starts without robots: the user sees them appear, and the first frame does not wait for them.
+  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => enterCloud(this, motion.DeadReckoning.empty(), state);
 
   withDerivedFields(currentState: Values, changes: Values) {
     // If the path gets shorter than the selected step, its last step is selected.
@@ -54,18 +54,18 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     return { step: Math.min(currentState.step, steps), ...super.withDerivedFields(currentState, changes) };
   }
 
-  read = readingOf;
+  read = viewModelOf;
 
   get scene() {
-    return { ...this.currentReading, marked: this.#markedPoses, overlays: this.state.elementState.overlays };
+    return { ...this.currentViewModel, marked: this.#markedPoses, overlays: this.state.elementState.overlays };
   }
 
   get exportData() {
-    const { config } = this.currentReading;
-    const { measured, relativeErrors, predicted } = this.machine as Machine;
+    const { config } = this.currentViewModel;
+    const { measured, relativeErrors, predicted } = this.simulation as Simulation;
     const triple = (triples: Float64Array, i: number) => triples.subarray(3 * i, 3 * i + 3);
     return {
-      description: planeText(this.reading),
+      description: planeText(this.viewModel),
       settings: config,
       columns: [
         'step',
@@ -78,34 +78,34 @@ export class DeadReckoningElement extends FigureElement<Machine, Reading> {
     };
   }
 
-  announcement = (reading: Reading) => announcementOf(reading, this.state.elementState.overlays);
+  announcement = (viewModel: ViewModel) => announcementOf(viewModel, this.state.elementState.overlays);
 
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {
-    const { machine, reading, cloud: { isMarked, selectedIndex: index } } = this;
-    return isMarked && machine ? this.#rollout.get([reading.stats, index], () => machine.rollout(index)) : undefined;
+    const { simulation, viewModel, cloud: { isMarked, selectedIndex: index } } = this;
+    return isMarked && simulation ? this.#rollout.get([viewModel.stats, index], () => simulation.rollout(index)) : undefined;
   }
 
-  content(reading: Reading) {
-    const { condition, config: { step } } = reading;
+  content(viewModel: ViewModel) {
+    const { condition, config: { step } } = viewModel;
     const { overlays } = this.state.elementState;
     const say = words.reckoning;
     return html`
       <div class="views">
-        ${titledPicture(say.chart, html`<div class="chart">${ratioPlot(this, reading)}</div>`, 'ratios')}
+        ${titledPicture(say.chart, html`<div class="chart">${ratioPlot(this, viewModel)}</div>`, 'ratios')}
         <div class="summary">
-          ${headline(reading, overlays)}
-          <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(reading, overlays)}</p>
+          ${headline(viewModel, overlays)}
+          <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(viewModel, overlays)}</p>
           ${settingRadios(this, 'compounding', say.recursions)}
         </div>
-        ${titledPicture(say.floor, html`<div class="stage" part="picture">${pictureCanvas(this, this.#floor, planeText(reading))}</div>`, 'floor')}
-        ${titledPicture(say.atStepTitle(step), html`<div class="stage">${pictureCanvas(this, this.#step, stepText(reading))}</div>`, 'step')}
+        ${titledPicture(say.floor, html`<div class="stage" part="picture">${pictureCanvas(this, this.#floor, planeText(viewModel))}</div>`, 'floor')}
+        ${titledPicture(say.atStepTitle(step), html`<div class="stage">${pictureCanvas(this, this.#step, stepText(viewModel))}</div>`, 'step')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, OUTLINE_STYLES)} ${presetButtons(this)} ${pathControls(this)}
       ${disclosures(this, {
         controls: () => moreControls(this),
-        numbers: () => html`${missTable(reading, overlays)} ${markedRobot(this, this.#markedPoses)} ${straightPlot(this.#straightGrowth.get([reading.stats], () => (this.machine as Machine).straightGrowth))}`,
+        numbers: () => html`${missTable(viewModel, overlays)} ${markedRobot(this, this.#markedPoses)} ${straightPlot(this.#straightGrowth.get([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
       })}`)}
     `;
   }

@@ -11,7 +11,7 @@ import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, type Brush } from '../../scene/canvas.ts';
 
 /** View model of both pictures, with the poses of the selected robot after each step. */
-export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
+export type Scene = import('./view-model.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Number of standard deviations of a cloud that a view shows. */
 const SHOWN_DEVIATIONS = 3.2;
@@ -49,7 +49,7 @@ export class PathPicture extends SamplesPicture<Scene> {
         ...shownOf(['command']).map((name) => ({ points: commanded, ...styles[name] })),
         ...shownNames.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
       ]);
-      if (brush.previousReading) callouts.push(...drawEarlier(brush, linesOf(brush.previousReading.outlines), [pose, [0, 0]], words.before));
+      if (brush.previousViewModel) callouts.push(...drawEarlier(brush, linesOf(brush.previousViewModel.outlines), [pose, [0, 0]], words.before));
       drawOutlines(brush, linesOf(outlines));
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       drawEndMark(brush, pose);
@@ -106,7 +106,7 @@ export class StepPicture extends Picture<Scene> {
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
-      if (brush.previousReading && overlays.includes('exponential')) callouts.push(...drawEarlier(brush, [{ points: brush.previousReading.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
+      if (brush.previousViewModel && overlays.includes('exponential')) callouts.push(...drawEarlier(brush, [{ points: brush.previousViewModel.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
       drawOutlines(brush, shownNames.map((name) => ({ points: points[name], ...styles[name] })));
     });
     drawCallouts(brush, callouts, { from: [0, 0], lines: [predicted, measured] });

@@ -8,7 +8,7 @@ import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, fixed, integer, formatSignificant } from '../../ui/format.ts';
 import { plot, type Role } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { COMPONENTS, type Reading } from './reading.ts';
+import { COMPONENTS, type ViewModel } from './view-model.ts';
 import { CURVE_STYLES, RECURSIONS } from './settings.ts';
 import { shownComponentsOf, finalErrorText, ratioText, worstComponentAt } from './words.ts';
 import type { Misses } from '../../types.d.ts';
@@ -20,8 +20,8 @@ const CHART_HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
 const RATIO_TOLERANCE = 0.05;
 
 /** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */
-export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, reading: Reading) {
-  const { config: { step, steps }, curves } = reading;
+export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, viewModel: ViewModel) {
+  const { config: { step, steps }, curves } = viewModel;
   const { overlays } = figure.state.elementState;
   const say = words.reckoning;
   const x = Array.from({ length: steps }, (_, i) => i + 1);
@@ -29,7 +29,7 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
   const shownCurves = COMPONENTS.map((name, axis) => ({ ...curveStyle(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
   const toleranceBand = { name: say.overlays.tolerance, ...curveStyle('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], area: true };
   return plot({
-    label: ratioText(reading, overlays),
+    label: ratioText(viewModel, overlays),
     x: { name: say.stepAxis, from: 0, to: steps },
     y: { name: say.ratioAxis, from: 0, to: CHART_HEIGHTS.find((height) => height >= highestRatio) ?? highestRatio },
     curves: [
@@ -59,10 +59,10 @@ function curveStyle(name: keyof typeof CURVE_STYLES, highlight: string | null) {
 }
 
 /** Returns the headline of the figure: the ratio at the selected step that is furthest from 1. */
-export function headline(reading: Reading, overlays: string[]) {
+export function headline(viewModel: ViewModel, overlays: string[]) {
   const say = words.reckoning;
-  const { ratio, error, component } = worstComponentAt(reading, overlays);
-  const headlineDetail = say.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), reading.config.step, integer(reading.shown));
+  const { ratio, error, component } = worstComponentAt(viewModel, overlays);
+  const headlineDetail = say.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), viewModel.config.step, integer(viewModel.shown));
   return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), headlineDetail]], 0);
 }
 
@@ -100,7 +100,7 @@ function missText({ decidable, first, last, end }: Misses) {
 }
 
 /** Returns the table of the steps at which each recursion misses the measured variance, by component. */
-export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
+export function missTable({ stats: { misses } }: ViewModel, overlays: string[]) {
   const say = words.reckoning;
   return figureTable({
     caption: say.misses.caption,
@@ -115,7 +115,7 @@ export function missTable({ stats: { misses } }: Reading, overlays: string[]) {
 /** Returns the field with the number of the marked robot, and the position of that robot at the step. */
 export function markedRobot(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
   const { robot, markHint, markedAt } = words.reckoning;
-  const { config: { step }, shown } = figure.reading;
+  const { config: { step }, shown } = figure.viewModel;
   const poseAtStep = marked?.subarray(3 * (step - 1), 3 * step);
   const selectedText = poseAtStep && [markedAt(fixed(poseAtStep[0], 3), fixed(poseAtStep[1], 3), fixed(poseAtStep[2], 3))];
   return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected: selectedText });

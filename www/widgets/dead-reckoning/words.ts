@@ -4,7 +4,7 @@ import { addEnglish, words } from '../../messages/registry.ts';
 import { NO_VALUE, integer, fixed, formatWithError } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { COMPONENTS, type Reading } from './reading.ts';
+import { COMPONENTS, type ViewModel } from './view-model.ts';
 
 addEnglish({ reckoning: en });
 
@@ -21,7 +21,7 @@ function signedPercent(share: number, printed: string = fixed(100 * share, 1)) {
 export const finalErrorText = ({ end, error }: { end: number, error: number }) => signedPercent(end, formatWithError(100 * end, 100 * error, 1));
 
 /** Returns a caption that says how well the recursion predicts the components that are shown. */
-export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: Reading, overlays: string[]) {
+export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: ViewModel, overlays: string[]) {
   const say = words.reckoning;
   if (condition !== 'certain') return say.conditions[condition];
   const recursionMisses = misses[compounding];
@@ -49,19 +49,19 @@ export function shownComponentsOf(overlays: string[]): readonly (typeof COMPONEN
 }
 
 /** Returns the component whose ratio at the selected step is furthest from 1, of those shown. */
-export function worstComponentAt({ config: { step }, curves }: Reading, overlays: string[]) {
+export function worstComponentAt({ config: { step }, curves }: ViewModel, overlays: string[]) {
   const ratios = curves.map(({ ratio }) => ratio[step - 1]);
   const shown = shownComponentsOf(overlays);
   const worstIndex = indexOfGreatest(ratios.map((ratio, axis) => (shown.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
   return { component: COMPONENTS[worstIndex], ratio: ratios[worstIndex], error: curves[worstIndex].error[step - 1] };
 }
 
-export function announcementOf(reading: Reading, overlays: string[]) {
-  const { config, shown } = reading;
-  return words.reckoning.announcement(integer(shown), commandText(config.command), String(config.steps), captionOf(reading, overlays));
+export function announcementOf(viewModel: ViewModel, overlays: string[]) {
+  const { config, shown } = viewModel;
+  return words.reckoning.announcement(integer(shown), commandText(config.command), String(config.steps), captionOf(viewModel, overlays));
 }
 
-export function ratioText({ config: { step, compounding }, curves }: Reading, overlays: string[]) {
+export function ratioText({ config: { step, compounding }, curves }: ViewModel, overlays: string[]) {
   const say = words.reckoning;
   const ratioTexts = shownComponentsOf(overlays).map((name) => {
     const { ratio, error } = curves[COMPONENTS.indexOf(name)];
@@ -70,13 +70,13 @@ export function ratioText({ config: { step, compounding }, curves }: Reading, ov
   return say.ratioText(say.recursions[compounding], String(step), ratioTexts.join(', '));
 }
 
-export function planeText({ config, shown, pose }: Reading) {
+export function planeText({ config, shown, pose }: ViewModel) {
   const { command, steps, step, compounding } = config;
   const say = words.reckoning;
   return say.plane(commandText(command), String(steps), integer(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), say.recursions[compounding]);
 }
 
-export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: Reading) {
+export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: ViewModel) {
   const say = words.reckoning;
   const planeDeviations = (cov: number[][] | null) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
   return say.stepText(String(step), planeDeviations(measured.cov), planeDeviations(predicted[compounding]));

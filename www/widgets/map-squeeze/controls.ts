@@ -31,7 +31,7 @@ export function startControls(figure: Figure) {
 }
 
 export function samplerControls(figure: Figure) {
-  const { conditioned, sampler, samples, steps } = figure.reading.config;
+  const { conditioned, sampler, samples, steps } = figure.viewModel.config;
   const { settings, samplers, samplerEffects } = words.squeeze;
   // With sub-steps each sample takes several draws.
   const maxSampleCountOf = (name: string) => (name === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);

@@ -23,12 +23,12 @@ const MIN_RUN_MS = 12;
 const RUNS_PER_COST = 5;
 
 /** Measures one run at a time, so that the page can handle events between two runs. Returns the cost, or the reason why there is none. */
-function* measureCost(machine: MapSqueeze, sampler: SamplerName, parts: number): Generator<undefined, SampleCost | 'wedged' | 'few'> {
+function* measureCost(simulation: MapSqueeze, sampler: SamplerName, parts: number): Generator<undefined, SampleCost | 'wedged' | 'few'> {
   const maxCount = Math.floor(limits.trial / parts);
   let sampleCount = 1;
   const timeRun = () => {
     const startTime = performance.now();
-    const { draws, wallTests } = machine.trial(sampler, parts, sampleCount);
+    const { draws, wallTests } = simulation.trial(sampler, parts, sampleCount);
     return { draws, wallTests, elapsed: performance.now() - startTime };
   };
   try {
@@ -85,19 +85,19 @@ export class CostMeter extends FigureController {
 
   #measureSoon(steps: number) {
     const { host } = this;
-    const { machine } = host;
-    if (!machine) return;
-    const measurement = this.#measure(machine, steps);
+    const { simulation } = host;
+    if (!simulation) return;
+    const measurement = this.#measure(simulation, steps);
     const runStep = () => host.runtime.attempt(() => {
-      // The element, with its machine, may have been removed.
-      if (host.machine === machine && !measurement.next().done) this.#timer = setTimeout(runStep);
+      // The element, with its simulation, may have been removed.
+      if (host.simulation === simulation && !measurement.next().done) this.#timer = setTimeout(runStep);
     });
     this.#timer = setTimeout(runStep, IDLE_MS);
   }
 
-  *#measure(machine: MapSqueeze, steps: number) {
+  *#measure(simulation: MapSqueeze, steps: number) {
     for (const sampler of SAMPLERS) {
-      this.costs[sampler] = yield* measureCost(machine, sampler, sampler === 'sub-stepped' ? steps : 1);
+      this.costs[sampler] = yield* measureCost(simulation, sampler, sampler === 'sub-stepped' ? steps : 1);
       this.current = sampler === SAMPLERS.at(-1);
       this.host.requestUpdate();
       yield;

@@ -17,7 +17,7 @@ import { applyMap, cellsOf, mapData } from './maps/data.ts';
 import { MapOpener } from './maps/open.ts';
 import { overviewMap, costTable, markedSample, tallyReadouts } from './readouts.ts';
 import { FloorPicture } from './picture.ts';
-import { outcomeIndex, readingOf, type Reading } from './reading.ts';
+import { outcomeIndex, viewModelOf, type ViewModel } from './view-model.ts';
 import { LINE_STYLES, OPENING_START, PRESET_SETTING, definition } from './settings.ts';
 import { styles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
@@ -25,7 +25,7 @@ import { wallContact } from './walls.ts';
 import { captionOf, headlineOf, mapText, pictureText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
-import type { MapData, MapSqueeze as Machine, Pose } from '../../types.d.ts';
+import type { MapData, MapSqueeze as Simulation, Pose } from '../../types.d.ts';
 import type { OwnMap } from './maps/files.ts';
 
 /**
@@ -35,12 +35,12 @@ import type { OwnMap } from './maps/files.ts';
  * @attr view - The whole map, or what is near the robot.
  * @attr overlays - The marks and lines that are drawn; in the attribute with spaces between.
  */
-export class MapSqueezeElement extends FigureElement<Machine, Reading> {
+export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   static styles = styles;
 
   static definition = definition;
 
-  cloud = new Cloud(this, (machine: Machine) => machine.stats.gaveUp);
+  cloud = new Cloud(this, (simulation: Simulation) => simulation.stats.gaveUp);
 
   picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
   #meter = new CostMeter(this);
@@ -52,63 +52,63 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   #pictureUnknown = '';
   /** Path of the selected sample. */
   #path: Memo<Float64Array> = new Memo();
-  /** Cached copy of the grid of a machine's map, because copying takes long. */
-  #grid: { of: Machine, grid: Cells | null } | undefined;
+  /** Cached copy of the grid of a simulation's map, because copying takes long. */
+  #grid: { of: Simulation, grid: Cells | null } | undefined;
   /** Map of the user that was left last, with the start pose in it. A button returns to this map. */
   left: { map: MapData, start: Pose } | null = null;
   /** Free pose to which the robot was last moved. */
   #freePose: Pose | undefined;
 
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, motion.MapSqueeze.empty(), state);
+  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => enterCloud(this, motion.MapSqueeze.empty(), state);
 
-  restore(machine: Machine, state: Values) {
+  restore(simulation: Simulation, state: Values) {
     const { map } = state;
     if (!map) return;
-    applyMap(machine, map);
-    machine.configureFirst({}, state.shown);
-    state.map = mapData(machine, map.name ?? '', this.#gridOf(machine));
+    applyMap(simulation, map);
+    simulation.configureFirst({}, state.shown);
+    state.map = mapData(simulation, map.name ?? '', this.#gridOf(simulation));
   }
 
-  #gridOf(machine: Machine) {
-    if (this.#grid?.of !== machine) this.#grid = { of: machine, grid: cellsOf(machine) };
+  #gridOf(simulation: Simulation) {
+    if (this.#grid?.of !== simulation) this.#grid = { of: simulation, grid: cellsOf(simulation) };
     return this.#grid.grid;
   }
 
-  machineChanged() {
-    const { machine } = this;
-    if (!machine) return;
-    const grid = this.#gridOf(machine);
+  simulationChanged() {
+    const { simulation } = this;
+    if (!simulation) return;
+    const grid = this.#gridOf(simulation);
     this.#opener.refusal = undefined;
     this.#meter.outdate();
     this.#pictureUnknown = this.settings.current.unknown;
-    this.picture = new FloorPicture(machine.plan, grid, this.picture);
+    this.picture = new FloorPicture(simulation.plan, grid, this.picture);
     this.pictures = [this.picture];
   }
 
-  read(machine: Machine) {
-    const reading = readingOf(machine);
-    if (reading.config.unknown !== this.#pictureUnknown && this.picture.hasUnknown) this.machineChanged();
-    return reading;
+  read(simulation: Simulation) {
+    const viewModel = viewModelOf(simulation);
+    if (viewModel.config.unknown !== this.#pictureUnknown && this.picture.hasUnknown) this.simulationChanged();
+    return viewModel;
   }
 
   get scene() {
-    const reading = this.currentReading;
-    this.#meter.measureWhenIdle(reading.config, !this.cloud.playing && !this.gesture.isPressed);
+    const viewModel = this.currentViewModel;
+    this.#meter.measureWhenIdle(viewModel.config, !this.cloud.playing && !this.gesture.isPressed);
     const { selectedIndex: index, isMarked } = this.cloud;
     this.picture.close = this.state.elementState.view === 'close';
-    return { ...reading, machine: this.machine, overlays: this.state.elementState.overlays, marked: isMarked ? this.#marked(index) : undefined };
+    return { ...viewModel, simulation: this.simulation, overlays: this.state.elementState.overlays, marked: isMarked ? this.#marked(index) : undefined };
   }
 
   /** Returns the marked sample, with the point where an accepted one went through a wall. */
   #marked(index: number) {
-    const { poses, verdicts, config } = this.currentReading;
-    const path = this.#path.get([poses, index], () => (this.machine as Machine).path(index));
+    const { poses, verdicts, config } = this.currentViewModel;
+    const path = this.#path.get([poses, index], () => (this.simulation as Simulation).path(index));
     const goesThroughWall = outcomeIndex(verdicts[index]) === 2;
     return { pose: poses.subarray(3 * index), path, contact: goesThroughWall ? wallContact(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
   get exportData() {
-    const { config, poses, verdicts } = this.currentReading;
+    const { config, poses, verdicts } = this.currentViewModel;
     return {
       description: this.#description,
       settings: { map: this.map?.name ?? null, ...config },
@@ -125,7 +125,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   announcement = captionOf;
 
-  placeHandles({ config }: Reading) {
+  placeHandles({ config }: ViewModel) {
     this.#handles.place(config, config.clearance);
     this.#wallHandles.place(this.picture.view);
   }
@@ -158,7 +158,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
       if (newMap === null) {
         this.#leaveOwnMap();
         // The start pose may not be free in the new map.
-        if (this.machine && !this.machine.startFree) this.settings.assign({ start: OPENING_START });
+        if (this.simulation && !this.simulation.startFree) this.settings.assign({ start: OPENING_START });
       } else {
         this.#enterMap(ownMapOf(newMap));
       }
@@ -173,7 +173,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
    * @public
    */
   get verdicts(): Uint8Array | null {
-    return this.queryMachine((machine) => machine.verdicts);
+    return this.querySimulation((simulation) => simulation.verdicts);
   }
 
   /** Moves the robot to a pose in the current map, as the user asked. */
@@ -185,13 +185,13 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   /** Moves the robot to free space, as the user asked. */
   moveToFreePose() {
     this.runtime.attempt(() => {
-      if (this.machine) this.go(this.#findFreePose(this.machine));
+      if (this.simulation) this.go(this.#findFreePose(this.simulation));
     });
   }
 
   /** True if the robot is still at the free pose to which it was last moved. */
   get isAtFreePose() {
-    const { x, y, theta } = this.reading.config.start;
+    const { x, y, theta } = this.viewModel.config.start;
     return this.#freePose?.x === x && this.#freePose.y === y && this.#freePose.theta === theta;
   }
 
@@ -199,7 +199,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
    * Returns a free start pose for a robot that enters a map. In an occupancy grid it is used even if the present pose is free, because that
    * pose may be outside the mapped area.
    */
-  #findFreePose({ openPlace, config, plan }: Machine): Pose {
+  #findFreePose({ openPlace, config, plan }: Simulation): Pose {
     const [left, bottom, right, top] = plan.bounds;
     return (this.#freePose = openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 });
   }
@@ -218,7 +218,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   /** Puts the robot into a map of the user. */
   open(map: OwnMap & { start?: Pose }) {
-    if (!this.machine) return;
+    if (!this.simulation) return;
     this.runtime.attempt(() => {
       this.#enterMap(map);
       this.gesture.complete();
@@ -229,7 +229,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   moveWalls(walls: Float64Array) {
     const { bounds } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
-    const apply: OwnMap['apply'] = (machine) => machine.setPlan({ bounds: [...bounds], walls });
+    const apply: OwnMap['apply'] = (simulation) => simulation.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
       this.#enterMap({ name, apply, start: this.settings.requested.start });
       this.gesture.step();
@@ -239,43 +239,43 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
   /** Leaves the user's map, if there is one. */
   #leaveOwnMap() {
-    const { machine, map } = this;
-    if (!machine) return;
+    const { simulation, map } = this;
+    if (!simulation) return;
     this.#opener.refusal = undefined;
     if (!map) return;
     this.left = { map, start: this.settings.requested.start };
-    machine.setPlan(undefined);
+    simulation.setPlan(undefined);
     this.#grid = undefined;
     this.#adoptMap(null);
   }
 
   /**
-   * Puts the robot into another map, at the pose `start` if given. A new machine tries the map first; the present machine stays if the map
+   * Puts the robot into another map, at the pose `start` if given. A new simulation tries the map first; the present simulation stays if the map
    * or the pose is refused.
    */
   #enterMap({ name, start, apply }: OwnMap & { start?: Pose }) {
     const { motion, settings } = this;
     if (!motion) return;
     settings.applyPending();
-    const machine = motion.MapSqueeze.empty();
-    freeOnError(machine, () => {
-      machine.configureFirst(settings.pick(settings.requested), 0);
-      apply(machine);
-      const isGrid = this.#gridOf(machine) !== null;
-      const startPose = start ?? (isGrid || !machine.startFree ? this.#findFreePose(machine) : undefined);
-      machine.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
+    const simulation = motion.MapSqueeze.empty();
+    freeOnError(simulation, () => {
+      simulation.configureFirst(settings.pick(settings.requested), 0);
+      apply(simulation);
+      const isGrid = this.#gridOf(simulation) !== null;
+      const startPose = start ?? (isGrid || !simulation.startFree ? this.#findFreePose(simulation) : undefined);
+      simulation.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
     });
-    const newMap = mapData(machine, name, this.#gridOf(machine));
-    this.runtime.replace(machine);
+    const newMap = mapData(simulation, name, this.#gridOf(simulation));
+    this.runtime.replace(simulation);
     settings.reset();
     this.left = null;
     this.#adoptMap(newMap);
   }
 
-  /** Shows the map of the machine, which is the user's or, for null, the apartment. */
+  /** Shows the map of the simulation, which is the user's or, for null, the apartment. */
   #adoptMap(map: MapData | null) {
     this.state.elementState.map = map;
-    this.machineChanged();
+    this.simulationChanged();
     this.settings.isStale = true;
     this.cloud.mark(-1);
   }
@@ -286,11 +286,11 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
   }
 
   get #description() {
-    return pictureText(this.reading, this.#mapText);
+    return pictureText(this.viewModel, this.#mapText);
   }
 
-  content(reading: Reading) {
-    const { config, sorted, stats, note } = reading;
+  content(viewModel: ViewModel) {
+    const { config, sorted, stats, note } = viewModel;
     const { hasUnknown } = this.picture;
     const { floor, density } = words.squeeze;
     const { unknown, ...marks } = LINE_STYLES;
@@ -305,9 +305,9 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
         ${this.renderer.afterFirstPicture(() => html`<div class="aside">
           <div class="result">
             <p class="headline">${headlineOf(stats)}</p>
-            <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(reading)}</p>
+            <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(viewModel)}</p>
           </div>
-          ${startControls(this)} ${samplerControls(this)} ${overviewMap(this.picture, reading)}
+          ${startControls(this)} ${samplerControls(this)} ${overviewMap(this.picture, viewModel)}
         </div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
@@ -315,7 +315,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
       ${sorted ? nothing : html`<p class="about">${density}</p>`}
       ${disclosures(this, {
         controls: () => html`<div class="controls">${robotAndMap(this, hasUnknown)}</div> ${ownMap(this, this.#opener, this.#mapText)}`,
-        numbers: () => html`${tallyReadouts(reading)} ${markedSample(this)} ${costTable(this.#meter, config.steps)}`,
+        numbers: () => html`${tallyReadouts(viewModel)} ${markedSample(this)} ${costTable(this.#meter, config.steps)}`,
       })}`)}
     `;
   }
@@ -323,7 +323,7 @@ export class MapSqueezeElement extends FigureElement<Machine, Reading> {
 
 const ownMapOf = (map: MapData): OwnMap => ({
   name: map.name ?? '',
-  apply: (machine) => applyMap(machine, map),
+  apply: (simulation) => applyMap(simulation, map),
 });
 
 define(MapSqueezeElement);

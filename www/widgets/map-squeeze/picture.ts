@@ -14,10 +14,10 @@ import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINE_STYLES } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
 import { addLine, strokePath, type Brush } from '../../scene/canvas.ts';
-import type { Reading } from './reading.ts';
+import type { ViewModel } from './view-model.ts';
 
-export interface Scene extends Reading {
-  machine: MapSqueeze;
+export interface Scene extends ViewModel {
+  simulation: MapSqueeze;
   overlays: string[];
   marked: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined;
 }
@@ -166,12 +166,12 @@ export class FloorPicture extends SamplesPicture<Scene> {
     });
   };
 
-  #drawDensity(brush: Brush, { machine, stats, overlays }: Scene) {
+  #drawDensity(brush: Brush, { simulation, stats, overlays }: Scene) {
     const { palette } = brush;
     const kinds = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
     const ramps = kinds.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
     const cellSize = clamp(DENSITY_CELL.max * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.min, DENSITY_CELL.max);
-    this.#density.draw(brush, cellSize, [stats, palette, overlays], (...part) => machine.picture(...part, Uint8Array.from(ramps)));
+    this.#density.draw(brush, cellSize, [stats, palette, overlays], (...part) => simulation.picture(...part, Uint8Array.from(ramps)));
   }
 }
 

@@ -9,9 +9,9 @@ import { SAMPLES_PER_SECOND, type SampleCost, type CostMeter } from './cost.ts';
 import { SAMPLERS } from './settings.ts';
 import { verdictText } from './words.ts';
 import type { SamplerName } from '../../types.d.ts';
-import type { Reading } from './reading.ts';
+import type { ViewModel } from './view-model.ts';
 
-export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: { length: paths } }: Reading) {
+export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: { length: paths } }: ViewModel) {
   const say = words.squeeze.tally;
   const excludesWalls = conditioned && sampler === 'whole-arc';
   return readoutList([
@@ -25,7 +25,7 @@ export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: 
 }
 
 export function markedSample(figure: import('./map-squeeze.ts').MapSqueezeElement): import('lit').TemplateResult {
-  const { cloud, reading: { config, stats, verdicts } } = figure;
+  const { cloud, viewModel: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;
   const selectedText = cloud.isMarked ? verdictText(verdicts[cloud.selectedIndex], config) : '';
   return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, selected: selectedText });
@@ -60,7 +60,7 @@ function costText({ draws, wallTests, micros }: SampleCost) {
 const MAX_SHOWN_FRACTION = 0.6;
 
 /** Returns the overview, or nothing if the picture already shows most of the map. */
-export function overviewMap(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./reading.ts').Reading) {
+export function overviewMap(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./view-model.ts').ViewModel) {
   const { xMin, yMin, xMax, yMax } = picture.knownExtentAround(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];
   const { extent } = picture.view;

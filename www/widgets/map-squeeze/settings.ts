@@ -40,7 +40,7 @@ export const definition = definitionOf('map-squeeze', {
   preset: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   elementFields: {
     view: { converter: WORD_CONVERTER, words: VIEW_NAMES, opening: 'close' },
-    /** Map of the user; null for the apartment. A machine has checked it. */
+    /** Map of the user; null for the apartment. A simulation has checked it. */
     map: { opening: null, check: (_, map) => map },
   },
 });
@@ -48,7 +48,7 @@ export const definition = definitionOf('map-squeeze', {
 /** Samplers in the order in which they are offered. */
 export const SAMPLERS = declarations.find(({ key }) => key === 'sampler')?.words as SamplerName[];
 
-/** Sample counts of the slider. The machine accepts more, but they would not follow a slider. */
+/** Sample counts of the slider. The simulation accepts more, but they would not follow a slider. */
 export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
 
 /** Maximum number of samples for a command in one step; it is divided by the number of sub-steps. */

@@ -8,7 +8,7 @@ import { clamp } from '../../ui/clamp.ts';
 import { integer, fixed } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { throughText, type Reading } from './reading.ts';
+import { throughText, type ViewModel } from './view-model.ts';
 import type { Plan, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
 
 addEnglish({ squeeze: en });
@@ -52,7 +52,7 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
 }
 
 /** Returns the caption: the counts of the samples, or why the robot cannot move. */
-export function captionOf({ config: { conditioned, sampler }, stats, note }: Reading) {
+export function captionOf({ config: { conditioned, sampler }, stats, note }: ViewModel) {
   const { accepted, attempts, gaveUp } = stats;
   const say = words.squeeze;
   // If the robot cannot move, the note contains the number of motions.
@@ -71,7 +71,7 @@ export function mapText(name: string, { bounds, walls }: Plan) {
 }
 
 /** Returns the text equivalent of the picture, with the map as `mapText` has it. */
-export function pictureText({ config, stats, sorted, note }: Reading, map: string) {
+export function pictureText({ config, stats, sorted, note }: ViewModel, map: string) {
   const { x, y, theta } = config.start;
   const { attempts, accepted, drawn, throughWall } = stats;
   const say = words.squeeze;

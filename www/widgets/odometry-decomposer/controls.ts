@@ -12,7 +12,7 @@ import type { OdometryDecomposerElement as Figure } from './odometry-decomposer.
 /** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
 export function noiseModelTable(figure: Figure) {
   const { rules: names, table: say, settings } = words.decomposer;
-  const { rules } = figure.reading;
+  const { rules } = figure.viewModel;
   const currentRule = figure.settings.requested.rule;
   const cellRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>

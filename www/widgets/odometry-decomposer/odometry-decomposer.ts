@@ -15,12 +15,12 @@ import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { noiseControls, playableSlider, noiseModelTable } from './controls.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
-import { readingOf, type Reading } from './reading.ts';
+import { viewModelOf, type ViewModel } from './view-model.ts';
 import { headline, readouts, spreadPlot } from './readouts.ts';
 import { LINE_STYLES, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
 import { driftDistance, captionOf, legsText, worldText } from './words.ts';
-import type { OdometryDecomposer as Machine } from '../../types.d.ts';
+import type { OdometryDecomposer as Simulation } from '../../types.d.ts';
 
 /** Bounds of both poses: left, bottom, right and top, m. */
 const POSE_BOUNDS = [-4, -4, 4, 4];
@@ -32,7 +32,7 @@ const POSE_BOUNDS = [-4, -4, 4, 4];
  * @attr overlays - Lines and marks that are drawn; in the attribute with spaces between.
  * @csspart chart - Plot of the lateral standard deviation over the length of the drive.
  */
-export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
+export class OdometryDecomposerElement extends FigureElement<Simulation, ViewModel> {
   static styles = styles;
 
   static definition = definition;
@@ -45,24 +45,24 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
   /** Handles of both poses. The handle of the second pose is on top if both poses are at the same place. */
   #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legs.view, () => POSE_BOUNDS));
 
-  createMachine: FigureElement<Machine, Reading>['createMachine'] = (motion, state) => enterCloud(this, new motion.OdometryDecomposer(), state);
+  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => enterCloud(this, new motion.OdometryDecomposer(), state);
 
   #curve: Memo<Float64Array> = new Memo();
   #curveOf = (longest: number, points: number) =>
-    this.#curve.get([this.reading.stats, longest, points], () => (this.machine as Machine).curve(longest, points));
+    this.#curve.get([this.viewModel.stats, longest, points], () => (this.simulation as Simulation).curve(longest, points));
 
-  read = readingOf;
+  read = viewModelOf;
 
   get scene() {
-    const reading = this.currentReading;
+    const viewModel = this.currentViewModel;
     const { selectedIndex: index, isMarked } = this.cloud;
-    return { ...reading, overlays: this.state.elementState.overlays, marked: isMarked ? reading.poses.subarray(3 * index) : undefined };
+    return { ...viewModel, overlays: this.state.elementState.overlays, marked: isMarked ? viewModel.poses.subarray(3 * index) : undefined };
   }
 
   get exportData() {
-    const { config, poses } = this.currentReading;
+    const { config, poses } = this.currentViewModel;
     return {
-      description: legsText(this.reading),
+      description: legsText(this.viewModel),
       settings: config,
       columns: ['x_m', 'y_m', 'theta_rad'],
       row: (i: number) => [...poses.subarray(3 * i, 3 * i + 3)],
@@ -72,28 +72,28 @@ export class OdometryDecomposerElement extends FigureElement<Machine, Reading> {
 
   announcement = captionOf;
 
-  placeHandles({ config }: Reading) {
+  placeHandles({ config }: ViewModel) {
     for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);
   }
 
-  content(reading: Reading) {
+  content(viewModel: ViewModel) {
     const say = words.decomposer;
     return html`
       <div class="views">
         ${titledPicture(say.legsTitle, html`<div class="stage" part="picture">
-          ${pictureCanvas(this, this.#legs, legsText(reading))} ${this.#handles.map((handle) => handle.render())}
+          ${pictureCanvas(this, this.#legs, legsText(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`, 'legs')}
-        ${titledPicture(say.worldTitle, html`<div class="stage">${pictureCanvas(this, this.#world, worldText(reading))}</div>`)}
+        ${titledPicture(say.worldTitle, html`<div class="stage">${pictureCanvas(this, this.#world, worldText(viewModel))}</div>`)}
         ${this.renderer.afterFirstPicture(() => html`
-        <div class="summary">${headline(reading)} <p class="caption" part="caption">${captionOf(reading)}</p></div>
-        <p class="caption">${formatMarkup(say.worldCaption(fixed(driftDistance(reading), 2)))}</p>`)}
+        <div class="summary">${headline(viewModel)} <p class="caption" part="caption">${captionOf(viewModel)}</p></div>
+        <p class="caption">${formatMarkup(say.worldCaption(fixed(driftDistance(viewModel), 2)))}</p>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINE_STYLES)} ${presetButtons(this)} ${noiseModelTable(this)}
       <div class="plays" part="controls">${playableSlider(this, 'phase', say.path)} ${playableSlider(this, 'drift', say.drift)}</div>
       ${disclosures(this, {
         controls: () => noiseControls(this),
-        numbers: () => html`${readouts(reading)} ${spreadPlot(this.#curveOf, reading)}`,
+        numbers: () => html`${readouts(viewModel)} ${spreadPlot(this.#curveOf, viewModel)}`,
       })}`)}
     `;
   }

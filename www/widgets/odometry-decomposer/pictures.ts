@@ -11,7 +11,7 @@ import { View, extentOf } from '../../scene/view.ts';
 import { fixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline, turnDistance } from '../shared/robot.ts';
 import { ellipsePoints, turnDirections, drawBar, drawFan, drawTurn } from './marks.ts';
-import { poseIn } from './reading.ts';
+import { poseIn } from './view-model.ts';
 import { LINE_STYLES } from './settings.ts';
 import type { Pose, RuleNoise } from '../../types.d.ts';
 import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
@@ -19,7 +19,7 @@ import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke 
 export type LineName = keyof typeof LINE_STYLES;
 
 /** View model of both pictures, with the names of the lines that are shown. */
-export type Scene = import('./reading.ts').Reading & { marked: Float64Array | undefined, overlays: string[] };
+export type Scene = import('./view-model.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Radius of the robot, m. */
 export const ROBOT_RADIUS = 0.11;

@@ -9,19 +9,19 @@ import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, fixed, formatRounded, formatWithError } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
-import type { Reading } from './reading.ts';
+import type { ViewModel } from './view-model.ts';
 
 const formatMetres = (value: number) => `${fixed(value, 3)} m`;
 
 /** Returns the headline: the turn noise by Table 5.6 relative to that by Nav2. */
-export function headline({ rules: [thrun, nav2] }: Reading) {
+export function headline({ rules: [thrun, nav2] }: ViewModel) {
   const say = words.decomposer.headline;
   const ratio = thrun.heading / nav2.heading;
   return readoutList([[say.expects, Number.isFinite(ratio) ? `${formatRounded(ratio, 2)} ×` : NO_VALUE, say.noise]], 0);
 }
 
 /** Returns the readouts: the contribution of the first rotation, and the standard deviations of the outcomes. */
-export function readouts({ stats }: Reading) {
+export function readouts({ stats }: ViewModel) {
   const say = words.decomposer.readouts;
   const { crossTrack, crossTrackError, exactCrossTrack, heading, headingError, exactHeading, independentHeading } = stats;
   const exactText = say.exactly(fixed(exactHeading, 3));
@@ -36,7 +36,7 @@ export function readouts({ stats }: Reading) {
 /** Number of points of the curves, about one for each pixel on a large screen. */
 const CURVE_POINTS = 121;
 
-export function spreadPlot(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: Reading) {
+export function spreadPlot(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: ViewModel) {
   const say = words.decomposer.plot;
   const maxLength = Math.max(1, 2 * legs.trans);
   const curveRows = curveOf(maxLength, CURVE_POINTS);

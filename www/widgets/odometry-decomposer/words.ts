@@ -3,14 +3,14 @@
 import { addEnglish, words } from '../../messages/registry.ts';
 import { integer, fixed } from '../../ui/format.ts';
 import { en } from './en.ts';
-import { poseIn, type Reading } from './reading.ts';
+import { poseIn, type ViewModel } from './view-model.ts';
 
 addEnglish({ decomposer: en });
 
 /** Length of a reading, m, below which it is called jitter. */
 const MAX_JITTER = 0.01;
 
-export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: Reading) {
+export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: ViewModel) {
   const say = words.decomposer.caption;
   const [{ legs: { rot1, trans } }] = rules;
   const countsEitherWay = rule === 'nav2' || rule === 'beluga';
@@ -27,19 +27,19 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
 }
 
 /** Returns the distance between the odometry's own pose and the predicted pose, m. */
-export function driftDistance({ drifted, linkage }: Reading) {
+export function driftDistance({ drifted, linkage }: ViewModel) {
   const [odometryPose, predicted] = [poseIn(drifted.poses, 2), poseIn(linkage, 3)];
   return Math.hypot(odometryPose.x - predicted.x, odometryPose.y - predicted.y);
 }
 
-export function legsText(reading: Reading) {
-  const { legs: { rot1, trans, rot2 }, config: { to }, stats } = reading;
+export function legsText(viewModel: ViewModel) {
+  const { legs: { rot1, trans, rot2 }, config: { to }, stats } = viewModel;
   const say = words.decomposer;
   const outcomesText = stats.n === 0 ? say.none : say.outcomes(integer(stats.n), fixed(stats.crossTrack, 2), fixed(stats.heading, 2));
-  return `${say.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomesText} ${captionOf(reading)}`;
+  return `${say.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomesText} ${captionOf(viewModel)}`;
 }
 
-export function worldText(reading: Reading) {
-  const { x, y, theta } = poseIn(reading.drifted.poses, 0);
-  return words.decomposer.worldPicture(fixed(x, 2), fixed(y, 2), fixed(theta, 2), fixed(driftDistance(reading), 2));
+export function worldText(viewModel: ViewModel) {
+  const { x, y, theta } = poseIn(viewModel.drifted.poses, 0);
+  return words.decomposer.worldPicture(fixed(x, 2), fixed(y, 2), fixed(theta, 2), fixed(driftDistance(viewModel), 2));
 }

@@ -20,20 +20,20 @@ const MAX_WALLS = 20_000;
 /** Grey values of cells in the image that passes a grid to the core. The brightest is occupied. */
 const [OCCUPIED_SHADE, UNKNOWN_SHADE] = [2, 1];
 
-/** Returns the grid of a machine, if it has one. Copying a large grid takes long. */
+/** Returns the grid of a simulation, if it has one. Copying a large grid takes long. */
 export function cellsOf({ grid }: MapSqueeze): Cells | null {
   return grid && { ...grid, unknown: grid.unknown.includes(1) ? grid.unknown : undefined };
 }
 
-/** Returns the map of a machine as a frozen object: a page must set a new object to change the map. */
-export function mapData(machine: MapSqueeze, name: string, grid: Cells | null): MapData {
+/** Returns the map of a simulation as a frozen object: a page must set a new object to change the map. */
+export function mapData(simulation: MapSqueeze, name: string, grid: Cells | null): MapData {
   if (grid) {
     const { columns, rows, resolution, origin } = grid;
     const occupied = packBits(grid.occupied);
     const unknownField = grid.unknown && { unknown: packBits(grid.unknown) };
     return freeze({ name, columns, rows, resolution, origin: freeze([...origin]), occupied, ...unknownField });
   }
-  const { bounds, walls } = machine.plan;
+  const { bounds, walls } = simulation.plan;
   const wallList = [];
   for (let i = 0; i < walls.length; i += 4) wallList.push(freeze([walls[i], walls[i + 1], walls[i + 2], walls[i + 3]]));
   return freeze({ name, bounds: freeze([...bounds]), walls: freeze(wallList) });
@@ -50,8 +50,8 @@ function flatWalls(walls: unknown) {
   return wallNumbers;
 }
 
-/** Sets the map of a machine. Throws a TypeError or RangeError that names the field, and then changes nothing. */
-export function applyMap(machine: MapSqueeze, data: unknown) {
+/** Sets the map of a simulation. Throws a TypeError or RangeError that names the field, and then changes nothing. */
+export function applyMap(simulation: MapSqueeze, data: unknown) {
   if (typeof data !== 'object' || data === null || Array.isArray(data)) {
     throw refusalError('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
   }
@@ -59,7 +59,7 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
   const map = checkedObject('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusalError('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
-    withRenamedFields(PLAN_KEYS, () => machine.setPlan({ bounds: map.bounds, walls: flatWalls(map.walls) }));
+    withRenamedFields(PLAN_KEYS, () => simulation.setPlan({ bounds: map.bounds, walls: flatWalls(map.walls) }));
     return;
   }
   const columns = checkedInteger('map.columns', map.columns, 1, limits.cells);
@@ -69,10 +69,10 @@ export function applyMap(machine: MapSqueeze, data: unknown) {
   const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : bitsOf('map.unknown', map.unknown, cellCount);
   const gridDescription = { resolution: map.resolution, origin: map.origin, negate: 1 };
   const pgmImage = pgmImageOf(columns, rows, occupiedBits, unknownBits);
-  withRenamedFields(GRID_KEYS, () => machine.setGrid(gridDescription, pgmImage));
+  withRenamedFields(GRID_KEYS, () => simulation.setGrid(gridDescription, pgmImage));
 }
 
-/** Calls a function that passes fields of a map to a machine. Errors get the field's name in the map instead of that in the machine. */
+/** Calls a function that passes fields of a map to a simulation. Errors get the field's name in the map instead of that in the simulation. */
 function withRenamedFields(keys: string[], take: () => void) {
   try {
     take();

@@ -10,8 +10,8 @@ export type DecodePng = (bytes: Uint8Array) => Promise<Pick<ImageData, 'width' |
 
 export interface OwnMap {
   name: string;
-  /** Sets the map of a machine, or throws a MapFileError and changes nothing. */
-  apply: (machine: MapSqueeze) => void;
+  /** Sets the map of a simulation, or throws a MapFileError and changes nothing. */
+  apply: (simulation: MapSqueeze) => void;
 }
 
 /** Error with one sentence that names the file, the line or field, and what was expected. */
@@ -89,8 +89,8 @@ export async function readPlan(name: string, text: string): Promise<OwnMap> {
   const parsedPlan = await parsePlan(name, text);
   return {
     name,
-    apply: (machine) =>
-      applyOrExplain(name, () => machine.setPlan(parsedPlan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
+    apply: (simulation) =>
+      applyOrExplain(name, () => simulation.setPlan(parsedPlan ?? null), (say, file, reason) => say.plan(file, reason, PLAN_FORM)),
   };
 }
 
@@ -146,10 +146,10 @@ async function readGrid(file: File, images: File[], decodePng: DecodePng): Promi
   const pixelsOrBytes = isPng ? await decodePng(bytes).catch(throwPngError) : bytes;
   return {
     name: file.name,
-    apply: (machine) =>
+    apply: (simulation) =>
       applyOrExplain(
         file.name,
-        () => machine.setGrid(description, pixelsOrBytes),
+        () => simulation.setGrid(description, pixelsOrBytes),
         (say, name, reason) => gridErrorSentence(say, name, quoteText(image.name), reason),
       ),
   };

@@ -5,16 +5,16 @@ import { verdict as bits } from '../../settings.js';
 import { integer, fixed, percent } from '../../ui/format.ts';
 import type { MapSqueeze, SqueezeSettings, SqueezeStats } from '../../types.d.ts';
 
-export type Reading = ReturnType<typeof readingOf>;
+export type ViewModel = ReturnType<typeof viewModelOf>;
 
 /** Number of samples above which they are drawn as a density: dots would be indistinguishable, and take longer than a frame. */
 export const MAX_DOTS = 1500;
 
-export function readingOf(machine: MapSqueeze) {
-  const reading = machine.read();
-  const { config, stats, verdicts, poses, startFree } = reading;
+export function viewModelOf(simulation: MapSqueeze) {
+  const results = simulation.read();
+  const { config, stats, verdicts, poses, startFree } = results;
   return {
-    ...reading,
+    ...results,
     sorted: stats.attempts > MAX_DOTS ? undefined : posesByOutcome(poses, verdicts),
     note: stuckNote(config, stats, startFree),
   };
@@ -36,7 +36,7 @@ export function outcomeIndex(verdict: number) {
 
 /**
  * Returns a text on the accepted motions that went through a wall: their number, and their share with its interval. There is no interval if
- * the sampler excludes such motions (`certain`), or if the machine gave up, because giving up depends on chance.
+ * the sampler excludes such motions (`certain`), or if the simulation gave up, because giving up depends on chance.
  */
 export function throughText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, certain: boolean) {
   const interval = certain || gaveUp ? '' : `${fixed(100 * low, 1)}\u2060–\u2060${percent(high)}`;

@@ -3,39 +3,39 @@
 import { withFieldRenamed } from '../../figure/checks.ts';
 import { words } from '../../messages/registry.ts';
 import { subscriptOf } from '../shared/sliders.ts';
-import type { BananaMachine as Machine, BananaMachineSettings as Settings, Motion, Stats, Table } from '../../types.d.ts';
+import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Motion, Stats, Table } from '../../types.d.ts';
 
-export type Reading = ReturnType<typeof readingOf>;
+export type ViewModel = ReturnType<typeof viewModelOf>;
 
 /** Standard deviation (m or rad) up to which poses count as equal, because it may be rounding of the quadrature. */
 const MIN_SPREAD = 1e-9;
 
-export function readingOf(machine: Machine) {
-  const reading = machine.read();
-  const { config, stats, contours, table, chartHolds } = reading;
+export function viewModelOf(simulation: Simulation) {
+  const results = simulation.read();
+  const { config, stats, contours, table, chartHolds } = results;
   return {
-    ...reading,
+    ...results,
     note: cloudNote(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
     gain: gaussianGain(stats, table),
     bowTie: bowTieOf(config),
     /** Command as an odometry reading; null under the velocity model. */
-    reading: config.model === 'odometry' ? reading.reading : null,
+    reading: config.model === 'odometry' ? results.reading : null,
     /** End of the commanded arc, metres. */
     end: [...contours.command.slice(-2)] as [number, number],
   };
 }
 
-/** Returns the reading of a new machine with these settings; throws a TypeError or RangeError that names a field of `state.pinned`. */
-export function readingOfSettings(motion: Motion, settings: Settings): Reading {
-  let machine;
+/** Returns the view model of a new simulation with these settings; throws a TypeError or RangeError that names a field of `state.pinned`. */
+export function viewModelOfSettings(motion: Motion, settings: Settings): ViewModel {
+  let simulation;
   try {
-    machine = new motion.BananaMachine(settings);
-    return readingOf(machine);
+    simulation = new motion.BananaMachine(settings);
+    return viewModelOf(simulation);
   } catch (error) {
     throw withFieldRenamed(error, 'state.pinned.', '');
   } finally {
-    machine?.free();
+    simulation?.free();
   }
 }
 

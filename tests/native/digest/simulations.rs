@@ -1,4 +1,4 @@
-//! Digested values of each machine, in the order of digest.js.
+//! Digested values of each simulation, in the order of digest.js.
 
 use super::configuration::{Configuration, number_of, numbers_of, ramp};
 use super::encoding::HashedPart;
@@ -20,9 +20,9 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
     if let Some(preset) = configuration.preset(&banana::PRESETS, |preset| preset.name) {
         defaults.command = preset.command;
     }
-    let mut machine = BananaMachine::new(configuration.settings(defaults)).expect("a valid setting");
-    let (reading, contours, table) = (machine.reading(), machine.contours(), machine.table());
-    let stats = *machine.stats();
+    let mut simulation = BananaMachine::new(configuration.settings(defaults)).expect("a valid setting");
+    let (reading, contours, table) = (simulation.reading(), simulation.contours(), simulation.table());
+    let stats = *simulation.stats();
     let gain_fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
     let values = |col: TableColumn| {
         (col.mean, col.cov, col.cross_track_skew, gain_fields(col.likelihood_gain), col.area_ratio)
@@ -45,17 +45,17 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
         flattened(&contours.twist_ellipse),
         flattened(&contours.additive),
     );
-    let mut picture = |view| flattened(machine.paint(view, &configuration.grid(), &ramp(0)));
+    let mut picture = |view| flattened(simulation.paint(view, &configuration.grid(), &ramp(0)));
     let [plane, twist] = [View::Plane, View::Twist].map(&mut picture);
     vec![
-        HashedPart::new("poses", machine.poses().flat_map(coordinates).collect::<Vec<_>>()),
-        HashedPart::new("twists", machine.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),
-        HashedPart::new("executed", machine.executed_motions().flatten().collect::<Vec<_>>()),
+        HashedPart::new("poses", simulation.poses().flat_map(coordinates).collect::<Vec<_>>()),
+        HashedPart::new("twists", simulation.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),
+        HashedPart::new("executed", simulation.executed_motions().flatten().collect::<Vec<_>>()),
         HashedPart::new(
             "statistics",
             (
-                machine.shown_count(),
-                machine.is_chart_defined(),
+                simulation.shown_count(),
+                simulation.is_chart_defined(),
                 (reading.rot1, reading.trans, reading.rot2),
                 stats,
             ),
@@ -72,18 +72,18 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
     if let Some((_, start)) = configuration.preset(&squeeze::PRESETS, |(name, _)| name) {
         defaults.start = *start;
     }
-    let mut machine = MapSqueeze::new(configuration.settings(defaults)).expect("a valid setting");
+    let mut simulation = MapSqueeze::new(configuration.settings(defaults)).expect("a valid setting");
     if let Some(name) = configuration.value.get("map") {
         let map = &configuration.document["maps"][name.as_str().expect("a name")];
         match map.get("plan") {
-            Some(plan) => machine.set_plan(read_plan(plan)),
-            None => machine
+            Some(plan) => simulation.set_plan(read_plan(plan)),
+            None => simulation
                 .set_grid(read_map(map, &configuration.document["images"]))
                 .expect("not too many walls"),
         }
     }
-    let (plan, stats, noise) = (machine.plan(), machine.stats(), machine.settings().noise());
-    let attempts = machine.attempts();
+    let (plan, stats, noise) = (simulation.plan(), simulation.stats(), simulation.settings().noise());
+    let attempts = simulation.attempts();
     let walls: Vec<_> = plan.walls().iter().map(|Segment { from, to }| [*from, *to]).collect();
     let grid = plan.grid().map(|grid| {
         let [columns, rows] = grid.size();
@@ -105,9 +105,9 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
         HashedPart::new("verdicts", attempts.iter().map(Attempt::verdict_bits).collect::<Vec<_>>()),
         HashedPart::new(
             "statistics",
-            (attempts.len(), machine.is_start_free(), machine.find_free_pose(), noise, statistics),
+            (attempts.len(), simulation.is_start_free(), simulation.find_free_pose(), noise, statistics),
         ),
-        HashedPart::new("picture", flattened(machine.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
+        HashedPart::new("picture", flattened(simulation.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
     ]
 }
 
@@ -116,39 +116,39 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
     if let Some(preset) = configuration.preset(&dead_reckoning::PRESETS, |preset| preset.name) {
         (defaults.command, defaults.steps, defaults.alphas) = (preset.command, preset.steps, preset.alphas);
     }
-    let machine = DeadReckoning::new(configuration.settings(defaults)).expect("a valid setting");
-    let (settings, stats) = (machine.settings(), machine.stats());
+    let simulation = DeadReckoning::new(configuration.settings(defaults)).expect("a valid setting");
+    let (settings, stats) = (simulation.settings(), simulation.stats());
     let values_by_step = |value: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
-        (0..machine.measured_moments().len()).flat_map(|k| <[f64; 3]>::from(value(k))).collect()
+        (0..simulation.measured_moments().len()).flat_map(|k| <[f64; 3]>::from(value(k))).collect()
     };
     let undefined_variances = Vector3::repeat(f64::NAN);
     let [ratios, predicted] = [
-        RECURSIONS.map(|order| values_by_step(&|k| machine.comparison(order).ratios[k])),
+        RECURSIONS.map(|order| values_by_step(&|k| simulation.comparison(order).ratios[k])),
         RECURSIONS.map(|order| {
             values_by_step(&|k| {
-                machine.predicted_covariances(order)[k].map_or(undefined_variances, |cov| cov.diagonal())
+                simulation.predicted_covariances(order)[k].map_or(undefined_variances, |cov| cov.diagonal())
             })
         }),
     ]
     .map(<(_, _, _)>::from);
-    let measured = values_by_step(&|k| machine.measured_moments()[k].cov.diagonal());
-    let relative_errors = values_by_step(&|k| machine.measured_moments()[k].relative_error);
+    let measured = values_by_step(&|k| simulation.measured_moments()[k].cov.diagonal());
+    let relative_errors = values_by_step(&|k| simulation.measured_moments()[k].relative_error);
     let misses = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order].map(|axes| {
         axes.map(|Misses { decidable, first, last, end, error }| (decidable, first, last, end, error))
     });
     let predictions = (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
     let statistics =
         (stats.n, (stats.measured.mean, stats.measured.cov), predictions, <(_, _, _)>::from(misses));
-    let outlines = machine.outlines(settings.step).expect("a step");
+    let outlines = simulation.outlines(settings.step).expect("a step");
     vec![
-        HashedPart::new("statistics", (machine.shown_count(), settings.heading_noise(), statistics)),
+        HashedPart::new("statistics", (simulation.shown_count(), settings.heading_noise(), statistics)),
         HashedPart::new("steps", (ratios, predicted, measured, relative_errors)),
         HashedPart::new(
             "poses",
             (
-                flattened(machine.poses(settings.step)),
-                machine.twists().flatten().collect::<Vec<_>>(),
-                flattened(machine.poses(1)),
+                flattened(simulation.poses(settings.step)),
+                simulation.twists().flatten().collect::<Vec<_>>(),
+                flattened(simulation.poses(1)),
             ),
         ),
         HashedPart::new(
@@ -165,8 +165,8 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
 
 pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
     let settings = configuration.settings(alpha_calibrator::Settings::default());
-    let machine = AlphaCalibrator::new(settings).expect("a valid setting");
-    let calibration = machine.calibration();
+    let simulation = AlphaCalibrator::new(settings).expect("a valid setting");
+    let calibration = simulation.calibration();
     let estimate = |Estimate { value, interval }: &Estimate| (*value, *interval);
     let value = |error: SystematicError| {
         calibration.systematic_stds[error as usize].map(|_| calibration.systematic.get(error))
@@ -205,7 +205,7 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
         .recommended
         .as_ref()
         .map(|Recommendation { alphas, inflation, .. }| (alphas.clone(), *inflation));
-    let truth = machine.truth().map(|truth| {
+    let truth = simulation.truth().map(|truth| {
         let alphas = (truth.alphas, truth.clock_offset, truth.mount_yaw);
         (alphas, truth.lever_arm, truth.distance_scale, truth.turn_scale)
     });

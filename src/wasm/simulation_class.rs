@@ -1,18 +1,18 @@
-//! JavaScript classes of machines, with the methods that several machines have.
+//! JavaScript classes of simulations, with the methods that several simulations have.
 
 // The module of a single figure uses only some of these macros.
 #![allow(unused_macros, unused_imports)]
 
-/// Declares the JavaScript class of a machine, with its constructor, `configure` and `config`.
+/// Declares the JavaScript class of a simulation, with its constructor, `configure` and `config`.
 ///
 /// `$options` is the TypeScript type of the settings argument, whose keys are optional.
-macro_rules! machine_class {
-    ($(#[$doc:meta])+ $class:ident($machine:ident), $name:literal, $settings:literal, $options:literal) => {
+macro_rules! simulation_class {
+    ($(#[$doc:meta])+ $class:ident($simulation:ident), $name:literal, $settings:literal, $options:literal) => {
         $(#[$doc])+
         /// All units are metres, radians and seconds. An argument out of range throws a TypeError or RangeError that names the field,
         /// and changes nothing.
         #[wasm_bindgen(js_name = $name)]
-        pub struct $class($machine);
+        pub struct $class($simulation);
 
         #[wasm_bindgen(js_class = $name)]
         impl $class {
@@ -21,7 +21,7 @@ macro_rules! machine_class {
             pub fn new(
                 #[wasm_bindgen(unchecked_optional_param_type = $options)] options: &JsValue,
             ) -> Result<Self, JsValue> {
-                Ok(Self($machine::new($crate::wasm::fields::read_initial_settings(options)?)?))
+                Ok(Self($simulation::new($crate::wasm::fields::read_initial_settings(options)?)?))
             }
 
             /// Changes the given settings; the others stay. All samples are drawn again before it returns. Returns all settings.
@@ -35,7 +35,7 @@ macro_rules! machine_class {
                 Ok(self.config())
             }
 
-            /// A copy of the settings, so that changing it does not change the machine.
+            /// A copy of the settings, so that changing it does not change the simulation.
             #[wasm_bindgen(getter, unchecked_return_type = $settings)]
             pub fn config(&self) -> JsValue {
                 $crate::wasm::values::settings_to_js(self.0.settings())
@@ -44,25 +44,25 @@ macro_rules! machine_class {
     };
 }
 
-/// Declares the JavaScript class of a machine with a cloud of at most `$max_samples` samples. It has the methods of
-/// [`machine_class`] and those of the cloud.
-macro_rules! cloud_machine_class {
+/// Declares the JavaScript class of a simulation with a cloud of at most `$max_samples` samples. It has the methods of
+/// [`simulation_class`] and those of the cloud.
+macro_rules! cloud_simulation_class {
     (
         $(#[$doc:meta])+
-        $class:ident($machine:ident), $name:literal, $settings:literal, $options:literal, $max_samples:expr
+        $class:ident($simulation:ident), $name:literal, $settings:literal, $options:literal, $max_samples:expr
     ) => {
-        $crate::wasm::machine_class::machine_class! {
+        $crate::wasm::simulation_class::simulation_class! {
             $(#[$doc])+
-            $class($machine), $name, $settings, $options
+            $class($simulation), $name, $settings, $options
         }
 
         #[wasm_bindgen(js_class = $name)]
         impl $class {
-            /// A machine as the constructor makes it, which shows no samples yet.
+            /// A simulation as the constructor makes it, which shows no samples yet.
             pub fn empty(
                 #[wasm_bindgen(unchecked_optional_param_type = $options)] options: &JsValue,
             ) -> Result<Self, JsValue> {
-                Ok(Self($machine::with_shown_count($crate::wasm::fields::read_initial_settings(options)?, 0)?))
+                Ok(Self($simulation::with_shown_count($crate::wasm::fields::read_initial_settings(options)?, 0)?))
             }
 
             /// Number of samples shown, 0 to `config.samples`.
@@ -101,4 +101,4 @@ macro_rules! cloud_machine_class {
     };
 }
 
-pub(super) use {cloud_machine_class, machine_class};
+pub(super) use {cloud_simulation_class, simulation_class};

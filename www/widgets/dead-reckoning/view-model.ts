@@ -1,19 +1,19 @@
 /** View model of Dead Reckoning. */
 
-import type { DeadReckoning as Machine, DeadReckoningSettings } from '../../types.d.ts';
+import type { DeadReckoning as Simulation, DeadReckoningSettings } from '../../types.d.ts';
 
-export type Reading = ReturnType<typeof readingOf>;
+export type ViewModel = ReturnType<typeof viewModelOf>;
 
 /** Components of ξ, in the order of every triple. */
 export const COMPONENTS = ['along', 'lateral', 'heading'] as const;
 
-export function readingOf(machine: Machine) {
-  const reading = machine.read();
-  const { config, stats, ratios, relativeErrors, nominal } = reading;
+export function viewModelOf(simulation: Simulation) {
+  const results = simulation.read();
+  const { config, stats, ratios, relativeErrors, nominal } = results;
   const { step, compounding } = config;
   const ratiosOfRecursion = ratios[compounding];
   return {
-    ...reading,
+    ...results,
     /** Curve of each component by step, from 1. */
     curves: COMPONENTS.map((_, axis) => axisCurve(ratiosOfRecursion, relativeErrors, axis)),
     /** Commanded pose after the step. */
@@ -33,7 +33,7 @@ function axisCurve(ratios: Float64Array, relativeErrors: Float64Array, axis: num
  * Returns the reason why the ratios are undefined or uncertain: no robots, no spread, no covariance at the end, or too few robots.
  * Returns 'certain' if there is none.
  */
-function ratioCondition({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Machine['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'certain' {
+function ratioCondition({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Simulation['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'certain' {
   if (n === 0) return 'none';
   // A single robot has no variance.
   if (n === 1) return 'few';

@@ -1,35 +1,35 @@
 /** View model of the Alpha Calibrator. */
 
 import { SIMULATED_LEGS } from './settings.ts';
-import type { AlphaCalibrator as Machine, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
+import type { AlphaCalibrator as Simulation, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
 
-export type Reading = ReturnType<typeof fitOf> & {
+export type ViewModel = ReturnType<typeof fitOf> & {
   /** True values of the simulated log. */
-  truth: Machine['truth'];
+  truth: Simulation['truth'];
   /** Log of the user or the page; null for the simulated one. */
   log: CalibrationLog | null;
   /** Requested settings. */
-  config: Machine['config'];
+  config: Simulation['config'];
   /** Settings of the fit. */
-  fitted: Machine['config'];
+  fitted: Simulation['config'];
   /** True while the settings need another fit. */
   isPending: boolean;
 };
 
-/** Returns the view model of a machine. The fit and the true values are read again only if they have changed. */
-export function readingOf(machine: Machine, log: CalibrationLog | null, before: Reading | undefined): Reading {
-  const { config, fittedConfig: fitted, fits, isPending } = machine.read();
-  const isSameMachine = before?.machine === machine;
-  const fit = isSameMachine && before.fits === fits ? before : fitOf(machine, fits, fitted);
-  const truth = isSameMachine && before.log === log ? before.truth : machine.truth;
+/** Returns the view model of a simulation. The fit and the true values are read again only if they have changed. */
+export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, before: ViewModel | undefined): ViewModel {
+  const { config, fittedConfig: fitted, fits, isPending } = simulation.read();
+  const isSameSimulation = before?.simulation === simulation;
+  const fit = isSameSimulation && before.fits === fits ? before : fitOf(simulation, fits, fitted);
+  const truth = isSameSimulation && before.log === log ? before.truth : simulation.truth;
   return { ...fit, truth, log, config, fitted, isPending };
 }
 
-/** Returns the fit of a machine, and the legs to show. `fits` is the revision number of the fit. */
-function fitOf(machine: Machine, fits: number, { duration, distance }: Machine['config']) {
-  const { stats, legs } = machine;
+/** Returns the fit of a simulation, and the legs to show. `fits` is the revision number of the fit. */
+function fitOf(simulation: Simulation, fits: number, { duration, distance }: Simulation['config']) {
+  const { stats, legs } = simulation;
   return {
-    machine,
+    simulation,
     fits,
     stats,
     legs,
@@ -80,8 +80,8 @@ function defaultLegOf({ squared, outliers, odometry }: CalibrationLegs, distance
 }
 
 /** Returns the leg that is shown; −1 if there is none. */
-export const shownLegOf = ({ opening, legs }: Reading, chosen: number | null) => (chosen !== null && chosen < legs.count ? chosen : opening);
+export const shownLegOf = ({ opening, legs }: ViewModel, chosen: number | null) => (chosen !== null && chosen < legs.count ? chosen : opening);
 
 /** Returns true if the true α's belong to the rule and the leg length of the present fit. */
-export const truthApplies = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<Reading, 'truth' | 'fitted'>) =>
+export const truthApplies = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<ViewModel, 'truth' | 'fitted'>) =>
   truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED_LEGS.distance && angle === SIMULATED_LEGS.angle && duration === 0;

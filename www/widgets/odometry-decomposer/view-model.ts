@@ -2,11 +2,11 @@
 
 import type { OdometryDecomposer, OdometryDecomposerSettings, RuleNoise } from '../../types.d.ts';
 
-export type Reading = ReturnType<typeof readingOf>;
+export type ViewModel = ReturnType<typeof viewModelOf>;
 
-export function readingOf(machine: OdometryDecomposer) {
-  const reading = machine.read();
-  return { ...reading, ...currentRuleParts(reading.rules, reading.config) };
+export function viewModelOf(simulation: OdometryDecomposer) {
+  const results = simulation.read();
+  return { ...results, ...currentRuleParts(results.rules, results.config) };
 }
 
 /** Returns the legs and standard deviations of the current rule. */

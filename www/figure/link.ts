@@ -1,5 +1,5 @@
 /**
- * State in the page's address. Each figure has a part of the fragment: `#plain-anchor&banana-machine.1=…&map-squeeze:my-id=…`.
+ * State in the page's address. Each figure has a part of the fragment: `#banana-machine.1=…&map-squeeze:my-id=…`.
  * A figure opens its part and keeps it up to date; with `share`, it adds one.
  */
 
@@ -10,25 +10,19 @@ import { FigureController } from './controller.ts';
 /** Maximum length of a packed state. Firefox opens addresses of up to 1 MiB, other browsers up to 2 MiB and more. */
 const MAX_LENGTH = 1_000_000;
 
-/** Length of a packed state that programs for messages and documents usually keep. */
-const MAX_USUAL_LENGTH = 8000;
-
 export class Link extends FigureController {
   /** True if the latest address lacks the user's map, because it would be too long with it. */
   lacksMap = false;
-  /** True if programs other than browsers may cut off the latest address with the user's map. */
-  isLong = false;
   /** Tokens of the latest read and the latest write of the address. Results of earlier ones are dropped. */
   #latestRead = {};
   #latestWrite = {};
 
   hostConnected() {
     addEventListener('hashchange', this.#addressChanged, { signal: this.host.connection.signal });
-    pendingPart ??= openingPart();
-    if (isAnchor(pendingPart)) document.getElementById(decodeOrKeep(pendingPart))?.scrollIntoView();
-    else if (pendingPart !== fragmentParts()[0] || !this.#isOwnPart(pendingPart)) return;
-    else this.#scrollHere();
-    pendingPart = '';
+    linkedPart ??= isFollowedLink() ? fragmentParts()[0] : '';
+    if (!this.#isOwnPart(linkedPart)) return;
+    linkedPart = '';
+    this.#scrollHere();
   }
 
   #addressChanged = () => {
@@ -84,16 +78,15 @@ export class Link extends FigureController {
     }
   }
 
-  /** Returns the address of this page with the state. The figure's part comes first, or after an anchor of the page. */
+  /** Returns the address of this page with the state. The figure's part comes first, because a link scrolls to the figure of its first part. */
   async address(): Promise<string> {
-    return addressWith(keyOf(this.host), await this.#pack(), !isAnchor(fragmentParts()[0]));
+    return addressWith(keyOf(this.host), await this.#pack(), true);
   }
 
   async #pack() {
     const state = this.host.getState() ?? {};
     const packedState = await packJson(state);
     this.lacksMap = packedState.length > MAX_LENGTH;
-    this.isLong = packedState.length > MAX_USUAL_LENGTH;
     // The start pose belongs to the map.
     return this.lacksMap ? packJson({ ...state, map: undefined, start: undefined }) : packedState;
   }
@@ -121,23 +114,11 @@ function addressWith(key: string, text: string, isFirst: boolean = false): strin
 
 const fragmentParts = () => location.hash.slice(1).split('&').filter((part) => part !== '');
 
-const isAnchor = (part = '') => part !== '' && !part.includes('=');
+/** First part of the fragment of a followed link, until the page has scrolled to its figure; then an empty text. */
+let linkedPart: string | undefined;
 
-/** First part of the fragment of a followed link, until the page has scrolled to it; then an empty text. */
-let pendingPart: string | undefined;
-
-/** Returns the first part of the fragment that the page was opened with, if the browser does not scroll to it. */
-function openingPart() {
+/** Returns true if the page was opened by a link: on a reload the browser restores the scroll position. */
+function isFollowedLink() {
   const [navigation] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
-  const [first = '', second] = fragmentParts();
-  // On a reload the browser restores the scroll position, and it finds an anchor that is the whole fragment.
-  return navigation?.type !== 'navigate' || (isAnchor(first) && !second) ? '' : first;
-}
-
-function decodeOrKeep(text: string) {
-  try {
-    return decodeURIComponent(text);
-  } catch {
-    return text;
-  }
+  return navigation?.type === 'navigate';
 }

@@ -31,7 +31,6 @@ export const de: typeof import('./en.ts').en = {
   views: { whole: 'ganze Karte', close: 'aus der Nähe' },
   robotAndMap: 'Roboter und Karte',
   mapNotInLink: 'Ihre Karte ist zu groß für einen Link und nicht dabei: Es öffnet sich die Wohnung.',
-  mapInLink: 'Er ist lang, denn Ihre Karte ist dabei: Manche Mail- und Chatprogramme schneiden ihn ab.',
   mapNotInCode: 'Ihre Karte ist nicht dabei: Geben Sie sie der Eigenschaft map; sonst öffnet sich die Wohnung.',
   condition: 'Stichproben mit der Karte prüfen',
   headline: {

@@ -33,7 +33,6 @@ export const en = {
   views: { whole: 'whole map', close: 'close-up' },
   robotAndMap: 'Robot and map',
   mapNotInLink: 'Your map is too large for a link and is not in it: the figure opens with the apartment.',
-  mapInLink: 'It is long, because your map is in it: some mail and chat programs cut it off.',
   mapNotInCode: 'Your map is not in it: give it to the property map, or the figure opens with the apartment.',
   condition: 'Check samples against the map',
   headline: {

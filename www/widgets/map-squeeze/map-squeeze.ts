@@ -118,7 +118,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
         ...Object.values(bits).map((bit) => Math.sign(verdicts[i] & bit)),
       ],
       count: verdicts.length,
-      linkNote: this.link.lacksMap ? words.squeeze.mapNotInLink : this.link.isLong ? words.squeeze.mapInLink : '',
+      linkNote: this.link.lacksMap ? words.squeeze.mapNotInLink : '',
       codeNote: this.map ? words.squeeze.mapNotInCode : '',
     };
   }

@@ -141,14 +141,14 @@ const bytesOfTexts = (/** @type {string[]} */ ...texts) => texts.map((text) => B
 
 const YAMLS = bytesOfTexts(
   'image: map.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n',
-  '# by hand\nimage: "maps/map.pgm"\nresolution: 5e-2\norigin:\n  - 1\n  - -2.5\n  - 1.57\nmode: scale\nnegate: no\n',
+  '# by hand\nimage: "maps/map.pgm"\nresolution: 5e-2\norigin:\n  - 1\n  - -2.5\n  - 1.57\nmode: scale\nnegate: false\n',
   '{image: map.pgm, resolution: .1, origin: [0, 0, 0], mode: raw, negate: true}',
   "? image\n: 'map.pgm'\nresolution: !!float 0.1\norigin: &o [0, 0, 0]\n",
 );
 
 const PLANS = bytesOfTexts(
   '{"bounds": [0, 0, 6, 4], "walls": [[0, 0, 6, 0], [6, 0, 6, 4], [3, 0, 3, 1.5]]}',
-  '{\n  # by hand\n  bounds: [-1e2, -3, 6, 4],\n  walls: [],\n}',
+  '{\n  "bounds": [-1e2, -3, 6, 4],\n  "walls": []\n}',
 );
 
 /** @type {Record<string, Target>} */

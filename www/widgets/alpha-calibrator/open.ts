@@ -141,7 +141,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   choose(files: File[]) {
     const logFiles = files.filter(mayBeLog);
-    if (files.length > 0) this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {}, roles: new Map() });
+    this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {}, roles: new Map() });
   }
 
   /** Stores an answer to a question, and opens the files with it. */

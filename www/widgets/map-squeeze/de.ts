@@ -127,24 +127,14 @@ export const de: typeof import('./en.ts').en = {
   },
   refused: {
     cannot: (reason) => `Die Karte lässt sich nicht öffnen: ${reason}.`,
-    kind: (name) =>
-      `${name}: Dateien dieser Art werden nicht gelesen; erwartet wird ein Grundriss als .json oder eine .yaml-Datei zusammen mit ihrem Bild als .pgm oder .png.`,
-    several: (names, count) => `${names}: Das sind ${count} Karten; erwartet wird eine auf einmal.`,
-    noFile: 'Keine Datei',
-    alone: (name) => `${name}: Ein Bild allein hat keinen Maßstab; erwartet wird seine .yaml-Datei dazu.`,
-    gone: (name, reason) => `${name}: Die Datei ist nicht lesbar (${reason}); erwartet wird eine, die noch da ist.`,
+    files: (names) => `${names}: Erwartet wird ein Grundriss als .json oder eine .yaml-Datei zusammen mit ihrem Bild als .pgm oder .png.`,
     long: (name, bytes, maxBytes) => `${name}: Die Datei hat ${bytes} Bytes; erwartet werden höchstens ${maxBytes}.`,
-    plan: (name, reason, form) => `${name}: ${reason}; ein Grundriss ist ${form} in Metern.`,
-    planForm: (form) => `${form} in Metern`,
-    yamlForm: 'ein Feld je Zeile, wie in resolution: 0.05',
-    syntax: (name, line, format, reason, expected) =>
-      `${name}${line ? `, Zeile ${line}` : ''}: Das ist kein ${format} (${reason}); erwartet wird ${expected}.`,
+    plan: (name, reason) => `${name}: ${reason}; erwartet wird {"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in Metern.`,
     image: (name, value) =>
       `${name}: image ${value ? `ist ${value}` : 'fehlt'}; erwartet wird der Name einer .pgm- oder .png-Datei.`,
     pair: (name, namedImage, givenImage) =>
       `${name}: image nennt ${namedImage}, das nicht dabei ist${givenImage && ` (dafür kam ${givenImage})`}; erwartet werden beide Dateien zusammen.`,
-    fields: (name) => `${name}: Darin sind keine Felder; erwartet werden mindestens image, resolution und origin.`,
-    broken: (name, reason) => `${name}: ${reason}.`,
+    yaml: (name, line, reason) => `${name}, Zeile ${line}: ${reason}; erwartet wird ein Feld je Zeile, wie in resolution: 0.05.`,
     line: (name, line, reason) => `${name}, Zeile ${line}: ${reason}.`,
   },
 };

@@ -128,23 +128,13 @@ export const en = {
   /** Reasons why files are refused: the file, the line or field, and what was expected. */
   refused: {
     cannot: (reason) => `The map cannot be opened: ${reason}.`,
-    kind: (name) =>
-      `${name}: this kind of file is not read; expected is a .json floor plan, or a .yaml file together with its .pgm or .png image.`,
-    several: (names, count) => `${names}: these are ${count} maps; expected is one at a time.`,
-    noFile: 'No file',
-    alone: (name) => `${name}: an image alone has no scale; expected is its .yaml file together with it.`,
-    gone: (name, reason) => `${name}: the file cannot be read (${reason}); expected is one that exists and may be read.`,
+    files: (names) => `${names}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`,
     long: (name, bytes, maxBytes) => `${name}: the file has ${bytes} bytes; expected are at most ${maxBytes}.`,
-    plan: (name, reason, form) => `${name}: ${reason}; a floor plan is ${form} in metres.`,
-    planForm: (form) => `${form} in metres`,
-    yamlForm: 'one field a line, as in resolution: 0.05',
-    syntax: (name, line, format, reason, expected) =>
-      `${name}${line ? `, line ${line}` : ''}: this is not ${format} (${reason}); expected is ${expected}.`,
+    plan: (name, reason) => `${name}: ${reason}; expected is {"bounds": [x0, y0, x1, y1], "walls": [[x0, y0, x1, y1], …]} in metres.`,
     image: (name, value) => `${name}: image is ${value || 'missing'}; expected is the name of a .pgm or .png file.`,
     pair: (name, namedImage, givenImage) =>
       `${name}: image names ${namedImage}, which is not there${givenImage && ` (${givenImage} came instead)`}; expected are both files together.`,
-    fields: (name) => `${name}: there are no fields in it; expected are at least image, resolution and origin.`,
-    broken: (name, reason) => `${name}: ${reason}.`,
+    yaml: (name, line, reason) => `${name}, line ${line}: ${reason}; expected is one field a line, as in resolution: 0.05.`,
     line: (name, line, reason) => `${name}, line ${line}: ${reason}.`,
   },
 } satisfies import('../../messages/registry.ts').Message;

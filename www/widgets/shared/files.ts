@@ -1,6 +1,6 @@
-/** Opener of files that the user chooses, or drops on a figure. A refusal is shown beside the result, or in a notice if that is out of sight. */
+/** Opener of files that the user chooses, or drops on a figure. A refusal is shown beside the result. */
 
-import { html, nothing } from 'lit';
+import { html } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
 import { inputOf } from '../../ui/controls.ts';
 
@@ -11,8 +11,6 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   abstract id: string;
   /** Error by which the latest files were refused; undefined if they were not. */
   refusal: unknown;
-  /** True if the latest files were dropped where their message is out of sight. A notice then shows the message. */
-  #isFar = false;
   /** Number of the latest attempt. Results of earlier ones are ignored. */
   #latestAttempt = 0;
 
@@ -32,8 +30,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
 
   get note() {
     const { complaint } = this;
-    const isInNotice = this.#isFar && this.host.notice.isShown;
-    return html`<p class="note" id="refusal" role=${this.#isFar ? nothing : 'alert'} ?hidden=${complaint === '' || isInNotice}>${complaint}</p>`;
+    return html`<p class="note" id="refusal" role="alert" ?hidden=${complaint === ''}>${complaint}</p>`;
   }
 
   /** Ignores the result of the latest attempt. */
@@ -59,24 +56,9 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   async refuse(error: unknown, focusAnswer: () => boolean | undefined = () => false) {
     const { host } = this;
     this.refusal = error;
-    const box = this.#note?.parentElement?.getBoundingClientRect();
-    this.#isFar &&= !box || box.bottom < 0 || box.top > innerHeight;
     host.requestUpdate();
     await host.updateComplete;
-    if (focusAnswer()) return;
-    if (this.#isFar) host.notice.show(this.complaint);
-    else this.#note?.scrollIntoView({ block: 'nearest' });
-  }
-
-  get #note() {
-    return this.host.renderRoot.querySelector(`#${this.id} .note`);
-  }
-
-  /** Opens files that the user has chosen or dropped. */
-  take(files: File[], isDropped: boolean = false) {
-    this.#isFar = isDropped;
-    this.host.notice.show('');
-    this.choose(files);
+    if (!focusAnswer()) host.renderRoot.querySelector('#refusal')?.scrollIntoView({ block: 'nearest' });
   }
 
   over = (event: DragEvent) => {
@@ -98,14 +80,14 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     event.preventDefault();
     const resultElement = this.host.renderRoot.querySelector(`#${this.id}`);
     if (resultElement instanceof HTMLDetailsElement) resultElement.open = true;
-    droppedFiles(event.dataTransfer).then((files) => this.take(files, true));
+    droppedFiles(event.dataTransfer).then((files) => files.length > 0 && this.choose(files));
   };
 
   /** Returns a button that opens a file dialog for files with these extensions. */
   button(id: string, label: string, extensions: string[]) {
     const openChosenFiles = (event: Event) => {
       const fileInput = inputOf(event);
-      this.take([...(fileInput.files ?? [])]);
+      this.choose([...(fileInput.files ?? [])]);
       // Reset, so that choosing the same file again after a correction fires an event.
       fileInput.value = '';
     };

@@ -13,7 +13,7 @@ use std::path::Path;
 
 type Target = fn(&[u8]);
 
-/// Tests of the targets: every n-th input of the corpus, and a number of mutations. Most take about a tenth of a
+/// Defines a test for each target. It runs every n-th input of the corpus and a number of mutations, in about a tenth of a
 /// second.
 macro_rules! tests {
     ($($name:ident: $every:literal, $mutations:literal;)+) => {
@@ -45,16 +45,16 @@ fn calibrate_runs_on_its_whole_corpus() {
 
 #[test]
 fn every_target_of_cargo_fuzz_has_a_test() {
-    let targets: Vec<_> = targets::TARGETS.iter().map(|(name, _)| *name).collect();
-    assert_eq!(targets, TESTED_TARGETS);
+    let target_names: Vec<_> = targets::TARGETS.iter().map(|(name, _)| *name).collect();
+    assert_eq!(target_names, TESTED_TARGETS);
 }
 
-/// Tests of inputs that once failed, each with its target.
+/// Defines a test for each input that once failed.
 macro_rules! regressions {
     ($($name:ident: $target:ident $hex:literal,)+) => {
         $(#[test]
         fn $name() {
-            run_target(targets::$target::run, &bytes_of($hex));
+            run_target(targets::$target::run, &bytes_from_hex($hex));
         })+
     };
 }
@@ -70,9 +70,9 @@ regressions! {
 }
 
 fn run_on_corpus_and_mutations(name: &str, target: Target, every: usize, mutations: u32) {
-    let corpus_text =
-        read_to_string(root().join("fuzz/corpus").join(name).with_extension("txt")).expect("a file");
-    let corpus: Vec<_> = corpus_text.lines().map(bytes_of).collect();
+    let corpus_text = read_to_string(repository_root().join("fuzz/corpus").join(name).with_extension("txt"))
+        .expect("a file");
+    let corpus: Vec<_> = corpus_text.lines().map(bytes_from_hex).collect();
     assert!(corpus.len() > 20, "{} inputs of {name}", corpus.len());
     corpus.iter().step_by(every).for_each(|bytes| run_target(target, bytes));
     let mut rng = seeded(2911);
@@ -85,11 +85,11 @@ fn run_on_corpus_and_mutations(name: &str, target: Target, every: usize, mutatio
     }
 }
 
-fn root() -> &'static Path {
+fn repository_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn bytes_of(hex: &str) -> Vec<u8> {
+fn bytes_from_hex(hex: &str) -> Vec<u8> {
     let byte_at = |at| u8::from_str_radix(&hex[at..at + 2], 16).expect("two hexadecimal digits");
     (0..hex.len()).step_by(2).map(byte_at).collect()
 }
@@ -111,20 +111,23 @@ fn random_item<'a, T>(all: &'a [T], rng: &mut impl Rng) -> &'a T {
 
 /// Returns the input with one of the changes that libFuzzer makes.
 fn mutate(bytes: &mut Vec<u8>, corpus: &[Vec<u8>], rng: &mut impl Rng) {
-    const BYTES: [u8; 9] = [0, 1, 16, 32, 48, 57, 127, 128, 255];
-    let end = bytes.len();
-    let start = random_below(end + 1, rng);
-    let length = random_below(8, rng).min(end - start);
+    const SPECIAL_BYTES: [u8; 9] = [0, 1, 16, 32, 48, 57, 127, 128, 255];
+    let byte_count = bytes.len();
+    let edit_start = random_below(byte_count + 1, rng);
+    let edit_length = random_below(8, rng).min(byte_count - edit_start);
     match random_below(6, rng) {
-        0 => bytes.insert(start, *random_item(&BYTES, rng)),
-        1 => drop(bytes.drain(start..start + length)),
-        2 => bytes.extend_from_within(start..start + length),
+        0 => bytes.insert(edit_start, *random_item(&SPECIAL_BYTES, rng)),
+        1 => drop(bytes.drain(edit_start..edit_start + edit_length)),
+        2 => bytes.extend_from_within(edit_start..edit_start + edit_length),
         3 => {
             let other_input = random_item(corpus, rng);
-            bytes.splice(start.., other_input[random_below(other_input.len() + 1, rng)..].iter().copied());
+            bytes.splice(
+                edit_start..,
+                other_input[random_below(other_input.len() + 1, rng)..].iter().copied(),
+            );
         }
-        _ if start == end => bytes.push(rng.next_u32() as u8),
-        4 => bytes[start] ^= 1 << random_below(8, rng),
-        _ => bytes[start] = rng.next_u32() as u8,
+        _ if edit_start == byte_count => bytes.push(rng.next_u32() as u8),
+        4 => bytes[edit_start] ^= 1 << random_below(8, rng),
+        _ => bytes[edit_start] = rng.next_u32() as u8,
     }
 }

@@ -1,8 +1,8 @@
 //! Arc Anatomy under any settings and calls.
 
-use super::input::{Input, is_selected};
+use super::input::{Input, is_selected_by_hash};
 use super::settings::{are_allowed, with_changes};
-use super::{banana, laws};
+use super::{assertions, banana};
 use motion::geom::se2::SE2;
 use motion::sim::arc_anatomy::{ArcAnatomy, ArcWithCircle, SurfaceKind, Paths, Settings, Stats, Surface, Table};
 use motion::sim::views::Grid;
@@ -12,7 +12,7 @@ const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let checks_paths = input.next_choice(8) == 1;
+    let should_check_paths = input.next_choice(8) == 1;
     let first_settings = with_changes(&Settings::default(), &mut input);
     if !are_allowed(&first_settings) {
         assert!(ArcAnatomy::new(first_settings).is_err());
@@ -31,11 +31,11 @@ pub fn run(bytes: &[u8]) {
     }
     assert_results(&simulation);
     // Paths are checked rarely: they have a thousand points, each with a sine and a cosine.
-    if checks_paths && is_selected(4, bytes) {
+    if should_check_paths && is_selected_by_hash(4, bytes) {
         assert_paths(&simulation);
     }
     // Maps are checked rarely: one takes as long as hundreds of other calls.
-    if is_selected(256, bytes) {
+    if is_selected_by_hash(256, bytes) {
         assert_surface(&simulation, &mut input);
     }
 }
@@ -59,49 +59,49 @@ fn assert_results(simulation: &ArcAnatomy) {
     for (label, arc) in [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven)] {
         assert_arc(label, arc);
     }
-    laws::assert_finite("last turn", &[last_turn]);
-    laws::assert_finite("xi", &xi);
+    assertions::assert_finite("last turn", &[last_turn]);
+    assertions::assert_finite("xi", &xi);
     for factor in &factors {
-        laws::assert_finite("factor", &[factor.estimate, factor.residual, factor.deviation, factor.value]);
+        assertions::assert_finite("factor", &[factor.estimate, factor.residual, factor.deviation, factor.value]);
         assert!(factor.deviation >= 0.0 && factor.value >= 0.0, "{factor:?}");
         assert!((0.0..=1.0).contains(&factor.share), "{factor:?}");
-        let deviation = factor.deviations.abs();
-        assert!(deviation <= factors[weakest].deviations.abs(), "{factor:?} {weakest}");
-        assert!(deviation.is_finite() || factor.deviation == 0.0, "{factor:?}");
+        let sigma_count = factor.deviations.abs();
+        assert!(sigma_count <= factors[weakest].deviations.abs(), "{factor:?} {weakest}");
+        assert!(sigma_count.is_finite() || factor.deviation == 0.0, "{factor:?}");
     }
     assert!(prob >= 0.0 && (0.0..=1.0).contains(&share), "p = {prob}, {share} of its highest");
-    let all_factors_noisy = factors.iter().all(|factor| factor.deviation > 0.0);
-    assert!(density.is_some() == all_factors_noisy && density.is_none_or(|density| density >= 0.0), "{density:?}");
+    let are_all_factors_noisy = factors.iter().all(|factor| factor.deviation > 0.0);
+    assert!(density.is_some() == are_all_factors_noisy && density.is_none_or(|density| density >= 0.0), "{density:?}");
     assert!(settings.printed || driven == inverted, "{driven:?} {inverted:?}");
 
-    let (start, next) = poses(settings);
-    let largest_extent =
-        [start.x(), start.y(), next.x(), next.y()].iter().fold(0.0, |largest: f64, at| largest.max(at.abs()));
-    let distance_to_next = |[x, y]: [f64; 2]| (x - next.x()).hypot(y - next.y());
+    let (start_pose, next_pose) = start_and_next_pose(settings);
+    let largest_coordinate =
+        [start_pose.x(), start_pose.y(), next_pose.x(), next_pose.y()].iter().fold(0.0, |largest: f64, at| largest.max(at.abs()));
+    let distance_to_next_pose = |[x, y]: [f64; 2]| (x - next_pose.x()).hypot(y - next_pose.y());
     // With a signed radius, both the inverted arc and the constant twist lead to the final position.
-    let arc_ends = [[inverted.end[0], inverted.end[1]], position_at(simulation, 1.0)];
-    let tolerance = laws::ROUNDING * largest_extent + f64::MIN_POSITIVE;
-    assert!(arc_ends.iter().all(|end| distance_to_next(*end) <= tolerance), "{arc_ends:?} for {settings:?}");
-    assert_eq!(position_at(simulation, 0.0), [start.x(), start.y()]);
+    let end_positions = [[inverted.end[0], inverted.end[1]], position_at(simulation, 1.0)];
+    let tolerance = assertions::ROUNDING_TOLERANCE * largest_coordinate + f64::MIN_POSITIVE;
+    assert!(end_positions.iter().all(|end| distance_to_next_pose(*end) <= tolerance), "{end_positions:?} for {settings:?}");
+    assert_eq!(position_at(simulation, 0.0), [start_pose.x(), start_pose.y()]);
     assert_table(simulation, prob);
 }
 
-fn poses(settings: &Settings) -> (SE2, SE2) {
+fn start_and_next_pose(settings: &Settings) -> (SE2, SE2) {
     let ([x, y, theta], next) = (settings.start, settings.next);
     (SE2::new(x, y, theta), SE2::new(next.x, next.y, next.theta))
 }
 
 fn assert_table(simulation: &ArcAnatomy, prob: f64) {
-    let (start, next) = poses(simulation.settings());
+    let (start_pose, next_pose) = start_and_next_pose(simulation.settings());
     let Table { lines: [mu, x, y, radius, controls @ ..], middle, normal } = simulation.table();
-    let relative_pose = start.inverse() * next;
+    let relative_pose = start_pose.inverse() * next_pose;
     let has_no_displacement = [relative_pose.x(), relative_pose.y()] == [0.0; 2];
     assert!([x, y, radius].iter().all(|line| !line.is_nan()), "{x} {y} {radius}");
     assert!(!mu.is_nan() || has_no_displacement, "{mu} for {relative_pose:?}");
     assert!(!simulation.settings().printed || radius >= 0.0, "{radius}");
-    laws::assert_finite("controls", &controls[..4]);
-    laws::assert_same_numbers("p", &controls[4..], &[prob]);
-    laws::assert_finite("middle and normal", &[middle, normal].concat());
+    assertions::assert_finite("controls", &controls[..4]);
+    assertions::assert_same_numbers("p", &controls[4..], &[prob]);
+    assertions::assert_finite("middle and normal", &[middle, normal].concat());
 }
 
 fn assert_paths(simulation: &ArcAnatomy) {
@@ -109,29 +109,29 @@ fn assert_paths(simulation: &ArcAnatomy) {
     for (label, path) in
         [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven), ("lie", &lie)]
     {
-        laws::assert_finite(label, path.as_flattened());
+        assertions::assert_finite(label, path.as_flattened());
     }
-    laws::assert_finite("ticks", ticks.as_flattened());
+    assertions::assert_finite("ticks", ticks.as_flattened());
     let Stats { inverted: ArcWithCircle { end: [x, y, _], .. }, .. } = simulation.stats();
     assert_eq!(inverted.last(), Some(&[x, y]));
 }
 
 fn assert_arc(label: &str, arc: &ArcWithCircle) {
-    laws::assert_finite(label, &[arc.arc_length, arc.turn]);
-    laws::assert_finite(label, &arc.end);
+    assertions::assert_finite(label, &[arc.arc_length, arc.turn]);
+    assertions::assert_finite(label, &arc.end);
     assert!(!arc.radius.is_nan(), "{label}: {arc:?}");
     assert_eq!(arc.centre.is_some(), arc.radius.is_finite(), "{label}: {arc:?}");
-    laws::assert_finite(label, &arc.centre.unwrap_or_default());
+    assertions::assert_finite(label, &arc.centre.unwrap_or_default());
 }
 
 /// Returns the position on the path of constant twist after a fraction of the time.
 fn position_at(simulation: &ArcAnatomy, fraction: f64) -> [f64; 2] {
     let poses = simulation.poses_at(fraction);
-    poses.iter().for_each(|pose| laws::assert_pose("poses_at", pose));
+    poses.iter().for_each(|pose| assertions::assert_pose("poses_at", pose));
     [poses[2].x(), poses[2].y()]
 }
 
-/// Asserts that contours have finite points inside the rectangle.
+/// Asserts that the contours of the heat map are inside its rectangle.
 fn assert_surface(simulation: &ArcAnatomy, input: &mut Input) {
     let Grid { min, max, .. } = banana::read_grid(input);
     let surface = simulation.surface(min, max);

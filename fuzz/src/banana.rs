@@ -1,7 +1,7 @@
 //! The Banana Machine under any settings and calls.
 
 use super::input::Input;
-use super::laws;
+use super::assertions;
 use super::settings::{are_allowed, with_changes};
 use motion::geom::se2::SE2;
 use motion::sim::View;
@@ -12,13 +12,13 @@ use motion::sim::picture::RAMP_STEPS;
 use motion::sim::settings::QUANTITY_RANGE;
 use motion::sim::views::{EXTENT_RANGE, Grid};
 
-/// Maximum number of samples in a run, and of calls. They are large enough to reach every branch, and small enough to allow many runs.
+/// Maximum numbers of samples and of calls in a run. They are large enough to reach every branch, and small enough to allow many runs.
 const MAX_SAMPLES: usize = 12;
 const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let [checks_curves, checks_second_simulation] = [0; 2].map(|_| input.next_choice(4) == 1);
+    let [should_check_curves, should_compare_new_simulation] = [0; 2].map(|_| input.next_choice(4) == 1);
     let first_settings = with_changes(&limit_samples(Settings::default()), &mut input);
     if !are_allowed(&first_settings) {
         assert!(BananaMachine::with_shown_count(first_settings, 0).is_err());
@@ -36,10 +36,10 @@ pub fn run(bytes: &[u8]) {
     }
     assert_results(&simulation);
     // Slow checks run for some inputs only.
-    if checks_curves {
+    if should_check_curves {
         assert_contours(&simulation);
     }
-    if checks_second_simulation {
+    if should_compare_new_simulation {
         assert_equals_new_simulation(&simulation);
     }
 }
@@ -52,7 +52,7 @@ fn limit_samples(settings: Settings) -> Settings {
 fn call_method(simulation: &mut BananaMachine, input: &mut Input) {
     match input.next_choice(9) {
         0 => configure(simulation, input),
-        1 => assert_same_in_blocks(simulation, input),
+        1 => assert_same_if_added_in_blocks(simulation, input),
         2 => {
             let count_before = simulation.shown_count();
             let count = input.next_choice(MAX_SAMPLES);
@@ -64,8 +64,8 @@ fn call_method(simulation: &mut BananaMachine, input: &mut Input) {
             assert_eq!(simulation.shown_count(), 0);
         }
         4 => assert_picture(simulation, input),
-        5 => assert_nearest(simulation, input),
-        6 => assert_executed(simulation, usize::from(input.next_byte())),
+        5 => assert_nearest_pose(simulation, input),
+        6 => assert_executed_motion(simulation, usize::from(input.next_byte())),
         7 => assert_table(simulation),
         _ => {
             let [x, y] = [0; 2].map(|_| input.number_within(QUANTITY_RANGE));
@@ -86,11 +86,11 @@ fn configure(simulation: &mut BananaMachine, input: &mut Input) {
     let (settings_before, results_before) = (*simulation.settings(), all_results(simulation));
     assert!(simulation.configure(settings).is_err() && simulation.configure_first(settings, 0).is_err());
     assert_eq!(*simulation.settings(), settings_before);
-    laws::assert_same_numbers("after a refusal", &all_results(simulation), &results_before);
+    assertions::assert_same_numbers("after a refusal", &all_results(simulation), &results_before);
 }
 
 /// Asserts that samples added in blocks equal the samples of one call.
-fn assert_same_in_blocks(simulation: &mut BananaMachine, input: &mut Input) {
+fn assert_same_if_added_in_blocks(simulation: &mut BananaMachine, input: &mut Input) {
     let settings = with_changes(simulation.settings(), input);
     if !are_allowed(&settings) {
         return;
@@ -102,7 +102,7 @@ fn assert_same_in_blocks(simulation: &mut BananaMachine, input: &mut Input) {
     while simulation.shown_count() < simulation.settings().samples {
         simulation.add_samples(count);
     }
-    laws::assert_same_numbers("in blocks", &all_results(simulation), &all_results(&simulation_in_one_call));
+    assertions::assert_same_numbers("in blocks", &all_results(simulation), &all_results(&simulation_in_one_call));
 }
 
 /// Asserts that a simulation depends on its settings only, and not on earlier calls.
@@ -110,11 +110,11 @@ fn assert_equals_new_simulation(simulation: &BananaMachine) {
     let mut new_simulation = BananaMachine::with_shown_count(*simulation.settings(), 0).expect("allowed");
     if simulation.shown_count() > 0 {
         new_simulation.add_samples(simulation.shown_count());
-        laws::assert_same_numbers("as if new", &all_results(simulation), &all_results(&new_simulation));
+        assertions::assert_same_numbers("as if new", &all_results(simulation), &all_results(&new_simulation));
     }
 }
 
-/// Returns all results except curves.
+/// Returns the poses and statistics.
 fn all_results(simulation: &BananaMachine) -> Vec<f64> {
     let mut all_numbers: Vec<f64> = simulation.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
     let stats @ Stats { cartesian, exponential, coverage, .. } = simulation.stats();
@@ -132,35 +132,35 @@ fn all_results(simulation: &BananaMachine) -> Vec<f64> {
 /// Asserts that all results are finite, or NaN where they are undefined.
 fn assert_results(simulation: &BananaMachine) {
     let (n, stats) = (simulation.shown_count(), simulation.stats());
-    simulation.poses().for_each(|pose| laws::assert_pose("a pose", &pose));
+    simulation.poses().for_each(|pose| assertions::assert_pose("a pose", &pose));
     assert_eq!(simulation.poses().len(), n);
-    laws::assert_finite("executed", simulation.executed_motions().collect::<Vec<_>>().as_flattened());
-    let is_charted = simulation.is_chart_defined();
-    if is_charted {
-        simulation.twists().for_each(|twist| laws::assert_finite("a twist", twist.as_slice()));
+    assertions::assert_finite("executed", simulation.executed_motions().collect::<Vec<_>>().as_flattened());
+    let is_chart_defined = simulation.is_chart_defined();
+    if is_chart_defined {
+        simulation.twists().for_each(|twist| assertions::assert_finite("a twist", twist.as_slice()));
     }
     if n > 0 {
-        laws::assert_finite("mean", stats.cartesian.mean.as_slice());
+        assertions::assert_finite("mean", stats.cartesian.mean.as_slice());
     }
     if n > 1 {
-        laws::assert_moments("pose", &stats.cartesian.mean, &stats.cartesian.cov);
+        assertions::assert_moments("pose", &stats.cartesian.mean, &stats.cartesian.cov);
     }
-    if is_charted && n > 1 {
-        laws::assert_moments("exponential", &stats.exponential.mean, &stats.exponential.cov);
+    if is_chart_defined && n > 1 {
+        assertions::assert_moments("exponential", &stats.exponential.mean, &stats.exponential.cov);
     } else {
         assert!(n == 1 || stats.exponential.cov.iter().all(|number| number.is_nan()));
     }
     let (skew, skew_error) = (stats.cross_track_skew, stats.cross_track_skew_error);
-    laws::assert_finite_or_none("skew", &[skew, skew_error]);
+    assertions::assert_all_finite_or_all_nan("skew", &[skew, skew_error]);
     // The skew of n samples is largest for n − 1 equal samples and one different sample.
     let max_skew = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
     assert!(skew.is_nan() || skew.abs() <= max_skew * (1.0 + 1e-9), "{skew} of {n}");
     assert!(skew_error.is_nan() || skew_error >= 0.0, "{skew_error}");
     let rho = stats.rho_cross_heading;
     assert!(rho.is_nan() || rho.abs() <= 1.0, "{rho}");
-    laws::assert_finite_or_none("gaussian skew", &[stats.gaussian_skew]);
-    laws::assert_fraction("inside the ellipse", stats.coverage.ellipse);
-    laws::assert_fraction("inside the contour", stats.coverage.exponential);
+    assertions::assert_all_finite_or_all_nan("gaussian skew", &[stats.gaussian_skew]);
+    assertions::assert_fraction("inside the ellipse", stats.coverage.ellipse);
+    assertions::assert_fraction("inside the contour", stats.coverage.exponential);
     assert!(stats.area_ratio.is_nan() || stats.area_ratio >= 0.0, "{}", stats.area_ratio);
     let (gain, error) = (stats.likelihood_gain, stats.likelihood_gain_error);
     for (gain, error) in [(gain.pose, error.pose), (gain.floor, error.floor)] {
@@ -178,7 +178,7 @@ fn assert_contours(simulation: &BananaMachine) {
         ("twist ellipse", &twist_ellipse),
         ("additive", &additive),
     ] {
-        laws::assert_finite(label, outline.as_flattened());
+        assertions::assert_finite(label, outline.as_flattened());
     }
     for outline in [&ellipse, &linearized, &exponential, &twist_ellipse, &additive] {
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
@@ -187,13 +187,13 @@ fn assert_contours(simulation: &BananaMachine) {
     assert_eq!(exponential.is_empty(), simulation.shown_count() < 2 || !simulation.is_chart_defined());
 }
 
-/// Checks every column of the table. Quadrature makes this slow.
+/// Checks every column of the table. This is slow, because exact moments need quadrature.
 fn assert_table(simulation: &BananaMachine) {
     let table = simulation.table();
     for (label, column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
         let TableColumn { mean, cov, cross_track_skew, likelihood_gain, area_ratio } = column;
-        laws::assert_moments(label, mean, cov);
-        laws::assert_finite_or_none(label, &[*cross_track_skew]);
+        assertions::assert_moments(label, mean, cov);
+        assertions::assert_all_finite_or_all_nan(label, &[*cross_track_skew]);
         assert!(
             !likelihood_gain.pose.is_infinite() || likelihood_gain.pose > 0.0,
             "{label}: {likelihood_gain:?}"
@@ -201,32 +201,32 @@ fn assert_table(simulation: &BananaMachine) {
         assert!(area_ratio.is_nan() || *area_ratio >= 0.0, "{label}: {area_ratio}");
     }
     if let Some(tangent) = table.tangent {
-        laws::assert_moments("tangent", &tangent.mean, &tangent.cov);
+        assertions::assert_moments("tangent", &tangent.mean, &tangent.cov);
     }
     let reading = simulation.reading();
-    laws::assert_finite("reading", &[reading.rot1, reading.trans, reading.rot2]);
+    assertions::assert_finite("reading", &[reading.rot1, reading.trans, reading.rot2]);
 }
 
-fn assert_executed(simulation: &BananaMachine, index: usize) {
+fn assert_executed_motion(simulation: &BananaMachine, index: usize) {
     let Some(sample) = simulation.inspect(index) else {
         assert!(index >= simulation.shown_count());
         return;
     };
-    laws::assert_pose("inspected", &sample.pose.into());
-    laws::assert_finite("path", sample.path.as_flattened());
+    assertions::assert_pose("inspected", &sample.pose.into());
+    assertions::assert_finite("path", sample.path.as_flattened());
     if let Some(legs) = sample.legs {
-        laws::assert_finite("legs", &[legs.rot1, legs.trans, legs.rot2]);
+        assertions::assert_finite("legs", &[legs.rot1, legs.trans, legs.rot2]);
     }
     let [x, y] = *sample.path.last().expect("a path has an end");
     // Paths use the scalar functions, poses the SIMD functions. They agree to 2e-15 of the length.
     let path_length = sample.path.windows(2).map(|ends| distance(ends[0], ends[1])).sum::<f64>();
     let command = simulation.settings().command;
-    let commanded_length = (command.v * command.dt).abs();
-    let longest_motion = sample.legs.map_or((sample.v_hat * command.dt).abs(), |legs| legs.trans.abs());
-    assert!(path_length <= longest_motion * (1.0 + 1e-9) + 1e-9, "{path_length}, {longest_motion}");
+    let commanded_path_length = (command.v * command.dt).abs();
+    let max_path_length = sample.legs.map_or((sample.v_hat * command.dt).abs(), |legs| legs.trans.abs());
+    assert!(path_length <= max_path_length * (1.0 + 1e-9) + 1e-9, "{path_length}, {max_path_length}");
     // If the noise nearly cancels the command, the motion still has the rounding error of the command.
-    let turn_factor = 1.0 + (command.omega * command.dt).abs();
-    let rounding_error = 1e-14 * (longest_motion * turn_factor + commanded_length) + f64::MIN_POSITIVE;
+    let rounding_factor = 1.0 + (command.omega * command.dt).abs();
+    let rounding_error = 1e-14 * (max_path_length * rounding_factor + commanded_path_length) + f64::MIN_POSITIVE;
     assert!(
         distance([x, y], [sample.pose[0], sample.pose[1]]) <= rounding_error,
         "{sample:?} of {:?}",
@@ -256,13 +256,13 @@ fn assert_picture(simulation: &mut BananaMachine, input: &mut Input) {
     assert!(pixels.iter().zip(&counts).all(|(pixel, count)| (pixel[3] > 0) == (*count > 0)), "{grid:?}");
 }
 
-fn assert_nearest(simulation: &BananaMachine, input: &mut Input) {
+fn assert_nearest_pose(simulation: &BananaMachine, input: &mut Input) {
     let target = [0; 2].map(|_| input.next_number());
     let radii = [0; 2].map(|_| input.number_within(0.0..=f64::INFINITY));
     let Some(index) = simulation.nearest(View::Plane, target, radii) else { return };
     let nearest_pose: SE2 = simulation.pose(index).expect("a sample that is shown");
-    let distance_to = |pose: &SE2| ((pose.x() - target[0]) / radii[0]).hypot((pose.y() - target[1]) / radii[1]);
+    let relative_distance_to = |pose: &SE2| ((pose.x() - target[0]) / radii[0]).hypot((pose.y() - target[1]) / radii[1]);
     // The square of a distance below 1e-154 underflows to 0.
-    let least_distance = simulation.poses().map(|pose| distance_to(&pose)).fold(f64::INFINITY, f64::min);
-    assert!(distance_to(&nearest_pose) <= least_distance * (1.0 + 1e-9) + 1e-150, "{target:?} {radii:?}: {index}");
+    let min_relative_distance = simulation.poses().map(|pose| relative_distance_to(&pose)).fold(f64::INFINITY, f64::min);
+    assert!(relative_distance_to(&nearest_pose) <= min_relative_distance * (1.0 + 1e-9) + 1e-150, "{target:?} {radii:?}: {index}");
 }

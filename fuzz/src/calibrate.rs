@@ -1,7 +1,7 @@
 //! Calibration of random logs with random options.
 
-use super::input::{Input, is_selected};
-use super::laws;
+use super::input::{Input, is_selected_by_hash};
+use super::assertions;
 use motion::calibrate::{
     CalibrateError, Calibration, Check, Drive, LegLength, MIN_LEGS, Model, Options, Outliers,
     SystematicError, Trajectory, TrajectoryError, Verdict, calibrate,
@@ -13,11 +13,11 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 /// Maximum number of parts of a drive.
-const MAX_PARTS: usize = 6;
+const MAX_DRIVE_PARTS: usize = 6;
 
-/// Maximum number of rows of each part of a drive in most runs. The time of a calibration grows with the number of rows.
-const MAX_ROWS_OF_MOST_RUNS: usize = 12;
-const MAX_ROWS: usize = 64; // in a few long runs
+/// Maximum number of rows in a part of a drive in most runs. The time of a calibration grows with the number of rows.
+const MAX_PART_ROWS_OF_MOST_RUNS: usize = 12;
+const MAX_PART_ROWS: usize = 64; // in a few long runs
 
 const MODELS: [Model; 5] = [
     Model::Odometry(OdometryRule::Table),
@@ -30,11 +30,11 @@ const MODELS: [Model; 5] = [
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let options = read_options(&mut input);
-    let mut odometry_log = odometry_rows(&mut input, if is_selected(128, bytes) { MAX_ROWS } else { MAX_ROWS_OF_MOST_RUNS });
+    let mut odometry_log = odometry_rows(&mut input, if is_selected_by_hash(128, bytes) { MAX_PART_ROWS } else { MAX_PART_ROWS_OF_MOST_RUNS });
     let mut reference_log = reference_rows(&odometry_log, &mut input);
     edit_rows(&mut odometry_log, &mut input);
     edit_rows(&mut reference_log, &mut input);
-    let (Some(odometry), Some(reference)) = (trajectory(&odometry_log, &mut input), trajectory(&reference_log, &mut input))
+    let (Some(odometry), Some(reference)) = (trajectory_from_rows(&odometry_log, &mut input), trajectory_from_rows(&reference_log, &mut input))
     else {
         return;
     };
@@ -49,10 +49,10 @@ pub fn run(bytes: &[u8]) {
 }
 
 fn read_options(input: &mut Input) -> Options {
-    let legs = match input.next_choice(4) {
+    let leg_length = match input.next_choice(4) {
         0 => LegLength::AMCL,
-        1 => LegLength::Duration { duration: leg_length(input) },
-        _ => LegLength::Displacement { distance: leg_length(input), angle: leg_length(input) },
+        1 => LegLength::Duration { duration: read_leg_size(input) },
+        _ => LegLength::Displacement { distance: read_leg_size(input), angle: read_leg_size(input) },
     };
     let outliers = input.one_of(&[Outliers::Reject, Outliers::Keep]);
     let correction_bits = input.next_byte();
@@ -60,7 +60,7 @@ fn read_options(input: &mut Input) -> Options {
     let [position_std, yaw_std] = [read_std(), read_std()];
     Options {
         model: input.one_of(&MODELS),
-        legs,
+        legs: leg_length,
         outliers,
         correct: std::array::from_fn(|error| (correction_bits >> error & 1 == 1).then_some(correction_bits & 64 == 0)),
         position_std,
@@ -69,55 +69,55 @@ fn read_options(input: &mut Input) -> Options {
 }
 
 /// Returns the length of a leg in m, rad or s.
-fn leg_length(input: &mut Input) -> f64 {
+fn read_leg_size(input: &mut Input) -> f64 {
     if input.next_bool() { input.one_of(&[0.1, 0.2, 0.25, 0.5]) } else { input.number_within(1e-6..=1e6) }
 }
 
-type Row = (f64, SE2);
+type LogRow = (f64, SE2);
 
-/// Returns one of the given values, or sometimes any number.
-fn choice_or_any(choices: &[f64], input: &mut Input) -> f64 {
+/// Returns one of the given numbers, or sometimes any other number.
+fn choice_or_any_number(choices: &[f64], input: &mut Input) -> f64 {
     let choice = input.next_choice(choices.len() + 1);
     choices.get(choice).copied().unwrap_or_else(|| input.number_within(-1e9..=1e9))
 }
 
-fn odometry_rows(input: &mut Input, max_rows_of_part: usize) -> Vec<Row> {
-    let step = choice_or_any(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
-    let mut rows = vec![(choice_or_any(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
-    for _ in 0..=input.next_choice(MAX_PARTS) {
-        let v = choice_or_any(&[0.0, 0.2, 0.5, 0.8, -0.3], input);
-        let omega = choice_or_any(&[0.0, 0.2, -0.4, 0.9, -0.9], input);
+fn odometry_rows(input: &mut Input, max_rows_of_part: usize) -> Vec<LogRow> {
+    let time_step = choice_or_any_number(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
+    let mut rows = vec![(choice_or_any_number(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
+    for _ in 0..=input.next_choice(MAX_DRIVE_PARTS) {
+        let v = choice_or_any_number(&[0.0, 0.2, 0.5, 0.8, -0.3], input);
+        let omega = choice_or_any_number(&[0.0, 0.2, -0.4, 0.9, -0.9], input);
         for _ in 0..1 + usize::from(input.next_byte()) % max_rows_of_part {
             let (time, pose) = rows[rows.len() - 1];
-            rows.push((time + step, pose.boxplus(Vector3::new(v, 0.0, omega) * step)));
+            rows.push((time + time_step, pose.boxplus(Vector3::new(v, 0.0, omega) * time_step)));
         }
     }
     rows
 }
 
 /// Returns the reference: the odometry with an error in each step, and with occasional jumps.
-fn reference_rows(odometry: &[Row], input: &mut Input) -> Vec<Row> {
-    let offset = choice_or_any(&[0.0, 0.12, -3.0, 50.0], input);
-    let mount_pose = SE2::new(0.1 * f64::from(input.next_choice(3) as u8), 0.0, choice_or_any(&[0.0, 0.07, 3.0], input));
-    let relative_noise = choice_or_any(&[0.0, 0.01, 0.1, 0.5], input);
+fn reference_rows(odometry: &[LogRow], input: &mut Input) -> Vec<LogRow> {
+    let clock_offset = choice_or_any_number(&[0.0, 0.12, -3.0, 50.0], input);
+    let mount_pose = SE2::new(0.1 * f64::from(input.next_choice(3) as u8), 0.0, choice_or_any_number(&[0.0, 0.07, 3.0], input));
+    let relative_noise = choice_or_any_number(&[0.0, 0.01, 0.1, 0.5], input);
     let jump_interval = usize::from(input.next_byte());
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(u64::from(input.next_byte()));
     let mut pose = SE2::new(1.0, 2.0, 3.0);
-    let mut rows = vec![(odometry[0].0 + offset, pose * mount_pose)];
+    let mut rows = vec![(odometry[0].0 + clock_offset, pose * mount_pose)];
     for (i, pair) in odometry.windows(2).enumerate() {
-        let step = pair[1].1.boxminus(&pair[0].1);
-        let noise = Vector3::from_fn(|_, _| rng.random_range(-1.0..=1.0)) * relative_noise * step.norm();
-        pose = pose.boxplus(step + noise);
+        let motion = pair[1].1.boxminus(&pair[0].1);
+        let noise = Vector3::from_fn(|_, _| rng.random_range(-1.0..=1.0)) * relative_noise * motion.norm();
+        pose = pose.boxplus(motion + noise);
         if jump_interval > 0 && i % jump_interval == 0 {
             pose = SE2::new(0.5, 0.0, 0.0) * pose;
         }
-        rows.push((pair[1].0 + offset, pose * mount_pose));
+        rows.push((pair[1].0 + clock_offset, pose * mount_pose));
     }
     rows
 }
 
 /// Changes or removes some rows.
-fn edit_rows(rows: &mut Vec<Row>, input: &mut Input) {
+fn edit_rows(rows: &mut Vec<LogRow>, input: &mut Input) {
     for _ in 0..input.next_choice(4) {
         let row_index = usize::from(u16::from_le_bytes(input.next_bytes())) % rows.len();
         let (time, pose) = rows[row_index];
@@ -128,7 +128,7 @@ fn edit_rows(rows: &mut Vec<Row>, input: &mut Input) {
             2 => rows[row_index].1 = SE2::new(x, y, input.next_number()),
             3 => rows[row_index..].iter_mut().for_each(|row| row.0 += 10.0),
             4 => rows[row_index].0 = time.next_up(),
-            _ => drop(rows.drain(row_index..(row_index + 1 + usize::from(input.next_byte()) % MAX_ROWS).min(rows.len()))),
+            _ => drop(rows.drain(row_index..(row_index + 1 + usize::from(input.next_byte()) % MAX_PART_ROWS).min(rows.len()))),
         }
         if rows.is_empty() {
             rows.push((time, pose));
@@ -136,8 +136,8 @@ fn edit_rows(rows: &mut Vec<Row>, input: &mut Input) {
     }
 }
 
-/// Returns the trajectory of the rows, with breaks before some of them, or None if a row is refused.
-fn trajectory(rows: &[Row], input: &mut Input) -> Option<Trajectory> {
+/// Returns the trajectory of the rows, with breaks before some rows. Returns None if a row is refused.
+fn trajectory_from_rows(rows: &[LogRow], input: &mut Input) -> Option<Trajectory> {
     let result = match input.next_choice(4) {
         // The coordinates serve as commands.
         0 => Trajectory::from_commands(rows.iter().map(|(time, pose)| (*time, pose.x(), pose.theta()))),
@@ -146,11 +146,11 @@ fn trajectory(rows: &[Row], input: &mut Input) -> Option<Trajectory> {
     match result {
         Ok(trajectory) => {
             assert!(rows.is_sorted_by(|a, b| a.0 < b.0));
-            let gaps_before = trajectory.gaps();
-            let breaks: Vec<usize> = (0..input.next_choice(4)).map(|_| usize::from(input.next_byte())).collect();
-            let with_breaks = trajectory.with_breaks_before(breaks.iter().copied());
-            assert!((gaps_before..=gaps_before + breaks.len()).contains(&with_breaks.gaps()));
-            Some(with_breaks)
+            let gap_count_before = trajectory.gaps();
+            let break_indices: Vec<usize> = (0..input.next_choice(4)).map(|_| usize::from(input.next_byte())).collect();
+            let trajectory_with_breaks = trajectory.with_breaks_before(break_indices.iter().copied());
+            assert!((gap_count_before..=gap_count_before + break_indices.len()).contains(&trajectory_with_breaks.gaps()));
+            Some(trajectory_with_breaks)
         }
         Err(TrajectoryError::NotLater { sample, before }) => {
             assert!(sample > 0 && rows[sample].0 <= before && rows[sample - 1].0 == before);
@@ -173,21 +173,21 @@ fn assert_calibration(calibration: &Calibration, options: &Options) {
     for (k, alpha) in alphas.iter().enumerate() {
         assert_eq!([alpha.is_none(), intervals[k].is_none()], [not_identifiable[k].is_some(); 2]);
         let Some((alpha, [low, high])) = alpha.zip(intervals[k]) else { continue };
-        let is_inside = 0.0 <= low && low <= alpha && alpha <= high && alpha.is_finite();
-        assert!(is_inside, "α{}: {low} {alpha} {high}", k + 1);
+        let is_in_interval = 0.0 <= low && low <= alpha && alpha <= high && alpha.is_finite();
+        assert!(is_in_interval, "α{}: {low} {alpha} {high}", k + 1);
     }
     for noise in calibration.reference_noise {
         let [low, high] = noise.interval;
         assert!(0.0 <= low && low <= noise.value && noise.value <= high, "{noise:?}");
     }
-    // If a pose is further away than the square root of the largest double, numbers overflow, and the log is unusable.
+    // A log is unusable if squares of its coordinates overflow.
     let is_usable = calibration.diagnostics.verdict != Verdict::Unusable;
     assert!(!is_usable || !calibration.log_likelihood.is_nan());
     for (i, error) in SystematicError::ALL.into_iter().enumerate() {
-        let (value, interval) = (calibration.systematic.get(error), calibration.interval_of(error));
-        assert!(value.is_finite() && interval.is_none_or(|[low, high]| low <= value && value <= high));
-        let may_have_interval = interval.is_some() && options.correct[i] != Some(false);
-        assert!(may_have_interval || !calibration.is_corrected[i], "{error:?}");
+        let (estimate, interval) = (calibration.systematic.get(error), calibration.interval_of(error));
+        assert!(estimate.is_finite() && interval.is_none_or(|[low, high]| low <= estimate && estimate <= high));
+        let may_be_corrected = interval.is_some() && options.correct[i] != Some(false);
+        assert!(may_be_corrected || !calibration.is_corrected[i], "{error:?}");
     }
     for pair in legs.windows(2) {
         assert!(pair[0].times[1] <= pair[1].times[0]);
@@ -205,12 +205,12 @@ fn assert_diagnostics(Calibration { alphas, diagnostics, persistence, recommende
     for Check { name, value, expected: [low, high], passed } in &diagnostics.checks {
         assert_eq!(*passed, low <= value && value <= high, "{name:?}: {value} {low} {high}");
     }
-    let all_passed = diagnostics.checks.iter().all(|check| check.passed);
-    assert!(all_passed || diagnostics.verdict != Verdict::Consistent);
+    let have_all_passed = diagnostics.checks.iter().all(|check| check.passed);
+    assert!(have_all_passed || diagnostics.verdict != Verdict::Consistent);
     for window in diagnostics.windows.iter().filter(|window| window.count > 0) {
-        laws::assert_fraction("covered windows", window.coverage);
+        assertions::assert_fraction("covered windows", window.coverage);
     }
-    laws::assert_fraction("persistence", persistence.correlation.value);
+    assertions::assert_fraction("persistence", persistence.correlation.value);
     assert_eq!(recommended.is_none(), diagnostics.verdict == Verdict::Unusable);
     let Some(recommended) = recommended else { return };
     assert!((1.0..=100.0).contains(&recommended.inflation), "{recommended:?}");

@@ -1,16 +1,16 @@
 //! The Odometry Decomposer under any settings and calls.
 
 use super::input::Input;
-use super::laws;
+use super::assertions;
 use super::settings::{are_allowed, with_changes};
 use motion::geom::se2::SE2;
 use motion::models::{OdomDelta, MAX_SPIN_DISTANCE};
 use motion::sim::odometry_decomposer::{DriftedOdometry, OdometryDecomposer, Settings, Stats};
 use motion::sim::settings::QUANTITY_RANGE;
 
-/// Maximum number of outcomes in a run, of points of a curve, and of calls.
+/// Maximum numbers of outcomes, of points of a curve, and of calls in a run.
 const MAX_SAMPLES: usize = 12;
-const MAX_POINTS: usize = 6;
+const MAX_CURVE_POINTS: usize = 6;
 const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
@@ -50,21 +50,21 @@ fn call_method(simulation: &mut OdometryDecomposer, input: &mut Input) {
         4 => {
             let leg_poses = simulation.sample_leg_poses(usize::from(input.next_byte()));
             assert!(leg_poses.len() <= shown_count);
-            leg_poses.as_flattened().iter().for_each(|pose| laws::assert_pose("a leg pose", pose));
+            leg_poses.as_flattened().iter().for_each(|pose| assertions::assert_pose("a leg pose", pose));
             assert!(leg_poses.iter().zip(simulation.poses()).all(|(outcome_poses, pose)| outcome_poses[3] == *pose));
         }
-        5 => assert_curve(simulation, input.number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_choice(MAX_POINTS)),
-        _ => assert_nearest(simulation, input),
+        5 => assert_deviation_curve(simulation, input.number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_choice(MAX_CURVE_POINTS)),
+        _ => assert_nearest_pose(simulation, input),
     }
 }
 
 fn configure(simulation: &mut OdometryDecomposer, input: &mut Input) {
     let settings = with_changes(simulation.settings(), input);
-    let (before, poses) = (*simulation.settings(), simulation.poses().to_vec());
+    let (settings_before, poses_before) = (*simulation.settings(), simulation.poses().to_vec());
     if !are_allowed(&settings) {
         assert!(simulation.configure(settings).is_err());
-        assert_eq!(*simulation.settings(), before);
-        assert_eq!(simulation.poses(), poses);
+        assert_eq!(*simulation.settings(), settings_before);
+        assert_eq!(simulation.poses(), poses_before);
         return;
     }
     let settings = limit_samples(settings);
@@ -72,34 +72,34 @@ fn configure(simulation: &mut OdometryDecomposer, input: &mut Input) {
     assert_eq!(simulation.poses().len(), settings.samples);
 }
 
-fn assert_curve(simulation: &OdometryDecomposer, longest: f64, count: usize) {
-    let points = simulation.deviation_curve(longest, count);
+fn assert_deviation_curve(simulation: &OdometryDecomposer, max_distance: f64, count: usize) {
+    let points = simulation.deviation_curve(max_distance, count);
     assert_eq!(points.len(), count);
     for point in points {
-        laws::assert_finite("curve", &[point.trans, point.cross_track, point.lever, point.along]);
+        assertions::assert_finite("curve", &[point.trans, point.cross_track, point.lever, point.along]);
         assert!(point.cross_track >= 0.0 && point.lever >= 0.0 && point.along >= 0.0, "{point:?}");
     }
 }
 
-fn assert_nearest(simulation: &OdometryDecomposer, input: &mut Input) {
+fn assert_nearest_pose(simulation: &OdometryDecomposer, input: &mut Input) {
     let target = [0; 2].map(|_| input.next_number());
     let radius = input.number_within(0.0..=f64::INFINITY);
     let Some(index) = simulation.nearest(target, radius) else { return };
-    let distance_to = |pose: &SE2| ((pose.x() - target[0]) / radius).hypot((pose.y() - target[1]) / radius);
-    let least_distance = simulation.poses().iter().map(distance_to).fold(f64::INFINITY, f64::min);
+    let relative_distance_to = |pose: &SE2| ((pose.x() - target[0]) / radius).hypot((pose.y() - target[1]) / radius);
+    let min_relative_distance = simulation.poses().iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);
     // The square of a distance below 1e-154 of the radius underflows to 0.
-    let nearest_distance = distance_to(&simulation.poses()[index]);
-    assert!(nearest_distance <= least_distance * (1.0 + 1e-9) + 1e-150 && nearest_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
+    let found_relative_distance = relative_distance_to(&simulation.poses()[index]);
+    assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
 }
 
 /// Asserts that all results are finite, or NaN without outcomes.
 fn assert_results(simulation: &OdometryDecomposer) {
     let settings = simulation.settings();
-    simulation.poses().iter().for_each(|pose| laws::assert_pose("an outcome", pose));
-    simulation.leg_poses().iter().for_each(|pose| laws::assert_pose("a leg pose", pose));
-    laws::assert_pose("the robot", &simulation.robot_pose());
+    simulation.poses().iter().for_each(|pose| assertions::assert_pose("an outcome", pose));
+    simulation.leg_poses().iter().for_each(|pose| assertions::assert_pose("a leg pose", pose));
+    assertions::assert_pose("the robot", &simulation.robot_pose());
     let DriftedOdometry { frame, from, to, legs } = simulation.drifted_odometry();
-    [frame, from, to].iter().for_each(|pose| laws::assert_pose("drifted", pose));
+    [frame, from, to].iter().for_each(|pose| assertions::assert_pose("drifted", pose));
     assert_legs("drifted legs", &legs);
     assert_legs("reading", &simulation.reading());
 
@@ -117,8 +117,8 @@ fn assert_results(simulation: &OdometryDecomposer) {
     assert_eq!(n, simulation.poses().len());
     let exact_values = [exact_cross_track, lever, exact_heading, independent_heading];
     let measured_values = [cross_track, cross_track_error, heading, heading_error];
-    laws::assert_finite("exact", &exact_values);
-    laws::assert_finite_or_none("measured", &measured_values);
+    assertions::assert_finite("exact", &exact_values);
+    assertions::assert_all_finite_or_all_nan("measured", &measured_values);
     assert_eq!(n == 0, cross_track.is_nan());
     assert!(
         exact_values.iter().chain(&measured_values).all(|value| value.is_nan() || *value >= 0.0),
@@ -127,21 +127,21 @@ fn assert_results(simulation: &OdometryDecomposer) {
 
     for noise in simulation.rule_noises() {
         assert_legs("legs", &noise.legs);
-        let all_values = [&noise.deviations[..], &[noise.cross_track, noise.heading]].concat();
-        laws::assert_finite("a rule", &all_values);
-        assert!(all_values.iter().all(|value| *value >= 0.0), "{noise:?}");
+        let rule_deviations = [&noise.deviations[..], &[noise.cross_track, noise.heading]].concat();
+        assertions::assert_finite("a rule", &rule_deviations);
+        assert!(rule_deviations.iter().all(|value| *value >= 0.0), "{noise:?}");
         if noise.rule == settings.rule {
             assert_eq!(noise.legs, simulation.legs());
-            laws::assert_same_numbers("exact", &all_values[4..], &[exact_cross_track, exact_heading]);
+            assertions::assert_same_numbers("exact", &rule_deviations[4..], &[exact_cross_track, exact_heading]);
         }
     }
 
-    // The last leg ends at the second odometry pose, except that rules of noise may ignore the direction of a tiny translation.
+    // The last leg ends at the second odometry pose. Noise rules may ignore the direction of a tiny translation.
     let [x, y, _] = settings.to.0;
-    let [.., end] = simulation.leg_poses();
-    let distance_to_end = (end.x() - x).hypot(end.y() - y);
+    let [.., last_leg_end] = simulation.leg_poses();
+    let distance_to_second_pose = (last_leg_end.x() - x).hypot(last_leg_end.y() - y);
     let largest_coordinate = settings.from.0.iter().chain(&settings.to.0).fold(0.0, |largest: f64, at| largest.max(at.abs()));
-    assert!(distance_to_end <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * largest_coordinate, "{end:?} for {settings:?}: {distance_to_end}");
+    assert!(distance_to_second_pose <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * largest_coordinate, "{last_leg_end:?} for {settings:?}: {distance_to_second_pose}");
 
     // Asserts that a simulation depends on its settings only, and not on earlier calls.
     let mut new_simulation = OdometryDecomposer::new(*settings).expect("allowed");
@@ -153,6 +153,6 @@ fn assert_results(simulation: &OdometryDecomposer) {
 }
 
 fn assert_legs(label: &str, legs: &OdomDelta) {
-    laws::assert_finite(label, &[legs.rot1, legs.trans, legs.rot2]);
+    assertions::assert_finite(label, &[legs.rot1, legs.trans, legs.rot2]);
     assert!(legs.trans >= 0.0, "{label}: {legs:?}");
 }

@@ -12,46 +12,46 @@ use motion::sim::settings::QUANTITY_RANGE;
 /// Maximum number of arcs that are tested on a grid.
 const MAX_ARCS: usize = 3;
 /// Maximum number of cells along a side.
-const MAX_SIDE: usize = 3;
+const MAX_SIDE_CELLS: usize = 3;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let Some((grid, unknown)) = read_random_grid(&mut input) else { return };
+    let Some((grid, unknown_cells)) = read_random_grid(&mut input) else { return };
     let [columns, rows] = grid.size();
     assert_eq!(grid.cells().len(), columns * rows);
     // Most runs stop here, because the distance field of a plan takes a hundred times as long as everything else.
     if input.next_choice(16) != 1 {
-        assert_outlines(&grid.with_unknown(unknown), unknown);
+        assert_outlines(&grid.with_unknown(unknown_cells), unknown_cells);
         return;
     }
-    let plan = match FloorPlan::from_grid(grid.with_unknown(unknown)) {
+    let plan = match FloorPlan::from_grid(grid.with_unknown(unknown_cells)) {
         Ok(plan) => plan,
         Err(FloorPlanError::BadGrid(_)) => return,
         Err(error) => panic!("{error}"),
     };
     let grid = plan.grid().expect("made of a grid");
-    assert_outlines(grid, unknown);
-    for (middle, is_obstacle) in cell_middles(grid, unknown) {
+    assert_outlines(grid, unknown_cells);
+    for (middle, is_obstacle) in middles_and_obstacles(grid, unknown_cells) {
         assert_eq!(plan.test_point(middle, 0.0).free, !is_obstacle, "{middle:?} in {grid:?}");
     }
     for _ in 0..MAX_ARCS {
-        plan::assert_verdict(&plan, &mut input);
+        plan::assert_collision_verdicts(&plan, &mut input);
         if input.is_empty() {
             break;
         }
     }
 }
 
-/// Returns the middle of each cell, and whether the cell is an obstacle; empty if the coordinates are too large to
+/// Returns the middle of each cell, and true for an obstacle. The list is empty if the coordinates are too large to
 /// distinguish cells.
-fn cell_middles(grid: &OccupancyGrid, unknown: UnknownCells) -> Vec<([f64; 2], bool)> {
+fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cells: UnknownCells) -> Vec<([f64; 2], bool)> {
     let ([columns, rows], origin, cell_side) = (grid.size(), grid.origin(), grid.resolution());
     let largest_coordinate = origin.x().abs().max(origin.y().abs()) + (columns + rows) as f64 * cell_side;
     if cell_side <= 1e3 * f64::EPSILON * largest_coordinate {
         return Vec::new();
     }
     let is_blocking =
-        |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown == UnknownCells::Blocked);
+        |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown_cells == UnknownCells::Blocked);
     let cells = grid.cells().enumerate();
     let middle_of = |i: usize| {
         let [u, v] = [i % columns, i / columns].map(|at| (at as f64 + 0.5) * cell_side);
@@ -61,52 +61,52 @@ fn cell_middles(grid: &OccupancyGrid, unknown: UnknownCells) -> Vec<([f64; 2], b
     cells.map(|(i, cell)| (middle_of(i), is_blocking(cell))).collect()
 }
 
-/// Asserts that each cell contains its middle, and that outlines separate obstacle cells from other cells: their total
-/// length equals that of the sides between obstacle cells and others.
-fn assert_outlines(grid: &OccupancyGrid, unknown: UnknownCells) {
-    let middles = cell_middles(grid, unknown);
-    for (middle, is_obstacle) in &middles {
+/// Asserts that each cell contains its middle, and that the outlines separate obstacles from other cells: the total
+/// length of the outlines equals the total length of the sides between obstacles and other cells.
+fn assert_outlines(grid: &OccupancyGrid, unknown_cells: UnknownCells) {
+    let middles_and_obstacles = middles_and_obstacles(grid, unknown_cells);
+    for (middle, is_obstacle) in &middles_and_obstacles {
         assert_eq!(grid.is_blocked_at(*middle), *is_obstacle, "{middle:?} in {grid:?}");
     }
     let [columns, rows] = grid.size();
     let is_obstacle_at = |column: usize, row: usize| {
         (column < columns && row < rows)
-            .then(|| middles.get(row * columns + column))
+            .then(|| middles_and_obstacles.get(row * columns + column))
             .flatten()
             .is_some_and(|cell| cell.1)
     };
-    let mut obstacle_sides = 0;
+    let mut obstacle_side_count = 0;
     for row in 0..=rows {
         for column in 0..=columns {
             let is_obstacle_here = is_obstacle_at(column, row);
-            obstacle_sides += usize::from(is_obstacle_here != is_obstacle_at(column.wrapping_sub(1), row));
-            obstacle_sides += usize::from(is_obstacle_here != is_obstacle_at(column, row.wrapping_sub(1)));
+            obstacle_side_count += usize::from(is_obstacle_here != is_obstacle_at(column.wrapping_sub(1), row));
+            obstacle_side_count += usize::from(is_obstacle_here != is_obstacle_at(column, row.wrapping_sub(1)));
         }
     }
     let outlines = grid.outlines(usize::MAX).expect("no limit");
-    let total_length: f64 = outlines.iter().map(length_of).sum();
-    if !middles.is_empty() {
-        assert!((total_length / grid.resolution() - obstacle_sides as f64).abs() < 1e-3 * (1 + obstacle_sides) as f64, "{grid:?}");
+    let total_length: f64 = outlines.iter().map(wall_length).sum();
+    if !middles_and_obstacles.is_empty() {
+        assert!((total_length / grid.resolution() - obstacle_side_count as f64).abs() < 1e-3 * (1 + obstacle_side_count) as f64, "{grid:?}");
     }
 }
 
-fn length_of(wall: &Segment) -> f64 {
+fn wall_length(wall: &Segment) -> f64 {
     (wall.to[0] - wall.from[0]).hypot(wall.to[1] - wall.from[1])
 }
 
-/// Reads a grid of a few cells, and the treatment of its unknown cells.
+/// Reads a grid of a few cells, and the setting for its unknown cells.
 pub fn read_random_grid(input: &mut Input) -> Option<(OccupancyGrid, UnknownCells)> {
     let resolution = input.number_near(&RESOLUTION_RANGE);
     let [x, y, yaw] = [0; 3].map(|_| input.number_near(&QUANTITY_RANGE));
     if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|number| QUANTITY_RANGE.contains(number)) {
         return None;
     }
-    let [width, height] = [0; 2].map(|_| 1 + input.next_choice(MAX_SIDE));
+    let [width, height] = [0; 2].map(|_| 1 + input.next_choice(MAX_SIDE_CELLS));
     let mode = input.one_of(&[Mode::Trinary, Mode::Scale, Mode::Raw]);
     let negate = input.next_bool();
     let [a, b] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
     let interpretation = Interpretation { mode, negate, occupied_thresh: a.max(b), free_thresh: a.min(b) };
-    let unknown = input.one_of(&[UnknownCells::Free, UnknownCells::Blocked]);
+    let unknown_cells = input.one_of(&[UnknownCells::Free, UnknownCells::Blocked]);
     let is_opaque = input.next_bool();
     let pixels: Vec<Pixel> = (0..width * height)
         .map(|_| Pixel {
@@ -115,14 +115,15 @@ pub fn read_random_grid(input: &mut Input) -> Option<(OccupancyGrid, UnknownCell
         })
         .collect();
     for pixel in &pixels {
-        assert_cell(&interpretation, *pixel);
+        assert_cell_of_pixel(&interpretation, *pixel);
     }
     let image = Image { width, height, pixels };
-    Some((OccupancyGrid::new(&image, &interpretation, resolution, SE2::new(x, y, yaw)), unknown))
+    Some((OccupancyGrid::new(&image, &interpretation, resolution, SE2::new(x, y, yaw)), unknown_cells))
 }
 
-/// Checks the cell of a pixel against the documentation of `map_server`. Within rounding of a threshold both states are right.
-fn assert_cell(interpretation: &Interpretation, pixel: Pixel) {
+/// Checks the cell of a pixel against the documentation of `map_server`. If the pixel is within rounding of a threshold, both states are
+/// right.
+fn assert_cell_of_pixel(interpretation: &Interpretation, pixel: Pixel) {
     let Interpretation { mode, negate, occupied_thresh, free_thresh } = *interpretation;
     let shade = f64::from(pixel.shade);
     let occupancy = if negate { shade } else { 1.0 - shade };

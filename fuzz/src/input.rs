@@ -5,17 +5,17 @@ use std::ops::RangeInclusive;
 /// Remaining bytes of the input. All bytes after its end are 0.
 pub struct Input<'a>(pub &'a [u8]);
 
-/// Returns true for one in `interval` inputs, chosen by a hash of all their bytes. Slow checks run for those only.
+/// Returns true for one in `interval` inputs, selected by a hash of all bytes. Slow checks run for these inputs only.
 ///
-/// A single byte of the input cannot choose them, because most mutations of the input keep that byte.
-pub fn is_selected(interval: u64, bytes: &[u8]) -> bool {
+/// A single byte cannot select them, because most mutations of an input keep that byte.
+pub fn is_selected_by_hash(interval: u64, bytes: &[u8]) -> bool {
     // FNV-1a.
     let mix_byte = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
     let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix_byte);
     (hash >> 32) % interval == 0
 }
 
-/// Numbers at limits: of the ranges of settings, and of doubles.
+/// Limits of the ranges of settings, and limits of doubles.
 const LIMIT_NUMBERS: [f64; 24] = [
     0.0,
     -0.0,
@@ -71,7 +71,7 @@ impl Input<'_> {
         choices[self.next_choice(choices.len())]
     }
 
-    /// Returns any double: a round one, a limit of a range, or one with any bits.
+    /// Returns any double: a round number, a limit of a range, or any bits.
     pub fn next_number(&mut self) -> f64 {
         match self.next_choice(8) {
             0 => f64::from_le_bytes(self.next_bytes()),

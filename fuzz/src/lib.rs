@@ -1,7 +1,7 @@
 //! Properties that hold for any input: a function for each fuzz target, called by cargo-fuzz and by the native tests.
 
+pub mod assertions;
 pub mod input;
-pub mod laws;
 pub mod settings;
 
 macro_rules! targets {

@@ -12,7 +12,7 @@ pub fn run(bytes: &[u8]) {
             assert_eq!(pixels.len(), width * height);
             assert!(pixels.iter().all(|pixel| (0.0..=1.0).contains(&pixel.shade) && pixel.opacity == 1.0));
             if pixels.len() <= 64 {
-                assert_written_reads_the_same(&image);
+                assert_survives_writing(&image);
                 let grid = OccupancyGrid::new(&image, &Interpretation::default(), 1.0, SE2::identity());
                 assert_eq!(
                     read_grid(bytes, &Interpretation::default(), 1.0, SE2::identity()).as_ref(),
@@ -27,15 +27,15 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// Returns the whole image, or the reason of the refusal.
+/// Returns the image with all its pixels, or the error message.
 fn read_pixels(bytes: &[u8]) -> Result<Image<Vec<Pixel>>, String> {
     let Image { width, height, pixels } = read_pgm(bytes).map_err(|error| error.to_string())?;
     Ok(Image { width, height, pixels: pixels.map(Pixel::from).collect() })
 }
 
-/// Asserts that an image that is written with 16 bits, plain or binary, is read as the same image. Shades may differ by a 65 535th, to
-/// which they are rounded.
-fn assert_written_reads_the_same(image: &Image<Vec<Pixel>>) {
+/// Asserts that an image written with 16 bits, as text or binary, is read as the same image. Shades may differ by their rounding to
+/// 1/65 535.
+fn assert_survives_writing(image: &Image<Vec<Pixel>>) {
     const MAX_VALUE: f32 = 65_535.0;
     let mut plain_text = format!("P2\n{} {}\n{MAX_VALUE}", image.width, image.height);
     let mut binary_file = format!("P5 {} {} {MAX_VALUE}\n", image.width, image.height).into_bytes();
@@ -44,10 +44,10 @@ fn assert_written_reads_the_same(image: &Image<Vec<Pixel>>) {
         write!(plain_text, " {grey_value}").expect("memory");
         binary_file.extend(grey_value.to_be_bytes());
     }
-    let image_again = read_pixels(plain_text.as_bytes()).expect("a plain file");
-    assert_eq!(image_again, read_pixels(&binary_file).expect("a binary file"));
-    assert_eq!((image_again.width, image_again.height), (image.width, image.height));
-    for (before, after) in image.pixels.iter().zip(&image_again.pixels) {
-        assert!((before.shade - after.shade).abs() <= 0.51 / MAX_VALUE, "{before:?} {after:?}");
+    let reread_image = read_pixels(plain_text.as_bytes()).expect("a plain file");
+    assert_eq!(reread_image, read_pixels(&binary_file).expect("a binary file"));
+    assert_eq!((reread_image.width, reread_image.height), (image.width, image.height));
+    for (pixel, reread_pixel) in image.pixels.iter().zip(&reread_image.pixels) {
+        assert!((pixel.shade - reread_pixel.shade).abs() <= 0.51 / MAX_VALUE, "{pixel:?} {reread_pixel:?}");
     }
 }

@@ -9,12 +9,12 @@ pub fn run(bytes: &[u8]) {
     if (MAX_TESTED_PIXELS..=MAX_PIXELS).contains(&pixel_count(bytes)) {
         return;
     }
-    check_reading(bytes);
+    assert_read_or_refused(bytes);
     // The checksums are corrected, because the reader would otherwise refuse most mutations.
-    check_reading(&with_checksums_corrected(bytes));
+    assert_read_or_refused(&with_checksums_corrected(bytes));
 }
 
-fn check_reading(bytes: &[u8]) {
+fn assert_read_or_refused(bytes: &[u8]) {
     match read_png(bytes) {
         Ok(Image { width, height, pixels }) => {
             assert!(width > 0 && height > 0);
@@ -29,13 +29,13 @@ fn check_reading(bytes: &[u8]) {
 
 /// Returns the number of pixels according to the header, or 0 if the header is cut short.
 fn pixel_count(bytes: &[u8]) -> usize {
-    let side_at = |at| number_at(bytes, at).unwrap_or_default();
+    let side_at = |offset| number_at(bytes, offset).unwrap_or_default();
     side_at(16).saturating_mul(side_at(20))
 }
 
-fn number_at(bytes: &[u8], at: usize) -> Option<usize> {
-    let four_bytes = bytes.get(at..at + 4)?;
-    Some(four_bytes.iter().fold(0, |number, byte| number << 8 | usize::from(*byte)))
+fn number_at(bytes: &[u8], offset: usize) -> Option<usize> {
+    let big_endian_bytes = bytes.get(offset..offset + 4)?;
+    Some(big_endian_bytes.iter().fold(0, |number, byte| number << 8 | usize::from(*byte)))
 }
 
 /// Returns the image with the checksum of every complete chunk corrected.

@@ -1,14 +1,15 @@
 //! Dead Reckoning under any settings and calls.
 
-use super::input::{Input, is_selected};
-use super::laws;
+use super::input::{Input, is_selected_by_hash};
+use super::assertions;
 use super::settings::{are_allowed, with_changes};
 use motion::sim::dead_reckoning::{
     DeadReckoning, MAX_SHOWN_ROBOTS, MeasuredMoments, Misses, Outlines, RECURSIONS, Settings, Stats, StraightGrowth,
 };
 use nalgebra::Matrix3;
 
-/// Maximum numbers of robots, steps and calls in a run. Robots are driven in blocks of 256. Most runs have one block, and a few several.
+/// Maximum numbers of robots, steps and calls in a run. The simulation drives robots in blocks of 256. Most runs have one block, and a few
+/// several.
 const MAX_SAMPLES_OF_MOST_RUNS: usize = 200;
 const MAX_SAMPLES: usize = 800;
 const MAX_STEPS: u32 = 5;
@@ -16,14 +17,14 @@ const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let [checks_straight_growth, checks_second_simulation] = [0; 2].map(|_| input.next_choice(4) == 1);
+    let [should_check_straight_growth, should_compare_new_simulation] = [0; 2].map(|_| input.next_choice(4) == 1);
     let first_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
     let first_settings = with_changes(&first_settings, &mut input);
     if !are_allowed(&first_settings) {
         assert!(DeadReckoning::with_shown_count(first_settings, 0).is_err());
         return;
     }
-    let max_samples = if is_selected(16, bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
+    let max_samples = if is_selected_by_hash(16, bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
     let limit_size = |settings| limit_size(settings, max_samples);
     let mut simulation = DeadReckoning::with_shown_count(limit_size(first_settings), 0).expect("allowed");
     if input.next_bool() {
@@ -37,10 +38,10 @@ pub fn run(bytes: &[u8]) {
     }
     assert_results(&simulation);
     // Slow checks run for some inputs only.
-    if checks_straight_growth && is_selected(8, bytes) {
+    if should_check_straight_growth && is_selected_by_hash(8, bytes) {
         assert_straight_growth(&simulation);
     }
-    if checks_second_simulation && is_selected(8, bytes) {
+    if should_compare_new_simulation && is_selected_by_hash(8, bytes) {
         assert_equals_new_simulation(&simulation);
     }
 }
@@ -59,7 +60,7 @@ fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> 
     let shown_count = simulation.shown_count();
     match input.next_choice(9) {
         0 | 1 => configure(simulation, limit_size, input),
-        2 | 3 => assert_same_in_blocks(simulation, limit_size, input),
+        2 | 3 => assert_same_if_added_in_blocks(simulation, limit_size, input),
         4 => {
             let count = usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
             assert_eq!(simulation.add_samples(count), (shown_count + count).min(simulation.settings().samples));
@@ -68,7 +69,7 @@ fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> 
             simulation.configure_first(*simulation.settings(), 0).expect("allowed");
             assert_eq!(simulation.shown_count(), 0);
         }
-        6 => assert_nearest(simulation, input),
+        6 => assert_nearest_pose(simulation, input),
         7 => assert_outlines(simulation, 1 + input.next_choice(MAX_STEPS as usize) as u32),
         _ => assert_rollout(simulation, usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES),
     }
@@ -86,7 +87,7 @@ fn configure(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Se
 }
 
 /// Asserts that robots added in blocks equal the robots of one call.
-fn assert_same_in_blocks(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let settings = with_changes(simulation.settings(), input);
     if !are_allowed(&settings) {
         return;
@@ -110,31 +111,31 @@ fn assert_equals_new_simulation(simulation: &DeadReckoning) {
     assert_eq!(all_results(&new_simulation), all_results(simulation));
 }
 
-/// Returns all results: those of the selected step as bits, and the others as text, in which NaN equals NaN.
+/// Returns the settings and statistics as text, in which NaN equals NaN, and the coordinates of the selected step as bits.
 fn all_results(simulation: &DeadReckoning) -> (String, Vec<u64>) {
     let (settings, stats, measured) = (simulation.settings(), simulation.stats(), simulation.measured_moments());
     let outlines = simulation.outlines(settings.step);
-    let lines = outlines.iter().flat_map(|Outlines { ellipse, exponential, predicted, measured }| {
+    let outline_lines = outlines.iter().flat_map(|Outlines { ellipse, exponential, predicted, measured }| {
         [ellipse, exponential, predicted, measured].into_iter().flat_map(|line| line.as_flattened())
     });
-    let numbers = simulation.poses(settings.step).as_flattened().iter().chain(lines);
-    (format!("{settings:?} {stats:?} {measured:?}"), numbers.map(|number| number.to_bits()).collect())
+    let coordinates = simulation.poses(settings.step).as_flattened().iter().chain(outline_lines);
+    (format!("{settings:?} {stats:?} {measured:?}"), coordinates.map(|number| number.to_bits()).collect())
 }
 
 /// Asserts that all results are finite, or NaN or empty where they are undefined.
 fn assert_results(simulation: &DeadReckoning) {
     let settings = simulation.settings();
-    let (n, steps) = (simulation.shown_count(), settings.steps as usize);
+    let (n, step_count) = (simulation.shown_count(), settings.steps as usize);
     assert!(n <= MAX_SAMPLES && (1..=settings.steps).contains(&settings.step), "{settings:?} of {n}");
-    assert_eq!([simulation.measured_moments().len(), simulation.nominal_poses().len()], [steps; 2]);
-    simulation.nominal_poses().iter().for_each(|pose| laws::assert_pose("nominal", pose));
-    laws::assert_finite("commanded", simulation.commanded_path().as_flattened());
+    assert_eq!([simulation.measured_moments().len(), simulation.nominal_poses().len()], [step_count; 2]);
+    simulation.nominal_poses().iter().for_each(|pose| assertions::assert_pose("nominal", pose));
+    assertions::assert_finite("commanded", simulation.commanded_path().as_flattened());
     for measured in simulation.measured_moments() {
         if n > 0 {
-            laws::assert_finite("mean", measured.mean.as_slice());
+            assertions::assert_finite("mean", measured.mean.as_slice());
         }
         if n > 1 {
-            assert_covariance("measured", &measured.cov, rounding_of_sums(measured));
+            assert_covariance("measured", &measured.cov, rounding_error_of_sums(measured));
         }
         for (i, error) in measured.relative_error.iter().enumerate() {
             assert!(error.is_nan() || *error >= 0.0, "{measured:?}");
@@ -146,22 +147,22 @@ fn assert_results(simulation: &DeadReckoning) {
     let step = settings.step;
     assert_eq!(simulation.poses(step).len(), n.min(MAX_SHOWN_ROBOTS));
     assert!(simulation.poses(0).is_empty() && simulation.poses(settings.steps + 1).is_empty());
-    laws::assert_finite("poses", simulation.poses(step).as_flattened());
-    simulation.twists().for_each(|twist| laws::assert_finite("a twist", &twist));
+    assertions::assert_finite("poses", simulation.poses(step).as_flattened());
+    simulation.twists().for_each(|twist| assertions::assert_finite("a twist", &twist));
     assert_eq!(simulation.twists().len(), n.min(MAX_SHOWN_ROBOTS));
     for order in RECURSIONS {
         let (predicted, comparison) = (simulation.predicted_covariances(order), simulation.comparison(order));
-        assert_eq!([predicted.len(), comparison.ratios.len()], [steps; 2]);
+        assert_eq!([predicted.len(), comparison.ratios.len()], [step_count; 2]);
         for (cov, ratio) in predicted.iter().zip(&comparison.ratios) {
             assert!(
                 ratio.iter().all(|ratio| ratio.is_nan() || (cov.is_some() && *ratio >= 0.0)),
                 "{ratio:?}"
             );
             let Some(cov) = cov else { continue };
-            // The heading of each step mixes the errors along and across the drive, so that their rounding mixes too.
+            // The heading of each step mixes the errors along and across the drive, and with them their rounding errors.
             assert_covariance("predicted", cov, |_, _| 1e-12 * cov.amax());
         }
-        comparison.misses.iter().for_each(|misses| assert_misses(misses, steps));
+        comparison.misses.iter().for_each(|misses| assert_misses(misses, step_count));
     }
     let Stats { n: robot_count, .. } = simulation.stats();
     assert_eq!(robot_count, n);
@@ -170,23 +171,23 @@ fn assert_results(simulation: &DeadReckoning) {
 
 /// Asserts that a matrix is finite and symmetric, and has no correlation above 1, to within `rounding`.
 fn assert_covariance(label: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, usize) -> f64) {
-    laws::assert_finite(label, cov.as_slice());
+    assertions::assert_finite(label, cov.as_slice());
     for i in 0..3 {
         assert!(cov[(i, i)] >= 0.0, "{label}: {cov:?}");
         for j in 0..i {
             let tolerance = rounding(i, j) + f64::MIN_POSITIVE;
             assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{label}: {cov:?}");
-            let [first, second] = [i, j].map(|k| (cov[(k, k)] + rounding(k, k)).sqrt());
-            assert!(cov[(i, j)].abs() <= first * second + tolerance, "{label}: {cov:?}");
+            let [row_std, column_std] = [i, j].map(|k| (cov[(k, k)] + rounding(k, k)).sqrt());
+            assert!(cov[(i, j)].abs() <= row_std * column_std + tolerance, "{label}: {cov:?}");
         }
     }
 }
 
 /// Returns the rounding error of a covariance computed as mean of products minus product of means.
-fn rounding_of_sums(MeasuredMoments { mean, cov, .. }: &MeasuredMoments) -> impl Fn(usize, usize) -> f64 + use<> {
+fn rounding_error_of_sums(MeasuredMoments { mean, cov, .. }: &MeasuredMoments) -> impl Fn(usize, usize) -> f64 + use<> {
     let [along, lateral, heading] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
-    let sizes = [along + lateral, along + lateral, heading];
-    move |i, j| laws::ROUNDING * sizes[i] * sizes[j] + laws::MAX_UNDERFLOWING_DEVIATION * (sizes[i] + sizes[j])
+    let magnitudes = [along + lateral, along + lateral, heading];
+    move |i, j| assertions::ROUNDING_TOLERANCE * magnitudes[i] * magnitudes[j] + assertions::MAX_UNDERFLOWING_DEVIATION * (magnitudes[i] + magnitudes[j])
 }
 
 fn assert_misses(misses: &Misses, steps: usize) {
@@ -201,7 +202,7 @@ fn assert_straight_growth(simulation: &DeadReckoning) {
     let StraightGrowth { durations, along, across, along_first_order, across_first_order, crossing } =
         simulation.straight_growth();
     for curve in [&durations, &along, &across, &along_first_order, &across_first_order] {
-        laws::assert_finite("straight", curve);
+        assertions::assert_finite("straight", curve);
         assert!(curve.len() == durations.len() && curve.iter().all(|variance| *variance >= 0.0), "{curve:?}");
     }
     assert!(crossing.is_none_or(|crossing| crossing.is_finite() && crossing > 0.0), "{crossing:?}");
@@ -215,7 +216,7 @@ fn assert_outlines(simulation: &DeadReckoning, step: u32) {
     };
     let Outlines { ellipse, exponential, predicted, measured } = outlines;
     for outline in [&ellipse, &exponential, &predicted, &measured] {
-        laws::assert_finite("an outline", outline.as_flattened());
+        assertions::assert_finite("an outline", outline.as_flattened());
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
     let has_no_covariance = simulation.predicted_covariances(settings.compounding)[step as usize - 1].is_none();
@@ -230,20 +231,20 @@ fn assert_rollout(simulation: &DeadReckoning, index: usize) {
         return;
     };
     assert_eq!(path.len(), simulation.settings().steps as usize);
-    laws::assert_finite("a way", path.as_flattened());
+    assertions::assert_finite("a path", path.as_flattened());
     for (step, pose) in (1..).zip(&path) {
         assert!(simulation.poses(step).get(index).is_none_or(|shown| shown == pose), "{index} at {step}");
     }
 }
 
-fn assert_nearest(simulation: &DeadReckoning, input: &mut Input) {
+fn assert_nearest_pose(simulation: &DeadReckoning, input: &mut Input) {
     let target = [0; 2].map(|_| input.next_number());
     let radius = input.number_within(0.0..=f64::INFINITY);
     let Some(index) = simulation.nearest(target, radius) else { return };
     let poses = simulation.poses(simulation.settings().step);
-    let distance_to = |[x, y, _]: &[f64; 3]| ((x - target[0]) / radius).hypot((y - target[1]) / radius);
-    let least_distance = poses.iter().map(distance_to).fold(f64::INFINITY, f64::min);
-    // A square of a distance below 1e-154 of the radius is 0.
-    let found_distance = distance_to(&poses[index]);
-    assert!(found_distance <= least_distance * (1.0 + 1e-9) + 1e-150 && found_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
+    let relative_distance_to = |[x, y, _]: &[f64; 3]| ((x - target[0]) / radius).hypot((y - target[1]) / radius);
+    let min_relative_distance = poses.iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);
+    // The square of a distance below 1e-154 of the radius underflows to 0.
+    let found_relative_distance = relative_distance_to(&poses[index]);
+    assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
 }

@@ -1,4 +1,4 @@
-//! Changes settings to any values, as a user does.
+//! Changes settings to any values, as users do.
 
 use super::input::Input;
 use motion::sim::settings::{AllowedValues, Group, Rules, Setting, SettingsError};
@@ -6,11 +6,11 @@ use motion::sim::settings::{AllowedValues, Group, Rules, Setting, SettingsError}
 /// Returns the current settings with some of them changed.
 pub fn with_changes<S: Rules>(current: &S, input: &mut Input) -> S {
     let (mut settings, mut changed_keys) = (*current, Vec::new());
-    let chosen_settings = u16::from_le_bytes(input.next_bytes());
-    let mut count = 0;
+    let setting_mask = u16::from_le_bytes(input.next_bytes());
+    let mut setting_count = 0;
     let _: Result<(), ()> = settings.try_visit_settings(|declaration, setting| {
-        count += 1;
-        if chosen_settings >> (count - 1) & 1 == 1 {
+        setting_count += 1;
+        if setting_mask >> (setting_count - 1) & 1 == 1 {
             changed_keys.push(declaration.key);
             set_any_value(setting, input);
         }
@@ -71,7 +71,7 @@ pub fn are_allowed<S: Rules>(settings: &S) -> bool {
 fn assert_in_range<S: Rules>(settings: &S) {
     let mut settings = *settings;
     let _: Result<(), ()> = settings.try_visit_settings(|declaration, setting| {
-        let all_in_range = match setting {
+        let is_in_range = match setting {
             Setting::Number(number, range) => range.contains(number),
             Setting::Integer(whole, range) => range.contains(&whole.get()),
             Setting::OptionalInteger(whole, range) => {
@@ -81,7 +81,7 @@ fn assert_in_range<S: Rules>(settings: &S) {
             Setting::Group(group) => is_group_in_range(group),
             Setting::Boolean(_) | Setting::Keyword(_) | Setting::Level(..) => true,
         };
-        assert!(all_in_range, "{}", declaration.key);
+        assert!(is_in_range, "{}", declaration.key);
         Ok(())
     });
 }

@@ -2,24 +2,24 @@
 
 use super::input::Input;
 use super::settings::{are_allowed, with_changes};
-use super::{banana, grid, laws, plan};
+use super::{assertions, banana, grid, plan};
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, Sampler};
 use motion::sim::picture::RAMP_STEPS;
 use motion::sim::squeeze::{OUTCOME_KIND_COUNT, MapSqueeze, Settings};
 use std::cell::LazyCell;
 
-/// Maximum numbers of samples, of parts of a sample, and of calls in a run.
+/// Maximum numbers of samples, of parts of the command, and of calls in a run.
 const MAX_SAMPLES: usize = 8;
-const MAX_PARTS: u32 = 3;
+const MAX_COMMAND_PARTS: u32 = 3;
 const MAX_CALLS: usize = 3;
 
 thread_local! {
     /// Simulation in a room with one wall.
-    static FIRST_MACHINE: LazyCell<MapSqueeze> = LazyCell::new(|| {
+    static OPENING_SIMULATION: LazyCell<MapSqueeze> = LazyCell::new(|| {
         let wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
         let plan = FloorPlan::new(vec![wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
-        let mut simulation = MapSqueeze::new(limit_samples(Settings::default(), false)).expect("the opening state");
+        let mut simulation = MapSqueeze::new(limit_size(Settings::default(), false)).expect("the opening state");
         simulation.set_plan(plan);
         assert!(simulation.is_start_free());
         simulation
@@ -28,7 +28,7 @@ thread_local! {
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let mut simulation = FIRST_MACHINE.with(|opening| (**opening).clone());
+    let mut simulation = OPENING_SIMULATION.with(|opening| (**opening).clone());
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
@@ -38,10 +38,11 @@ pub fn run(bytes: &[u8]) {
     assert_results(&simulation);
 }
 
-/// Returns the settings with few samples, and with a sampler that divides the command only if `with_parts`. Callers rarely ask for that: a
-/// robot that cannot move in one part of the command takes 10 000 draws.
-fn limit_samples(settings: Settings, with_parts: bool) -> Settings {
-    let steps = settings.steps.min(MAX_PARTS);
+/// Returns the settings with few samples, and with a sampler that divides the command only if `with_parts`.
+///
+/// Divided commands are rarely tested: a robot that cannot move in one part of the command takes 10 000 draws.
+fn limit_size(settings: Settings, with_parts: bool) -> Settings {
+    let steps = settings.steps.min(MAX_COMMAND_PARTS);
     let sampler = if with_parts { settings.sampler.with_parts(steps) } else { without_parts(settings.sampler) };
     Settings { samples: settings.samples.min(MAX_SAMPLES), steps, sampler, ..settings }
 }
@@ -53,7 +54,7 @@ fn without_parts(sampler: Sampler) -> Sampler {
 fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
     match input.next_choice(10) {
         0 => configure(simulation, input),
-        1 => assert_same_in_blocks(simulation, input),
+        1 => assert_same_if_added_in_blocks(simulation, input),
         2 => {
             if let Some(plan) = plan::read_plan(input) {
                 simulation.set_plan(plan);
@@ -78,8 +79,8 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
         7 => {
             let target = [0; 2].map(|_| input.next_number());
             let radius = input.number_within(0.0..=f64::INFINITY);
-            let found_index = simulation.nearest(target, radius);
-            assert!(found_index.is_none_or(|index| index < simulation.attempts().len()));
+            let nearest_index = simulation.nearest(target, radius);
+            assert!(nearest_index.is_none_or(|index| index < simulation.attempts().len()));
         }
         // A free pose is rarely checked: the search along 72 headings takes as long as ten other calls.
         8 => assert_equals_new_simulation(simulation),
@@ -92,19 +93,19 @@ fn configure(simulation: &mut MapSqueeze, input: &mut Input) {
     let settings = with_changes(simulation.settings(), input);
     let settings_before = *simulation.settings();
     if are_allowed(&settings) {
-        let checks_parts = input.next_choice(16) == 1;
-        simulation.configure(limit_samples(settings, checks_parts)).expect("allowed");
+        let should_divide_command = input.next_choice(16) == 1;
+        simulation.configure(limit_size(settings, should_divide_command)).expect("allowed");
         return;
     }
-    let attempts = simulation.attempts().to_vec();
+    let attempts_before = simulation.attempts().to_vec();
     assert!(simulation.configure(settings).is_err());
     assert_eq!(*simulation.settings(), settings_before);
-    assert_eq!(simulation.attempts(), attempts);
+    assert_eq!(simulation.attempts(), attempts_before);
 }
 
 /// Asserts that attempts made in several blocks equal the attempts of one call.
-fn assert_same_in_blocks(simulation: &mut MapSqueeze, input: &mut Input) {
-    let settings = limit_samples(with_changes(simulation.settings(), input), false);
+fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut Input) {
+    let settings = limit_size(with_changes(simulation.settings(), input), false);
     if !are_allowed(&settings) {
         return;
     }
@@ -129,9 +130,9 @@ fn assert_equals_new_simulation(simulation: &MapSqueeze) {
 /// Asserts that the robot fits at the free pose that the simulation finds.
 fn assert_free_pose(simulation: &MapSqueeze) {
     let Some(free_pose) = simulation.find_free_pose() else { return };
-    laws::assert_pose("in the open", &free_pose);
-    let fits_there = simulation.plan().test_point([free_pose.x(), free_pose.y()], simulation.settings().clearance).free;
-    assert!(fits_there, "{free_pose:?}");
+    assertions::assert_pose("a free pose", &free_pose);
+    let is_free = simulation.plan().test_point([free_pose.x(), free_pose.y()], simulation.settings().clearance).free;
+    assert!(is_free, "{free_pose:?}");
 }
 
 /// Asserts that all results are finite and agree with each other.
@@ -140,10 +141,10 @@ fn assert_results(simulation: &MapSqueeze) {
     assert_eq!(stats.attempts, attempts.len());
     assert!(attempts.len() <= settings.samples);
     assert_eq!(stats.accepted, attempts.iter().filter(|attempt| attempt.accepted).count());
-    let through_wall = attempts.iter().filter(|attempt| attempt.accepted && !attempt.path_free).count();
-    assert_eq!(stats.through_wall, through_wall);
-    laws::assert_fraction("acceptance", stats.acceptance_rate);
-    laws::assert_fraction("through a wall", stats.through_wall_rate);
+    let through_wall_count = attempts.iter().filter(|attempt| attempt.accepted && !attempt.path_free).count();
+    assert_eq!(stats.through_wall, through_wall_count);
+    assertions::assert_fraction("acceptance", stats.acceptance_rate);
+    assertions::assert_fraction("through a wall", stats.through_wall_rate);
     let [low, high] = stats.through_wall_interval;
     assert!(0.0 <= low && low <= high && high <= 1.0, "{stats:?}");
     if stats.accepted > 0 {
@@ -151,34 +152,34 @@ fn assert_results(simulation: &MapSqueeze) {
         assert!(stats.draws_per_accepted >= 1.0 && stats.draws_per_accepted.is_finite(), "{stats:?}");
     }
     for (index, attempt) in attempts.iter().enumerate() {
-        laws::assert_pose("an attempt", &attempt.pose);
+        assertions::assert_pose("an attempt", &attempt.pose);
         assert!(attempt.end_free || !attempt.path_free, "{attempt:?}");
-        let expected = match settings.sampler {
+        let should_be_accepted = match settings.sampler {
             _ if !settings.conditioned => true,
             Sampler::Endpoint => attempt.end_free,
             Sampler::WholeArc => attempt.path_free,
             Sampler::SubStepped(_) => attempt.accepted,
         };
-        assert_eq!(attempt.accepted, expected, "{attempt:?}");
+        assert_eq!(attempt.accepted, should_be_accepted, "{attempt:?}");
         let arcs = simulation.arcs(index);
         if attempt.accepted || !settings.conditioned {
             assert_eq!(arcs.len(), settings.parts() as usize);
         }
         for arc in &arcs {
-            laws::assert_finite("arc", &[arc.length, arc.turn]);
+            assertions::assert_finite("arc", &[arc.length, arc.turn]);
         }
     }
     assert!(simulation.arcs(attempts.len()).is_empty());
     if let Some(arc) = simulation.arcs(0).first() {
-        laws::assert_finite("path", arc.points().as_flattened());
+        assertions::assert_finite("path", arc.points().as_flattened());
     }
     assert_finite_plan(simulation.plan());
 }
 
 fn assert_finite_plan(plan: &FloorPlan) {
-    laws::assert_finite("bounds", &plan.bounds());
+    assertions::assert_finite("bounds", &plan.bounds());
     for wall in plan.walls() {
-        laws::assert_finite("wall", &[wall.from, wall.to].concat());
+        assertions::assert_finite("wall", &[wall.from, wall.to].concat());
     }
 }
 

@@ -1,4 +1,4 @@
-//! Assertions on displayed numbers.
+//! Assertions on numbers that figures display.
 
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
@@ -9,7 +9,7 @@ pub fn assert_finite(label: &str, numbers: &[f64]) {
 }
 
 /// Asserts that all numbers are finite, or that all are NaN.
-pub fn assert_finite_or_none(label: &str, numbers: &[f64]) {
+pub fn assert_all_finite_or_all_nan(label: &str, numbers: &[f64]) {
     if !numbers.iter().all(|number| number.is_nan()) {
         assert_finite(label, numbers);
     }
@@ -25,19 +25,19 @@ pub fn assert_pose(label: &str, pose: &SE2) {
 }
 
 /// Asserts that moments are finite, and that the covariance is symmetric without a correlation above 1. The tolerance for rounding is
-/// in proportion to the size of the values.
+/// in proportion to the magnitudes of the values.
 pub fn assert_moments(label: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
     assert_finite(label, mean.as_slice());
     assert_finite(label, cov.as_slice());
-    let value_sizes = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
-    let extent = value_sizes.x + value_sizes.y;
-    let value_sizes = [extent, extent, value_sizes.z];
+    let magnitudes = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
+    let position_magnitude = magnitudes.x + magnitudes.y;
+    let magnitudes = [position_magnitude, position_magnitude, magnitudes.z];
     for i in 0..3 {
         assert!(cov[(i, i)] >= 0.0, "{label}: {mean:?} {cov:?}");
         for j in 0..i {
             let max_cov = cov[(i, i)].sqrt() * cov[(j, j)].sqrt();
-            let tolerance = ROUNDING * value_sizes[i] * value_sizes[j]
-                + MAX_UNDERFLOWING_DEVIATION * (value_sizes[i] + value_sizes[j]);
+            let tolerance = ROUNDING_TOLERANCE * magnitudes[i] * magnitudes[j]
+                + MAX_UNDERFLOWING_DEVIATION * (magnitudes[i] + magnitudes[j]);
             assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{label}: {mean:?} {cov:?}");
             assert!(cov[(i, j)].abs() <= max_cov + tolerance, "{label}: {mean:?} {cov:?}");
         }
@@ -45,9 +45,9 @@ pub fn assert_moments(label: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
 }
 
 /// Relative rounding error of a few dozen units in the last place.
-pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
+pub const ROUNDING_TOLERANCE: f64 = 64.0 * f64::EPSILON;
 
-/// Upper bound of the deviations whose squares underflow to 0, times two as a margin.
+/// Twice the largest deviation whose square underflows to 0.
 pub const MAX_UNDERFLOWING_DEVIATION: f64 = 1e-161;
 
 /// Asserts that lists have the same numbers, where NaN equals NaN.

@@ -57,7 +57,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
     isScheduled = true;
     queueMicrotask(() => {
       isScheduled = false;
-      // The element was removed. The model already has the values that it showed last.
+      // Before its start, the figure has no values.
       if (!element.simulation) return;
       const ownTraits = traits.filter(([, property]) => !GLOBAL_ATTRIBUTES.includes(property));
       const traitValues = ownTraits.map(([trait, property]) => [trait, jsonValue(element[property])] as [string, unknown]);

@@ -197,10 +197,9 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   const heights = await widget.evaluate(async (element) => {
     element.remove();
     await new Promise(requestAnimationFrame);
-    const loadedAgain = new Promise((resolve) => element.addEventListener('load', resolve));
     document.querySelector('#a')?.append(element);
     const heights = [element.getBoundingClientRect().height];
-    await loadedAgain;
+    await new Promise(requestAnimationFrame);
     return [...heights, element.getBoundingClientRect().height];
   });
   await untilReady(widget);

@@ -26,10 +26,9 @@ export class Canvases extends FigureController {
     this.measure();
   }
 
-  /** Releases the pixels of the canvases, which keep their size in the layout. */
-  clear() {
+  /** Stops observing the canvases, which are no longer rendered. */
+  release() {
     this.#observer.disconnect();
-    for (const canvas of this.elements ?? []) canvas.width = canvas.height = 0;
     this.elements = undefined;
   }
 

@@ -275,8 +275,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   }
 
   /**
-   * Returns the whole state as plain data for `setState` and JSON. After the element is removed, that is its last state. Returns null until
-   * the element first comes near the viewport.
+   * Returns the whole state as plain data for `setState` and JSON. Returns null until the element first comes near the viewport.
    * @public
    */
   getState(): Values | null {

@@ -49,6 +49,8 @@ export class Renderer extends FigureController {
     // Some browsers do not fire `beforeprint` and `afterprint`, and others fire them too late.
     const printQuery = matchMedia('print');
     printQuery.addEventListener('change', () => this.#print(printQuery.matches), { signal });
+    // An element that is removed during print gets no event at its end.
+    if (this.isPrinting !== printQuery.matches) this.#print(printQuery.matches);
     onLanguage(this.host, () => this.#languageChanged(), signal);
   }
 
@@ -65,7 +67,7 @@ export class Renderer extends FigureController {
     if (!host.simulation || host.canvases.elements) return;
     host.canvases.find();
     this.requestFrame();
-    if (matchMedia('print').matches) this.#print(true);
+    if (this.isPrinting) this.#print(true);
   }
 
   setVisible(isVisible: boolean) {

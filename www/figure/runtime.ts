@@ -1,4 +1,4 @@
-/** Core of a figure. It is freed when the element is removed. After a trap, a new core gets the last valid state. */
+/** Core of a figure. After a trap, a new core gets the last valid state. */
 
 import { abandonSimulation, instantiateFor, precompile } from '../core.ts';
 import { FigureController } from './controller.ts';
@@ -15,23 +15,41 @@ export class Runtime extends FigureController {
   /** True from a trap to the next picture. */
   #hasTrapped = false;
 
-  /** Starts the core, if it is not running. Resolves when it has started or failed. */
-  start(): Promise<void> {
-    if (!this.simulation && this.host.isConnected) this.#startPromise ??= this.#create();
-    return this.#startPromise ?? Promise.resolve();
-  }
-
   hostConnected() {
     precompile();
   }
 
-  hostDisconnected() {
-    // A moved element is connected again by then.
-    queueMicrotask(() => {
-      if (this.host.isConnected) return;
-      this.host.renderer.setVisible(false);
-      this.#stopSimulation();
-    });
+  /** Starts the core, if it is not running. Resolves when it has started or failed. */
+  start(): Promise<void> {
+    if (!this.simulation) this.#startPromise ??= this.#create();
+    return this.#startPromise ?? Promise.resolve();
+  }
+
+  async #create() {
+    try {
+      const [motion] = await Promise.all([instantiateFor(this.host.localName), this.host.link.prepare()]);
+      const simulation = this.host.createSimulation(motion, this.host.state.lastValidState);
+      Object.assign(this, { motion, simulation, failure: undefined });
+      this.host.state.resume();
+      await this.#showContent();
+    } catch (error) {
+      this.fail(error);
+    } finally {
+      this.#startPromise = undefined;
+    }
+    // The core may have trapped again.
+    if (this.failure === undefined) void this.start();
+  }
+
+  async #showContent() {
+    this.host.requestUpdate();
+    await this.host.updateComplete;
+    // Rendering may have trapped.
+    if (!this.simulation) return;
+    this.host.renderer.requestFrame();
+    if (this.#hasLoaded) return;
+    this.#hasLoaded = true;
+    this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
   }
 
   /** Replaces the simulation and frees the present one. */
@@ -45,7 +63,8 @@ export class Runtime extends FigureController {
     try {
       return work();
     } catch (error) {
-      if (!this.#recover(error)) throw error;
+      if (!isWasmTrap(error)) throw error;
+      this.#recover(error);
     }
   }
 
@@ -63,7 +82,6 @@ export class Runtime extends FigureController {
     try {
       this.attempt(work);
     } catch (error) {
-      if (isWasmTrap(error)) throw error;
       this.report(error);
     }
   }
@@ -82,69 +100,30 @@ export class Runtime extends FigureController {
 
   /** Shows an error in the figure's place and fires it. */
   fail(error: unknown) {
-    if (isWasmTrap(error)) this.#abandon();
-    this.#stopSimulation();
+    this.#abandon();
+    this.#hasTrapped = false;
+    this.host.canvases.release();
     this.failure = messageOf(error);
     this.report(error);
+    this.host.requestUpdate();
   }
 
-  /** Replaces the core after a trap, because its memory may be damaged. Returns false for other errors, and for a trap before a picture. */
-  #recover(error: unknown): boolean {
-    if (!isWasmTrap(error) || this.#hasTrapped) return false;
+  /** Replaces the core after a trap, because its memory may be damaged. A second trap before a picture ends the figure. */
+  #recover(trap: unknown) {
+    if (this.#hasTrapped) {
+      this.fail(trap);
+      return;
+    }
     this.#hasTrapped = true;
     this.#abandon();
-    this.report(error);
+    this.report(trap);
     void this.start();
-    return true;
   }
 
   #abandon() {
     if (this.simulation) abandonSimulation(this.simulation);
     this.host.settings.reset();
     this.simulation = this.motion = undefined;
-  }
-
-  async #create() {
-    try {
-      const [motion] = await Promise.all([instantiateFor(this.host.localName), this.host.link.prepare()]);
-      if (!this.host.isConnected) return;
-      const simulation = this.host.createSimulation(motion, this.host.state.lastValidState);
-      Object.assign(this, { motion, simulation, failure: undefined });
-      this.host.state.resume();
-      await this.#showContent();
-    } catch (error) {
-      this.fail(error);
-    } finally {
-      this.#startPromise = undefined;
-    }
-    // The element was moved meanwhile, or the core has trapped again.
-    if (this.failure === undefined) void this.start();
-  }
-
-  async #showContent() {
-    this.host.requestUpdate();
-    await this.host.updateComplete;
-    // Rendering may have trapped, and the element may be removed.
-    if (!this.simulation) return;
-    this.host.renderer.requestFrame();
-    if (this.#hasLoaded) return;
-    this.#hasLoaded = true;
-    this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
-  }
-
-  #stopSimulation() {
-    this.#hasLoaded = false;
-    this.#hasTrapped = false;
-    this.host.canvases.clear();
-    // An element that is removed during print gets no event at its end.
-    this.host.renderer.isPrinting = false;
-    this.attempt(() => {
-      this.host.settings.applyPending();
-      this.host.state.storeState();
-    });
-    this.simulation?.free();
-    this.simulation = this.motion = undefined;
-    this.host.requestUpdate();
   }
 }
 

@@ -1,4 +1,4 @@
-/** State of the figure as plain data. It is kept after a removal of the element and after a trap. */
+/** State of the figure as plain data. It is kept after a trap. */
 
 import { checkedObject, refusalError, checkedWord } from './checks.ts';
 import { validatedValue } from './definition.ts';

@@ -25,7 +25,7 @@ export function figureHtml(figure: Figure) {
   `;
 }
 
-/** Returns the content, or `noChange` without a simulation, as after a trap or a removal. */
+/** Returns the content, or `noChange` without a simulation, as after a trap. */
 function contentHtml(figure: Figure) {
   const { failure } = figure.runtime;
   if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;

@@ -38,6 +38,7 @@ export class Visibility extends FigureController {
     this.#isNear = false;
     // A later update must not make the disconnected observer observe again.
     this.#visibleObserver = undefined;
+    this.host.renderer.setVisible(false);
   }
 
   /** Observes the content too. A sticky picture stays in sight while the page scrolls on, outside of the element's box. */

@@ -1,7 +1,7 @@
 import { spawnSync } from 'node:child_process';
 import { expect, test as testWithWarnings } from '@playwright/test';
 import { recordingOf } from '../mcap.js';
-import { captionOf, chooseTables, chooseRecording, exampleTable, openCalibrator, recordingWith, alphaRowsOf, rowsOf, statsOf, tablesOf } from './calibrator-support.js';
+import { captionOf, chooseTables, chooseRecording, readExampleTable, openCalibrator, exampleRecordingWith, alphaRowsOf, exampleRowsOf, statsOf, simulatedTablesOf } from './calibrator-support.js';
 import { REDUCED_MOTION, dropFiles, stateOf, takeEvents, test, openDisclosures, untilSettled } from './support.js';
 
 /**
@@ -19,16 +19,16 @@ test('a refusal and long work are shown one above the other', async ({ page }) =
     notice.show('odom.csv: no columns are named t, x, y, yaw; expected is a table with a header. '.repeat(3));
     void notice.showDuring(new Promise(() => {}), () => {});
   });
-  const boxes = widget.locator('.notice > div');
-  await expect(boxes).toHaveCount(2);
-  const [progressBox, messageBox] = await boxes.evaluateAll((boxElements) => boxElements.map((box) => box.getBoundingClientRect()));
+  const noticeBoxes = widget.locator('.notice > div');
+  await expect(noticeBoxes).toHaveCount(2);
+  const [progressBox, messageBox] = await noticeBoxes.evaluateAll((boxElements) => boxElements.map((box) => box.getBoundingClientRect()));
   expect(messageBox.bottom).toBeLessThanOrEqual(progressBox.top);
 });
 
 test('two tables of a user replace the simulated log, and a button brings it back', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const tables = await tablesOf(widget);
-  await chooseTables(widget, { 'truth.csv': tables.reference, 'odom.csv': tables.odometry });
+  const logTables = await simulatedTablesOf(widget);
+  await chooseTables(widget, { 'truth.csv': logTables.reference, 'odom.csv': logTables.odometry });
   await untilSettled(widget);
   expect(await captionOf(widget).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.truth)).toBeNull();
@@ -36,33 +36,33 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   // The summary stays visible next to the result.
   await expect(widget.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
   await expect(widget.getByRole('img', { name: /^Paths from above: .* m by .* m\.$/ })).toBeVisible();
-  // Their names decide the roles, not the order in which they are chosen.
-  const hint = widget.getByText('its name is that of odometry, and truth.csv is not: was the odometry given as the reference?');
-  await expect(hint).toHaveCount(0);
+  // The names of the files decide their roles, not the order in which they are chosen.
+  const swapHint = widget.getByText('its name is that of odometry, and truth.csv is not: was the odometry given as the reference?');
+  await expect(swapHint).toHaveCount(0);
   await widget.getByLabel('odom.csv').selectOption('Reference');
   await expect(captionOf(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
-  await expect(hint).toBeVisible();
+  await expect(swapHint).toBeVisible();
   await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
   await expect(captionOf(widget)).toHaveText(/of the simulated log/);
   // A single file is not used until the other file is given too.
   const alert = widget.getByRole('alert');
-  await chooseTables(widget, { 'odom.csv': tables.odometry });
+  await chooseTables(widget, { 'odom.csv': logTables.odometry });
   await expect(alert).toHaveText(/^odom\.csv: it has the odometry only, .*; give the reference too\. Drop or choose the other file too,/);
   // The α's on screen belong to another log. They are not copied until the user keeps these results.
-  const otherResults = 'The results are still those of the simulated log, not of the files chosen last.';
-  await expect(widget.locator('.drop-zone .muted')).toContainText(otherResults);
-  await expect(widget.locator('.to-do')).toHaveText(otherResults);
+  const outdatedResultsText = 'The results are still those of the simulated log, not of the files chosen last.';
+  await expect(widget.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
+  await expect(widget.locator('.to-do')).toHaveText(outdatedResultsText);
   await openDisclosures(widget);
   const resultButtons = ['Fit for Nav2', 'Save all as JSON'].map((name) => widget.getByRole('button', { name }));
   for (const resultButton of resultButtons) await expect(resultButton).toBeDisabled();
   await widget.getByRole('button', { name: 'Keep these results' }).click();
   for (const resultButton of resultButtons) await expect(resultButton).toBeEnabled();
   await expect(alert).toHaveCount(0);
-  await chooseTables(widget, { 'odom.csv': tables.odometry });
+  await chooseTables(widget, { 'odom.csv': logTables.odometry });
   await expect(alert).toHaveCount(1);
-  await chooseTables(widget, { 'truth.csv': tables.reference });
+  await chooseTables(widget, { 'truth.csv': logTables.reference });
   await expect(captionOf(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
-  // Refused files of the same names are told apart from those of the log on screen.
+  // Refused files are distinguished from files of the same names in the log on screen.
   await chooseTables(widget, { 'odom.csv': '', 'truth.csv': '' });
   await expect(alert).toHaveText(/^Files chosen last: odom\.csv: there is nothing in it/);
   await expect(widget.locator('.to-do')).toHaveText('The results are still those of the former log (odom.csv, truth.csv), not of the files chosen last.');
@@ -71,22 +71,22 @@ test('two tables of a user replace the simulated log, and a button brings it bac
 
 test('results are those of the command line, to the last bit, and a recording whose topics the user chooses gives them too', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await chooseTables(widget, { 'odometry.csv': exampleTable('odometry'), 'reference.csv': exampleTable('reference') });
+  await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/odometry\.csv, reference\.csv[.,]/);
   await untilSettled(widget);
   const figureResults = await widget.evaluate((element) => {
     const { simulation: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
     return JSON.stringify({ ...stats, legs }, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value));
   });
-  const files = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
-  const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...files, '--json'], {
+  const fileArguments = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
+  const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...fileArguments, '--json'], {
     encoding: 'utf8', cwd: new URL('../..', import.meta.url), maxBuffer: 2 ** 28,
   });
   const { date, options, logs, start, ...cliResults } = JSON.parse(stdout);
   expect([options, logs.length, start, typeof date]).toEqual([{ legs: { distance: 0.25, angle: 0.2 } }, 2, 9, 'string']);
   expect(JSON.parse(figureResults)).toEqual(cliResults);
 
-  await chooseRecording(widget, 'run.mcap', await recordingWith(['/mocap/pose', '/vicon/pose']));
+  await chooseRecording(widget, 'run.mcap', await exampleRecordingWith(['/mocap/pose', '/vicon/pose']));
   await expect(widget.getByRole('alert')).toHaveText(/^run\.mcap: it is not clear what the reference is: .*\/vicon\/pose \(PoseStamped\)\.$/);
   await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
   await expect(captionOf(widget)).toHaveText(/of run\.mcap, \/odom, \/mocap\/pose[.,]/);
@@ -99,20 +99,20 @@ test('results are those of the command line, to the last bit, and a recording wh
 test('with the velocity model the commands of a file are used, with other models its poses @nightly', async ({ page }) => {
   const widget = await openCalibrator(page, 'model="velocity"');
   await openDisclosures(widget);
-  const odometryKeys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
+  const readOdometryKeys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
   const selectModel = async (/** @type {string} */ name, /** @type {string} */ key) => {
     await widget.getByRole('radio', { name }).check();
-    await expect.poll(odometryKeys).toContain(key);
+    await expect.poll(readOdometryKeys).toContain(key);
     await untilSettled(widget);
   };
   // The command of a row is driven until the next row.
-  const odometryRows = rowsOf('odometry');
-  const commands = odometryRows.map(([t, x, y, yaw], i) => {
+  const odometryRows = exampleRowsOf('odometry');
+  const rowsWithCommands = odometryRows.map(([t, x, y, yaw], i) => {
     const [nextTime, toX, toY, toYaw] = odometryRows[i + 1] ?? [t + 1, x, y, yaw];
     return [t, x, y, yaw, Math.hypot(toX - x, toY - y) / (nextTime - t), Math.atan2(Math.sin(toYaw - yaw), Math.cos(toYaw - yaw)) / (nextTime - t)].join(',');
   });
-  await chooseTables(widget, { 'odom.csv': ['t,x,y,yaw,v,omega', ...commands].join('\n'), 'truth.csv': exampleTable('reference') });
-  await expect.poll(odometryKeys).toContain('omega');
+  await chooseTables(widget, { 'odom.csv': ['t,x,y,yaw,v,omega', ...rowsWithCommands].join('\n'), 'truth.csv': readExampleTable('reference') });
+  await expect.poll(readOdometryKeys).toContain('omega');
   await untilSettled(widget);
   expect((await statsOf(widget)).alphas).toHaveLength(6);
   await selectModel('Table 5.6', 'theta');
@@ -121,12 +121,12 @@ test('with the velocity model the commands of a file are used, with other models
 
 test('files of several drives are read together, and a user assigns roles that their names do not tell @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const halfTables = (/** @type {'odometry' | 'reference'} */ name) => {
-    const [header, ...lines] = exampleTable(name).trim().split('\n');
-    const middle = Number(lines.at(-1)?.split(',')[0]) / 2;
-    return [false, true].map((isLate) => [header, ...lines.filter((line) => Number(line.split(',')[0]) > middle === isLate)].join('\n'));
+  const splitExampleTable = (/** @type {'odometry' | 'reference'} */ name) => {
+    const [header, ...lines] = readExampleTable(name).trim().split('\n');
+    const middleTime = Number(lines.at(-1)?.split(',')[0]) / 2;
+    return [false, true].map((isLate) => [header, ...lines.filter((line) => Number(line.split(',')[0]) > middleTime === isLate)].join('\n'));
   };
-  const [[a, c], [b, d]] = [halfTables('odometry'), halfTables('reference')];
+  const [[a, c], [b, d]] = [splitExampleTable('odometry'), splitExampleTable('reference')];
   await chooseTables(widget, { 'a.csv': a, 'b.csv': b, 'c.csv': c, 'd.csv': d });
   await expect(widget.getByRole('alert')).toHaveText(/^a\.csv: its name does not say whether it is odometry or reference;/);
   await expect(widget.getByLabel('a.csv')).toBeFocused();
@@ -137,12 +137,12 @@ test('files of several drives are read together, and a user assigns roles that t
 
 test('names and units of columns that a table does not state are asked for, and the answer holds for that file', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const rowsInMillimetres = rowsOf('odometry').map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
+  const rowsInMillimetres = exampleRowsOf('odometry').map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
   const alert = widget.getByRole('alert');
   await chooseTables(widget, { 'notes.txt': 'hello', 'empty.csv': '' });
   await expect(alert).toHaveText(/^notes\.txt: it does not look like a log,/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: empty\.csv: there is nothing in it/]);
-  await chooseTables(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'truth.csv': exampleTable('reference').replaceAll(/^\d+\.\d+/gm, (t) => `${Number(t) + (Number(t) > 50 ? 1 : 0)}`) });
+  await chooseTables(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'truth.csv': readExampleTable('reference').replaceAll(/^\d+\.\d+/gm, (t) => `${Number(t) + (Number(t) > 50 ? 1 : 0)}`) });
   await expect(alert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv' }).getByLabel('time', { exact: true })).toBeFocused();
   await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');
@@ -155,31 +155,31 @@ test('names and units of columns that a table does not state are asked for, and 
 test('the files of a dropped folder are one recording, and others are not used', async ({ page }) => {
   const widget = await openCalibrator(page);
   const cameraRecording = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));
-  const recordings = [await recordingWith(['/mocap/pose']), cameraRecording].map((bytes) => bytes.toString('base64'));
+  const base64Recordings = [await exampleRecordingWith(['/mocap/pose']), cameraRecording].map((bytes) => bytes.toString('base64'));
   await widget.locator('section.simulation').evaluate(async (section, encodedRecordings) => {
     const [bytes, cameraBytes] = await Promise.all(encodedRecordings.map(async (base64) => (await fetch(`data:;base64,${base64}`)).arrayBuffer()));
     const metadata = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
-    const journal = new File([new Uint8Array([0x37, 0x7f, 0x06, 0x82])], 'run_0.db3-wal');
-    const entries = [new File([bytes], 'run_0.mcap'), new File([metadata], 'metadata.yaml'), new File([cameraBytes], 'camera.mcap'), journal].map((file) =>
+    const journalFile = new File([new Uint8Array([0x37, 0x7f, 0x06, 0x82])], 'run_0.db3-wal');
+    const fileEntries = [new File([bytes], 'run_0.mcap'), new File([metadata], 'metadata.yaml'), new File([cameraBytes], 'camera.mcap'), journalFile].map((file) =>
       ({ name: file.name, isDirectory: false, fullPath: `/run/${file.name}`, file: (/** @type {(file: File) => void} */ take) => take(file) }));
-    const remainingEntries = [entries, []];
-    const entry = { isDirectory: true, createReader: () => ({ readEntries: (/** @type {(some: unknown) => void} */ take) => take(remainingEntries.shift()) }) };
-    const dataTransfer = { types: ['Files'], items: [{ kind: 'file', webkitGetAsEntry: () => entry, getAsFile: () => null }] };
+    const entryBatches = [fileEntries, []];
+    const folderEntry = { isDirectory: true, createReader: () => ({ readEntries: (/** @type {(some: unknown) => void} */ take) => take(entryBatches.shift()) }) };
+    const dataTransfer = { types: ['Files'], items: [{ kind: 'file', webkitGetAsEntry: () => folderEntry, getAsFile: () => null }] };
     section.dispatchEvent(Object.defineProperty(new Event('drop'), 'dataTransfer', { value: dataTransfer }));
-  }, recordings);
+  }, base64Recordings);
   await expect(captionOf(widget)).toHaveText(/of run, \/odom, \/mocap\/pose[.,]/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: run_0\.db3-wal: it is a journal /, /^Not used: camera\.mcap: the topics are \/image /]);
 });
 
 test('a log without enough legs is refused, and the present log keeps its place and its name', async ({ page }) => {
   const widget = await openCalibrator(page);
-  await chooseTables(widget, { 'odometry.csv': exampleTable('odometry'), 'reference.csv': exampleTable('reference') });
+  await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
   await untilSettled(widget);
   const captionBefore = await captionOf(widget).innerText();
   const { alphas } = await statsOf(widget);
-  const standingLog = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
-  await dropFiles(widget.locator('.stage').first(), ['a.csv', 'b.csv'].map((name) => ({ name, buffer: standingLog })));
+  const standstillTable = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
+  await dropFiles(widget.locator('.stage').first(), ['a.csv', 'b.csv'].map((name) => ({ name, buffer: standstillTable })));
   // The message is shown in one place only: in the drop zone, which is visible.
   await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.');
@@ -187,7 +187,7 @@ test('a log without enough legs is refused, and the present log keeps its place 
   expect(await captionOf(widget).innerText()).toBe(captionBefore);
   expect((await statsOf(widget)).alphas).toEqual(alphas);
   await expect(widget.locator('.drop-zone .present')).toContainText('odometry.csv, reference.csv');
-  // The results are marked as old ones, until the figure shows what it opened with.
+  // The results are marked as outdated, until the figure shows its opening log again.
   await expect(widget.locator('.views')).toHaveCSS('filter', 'grayscale(1)');
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(captionOf(widget)).toHaveText(/of the simulated log/);
@@ -195,30 +195,30 @@ test('a log without enough legs is refused, and the present log keeps its place 
   await expect(widget.locator('.views')).toHaveCSS('filter', 'none');
 });
 
-/** Chooses two tables of a quarter of an hour, as a user does. @param {Locator} widget */
+/** Chooses two tables of 15 minutes, as a user does, and returns the time of the choice. @param {Locator} widget */
 const chooseLongTables = (widget) => widget.evaluate((element) => {
-  const input = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#log-files'));
-  const row = (/** @type {number} */ i, /** @type {number} */ shake) => {
+  const fileInput = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#log-files'));
+  const csvRowAt = (/** @type {number} */ i, /** @type {number} */ swayWidth) => {
     const [t, angle] = [i / 100, i / 400];
-    return [t, 3 * Math.sin(angle), 3 - 3 * Math.cos(angle) + shake * Math.sin(7 * t), angle % 6].join(',');
+    return [t, 3 * Math.sin(angle), 3 - 3 * Math.cos(angle) + swayWidth * Math.sin(7 * t), angle % 6].join(',');
   };
   const { files, items } = new DataTransfer();
-  for (const [name, shake] of /** @type {const} */ ([['odom.csv', 0], ['truth.csv', 0.02]])) {
-    items.add(new File([['t,x,y,yaw', ...Array.from({ length: 90_000 }, (_, i) => row(i, shake))].join('\n')], name));
+  for (const [name, swayWidth] of /** @type {const} */ ([['odom.csv', 0], ['truth.csv', 0.02]])) {
+    items.add(new File([['t,x,y,yaw', ...Array.from({ length: 90_000 }, (_, i) => csvRowAt(i, swayWidth))].join('\n')], name));
   }
-  input.files = files;
+  fileInput.files = files;
   const startTime = performance.now();
-  input.dispatchEvent(new Event('change'));
+  fileInput.dispatchEvent(new Event('change'));
   return startTime;
 });
 
 test('a log is read and fitted in a worker, and the page stays free', async ({ page }) => {
   const widget = await openCalibrator(page);
   await page.evaluate(() => {
-    const entries = /** @type {PerformanceEntry[]} */ ([]);
-    const observer = new PerformanceObserver((list) => void entries.push(...list.getEntries()));
-    for (const type of ['longtask', 'layout-shift']) observer.observe({ type });
-    Object.assign(window, { entries });
+    const performanceEntries = /** @type {PerformanceEntry[]} */ ([]);
+    const observer = new PerformanceObserver((list) => void performanceEntries.push(...list.getEntries()));
+    for (const entryType of ['longtask', 'layout-shift']) observer.observe({ type: entryType });
+    Object.assign(window, { entries: performanceEntries });
   });
   // The worker starts while the user chooses files.
   await Promise.all([page.waitForEvent('worker'), page.waitForEvent('filechooser'), widget.getByText('choose files').click()]);
@@ -227,8 +227,8 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   expect(page.workers().map((worker) => new URL(worker.url()).pathname)).toEqual(['/chunks/log-worker.js']);
   const { longestTaskShare, layoutShifts } = await page.evaluate((since) => {
     const recentEntries = /** @type {(PerformanceEntry & { value?: number, hadRecentInput?: boolean })[]} */ (Reflect.get(window, 'entries')).filter((entry) => entry.startTime > since);
-    const tasks = recentEntries.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
-    return { longestTaskShare: Math.max(0, ...tasks) / (performance.now() - since), layoutShifts: recentEntries.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
+    const taskDurations = recentEntries.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
+    return { longestTaskShare: Math.max(0, ...taskDurations) / (performance.now() - since), layoutShifts: recentEntries.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
   }, startTime);
   // On the main thread, reading a log would be one task that takes a third of the time.
   expect(longestTaskShare).toBeLessThan(0.2);
@@ -255,7 +255,7 @@ testWithWarnings('where the page’s policy forbids workers, a log is read all t
   await page.goto('/bare.html');
   const widget = page.locator('alpha-calibrator');
   await expect(widget.locator('.folds')).toBeVisible();
-  await chooseTables(widget, { 'odometry.csv': exampleTable('odometry'), 'reference.csv': exampleTable('reference') });
+  await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
   expect(page.workers()).toEqual([]);
 });
@@ -277,16 +277,16 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
   const widget = await openCalibrator(page);
   const stateBefore = await stateOf(widget);
   const captionBefore = await captionOf(widget).innerText();
-  const leftEdge = () => widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.extent.xMin);
-  const leftEdgeBefore = await leftEdge();
-  const refusals = await widget.evaluate(async (element) => {
+  const readLeftEdge = () => widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.extent.xMin);
+  const leftEdgeBefore = await readLeftEdge();
+  const refusalMessages = await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement} */ (element);
     const { legs } = figure.simulation;
     const t = Array.from({ length: legs.count }, (_, leg) => leg);
     const componentOf = (/** @type {Float64Array} */ poses, /** @type {number} */ component) => t.map((leg) => poses[6 * leg + component]);
-    const poses = (/** @type {Float64Array} */ legPoses) => ({ t, x: componentOf(legPoses, 0).map((x) => x + 0.01), y: componentOf(legPoses, 1), theta: componentOf(legPoses, 2) });
-    const pageLog = { name: 'of the page', odometry: poses(legs.odometry), reference: poses(legs.reference) };
-    const nextError = () => new Promise((resolve) => {
+    const poseColumns = (/** @type {Float64Array} */ legPoses) => ({ t, x: componentOf(legPoses, 0).map((x) => x + 0.01), y: componentOf(legPoses, 1), theta: componentOf(legPoses, 2) });
+    const pageLog = { name: 'of the page', odometry: poseColumns(legs.odometry), reference: poseColumns(legs.reference) };
+    const nextErrorMessage = () => new Promise((resolve) => {
       figure.addEventListener('error', (event) => {
         event.preventDefault();
         resolve(/** @type {ErrorEvent} */ (event).message);
@@ -294,23 +294,23 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
     });
     figure.log = pageLog;
     await new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
-    const errors = [];
+    const errorMessages = [];
     for (const log of [{ ...pageLog, odometry: { ...pageLog.odometry, t: t.with(3, 1) } }, 5]) {
-      const refusal = nextError();
+      const messagePromise = nextErrorMessage();
       Object.assign(figure, { log });
-      errors.push(await refusal);
+      errorMessages.push(await messagePromise);
     }
-    return errors;
+    return errorMessages;
   });
-  expect(refusals).toEqual([expect.stringMatching(/^odometry: sample 3 is not later than the one before/), 'log is 5; allowed is an object with keys from name, odometry, reference']);
+  expect(refusalMessages).toEqual([expect.stringMatching(/^odometry: sample 3 is not later than the one before/), 'log is 5; allowed is an object with keys from name, odometry, reference']);
   expect(await widget.evaluate((element) => {
     const { log, simulation: { count } } = /** @type {AlphaCalibratorElement} */ (element);
     return [log?.name, count > 100];
   })).toEqual(['of the page', true]);
   expect(await stateOf(widget)).toEqual(stateBefore);
-  // The picture is fitted anew, although the extent before had room for the path.
-  await expect.poll(leftEdge).not.toBe(leftEdgeBefore);
-  await chooseTables(widget, { 'odometry.csv': exampleTable('odometry'), 'reference.csv': exampleTable('reference') });
+  // The picture is fitted to the new path, although the previous extent had room for it.
+  await expect.poll(readLeftEdge).not.toBe(leftEdgeBefore);
+  await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(captionOf(widget)).toHaveText(/of of the page[.,]/);
@@ -321,8 +321,8 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
 test('a log without legs says so @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
-    const standingPoses = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
-    /** @type {AlphaCalibratorElement} */ (element).log = { odometry: standingPoses, reference: standingPoses };
+    const standstillPoses = { t: [0, 1, 2, 3], x: [0, 0, 0, 0], y: [0, 0, 0, 0], theta: [0, 0, 0, 0] };
+    /** @type {AlphaCalibratorElement} */ (element).log = { odometry: standstillPoses, reference: standstillPoses };
   });
   await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.count)).toBe(0);
   await untilSettled(widget);

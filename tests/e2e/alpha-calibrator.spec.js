@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { captionOf, openCalibrator, alphaRowsOf, foldedGroup, statsOf } from './calibrator-support.js';
+import { captionOf, openCalibrator, alphaRowsOf, findFoldedGroup, statsOf } from './calibrator-support.js';
 import { REDUCED_MOTION, boxOf, waitForFrames, pixelCountOf, stateOf, test, openDisclosures, untilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
@@ -11,8 +11,8 @@ test('opens with the simulated log, labelled as simulated, with its true α’s'
   await expect(widget.locator('.to-do')).toHaveText(/^Use the recommended α’s with legs of this length\. First multiply the odometry’s distances by 1\.0\d\d and turns by 0\.9\d\d: the α’s are those of the corrected robot\.$/);
   await expect(alphaRowsOf(widget)).toHaveCount(4);
   await expect(widget.locator('table.alphas .true')).toHaveCount(5);
-  for (const role of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
-    expect(await pixelCountOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(20);
+  for (const colorRole of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
+    expect(await pixelCountOf(widget.locator('canvas.plane'), colorRole), colorRole).toBeGreaterThan(20);
   }
   expect(await pixelCountOf(widget.locator('canvas.leg'), 'prediction')).toBeGreaterThan(20);
   expect(await widget.evaluate((element) => /** @type {any} */ (element).toCSV())).toMatch(/^# \{"element":"alpha-calibrator","model":/);
@@ -37,46 +37,46 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
 test('the meaning of each α stands beside it, apart from the numbers, also on a phone, in German and in a wide font', async ({ page }) => {
   const widget = await openCalibrator(page, 'lang="de"');
   await expect(alphaRowsOf(widget).locator('.of')).toHaveText(['Drehrauschen durch Drehen', 'Drehrauschen durch Fahren', 'Streckenrauschen durch Fahren', 'Streckenrauschen durch Drehen']);
-  for (const [width, spacing] of [[375, 0], [920, 0], [920, 0.1], [1280, 0], [1280, 0.1]]) {
+  for (const [width, letterSpacing] of [[375, 0], [920, 0], [920, 0.1], [1280, 0], [1280, 0.1]]) {
     await page.setViewportSize({ width, height: 900 });
-    await page.evaluate((em) => void (document.body.style.letterSpacing = `${em}em`), spacing);
+    await page.evaluate((em) => void (document.body.style.letterSpacing = `${em}em`), letterSpacing);
     await waitForFrames(page);
-    const boxesAreApart = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => {
-      const boxOf = (/** @type {string} */ selector) => {
-        const text = new Range();
-        text.selectNodeContents(/** @type {Element} */ (row.querySelector(selector)));
-        return text.getBoundingClientRect();
+    const areBoxesApart = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => {
+      const textBoxOf = (/** @type {string} */ selector) => {
+        const textRange = new Range();
+        textRange.selectNodeContents(/** @type {Element} */ (row.querySelector(selector)));
+        return textRange.getBoundingClientRect();
       };
-      const [name, ...numbers] = ['.of', '.fitted-value', '.between', '.recommended'].map(boxOf);
-      return numbers.every(({ left, top }) => name.right <= left || name.bottom <= top + 2);
+      const [meaningBox, ...numberBoxes] = ['.of', '.fitted-value', '.between', '.recommended'].map(textBoxOf);
+      return numberBoxes.every(({ left, top }) => meaningBox.right <= left || meaningBox.bottom <= top + 2);
     }));
-    expect(boxesAreApart, `${width} px, ${spacing} em`).toEqual([true, true, true, true]);
+    expect(areBoxesApart, `${width} px, ${letterSpacing} em`).toEqual([true, true, true, true]);
     // Rows of 32 px have the name in one line.
-    if (spacing === 0 && width !== 920) for (const row of await alphaRowsOf(widget).all()) expect((await boxOf(row)).height, `${width} px`).toBeLessThan(34);
-    expect(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${spacing} em`).toBeLessThanOrEqual(width);
+    if (letterSpacing === 0 && width !== 920) for (const row of await alphaRowsOf(widget).all()) expect((await boxOf(row)).height, `${width} px`).toBeLessThan(34);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${letterSpacing} em`).toBeLessThanOrEqual(width);
   }
   // Labels of the axis do not overlap where the axis is narrowest.
   await page.setViewportSize({ width: 640, height: 900 });
   await page.evaluate(() => void (document.body.style.letterSpacing = '0.1em'));
-  const boxes = await Promise.all((await widget.locator('.scale > span').filter({ visible: true }).all()).map(boxOf));
-  expect(boxes.length).toBeGreaterThan(1);
-  for (const [i, { x, width }] of boxes.slice(0, -1).entries()) expect(x + width).toBeLessThan(boxes[i + 1].x);
+  const axisLabelBoxes = await Promise.all((await widget.locator('.scale > span').filter({ visible: true }).all()).map(boxOf));
+  expect(axisLabelBoxes.length).toBeGreaterThan(1);
+  for (const [i, { x, width }] of axisLabelBoxes.slice(0, -1).entries()) expect(x + width).toBeLessThan(axisLabelBoxes[i + 1].x);
 });
 
 test('outliers are ringed, and decide the fit where they are not set aside', async ({ page }) => {
   const widget = await openCalibrator(page);
   await openDisclosures(widget);
   const statsBefore = await statsOf(widget);
-  const ringPixels = await pixelCountOf(widget.locator('canvas.plane'), 'ink');
+  const inkPixelCount = await pixelCountOf(widget.locator('canvas.plane'), 'ink');
   await widget.getByRole('checkbox', { name: 'outlier', exact: true }).uncheck();
-  expect(await pixelCountOf(widget.locator('canvas.plane'), 'ink')).toBeLessThan(ringPixels - 40);
+  expect(await pixelCountOf(widget.locator('canvas.plane'), 'ink')).toBeLessThan(inkPixelCount - 40);
   await widget.getByRole('radio', { name: 'fit as noise' }).check();
   await untilSettled(widget);
   const statsAfter = await statsOf(widget);
   // The text of www/index.html contains these numbers.
-  const alphaGrowth = [1, 2].map((alpha) => Math.round(Number(statsAfter.alphas[alpha]) / Number(statsBefore.alphas[alpha])));
+  const alphaRatios = [1, 2].map((alpha) => Math.round(Number(statsAfter.alphas[alpha]) / Number(statsBefore.alphas[alpha])));
   const outlierCheck = statsBefore.diagnostics.checks.find(({ name }) => name === 'outliers-few');
-  expect([10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), ...alphaGrowth]).toEqual([60, 9, 15]);
+  expect([10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), ...alphaRatios]).toEqual([60, 9, 15]);
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toMatch(/One in sixty is an outlier[^]* becomes nine times and .* fifteen times as large, and two checks fail/);
   await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(2 of 14 failed\)\. \d+ legs of the simulated log\.$/);
   await expect(widget.locator('.to-do')).toHaveText(/ If the log cannot be improved, use the recommended α’s with the odometry’s turns\s×\s0\.9\d\d\.$/);
@@ -92,8 +92,8 @@ test('a systematic error that is not corrected is named in the advice', async ({
   expect(statsAfter.systematicErrors.mountYaw.corrected).toBe(false);
   expect(statsAfter.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
   // The text of www/index.html contains these numbers.
-  const [from, to] = [statsBefore, statsAfter].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
-  expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${from} to ${to}&nbsp;rad`);
+  const [yawStdBefore, yawStdAfter] = [statsBefore, statsAfter].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
+  expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${yawStdBefore} to ${yawStdAfter}&nbsp;rad`);
   await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 14 failed\)\.\s+\d+ legs /);
   await expect(widget.locator('.to-do')).toHaveText(/^Not corrected: mount yaw \(rad\) 0\.070 ± 0\.00\d \(see More controls\)\. Errors of neighbouring legs /);
   await expect(widget.getByRole('row', { name: /mount yaw/ })).toContainText('not corrected');
@@ -103,7 +103,7 @@ test('every check has its value, the values that pass, and what to do where it f
   const widget = await openCalibrator(page, 'outliers="keep" lang="de"');
   await openDisclosures(widget);
   const { diagnostics: { checks } } = await statsOf(widget);
-  const checkRows = foldedGroup(widget, 'Prüfungen').locator('tbody tr');
+  const checkRows = findFoldedGroup(widget, 'Prüfungen').locator('tbody tr');
   await expect(checkRows).toHaveCount(checks.length);
   expect(checks.filter(({ passed }) => !passed).length).toBeGreaterThan(1);
   for (const [i, { passed }] of checks.entries()) await expect(checkRows.nth(i)).toContainText(passed ? '✓ bestanden' : '✕ nicht bestanden');
@@ -114,25 +114,25 @@ test('every check has its value, the values that pass, and what to do where it f
 test('a leg is chosen in the picture, by its slider, and from one large residual to the next', async ({ page }) => {
   const widget = await openCalibrator(page);
   const { worst } = await widget.evaluate((element) => /** @type {any} */ (element).viewModel);
-  const button = widget.getByRole('button', { name: 'Next largest residual' });
-  await button.click();
+  const nextResidualButton = widget.getByRole('button', { name: 'Next largest residual' });
+  await nextResidualButton.click();
   expect(await stateOf(widget)).toMatchObject({ leg: worst[0] });
-  await button.click();
+  await nextResidualButton.click();
   expect(await stateOf(widget)).toMatchObject({ leg: worst[1] });
   // The thumb moves with the next picture.
   await waitForFrames(page);
   await widget.locator('#leg').press('ArrowRight');
   expect(await stateOf(widget)).toMatchObject({ leg: worst[1] + 1 });
   const canvas = widget.locator('canvas.plane');
-  const midpoint = await widget.evaluate((element) => {
+  const clickTarget = await widget.evaluate((element) => {
     const { pictures: [{ view }], simulation } = /** @type {any} */ (element);
     const { reference } = simulation.legs;
-    const legMiddle = [0, 1].map((axis) => (reference[6 * 40 + axis] + reference[6 * 40 + 3 + axis]) / 2);
-    return { x: view.toPixelX(legMiddle[0]), y: view.toPixelY(legMiddle[1]), leg: simulation.nearest(legMiddle[0], legMiddle[1], 1) };
+    const legMidpoint = [0, 1].map((axis) => (reference[6 * 40 + axis] + reference[6 * 40 + 3 + axis]) / 2);
+    return { x: view.toPixelX(legMidpoint[0]), y: view.toPixelY(legMidpoint[1]), leg: simulation.nearest(legMidpoint[0], legMidpoint[1], 1) };
   });
-  await canvas.click({ position: { x: midpoint.x, y: midpoint.y } });
-  expect(await stateOf(widget)).toMatchObject({ leg: midpoint.leg });
-  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', new RegExp(`^Leg ${midpoint.leg + 1} `));
+  await canvas.click({ position: { x: clickTarget.x, y: clickTarget.y } });
+  expect(await stateOf(widget)).toMatchObject({ leg: clickTarget.leg });
+  await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', new RegExp(`^Leg ${clickTarget.leg + 1} `));
 });
 
 test('an export as a picture has the key, the α’s with their intervals, and the verdict @nightly', async ({ page }) => {
@@ -145,28 +145,28 @@ test('an export as a picture has the key, the α’s with their intervals, and t
     return `${alphaName}: ${value}, ${between}, recommended ${recommended}`;
   }));
   const captionText = ((await captionOf(widget).textContent()) ?? '').replace(/^\s*✓?!?\s*/, '').replace(/\s+/g, ' ').trim();
-  const exportedFiles = await widget.evaluate(async (element) => {
+  const exportContents = await widget.evaluate(async (element) => {
     const figure = /** @type {any} */ (element);
-    const { documentElement: root } = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml');
-    const elementsIn = (/** @type {string} */ selector) => [...root.querySelectorAll(selector)];
-    const image = await createImageBitmap(await figure.toPNG());
+    const { documentElement: svgRoot } = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml');
+    const findAll = (/** @type {string} */ selector) => [...svgRoot.querySelectorAll(selector)];
+    const pngBitmap = await createImageBitmap(await figure.toPNG());
     return {
-      texts: elementsIn('text').map((text) => text.textContent),
-      size: [root.getAttribute('width'), root.getAttribute('height')].map(Number),
-      png: [image.width, image.height],
-      described: root.querySelector('desc')?.textContent ?? '',
+      texts: findAll('text').map((text) => text.textContent),
+      size: [svgRoot.getAttribute('width'), svgRoot.getAttribute('height')].map(Number),
+      png: [pngBitmap.width, pngBitmap.height],
+      described: svgRoot.querySelector('desc')?.textContent ?? '',
     };
   });
-  const exportedText = exportedFiles.texts.join(' ');
+  const svgText = exportContents.texts.join(' ');
   alphaTexts.forEach((text, i) => {
-    expect(exportedText).toContain(`α${'₁₂₃₄'[i]} ${text}`);
-    expect(exportedFiles.described).toContain(text);
+    expect(svgText).toContain(`α${'₁₂₃₄'[i]} ${text}`);
+    expect(exportContents.described).toContain(text);
   });
-  expect(exportedText.replaceAll(/(Trust|Caution)\./g, '$1')).toContain(captionText);
-  for (const name of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001', 'odometry', 'outlier']) expect(exportedFiles.texts).toContain(name);
-  expect(exportedText).toMatch(/Systematic errors not corrected \(absorbed by the α’s\): mount yaw \(rad\) −?0\.\d{3} ± 0\.\d{3}\./);
-  expect(exportedFiles.size[0] / exportedFiles.size[1]).toBeCloseTo(720 / 560, 1);
-  exportedFiles.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * exportedFiles.size[i])).toBeLessThanOrEqual(1));
+  expect(svgText.replaceAll(/(Trust|Caution)\./g, '$1')).toContain(captionText);
+  for (const legendText of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001', 'odometry', 'outlier']) expect(exportContents.texts).toContain(legendText);
+  expect(svgText).toMatch(/Systematic errors not corrected \(absorbed by the α’s\): mount yaw \(rad\) −?0\.\d{3} ± 0\.\d{3}\./);
+  expect(exportContents.size[0] / exportContents.size[1]).toBeCloseTo(720 / 560, 1);
+  exportContents.png.forEach((pixels, i) => expect(Math.abs(pixels - 2 * exportContents.size[i])).toBeLessThanOrEqual(1));
 });
 
 test('the lines for Nav2 have the numbers of the table, and are copied by the button beside the α’s', async ({ page, context }) => {
@@ -174,9 +174,9 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await openDisclosures(widget);
   const yaml = await widget.locator('textarea.yaml').inputValue();
-  const tableCells = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => ['.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim() ?? '')));
-  expect(tableCells).toHaveLength(4);
-  tableCells.forEach(([fitted, between, recommended], i) => expect(yaml).toContain(`    alpha${i + 1}: ${recommended}  # fitted ${fitted}, 95 % ${between.replace(' – ', ' to ')}\n`));
+  const alphaTexts = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => ['.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim() ?? '')));
+  expect(alphaTexts).toHaveLength(4);
+  alphaTexts.forEach(([fitted, between, recommended], i) => expect(yaml).toContain(`    alpha${i + 1}: ${recommended}  # fitted ${fitted}, 95 % ${between.replace(' – ', ' to ')}\n`));
   await page.setViewportSize({ width: 360, height: 400 });
   await widget.getByRole('button', { name: 'Copy for Nav2' }).click();
   await expect(widget.locator('.fitted output')).toHaveText('Copied.');
@@ -218,11 +218,11 @@ test('legs of a time, and how well the reference is known, are set by their slid
 test('for an α that a log does not determine, the table says why, and what to add', async ({ page }) => {
   const widget = await openCalibrator(page);
   await widget.evaluate((element) => {
-    const count = 2000;
-    const t = Float64Array.from({ length: count }, (_, i) => i / 20);
-    const zeros = new Float64Array(count);
-    const xWithNoise = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
-    Object.assign(element, { log: { odometry: { t, x: xWithNoise(0), y: zeros, theta: zeros }, reference: { t, x: xWithNoise(0.002), y: zeros, theta: zeros } } });
+    const sampleCount = 2000;
+    const t = Float64Array.from({ length: sampleCount }, (_, i) => i / 20);
+    const zeros = new Float64Array(sampleCount);
+    const noisyXs = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
+    Object.assign(element, { log: { odometry: { t, x: noisyXs(0), y: zeros, theta: zeros }, reference: { t, x: noisyXs(0.002), y: zeros, theta: zeros } } });
   });
   await untilSettled(widget);
   await expect(alphaRowsOf(widget).nth(0)).toHaveText(/not determined: too little rotation in this log; add ~50 in-place rotations/);

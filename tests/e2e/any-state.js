@@ -11,123 +11,123 @@ export const STATE_SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
 /** Returns a random state of each element, by its tag name. The states have all fields. @param {number} seed */
 export function randomStates(seed) {
   const random = randomGenerator(seed);
-  const realNumber = (/** @type {number} */ min, /** @type {number} */ max) => min + (max - min) * random();
-  const wholeNumber = (/** @type {number} */ min, /** @type {number} */ max) => Math.floor(realNumber(min, max + 1));
-  const oneOf = (/** @type {unknown[]} */ choices) => choices[wholeNumber(0, choices.length - 1)];
-  const alphas = (/** @type {number} */ count) => Array.from({ length: count }, () => realNumber(0, 0.2));
-  const pose = () => ({ x: realNumber(-4, 4), y: realNumber(-4, 4), theta: realNumber(-4, 4) });
-  const samples = wholeNumber(2, 3000);
-  const shown = oneOf([samples, wholeNumber(2, samples)]);
-  const cloud = {
+  const randomNumber = (/** @type {number} */ min, /** @type {number} */ max) => min + (max - min) * random();
+  const randomInteger = (/** @type {number} */ min, /** @type {number} */ max) => Math.floor(randomNumber(min, max + 1));
+  const randomItem = (/** @type {unknown[]} */ choices) => choices[randomInteger(0, choices.length - 1)];
+  const randomAlphas = (/** @type {number} */ count) => Array.from({ length: count }, () => randomNumber(0, 0.2));
+  const randomPose = () => ({ x: randomNumber(-4, 4), y: randomNumber(-4, 4), theta: randomNumber(-4, 4) });
+  const sampleCount = randomInteger(2, 3000);
+  const shownCount = randomItem([sampleCount, randomInteger(2, sampleCount)]);
+  const cloudState = {
     version: 1,
-    samples,
-    seed: wholeNumber(0, 2 ** 53 - 1),
-    shown,
+    samples: sampleCount,
+    seed: randomInteger(0, 2 ** 53 - 1),
+    shown: shownCount,
     playing: false,
-    marked: oneOf([null, wholeNumber(0, 1)]),
+    marked: randomItem([null, randomInteger(0, 1)]),
   };
-  const command = { v: realNumber(-1, 2), omega: realNumber(-2, 2), dt: realNumber(0.1, 3) };
-  const common = { ...cloud, command };
-  const model = oneOf(['velocity', 'odometry']);
-  const steps = wholeNumber(1, 40);
+  const command = { v: randomNumber(-1, 2), omega: randomNumber(-2, 2), dt: randomNumber(0.1, 3) };
+  const commandedCloudState = { ...cloudState, command };
+  const model = randomItem(['velocity', 'odometry']);
+  const stepCount = randomInteger(1, 40);
   return {
     'banana-machine': {
-      ...common,
+      ...commandedCloudState,
       widget: 'banana-machine',
       model,
-      noise: oneOf(['normal', 'triangular']),
-      alphas: { velocity: alphas(6), odometry: alphas(4) },
-      isolate: oneOf([null, wholeNumber(1, 4)]),
-      isolateChoice: wholeNumber(1, 6),
-      pinned: oneOf([
+      noise: randomItem(['normal', 'triangular']),
+      alphas: { velocity: randomAlphas(6), odometry: randomAlphas(4) },
+      isolate: randomItem([null, randomInteger(1, 4)]),
+      isolateChoice: randomInteger(1, 6),
+      pinned: randomItem([
         null,
-        { model: 'odometry', noise: 'normal', command: { v: 1, omega: 0.3, dt: 2 }, alphas: [0.1, 0.02, 0.05, 0.01], samples: wholeNumber(1, 3000), seed: 9, isolate: null, reverseAware: true },
+        { model: 'odometry', noise: 'normal', command: { v: 1, omega: 0.3, dt: 2 }, alphas: [0.1, 0.02, 0.05, 0.01], samples: randomInteger(1, 3000), seed: 9, isolate: null, reverseAware: true },
       ]),
-      reverseAware: oneOf([true, false]),
+      reverseAware: randomItem([true, false]),
       overlays: ['command', 'ellipse', 'exponential', 'linearized', 'additive'].filter(() => random() < 0.5),
       morph: random() < 0.5 ? 0 : random(),
     },
     'map-squeeze': {
-      ...common,
+      ...commandedCloudState,
       widget: 'map-squeeze',
-      start: { x: realNumber(1, 5), y: realNumber(1, 3), theta: realNumber(-3, 3) },
-      alphas: alphas(6),
-      clearance: realNumber(0, 0.2),
-      conditioned: oneOf([true, false]),
+      start: { x: randomNumber(1, 5), y: randomNumber(1, 3), theta: randomNumber(-3, 3) },
+      alphas: randomAlphas(6),
+      clearance: randomNumber(0, 0.2),
+      conditioned: randomItem([true, false]),
       // The whole-arc sampler never gives up, and its settings are valid in any order.
       sampler: 'whole-arc',
-      steps: wholeNumber(1, 64),
-      unknown: oneOf(['free', 'blocked']),
-      view: oneOf(['whole', 'close']),
+      steps: randomInteger(1, 64),
+      unknown: randomItem(['free', 'blocked']),
+      view: randomItem(['whole', 'close']),
       overlays: ['accepted', 'through', 'rejected', 'commanded', 'unknown'].filter(() => random() < 0.5),
-      map: oneOf([
+      map: randomItem([
         null,
         { name: 'room.json', bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5], [0, 0, 6, 0]] },
         { name: 'part.yaml', columns: 8, rows: 2, resolution: 0.5, origin: [0, 0, 0], occupied: 'gQA=', unknown: 'GA8=' },
-        { name: 'grid.yaml', columns: 13, rows: 9, resolution: 0.5, origin: [-0.5, 0.25, 0.1], occupied: btoa(Array.from({ length: 15 }, (_, i) => String.fromCharCode(i < 14 ? wholeNumber(0, 255) : wholeNumber(0, 31) << 3)).join('')) },
+        { name: 'grid.yaml', columns: 13, rows: 9, resolution: 0.5, origin: [-0.5, 0.25, 0.1], occupied: btoa(Array.from({ length: 15 }, (_, i) => String.fromCharCode(i < 14 ? randomInteger(0, 255) : randomInteger(0, 31) << 3)).join('')) },
       ]),
     },
     'arc-anatomy': {
       version: 1,
       widget: 'arc-anatomy',
-      start: pose(),
-      next: pose(),
+      start: randomPose(),
+      next: randomPose(),
       command,
-      alphas: alphas(6),
-      noise: oneOf(['normal', 'triangular']),
-      printed: oneOf([true, false]),
-      map: oneOf(['none', 'prob', 'density']),
+      alphas: randomAlphas(6),
+      noise: randomItem(['normal', 'triangular']),
+      printed: randomItem([true, false]),
+      map: randomItem(['none', 'prob', 'density']),
       overlays: ['commanded', 'inverted', 'wedge', 'chord', 'twist'].filter(() => random() < 0.5),
-      line: wholeNumber(0, 9),
-      underway: wholeNumber(0, 100),
+      line: randomInteger(0, 9),
+      underway: randomInteger(0, 100),
     },
     'odometry-decomposer': {
-      ...cloud,
+      ...cloudState,
       widget: 'odometry-decomposer',
-      from: pose(),
-      to: pose(),
-      rule: oneOf(['thrun', 'nav2', 'beluga', 'omni']),
-      alphas: alphas(5),
-      noise: oneOf(['normal', 'triangular']),
-      correlation: realNumber(-1, 1),
-      drift: realNumber(0, 200),
-      phase: realNumber(0, 3),
+      from: randomPose(),
+      to: randomPose(),
+      rule: randomItem(['thrun', 'nav2', 'beluga', 'omni']),
+      alphas: randomAlphas(5),
+      noise: randomItem(['normal', 'triangular']),
+      correlation: randomNumber(-1, 1),
+      drift: randomNumber(0, 200),
+      phase: randomNumber(0, 3),
       overlays: ['legs', 'deviation', 'outcomes', 'prediction', 'odometry', 'difference'].filter(() => random() < 0.5),
     },
     'dead-reckoning': {
-      ...common,
+      ...commandedCloudState,
       widget: 'dead-reckoning',
-      steps,
-      step: wholeNumber(1, steps),
-      alphas: alphas(6),
-      per: oneOf(['step', 'path']),
-      compounding: oneOf(['chapter', 'first-order', 'fourth-order']),
+      steps: stepCount,
+      step: randomInteger(1, stepCount),
+      alphas: randomAlphas(6),
+      per: randomItem(['step', 'path']),
+      compounding: randomItem(['chapter', 'first-order', 'fourth-order']),
       overlays: ['lateral', 'along', 'heading', 'tolerance', 'command', 'measured', 'ellipse', 'exponential'].filter(() => random() < 0.5),
     },
     'alpha-calibrator': {
       version: 1,
       widget: 'alpha-calibrator',
-      .../** @type {object} */ (oneOf([
-        { model: 'odometry', rule: oneOf(['thrun', 'nav2', 'beluga']) },
+      .../** @type {object} */ (randomItem([
+        { model: 'odometry', rule: randomItem(['thrun', 'nav2', 'beluga']) },
         { model: 'omnidirectional', rule: 'omni' },
-        { model: 'velocity', rule: oneOf(['thrun', 'nav2']) },
+        { model: 'velocity', rule: randomItem(['thrun', 'nav2']) },
       ])),
-      noise: oneOf(['normal', 'triangular']),
-      outliers: oneOf(['reject', 'keep']),
-      distance: realNumber(0.1, 1),
-      angle: realNumber(0.1, 1),
-      duration: oneOf([0, realNumber(0.2, 2)]),
-      positionStd: realNumber(0, 0.02),
-      yawStd: realNumber(0, 0.02),
-      mountYaw: oneOf([true, false]),
-      leverArm: oneOf([true, false]),
-      distanceScale: oneOf([true, false]),
-      turnScale: oneOf([true, false]),
-      clockOffset: oneOf([true, false]),
-      inflation: realNumber(0.1, 5),
-      seed: wholeNumber(0, 2 ** 53 - 1),
-      leg: oneOf([null, wholeNumber(0, 20)]),
-      regressor: oneOf(['turn', 'distance']),
+      noise: randomItem(['normal', 'triangular']),
+      outliers: randomItem(['reject', 'keep']),
+      distance: randomNumber(0.1, 1),
+      angle: randomNumber(0.1, 1),
+      duration: randomItem([0, randomNumber(0.2, 2)]),
+      positionStd: randomNumber(0, 0.02),
+      yawStd: randomNumber(0, 0.02),
+      mountYaw: randomItem([true, false]),
+      leverArm: randomItem([true, false]),
+      distanceScale: randomItem([true, false]),
+      turnScale: randomItem([true, false]),
+      clockOffset: randomItem([true, false]),
+      inflation: randomNumber(0.1, 5),
+      seed: randomInteger(0, 2 ** 53 - 1),
+      leg: randomItem([null, randomInteger(0, 20)]),
+      regressor: randomItem(['turn', 'distance']),
       overlays: ['likely', 'plausible', 'unlikely', 'implausible', 'outlier', 'odometry', 'predicted', 'reference'].filter(() => random() < 0.5),
     },
   };

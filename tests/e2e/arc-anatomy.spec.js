@@ -12,7 +12,7 @@ test.use(REDUCED_MOTION);
 /** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
 const openArcAnatomy = (page, attributes) => mount(page, 'arc-anatomy', { attributes });
 
-/** @param {Locator} widget */
+/** Returns the results of the simulation after the next frames. @param {Locator} widget */
 async function resultsOf(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
@@ -21,8 +21,8 @@ async function resultsOf(widget) {
   });
 }
 
-const bodyHandle = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot, where it is found', exact: true });
-const headingHandle = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot, where it is found' });
+const bodyHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot, where it is found', exact: true });
+const headingHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot, where it is found' });
 const canvasOf = (/** @type {Locator} */ widget) => widget.locator('canvas.plane');
 const verdictOf = (/** @type {Locator} */ widget) => widget.locator('.verdict');
 
@@ -33,32 +33,32 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'true');
   await expect(verdictOf(widget)).toContainText('The last turn γ̂ fits worst: 2.2 standard deviations off');
   await expect(widget.locator('.headline')).toHaveText(`${(100 * stats.share).toFixed(1)}\u202f% as likely as the best pose`);
-  const rows = widget.locator('.factors li');
-  await expect(rows).toHaveCount(3);
-  await expect(rows.nth(2)).toHaveClass(/weakest/);
+  const factorRows = widget.locator('.factors li');
+  await expect(factorRows).toHaveCount(3);
+  await expect(factorRows.nth(2)).toHaveClass(/weakest/);
   for (const [i, { estimate, deviations, share }] of stats.factors.entries()) {
-    expect(numberIn(((await rows.nth(i).locator('.estimate').textContent()) ?? '').split('=')[1].split(' ')[1])).toBeCloseTo(estimate, 2);
-    expect(numberIn(((await rows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo([-1, -1, 1][i] * deviations, 1);
-    await expect(rows.nth(i).locator('.keeps')).toHaveText(`factor: ${(100 * share).toFixed(1)}\u202f% of its peak`);
+    expect(numberIn(((await factorRows.nth(i).locator('.estimate').textContent()) ?? '').split('=')[1].split(' ')[1])).toBeCloseTo(estimate, 2);
+    expect(numberIn(((await factorRows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo([-1, -1, 1][i] * deviations, 1);
+    await expect(factorRows.nth(i).locator('.keeps')).toHaveText(`factor: ${(100 * share).toFixed(1)}\u202f% of its peak`);
   }
   await openDisclosures(widget);
   expect(numberIn(await readoutValue(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
   expect(numberIn(await readoutValue(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
   // The pointer must not be on an entry of the legend, which would highlight its line.
   await page.mouse.move(0, 0);
-  for (const role of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelCountOf(canvasOf(widget), role), role).toBeGreaterThan(role === 'accent' ? 10 : 20);
+  for (const colorRole of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelCountOf(canvasOf(widget), colorRole), colorRole).toBeGreaterThan(colorRole === 'accent' ? 10 : 20);
 });
 
 test('the robot is dragged and turned by its handles, under the pointer', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  const from = await centreOf(bodyHandle(widget));
-  await page.mouse.move(from.x + 4, from.y + 3);
+  const centreBefore = await centreOf(bodyHandleOf(widget));
+  await page.mouse.move(centreBefore.x + 4, centreBefore.y + 3);
   await page.mouse.down();
-  await page.mouse.move(from.x - 56, from.y + 33, { steps: 5 });
+  await page.mouse.move(centreBefore.x - 56, centreBefore.y + 33, { steps: 5 });
   await waitForFrames(page);
-  const bodyCentre = await centreOf(bodyHandle(widget));
-  expect(Math.abs(bodyCentre.x - from.x + 60)).toBeLessThan(1);
-  expect(Math.abs(bodyCentre.y - from.y - 30)).toBeLessThan(1);
+  const centreAfter = await centreOf(bodyHandleOf(widget));
+  expect(Math.abs(centreAfter.x - centreBefore.x + 60)).toBeLessThan(1);
+  expect(Math.abs(centreAfter.y - centreBefore.y - 30)).toBeLessThan(1);
   await page.mouse.up();
   const afterMove = await resultsOf(widget);
   expect(afterMove.config.next.x).toBeLessThan(1.1);
@@ -66,10 +66,10 @@ test('the robot is dragged and turned by its handles, under the pointer', async 
   expect(afterMove.config.next.theta).toBe(1.1);
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'false');
 
-  const [centre, ahead] = [await centreOf(bodyHandle(widget)), await centreOf(headingHandle(widget))];
-  await page.mouse.move(ahead.x, ahead.y);
+  const [bodyCentre, headingCentre] = [await centreOf(bodyHandleOf(widget)), await centreOf(headingHandleOf(widget))];
+  await page.mouse.move(headingCentre.x, headingCentre.y);
   await page.mouse.down();
-  await page.mouse.move(centre.x + 80, centre.y, { steps: 5 });
+  await page.mouse.move(bodyCentre.x + 80, bodyCentre.y, { steps: 5 });
   await page.mouse.up();
   const afterTurn = await resultsOf(widget);
   expect(Math.abs(afterTurn.config.next.theta)).toBeLessThan(1 / 80);
@@ -80,51 +80,51 @@ test('the robot is dragged and turned by its handles, under the pointer', async 
 
 test('the robot moves and turns by keyboard, and stops where the floor ends', async ({ page }) => {
   const widget = await openArcAnatomy(page, 'nextx="3.98"');
-  await bodyHandle(widget).press('ArrowUp');
-  await bodyHandle(widget).press('[');
+  await bodyHandleOf(widget).press('ArrowUp');
+  await bodyHandleOf(widget).press('[');
   expect((await resultsOf(widget)).config.next).toEqual({ x: 3.98, y: 0.55, theta: 1.1 + Math.PI / 36 });
-  await bodyHandle(widget).press('ArrowRight');
+  await bodyHandleOf(widget).press('ArrowRight');
   expect((await resultsOf(widget)).config.next.x).toBe(4);
-  await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', /Limit reached$/);
+  await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', /Limit reached$/);
 });
 
 test('the start moves and turns, the commanded arc with it, and the robot stays where it is found', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  const [start, headingAtStart] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
+  const [startHandle, startHeadingHandle] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
   const resultsBefore = await resultsOf(widget);
-  await start.press('ArrowRight');
-  await start.press('ArrowDown');
+  await startHandle.press('ArrowRight');
+  await startHandle.press('ArrowDown');
   const afterMove = await resultsOf(widget);
   expect(afterMove.config.start).toEqual({ x: 0.05, y: -0.05, theta: 0 });
   expect(afterMove.config.next).toEqual(resultsBefore.config.next);
   const [endX, endY, endTheta] = resultsBefore.stats.commanded.end;
-  for (const [i, value] of [endX + 0.05, endY - 0.05, endTheta].entries()) expect(afterMove.stats.commanded.end[i]).toBeCloseTo(value, 12);
+  for (const [i, coordinate] of [endX + 0.05, endY - 0.05, endTheta].entries()) expect(afterMove.stats.commanded.end[i]).toBeCloseTo(coordinate, 12);
   await expect(widget).toHaveAttribute('startx', '0.05');
-  await headingAtStart.press('ArrowLeft');
+  await startHeadingHandle.press('ArrowLeft');
   expect((await resultsOf(widget)).config.start.theta).toBe(Math.PI / 36);
 });
 
 test('a centre out of sight is pointed to, with its distance @nightly', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  const svg = () => widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG());
-  expect(await svg()).not.toContain('>centre ');
+  const readSVG = () => widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG());
+  expect(await readSVG()).not.toContain('>centre ');
   await widget.evaluate((element) => void Object.assign(element, { omega: 0.025, nextY: 0.012 }));
   await waitForFrames(page);
-  const texts = [...(await svg()).matchAll(/<text[^>]* y="([\d.]+)"[^>]*>(centre [^<]*)</g)];
-  expect([...new Set(texts.map(([, , text]) => text))].sort()).toEqual(['centre 40 m, ωΔt = 0.03', 'centre 50 m, ω̂Δt = 0.02']);
+  const centreLabels = [...(await readSVG()).matchAll(/<text[^>]* y="([\d.]+)"[^>]*>(centre [^<]*)</g)];
+  expect([...new Set(centreLabels.map(([, , text]) => text))].sort()).toEqual(['centre 40 m, ωΔt = 0.03', 'centre 50 m, ω̂Δt = 0.02']);
   // Two labels on one side stand below each other.
-  const heights = [...new Set(texts.map(([, y]) => Number(y)))];
-  expect(Math.abs(heights[0] - heights[1])).toBeGreaterThan(12);
+  const labelYs = [...new Set(centreLabels.map(([, y]) => Number(y)))];
+  expect(Math.abs(labelYs[0] - labelYs[1])).toBeGreaterThan(12);
 });
 
 test('the whole wedge of the last turn is in a narrow picture', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openArcAnatomy(page, 'preset="straight"');
-  const [end, edge] = await widget.evaluate((element) => {
+  const [wedgeEndX, frameRightX] = await widget.evaluate((element) => {
     const { pictures: [{ view }], simulation: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
     return [view.ray({ ...next, theta: next.theta - lastTurn }, 64)[1][0], view.frame.right];
   });
-  expect(end).toBeLessThan(edge);
+  expect(wedgeEndX).toBeLessThan(frameRightX);
 });
 
 test('as printed, a right turn loses p and the verdict says why, and a left turn does not', async ({ page }) => {
@@ -145,21 +145,21 @@ test('each line of the table highlights its construction, and tells its value', 
   const widget = await openArcAnatomy(page);
   await openDisclosures(widget);
   const [previousButton, nextButton] = ['Previous line', 'Next line'].map((name) => widget.getByTitle(name));
-  const sentence = widget.locator('.stepper p');
+  const lineText = widget.locator('.stepper p');
   await expect(previousButton).toBeDisabled();
   const { lines } = (await resultsOf(widget)).table;
   const pictures = [await pictureOf(canvasOf(widget))];
-  for (const [i, value] of lines.entries()) {
+  for (const [i, lineValue] of lines.entries()) {
     await nextButton.click();
-    await expect(sentence).toHaveText(new RegExp(`^${i + 1}\\. `));
-    const text = (await sentence.textContent()) ?? '';
-    expect(numberIn(/= ([−\d.]+)(?: \S+)?$/.exec(text)?.[1] ?? '')).toBeCloseTo(value, 2);
+    await expect(lineText).toHaveText(new RegExp(`^${i + 1}\\. `));
+    const lineContent = (await lineText.textContent()) ?? '';
+    expect(numberIn(/= ([−\d.]+)(?: \S+)?$/.exec(lineContent)?.[1] ?? '')).toBeCloseTo(lineValue, 2);
     pictures.push(await pictureOf(canvasOf(widget)));
   }
   await expect(nextButton).toBeDisabled();
   // The last row is the product that the bars are factors of.
   await expect(widget.locator('.factors')).toHaveClass(/lit/);
-  // x* and y* are the coordinates of the centre.
+  // The lines of x* and y* highlight the same construction: the centre.
   expect(new Set(pictures.slice(0, 9)).size).toBe(8);
   expect(pictures[2]).toBe(pictures[3]);
   expect(pictures[9]).toBe(pictures[0]);
@@ -182,18 +182,18 @@ test('entries of the legend are the toggles of the lines', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   expect(await pixelCountOf(canvasOf(widget), 'posterior')).toBe(0);
   // A toggle with the pointer or the focus on it highlights its line.
-  const toggle = async (/** @type {string} */ name) => {
+  const clickToggle = async (/** @type {string} */ name) => {
     await widget.getByRole('checkbox', { name }).click();
     await page.mouse.move(0, 0);
     await widget.getByRole('checkbox', { name }).blur();
     await waitForFrames(page);
   };
-  await toggle('constant twist');
+  await clickToggle('constant twist');
   expect(await pixelCountOf(canvasOf(widget), 'posterior')).toBeGreaterThan(20);
-  for (const [name, role] of /** @type {const} */ ([['commanded arc', 'prior'], ['the one arc to the robot', 'prediction'], ['last turn', 'accent'], ['constant twist', 'posterior']])) {
-    const pixelsBefore = await pixelCountOf(canvasOf(widget), role);
-    await toggle(name);
-    expect(await pixelCountOf(canvasOf(widget), role), name).toBeLessThan(pixelsBefore);
+  for (const [name, colorRole] of /** @type {const} */ ([['commanded arc', 'prior'], ['the one arc to the robot', 'prediction'], ['last turn', 'accent'], ['constant twist', 'posterior']])) {
+    const pixelCountBefore = await pixelCountOf(canvasOf(widget), colorRole);
+    await clickToggle(name);
+    expect(await pixelCountOf(canvasOf(widget), colorRole), name).toBeLessThan(pixelCountBefore);
   }
   await expect(widget).toHaveAttribute('overlays', 'chord');
 });
@@ -213,10 +213,10 @@ test('a robot is drawn on each arc at the time that is chosen @nightly', async (
 test('the factors are exported as CSV', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   const { stats } = await resultsOf(widget);
-  const [settings, columns, ...rows] = (await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toCSV())).trim().split('\n');
-  expect(JSON.parse(settings.slice(2))).toMatchObject({ element: 'arc-anatomy', next: { x: 1.1, y: 0.5, theta: 1.1 } });
-  expect(columns).toBe('estimate,residual,standard_deviation,residual_over_deviation,prob,share_of_peak');
-  expect(rows.map((row) => row.split(',').map(Number))).toEqual(
+  const [settingsLine, headerLine, ...dataLines] = (await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toCSV())).trim().split('\n');
+  expect(JSON.parse(settingsLine.slice(2))).toMatchObject({ element: 'arc-anatomy', next: { x: 1.1, y: 0.5, theta: 1.1 } });
+  expect(headerLine).toBe('estimate,residual,standard_deviation,residual_over_deviation,prob,share_of_peak');
+  expect(dataLines.map((row) => row.split(',').map(Number))).toEqual(
     stats.factors.map(({ estimate, residual, deviation, deviations, value, share }) => [estimate, residual, deviation, deviations, value, share]),
   );
 });

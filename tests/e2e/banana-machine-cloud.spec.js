@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, bananaResults, boxOf, centreOf, waitForFrames, numberIn, openBanana, openBananaWithDisclosures, pauseEarly, pictureOf, pixelCountOf, posesOf, readoutValue, readoutDetail, setSliders, test } from './support.js';
+import { REDUCED_MOTION, bananaResultsOf, boxOf, centreOf, waitForFrames, numberIn, openBanana, openBananaWithDisclosures, pauseEarly, pictureOf, pixelCountOf, posesOf, readoutValue, readoutDetail, setSliders, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -16,8 +16,8 @@ const captionOf = (widget) => widget.locator('p[part=caption]');
 
 /** Returns the three numbers that are printed for the marked robot. @param {Locator} widget */
 async function printedNumbersOfMarked(widget) {
-  const text = (await widget.locator('.marked output').textContent()) ?? '';
-  const printedNumbers = [...text.matchAll(/= (\S+)/g)].map(([, number]) => numberIn(number));
+  const outputText = (await widget.locator('.marked output').textContent()) ?? '';
+  const printedNumbers = [...outputText.matchAll(/= (\S+)/g)].map(([, number]) => numberIn(number));
   expect(printedNumbers).toHaveLength(3);
   return printedNumbers;
 }
@@ -28,15 +28,15 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   const widget = await openBanana(page);
   const playButton = widget.locator('.cloud').getByRole('button', { name: 'Draw samples' });
   await expect(playButton).toBeVisible();
-  const [pausedResults, firstPoses] = [await bananaResults(widget), await posesOf(widget)];
+  const [pausedResults, firstPoses] = [await bananaResultsOf(widget), await posesOf(widget)];
   expect(pausedResults.shown).toBeGreaterThan(0);
   expect(pausedResults.shown).toBeLessThan(pausedResults.config.samples);
   await waitForFrames(page);
-  expect((await bananaResults(widget)).shown).toBe(pausedResults.shown);
+  expect((await bananaResultsOf(widget)).shown).toBe(pausedResults.shown);
 
   await playButton.click();
   await widget.getByRole('button', { name: 'Pin' }).click();
-  await expect.poll(async () => (await bananaResults(widget)).shown, { timeout: 20_000 }).toBe(pausedResults.config.samples);
+  await expect.poll(async () => (await bananaResultsOf(widget)).shown, { timeout: 20_000 }).toBe(pausedResults.config.samples);
   // Numbers pinned while the cloud grows are those of the whole cloud.
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
   await expect(playButton).toBeVisible();
@@ -46,106 +46,106 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
 
 test('opens with the whole cloud of the opening command, and shows the numbers of the simulation', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const { config, shown: robots, stats, table } = await bananaResults(widget);
+  const { config, shown: shownCount, stats, table } = await bananaResultsOf(widget);
   expect(config).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
-  expect(robots).toBe(config.samples);
+  expect(shownCount).toBe(config.samples);
   expect(Math.abs(table.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
-  const readoutText = async (/** @type {string | RegExp} */ name) => (await readoutValue(widget, name).textContent()) ?? '';
-  const [skew, skewError] = (await readoutText('cross-track skew')).split(' ± ').map(numberIn);
+  const readoutTextOf = async (/** @type {string | RegExp} */ name) => (await readoutValue(widget, name).textContent()) ?? '';
+  const [skew, skewError] = (await readoutTextOf('cross-track skew')).split(' ± ').map(numberIn);
   expect(skew).toBeCloseTo(stats.crossTrackSkew, 3);
   expect(skewError).toBeCloseTo(stats.crossTrackSkewError, 3);
   await expect(readoutDetail(widget, 'cross-track skew')).toHaveText('exactly 0.000');
-  expect(numberIn(await readoutText('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
-  expect(numberIn(await readoutText('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
-  expect((await readoutText('robots shown')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
-  const [gain, gainError] = (await readoutText('gain in fit')).split(' ± ').map(numberIn);
+  expect(numberIn(await readoutTextOf('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
+  expect(numberIn(await readoutTextOf('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
+  expect((await readoutTextOf('robots shown')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
+  const [gain, gainError] = (await readoutTextOf('gain in fit')).split(' ± ').map(numberIn);
   expect(gain).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
-  expect(await readoutText('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
-  const shareTexts = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
-  await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${shareTexts.join(', outline ')}`);
+  expect(await readoutTextOf('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
+  const coverageTexts = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
+  await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${coverageTexts.join(', outline ')}`);
   await expect(readoutDetail(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
   const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
-  const cells = (await row.getByRole('cell').allTextContents()).map(numberIn);
-  for (const [i, column] of [table.linearized, table.exact, table.measured].entries()) expect(cells[i] / column.cov[0][0]).toBeCloseTo(1, 2);
+  const xVariances = (await row.getByRole('cell').allTextContents()).map(numberIn);
+  for (const [i, tableColumn] of [table.linearized, table.exact, table.measured].entries()) expect(xVariances[i] / tableColumn.cov[0][0]).toBeCloseTo(1, 2);
   // The picture has a text equivalent.
-  const plane = widget.locator('canvas.plane');
-  await expect(plane).toHaveAttribute('aria-label', new RegExp(`end around x ${stats.cartesian.mean[0].toFixed(2)} m`));
-  await expect(plane).toHaveAttribute('aria-label', /Drawn over it: commanded arc, Gaussian in \(x, y\), 2σ, Gaussian in ξ, 2σ/);
+  const floorCanvas = widget.locator('canvas.plane');
+  await expect(floorCanvas).toHaveAttribute('aria-label', new RegExp(`end around x ${stats.cartesian.mean[0].toFixed(2)} m`));
+  await expect(floorCanvas).toHaveAttribute('aria-label', /Drawn over it: commanded arc, Gaussian in \(x, y\), 2σ, Gaussian in ξ, 2σ/);
 });
 
 test('Clear empties the cloud, Step adds a batch of the same robots', async ({ page }) => {
   const widget = await openBanana(page, 'samples="3000"');
-  const [wholeCloud, poses] = [await bananaResults(widget), await posesOf(widget)];
+  const [wholeCloud, poses] = [await bananaResultsOf(widget), await posesOf(widget)];
   await widget.getByRole('button', { name: 'Clear' }).click();
-  expect((await bananaResults(widget)).shown).toBe(0);
+  expect((await bananaResultsOf(widget)).shown).toBe(0);
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText('—');
   await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
 
   const batchSize = Math.ceil(wholeCloud.config.samples / GROWTH_STEPS);
-  for (const shown of [batchSize, 2 * batchSize]) {
+  for (const expectedCount of [batchSize, 2 * batchSize]) {
     await widget.getByRole('button', { name: 'Step' }).click();
-    expect((await bananaResults(widget)).shown).toBe(shown);
-    expect(await posesOf(widget)).toEqual(poses.slice(0, 3 * shown));
+    expect((await bananaResultsOf(widget)).shown).toBe(expectedCount);
+    expect(await posesOf(widget)).toEqual(poses.slice(0, 3 * expectedCount));
   }
 });
 
 test('each overlay has a toggle', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
-  const plane = widget.locator('canvas.plane');
+  const floorCanvas = widget.locator('canvas.plane');
   const twistCanvas = widget.locator('canvas.twist');
-  const firstPicture = await pictureOf(plane);
-  for (const [label, role] of [
+  const pictureBefore = await pictureOf(floorCanvas);
+  for (const [label, colorRole] of [
     ['commanded arc', 'prior'],
     ['Gaussian in (x, y)', 'prediction'],
     ['linearized (EKF)', 'prediction'],
     ['noise added to the pose', 'prediction'],
     ['Gaussian in ξ', 'posterior'],
   ]) {
-    const box = widget.getByRole('checkbox', { name: label });
-    const isShown = await box.isChecked();
-    const pixelsBefore = await pixelCountOf(plane, role);
-    await box.setChecked(!isShown);
+    const checkbox = widget.getByRole('checkbox', { name: label });
+    const isShown = await checkbox.isChecked();
+    const pixelCountBefore = await pixelCountOf(floorCanvas, colorRole);
+    await checkbox.setChecked(!isShown);
     // Pointing at an entry highlights its line.
     await page.mouse.move(0, 0);
-    const pixelChange = (await pixelCountOf(plane, role)) - pixelsBefore;
-    expect(isShown ? -pixelChange : pixelChange, label).toBeGreaterThan(30);
-    if (role === 'posterior') expect(await pixelCountOf(twistCanvas, role)).toBe(0);
-    await box.setChecked(isShown);
+    const pixelCountChange = (await pixelCountOf(floorCanvas, colorRole)) - pixelCountBefore;
+    expect(isShown ? -pixelCountChange : pixelCountChange, label).toBeGreaterThan(30);
+    if (colorRole === 'posterior') expect(await pixelCountOf(twistCanvas, colorRole)).toBe(0);
+    await checkbox.setChecked(isShown);
     await page.mouse.move(0, 0);
   }
-  expect(await pictureOf(plane)).toBe(firstPicture);
+  expect(await pictureOf(floorCanvas)).toBe(pictureBefore);
 });
 
 test('a robot pointed at in one view is marked in both, with what it executed', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
-  const plane = widget.locator('canvas.plane');
+  const floorCanvas = widget.locator('canvas.plane');
   const twistCanvas = widget.locator('canvas.twist');
-  const field = widget.getByRole('spinbutton', { name: 'Robot' });
-  const markPixels = async () => [await pixelCountOf(plane, 'accent'), await pixelCountOf(twistCanvas, 'accent')];
-  expect(await markPixels()).toEqual([0, 0]);
+  const robotField = widget.getByRole('spinbutton', { name: 'Robot' });
+  const countMarkPixels = async () => [await pixelCountOf(floorCanvas, 'accent'), await pixelCountOf(twistCanvas, 'accent')];
+  expect(await countMarkPixels()).toEqual([0, 0]);
 
-  const checkedIndex = async () => {
-    const index = Number(await field.inputValue()) - 1;
-    const { vHat, omegaHat, gammaHat } = await widget.evaluate((element, i) => /** @type {BananaMachineElement} */ (element).simulation.inspect(i), index);
+  const checkMarkedRobot = async () => {
+    const robotIndex = Number(await robotField.inputValue()) - 1;
+    const { vHat, omegaHat, gammaHat } = await widget.evaluate((element, i) => /** @type {BananaMachineElement} */ (element).simulation.inspect(i), robotIndex);
     const printedNumbers = await printedNumbersOfMarked(widget);
-    for (const [i, value] of [vHat, omegaHat, gammaHat].entries()) expect(printedNumbers[i]).toBeCloseTo(value, 3);
-    return index;
+    for (const [i, executedValue] of [vHat, omegaHat, gammaHat].entries()) expect(printedNumbers[i]).toBeCloseTo(executedValue, 3);
+    return robotIndex;
   };
 
-  const handle = await centreOf(widget.locator('.handle'));
-  await page.mouse.move(handle.x + 30, handle.y + 20);
-  for (const count of await markPixels()) expect(count).toBeGreaterThan(20);
-  const indexInPlane = await checkedIndex();
+  const handleCentre = await centreOf(widget.locator('.handle'));
+  await page.mouse.move(handleCentre.x + 30, handleCentre.y + 20);
+  for (const count of await countMarkPixels()) expect(count).toBeGreaterThan(20);
+  const indexInPlane = await checkMarkedRobot();
 
   await twistCanvas.scrollIntoViewIfNeeded();
   const { x, y, width, height } = await boxOf(twistCanvas);
   await page.mouse.move(x + width * 0.45, y + height * 0.45);
-  for (const count of await markPixels()) expect(count).toBeGreaterThan(20);
-  expect(await checkedIndex()).not.toBe(indexInPlane);
+  for (const count of await countMarkPixels()) expect(count).toBeGreaterThan(20);
+  expect(await checkMarkedRobot()).not.toBe(indexInPlane);
 
-  await field.fill('');
-  expect(await markPixels()).toEqual([0, 0]);
+  await robotField.fill('');
+  expect(await countMarkPixels()).toEqual([0, 0]);
 });
 
 test('the sentence says what holds exactly for the model, and what the robots show', async ({ page }) => {
@@ -158,13 +158,13 @@ test('the sentence says what holds exactly for the model, and what the robots sh
   // This cloud is symmetric: the skew is exactly 0 for any number of robots, and the ellipse has twice the area.
   await pressPreset('Banana');
   await waitForFrames(page);
-  const { table } = await bananaResults(widget);
+  const { table } = await bananaResultsOf(widget);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
   // The caption contains the number of the readout.
-  const [ratio] = (await readoutValue(widget, 'area covered').innerText()).split(' ');
+  const [areaRatioText] = (await readoutValue(widget, 'area covered').innerText()).split(' ');
   await expect(captionOf(widget)).toHaveText(
-    new RegExp(`^The cloud is bent: its ellipse covers ${ratio} times the area of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
+    new RegExp(`^The cloud is bent: its ellipse covers ${areaRatioText} times the area of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
   );
   // This cloud is nearly symmetric, but as strongly bent.
   await widget.locator('#omega').fill('0.02');
@@ -178,10 +178,10 @@ test('the sentence says what holds exactly for the model, and what the robots sh
 test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   await widget.getByRole('button', { name: 'Pivot' }).click();
-  const { table, config } = await bananaResults(widget);
+  const { table, config } = await bananaResultsOf(widget);
   const [, a2] = config.alphas;
-  const deviation = Math.sqrt(config.alphas[0] * 0.06 ** 2 + a2 * 1.5 ** 2);
-  await expect(captionOf(widget)).toContainText(`v̂ is 0.06 ± ${deviation.toFixed(2)} m/s`);
+  const vHatStdDev = Math.sqrt(config.alphas[0] * 0.06 ** 2 + a2 * 1.5 ** 2);
+  await expect(captionOf(widget)).toContainText(`v̂ is 0.06 ± ${vHatStdDev.toFixed(2)} m/s`);
   await expect(captionOf(widget)).toContainText('ahead of the start and behind it');
   expect(Math.abs(table.exact.crossTrackSkew)).toBeGreaterThan(0.01);
   const behindCount = (await posesOf(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
@@ -189,7 +189,7 @@ test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nig
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
   await widget.locator('#samples').fill('3');
-  const { stats, table: tableOfFew } = await bananaResults(widget);
+  const { stats, table: tableOfFew } = await bananaResultsOf(widget);
   expect(Math.abs(stats.crossTrackSkew)).toBeLessThan(2 * stats.crossTrackSkewError);
   await expect(captionOf(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(tableOfFew.exact.crossTrackSkew).toFixed(3)}\\.$`));
 });
@@ -199,7 +199,7 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   await setSliders(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('there are no statistics in ξ');
   await expect(readoutDetail(widget, 'area covered')).toHaveText(/inside: ellipse [\d.]+\u202f%, outline —$/);
-  for (const name of ['predicts', 'area covered', 'gain in fit', 'exact area']) await expect(readoutValue(widget, name)).toHaveText('—');
+  for (const readoutName of ['predicts', 'area covered', 'gain in fit', 'exact area']) await expect(readoutValue(widget, readoutName)).toHaveText('—');
   await expect(widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last()).toHaveText('—');
 });
 
@@ -243,19 +243,19 @@ test('captions and notes depend on the model and its noise', async ({ page }) =>
 
 test('the marked robot and Step follow the size of the cloud @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const field = widget.getByRole('spinbutton', { name: 'Robot' });
-  const step = widget.getByRole('button', { name: 'Step' });
-  await expect(step).toBeDisabled();
-  await expect(field).toHaveAttribute('placeholder', '1–50\u202f000');
-  await field.fill('1500');
+  const robotField = widget.getByRole('spinbutton', { name: 'Robot' });
+  const stepButton = widget.getByRole('button', { name: 'Step' });
+  await expect(stepButton).toBeDisabled();
+  await expect(robotField).toHaveAttribute('placeholder', '1–50\u202f000');
+  await robotField.fill('1500');
   await waitForFrames(page);
   await expect(widget.locator('.marked output')).toContainText('m/s');
   await setSliders(widget, { samples: 3 });
-  await expect(field).toHaveValue('');
+  await expect(robotField).toHaveValue('');
   await expect(widget.locator('.marked output')).toContainText('Point at one');
-  await field.fill('100');
+  await robotField.fill('100');
   await expect(widget.locator('.marked output')).toContainText('m/s');
   await widget.getByRole('button', { name: 'Clear' }).click();
-  await expect(field).toBeDisabled();
-  await expect(step).toBeEnabled();
+  await expect(robotField).toBeDisabled();
+  await expect(stepButton).toBeEnabled();
 });

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { NEW_PAGE_TAG, REDUCED_MOTION, bananaResults, boxOf, centreOf, openBanana, pictureOf, playSlider, propertyOf, readoutValue, showPage, stateOf, test, untilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, bananaResultsOf, boxOf, centreOf, openBanana, pictureOf, playSlider, propertyOf, readoutValue, showPage, stateOf, test, untilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -7,16 +7,16 @@ const calloutCountOf = (/** @type {import('@playwright/test').Locator} */ widget
 
 test('one slider carries the floor to exponential coordinates and back, and callouts are on the floor alone', async ({ page }) => {
   const widget = await openBanana(page);
-  const plane = widget.locator('canvas.plane');
+  const floorCanvas = widget.locator('canvas.plane');
   const slider = widget.getByRole('slider', { name: 'From the floor' });
-  const pictures = [await pictureOf(plane)];
-  for (const [morph, title] of [['0.5', 'On the way'], ['1', 'The floor, morphed'], ['0', 'On the floor']]) {
-    await slider.fill(morph);
-    pictures.push(await pictureOf(plane));
-    expect(/** @type {any} */ (await stateOf(widget)).morph).toBe(Number(morph));
-    await expect(widget).toHaveAttribute('morph', morph);
+  const pictures = [await pictureOf(floorCanvas)];
+  for (const [morphText, title] of [['0.5', 'On the way'], ['1', 'The floor, morphed'], ['0', 'On the floor']]) {
+    await slider.fill(morphText);
+    pictures.push(await pictureOf(floorCanvas));
+    expect(/** @type {any} */ (await stateOf(widget)).morph).toBe(Number(morphText));
+    await expect(widget).toHaveAttribute('morph', morphText);
     await expect(widget.locator('.panel-title').first()).toContainText(title);
-    expect(await calloutCountOf(widget)).toBe(morph === '0' ? 2 : 0);
+    expect(await calloutCountOf(widget)).toBe(morphText === '0' ? 2 : 0);
   }
   expect(new Set(pictures).size).toBe(3);
   expect(pictures[3]).toBe(pictures[0]);
@@ -45,7 +45,7 @@ test('the end of the arc is moved where the morph shows it @nightly', async ({ p
   const handle = widget.locator('.handle');
   await handle.press('ArrowUp');
   await handle.press('ArrowRight');
-  let { command } = (await bananaResults(widget)).config;
+  let { command } = (await bananaResultsOf(widget)).config;
   expect(command.omega * command.dt).toBeCloseTo(0.02, 9);
   expect(command.v * command.dt).toBeCloseTo(2.02, 9);
   await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
@@ -54,43 +54,43 @@ test('the end of the arc is moved where the morph shows it @nightly', async ({ p
   const [seenX, seenY] = /** @type {number[]} */ (await propertyOf(widget, 'seenEnd'));
   expect(seenX).toBeCloseTo(x, 9);
   expect(seenY).toBeCloseTo(y + 0.02, 9);
-  ({ command } = (await bananaResults(widget)).config);
+  ({ command } = (await bananaResultsOf(widget)).config);
   expect(command.omega).toBeGreaterThan(0.01);
 });
 
 test('Pin keeps the numbers and outlines to compare with, and lets go of them', async ({ page }) => {
   const widget = await openBanana(page);
-  const pin = widget.getByRole('button', { name: 'Pin' });
-  const area = widget.locator('.readouts div').filter({ hasText: 'area covered' });
-  const areaBefore = await readoutValue(widget, 'area covered').innerText();
+  const pinButton = widget.getByRole('button', { name: 'Pin' });
+  const areaReadout = widget.locator('.readouts div').filter({ hasText: 'area covered' });
+  const areaTextBefore = await readoutValue(widget, 'area covered').innerText();
   const sliderBox = await boxOf(widget.locator('#v'));
-  await pin.click();
-  await expect(pin).toHaveText('Unpin');
+  await pinButton.click();
+  await expect(pinButton).toHaveText('Unpin');
   expect(await boxOf(widget.locator('#v'))).toEqual(sliderBox);
   await widget.getByRole('button', { name: 'Hard arc' }).click();
-  await expect(area).toContainText(`pinned: ${areaBefore}`);
-  const coordinatesOutside = await widget.evaluate((element) => {
+  await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);
+  const hiddenCoordinates = await widget.evaluate((element) => {
     const { scene, pictures } = /** @type {any} */ (element);
     const { xMin, xMax, yMin, yMax } = pictures[0].view.extent;
     return scene.pinnedAt(0).filter((/** @type {number} */ at, /** @type {number} */ i) => (i % 2 ? at < yMin || at > yMax : at < xMin || at > xMax));
   });
-  expect(coordinatesOutside).toEqual([]);
-  const state = await stateOf(widget);
-  expect(state.pinned).toMatchObject({ command: { v: 1 }, samples: 50_000 });
+  expect(hiddenCoordinates).toEqual([]);
+  const pinnedState = await stateOf(widget);
+  expect(pinnedState.pinned).toMatchObject({ command: { v: 1 }, samples: 50_000 });
   const pictureWithPin = await pictureOf(widget.locator('canvas.plane'));
-  await pin.click();
-  await expect(area).not.toContainText('pinned');
+  await pinButton.click();
+  await expect(areaReadout).not.toContainText('pinned');
   expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureWithPin);
-  await pin.click();
+  await pinButton.click();
   await widget.getByRole('button', { name: 'Start over' }).click();
-  await expect(pin).toHaveText('Pin');
+  await expect(pinButton).toHaveText('Pin');
   const restoreState = (/** @type {object} */ savedState) => widget.evaluate((element, newState) => void (/** @type {any} */ (element).setState(newState)), savedState);
-  await restoreState(state);
-  await expect(area).toContainText(`pinned: ${areaBefore}`);
+  await restoreState(pinnedState);
+  await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureWithPin);
-  await expect(restoreState({ ...state, pinned: { ...state.pinned, samples: 0 } })).rejects.toThrow('state.pinned.samples is 0; allowed is');
-  await expect(area).toContainText(`pinned: ${areaBefore}`);
-  // A gain on the floor is not compared with one of poses.
+  await expect(restoreState({ ...pinnedState, pinned: { ...pinnedState.pinned, samples: 0 } })).rejects.toThrow('state.pinned.samples is 0; allowed is');
+  await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);
+  // The pinned gain is that of the poses. It is not compared with a gain on the floor.
   await widget.getByRole('button', { name: 'Worked example' }).click();
   await expect(widget.locator('.readouts div').filter({ hasText: 'gain in fit on the floor' })).not.toContainText('pinned');
 });
@@ -98,20 +98,20 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
 test('the title of the floor agrees with the fit of the ellipse', async ({ page }) => {
   const widget = await openBanana(page);
   const title = widget.locator('.panel-title').first();
-  for (const [settings, fit, gaps] of /** @type {const} */ ([
+  for (const [settings, fitText, expectedCallouts] of /** @type {const} */ ([
     [{ preset: 'banana' }, 'no ellipse fits', 2],
     [{ preset: 'pivot' }, 'the ellipse fits in size only', 0],
-    // The skew alone is visible here.
+    // Only the skew is visible here.
     [{ preset: 'gentle' }, 'the ellipse fits in size only', 0],
     [{ preset: 'straight', alphas: [0.002, 0.002, 0.002, 0.002, 0, 0] }, 'the ellipse nearly fits', 0],
-    // Both sides are alike, and the ellipse is as large as the outline in ξ: the gain of the poses shows the bend.
+    // The cloud is symmetric, and the ellipse is as large as the outline in ξ. Only the gain of the poses shows the bend.
     [{ preset: 'straight', alpha3: 0.2 }, 'the ellipse fits in size only', 0],
-    // The robots turn by up to π, so that nothing is exact.
+    // Robots turn by up to π, where there are no exact statistics.
     [{ preset: 'straight', alpha3: 0.2, dt: 3 }, 'the ellipse fits in size only', 0],
   ])) {
     await widget.evaluate((element, settings) => void Object.assign(element, settings), settings);
-    await expect(title).toHaveText(`On the floor: ${fit}`);
-    expect(await calloutCountOf(widget)).toBe(gaps);
+    await expect(title).toHaveText(`On the floor: ${fitText}`);
+    expect(await calloutCountOf(widget)).toBe(expectedCallouts);
   }
 });
 
@@ -128,40 +128,40 @@ test('an outline that the morph cannot carry is struck through in the legend, wh
 
 test('callouts are hidden while the cloud is dragged under them @nightly', async ({ page }) => {
   const widget = await openBanana(page);
-  const calloutCount = () => calloutCountOf(widget);
+  const countCallouts = () => calloutCountOf(widget);
   const { x, y } = await centreOf(widget.locator('.handle'));
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x - 10, y);
-  await expect.poll(calloutCount).toBe(0);
+  await expect.poll(countCallouts).toBe(0);
   await page.mouse.up();
-  await expect.poll(calloutCount).toBeGreaterThan(0);
+  await expect.poll(countCallouts).toBeGreaterThan(0);
 });
 
 test('a narrow figure has one picture, which shows both ends', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openBanana(page);
   await expect(widget.locator('canvas.twist')).toBeHidden();
-  const plane = widget.locator('canvas.plane');
-  const floorPicture = await pictureOf(plane);
+  const floorCanvas = widget.locator('canvas.plane');
+  const floorPicture = await pictureOf(floorCanvas);
   await widget.getByRole('slider', { name: 'From the floor' }).fill('1');
-  expect(await pictureOf(plane)).not.toBe(floorPicture);
+  expect(await pictureOf(floorCanvas)).not.toBe(floorPicture);
 });
 
 test.describe('at first sight', () => {
-  test.use({ introduced: false });
+  test.use({ isIntroductionSkipped: false });
 
   test('robots drive once a session, until a key or the pointer is pressed', NEW_PAGE_TAG, async ({ page }) => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
-    const drivingRobots = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
+    const countDrivingRobots = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
     await showPage(page, '<banana-machine></banana-machine>');
     await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.driving?.robots > 0);
     await page.keyboard.press('Shift');
-    expect(await drivingRobots()).toBeUndefined();
-    await expect.poll(async () => (await bananaResults(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
+    expect(await countDrivingRobots()).toBeUndefined();
+    await expect.poll(async () => (await bananaResultsOf(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
     await page.reload();
     await untilReady(page.locator('banana-machine'));
-    expect(await drivingRobots()).toBeUndefined();
+    expect(await countDrivingRobots()).toBeUndefined();
   });
 
   test('robots do not drive for a figure that a page has set @nightly', NEW_PAGE_TAG, async ({ page }) => {

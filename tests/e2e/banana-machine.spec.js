@@ -1,13 +1,13 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, bananaResults, centreOf, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, pictureOf, readoutValue, test, untilSettled } from './support.js';
+import { REDUCED_MOTION, bananaResultsOf, centreOf, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, pictureOf, readoutValue, test, untilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
 
-/** Attribute for a bend, where every α has an effect. */
+/** Attribute for a bent cloud, on which every α has an effect. */
 const GENTLE_PRESET = 'preset="gentle"';
 
 /** Returns the fraction of the robots that are inside the view of exponential coordinates. @param {import('@playwright/test').Locator} widget @returns {Promise<number>} */
-const twistShareInView = (widget) => widget.evaluate((element) => {
+const visibleTwistShareOf = (widget) => widget.evaluate((element) => {
   const { twists, pictures } = /** @type {any} */ (element);
   const { xMin, xMax, yMin, yMax } = pictures[1].view.extent;
   const isInView = (/** @type {number} */ along, /** @type {number} */ i) =>
@@ -18,38 +18,38 @@ const twistShareInView = (widget) => widget.evaluate((element) => {
 test('a drag keeps the scale under the handle, and that view zooms out after it', async ({ page }) => {
   const widget = await openBanana(page, 'preset="banana"');
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
-  const viewExtent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
-  const from = await centreOf(handle);
-  const extentBefore = await viewExtent();
-  await page.mouse.move(from.x, from.y);
+  const readViewExtent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
+  const handleBefore = await centreOf(handle);
+  const extentBefore = await readViewExtent();
+  await page.mouse.move(handleBefore.x, handleBefore.y);
   await page.mouse.down();
   for (const [dx, dy] of [[-40, 60], [-90, 120]]) {
-    await page.mouse.move(from.x + dx, from.y + dy, { steps: 8 });
+    await page.mouse.move(handleBefore.x + dx, handleBefore.y + dy, { steps: 8 });
     await waitForFrames(page);
     const { x, y } = await centreOf(handle);
-    expect(Math.hypot(x - from.x - dx, y - from.y - dy)).toBeLessThan(2);
-    expect(await viewExtent()).toEqual(extentBefore);
-    expect(await twistShareInView(widget)).toBeGreaterThan(0.95);
+    expect(Math.hypot(x - handleBefore.x - dx, y - handleBefore.y - dy)).toBeLessThan(2);
+    expect(await readViewExtent()).toEqual(extentBefore);
+    expect(await visibleTwistShareOf(widget)).toBeGreaterThan(0.95);
   }
   await page.mouse.up();
-  await expect.poll(viewExtent).not.toEqual(extentBefore);
+  await expect.poll(readViewExtent).not.toEqual(extentBefore);
   await waitForFrames(page);
-  const extentAfter = await viewExtent();
+  const extentAfter = await readViewExtent();
   expect(extentAfter.xMin).toBeLessThanOrEqual(extentBefore.xMin);
   expect(extentAfter.yMin).toBeLessThanOrEqual(extentBefore.yMin);
   expect(extentAfter.xMax).toBeGreaterThanOrEqual(extentBefore.xMax);
   expect(extentAfter.yMax).toBeGreaterThanOrEqual(extentBefore.yMax);
-  // A small cloud does not zoom in, but a preset fits the view anew.
+  // A smaller cloud does not zoom in, but a preset fits the view again.
   await dragSlider(widget.locator('#dt'), 0.05);
   await waitForFrames(page);
-  expect(await viewExtent()).toEqual(extentAfter);
+  expect(await readViewExtent()).toEqual(extentAfter);
   await widget.getByRole('button', { name: 'Banana' }).click();
-  await expect.poll(viewExtent).toEqual(extentBefore);
+  await expect.poll(readViewExtent).toEqual(extentBefore);
 });
 
 test('the view of exponential coordinates shows most robots also if turns near 2π make tails of kilometres', async ({ page }) => {
   const widget = await openBanana(page, 'v="1.35" omega="2"');
-  expect(await twistShareInView(widget)).toBeGreaterThan(0.94);
+  expect(await visibleTwistShareOf(widget)).toBeGreaterThan(0.94);
 });
 
 test('Home and End move the end of the arc to the ends of v, and no key scrolls the page', async ({ page }) => {
@@ -59,7 +59,7 @@ test('Home and End move the end of the arc to the ends of v, and no key scrolls 
   await page.evaluate(() => scrollTo(0, 100));
   for (const [key, v] of /** @type {const} */ ([['End', 1.5], ['Home', -1.5], ['PageDown', undefined], ['ArrowDown', undefined]])) {
     await page.keyboard.press(key);
-    const { command } = (await bananaResults(widget)).config;
+    const { command } = (await bananaResultsOf(widget)).config;
     if (v) expect(command.v).toBeCloseTo(v, 1);
   }
   expect(await page.evaluate(() => scrollY)).toBe(100);
@@ -68,16 +68,16 @@ test('Home and End move the end of the arc to the ends of v, and no key scrolls 
 test('the ring says where the sliders end, to the eye and to the ear', async ({ page }) => {
   const widget = await openBanana(page);
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
-  const hintText = () => handle.evaluate((element) => getComputedStyle(element, '::before').content);
+  const readHint = () => handle.evaluate((element) => getComputedStyle(element, '::before').content);
   await widget.evaluate((element) => void Object.assign(element, { v: 1.49, omega: 0 }));
   await handle.press('ArrowLeft');
   await expect(handle).toHaveAttribute('aria-valuetext', /m\/s, ω = −?0\.00 rad\/s$/);
-  expect(await hintText()).toBe('none');
+  expect(await readHint()).toBe('none');
   for (let i = 0; i < 3; i++) await handle.press('ArrowRight');
   await expect(handle).toHaveAttribute('aria-valuetext', /^v = 1\.50 m\/s, .* rad\/s\. The sliders end here$/);
-  expect(await hintText()).toBe('"The sliders end here"');
+  expect(await readHint()).toBe('"The sliders end here"');
   await handle.blur();
-  expect(await hintText()).toBe('none');
+  expect(await readHint()).toBe('none');
 });
 
 test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
@@ -85,12 +85,12 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
   const omegaMarker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
   await omegaMarker.focus();
   await omegaMarker.press('ArrowRight');
-  expect((await bananaResults(widget)).config.command.omega).toBeCloseTo(0.51, 12);
+  expect((await bananaResultsOf(widget)).config.command.omega).toBeCloseTo(0.51, 12);
   const chart = widget.locator('svg.plot');
   await chart.scrollIntoViewIfNeeded();
   const { x, y } = await centreOf(chart);
   await page.mouse.click(x + 80, y);
-  const { config, table } = await bananaResults(widget);
+  const { config, table } = await bananaResultsOf(widget);
   expect(config.command.omega).toBeGreaterThan(0.51);
   await expect(omegaMarker).toHaveAttribute('aria-valuetext', new RegExp(`skew −${Math.abs(table.exact.crossTrackSkew).toFixed(3)}`));
 });
@@ -98,48 +98,48 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
 test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   // All samples are in the first block, so that no later one changes the statistics.
   const widget = await openBananaWithDisclosures(page, `${GENTLE_PRESET} samples="20000"`);
-  const resultsBefore = await bananaResults(widget);
+  const resultsBefore = await bananaResultsOf(widget);
   const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
-  const skew = await readoutValue(widget, 'cross-track skew').textContent();
+  const skewTextBefore = await readoutValue(widget, 'cross-track skew').textContent();
   await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
   await untilSettled(widget);
-  const resultsAfter = await bananaResults(widget);
-  const alpha = resultsAfter.config.alphas[3];
-  expect(alpha).toBeGreaterThan(0.16);
-  expect(resultsAfter.config).toEqual({ ...resultsBefore.config, alphas: resultsBefore.config.alphas.with(3, alpha) });
+  const resultsAfter = await bananaResultsOf(widget);
+  const changedAlpha = resultsAfter.config.alphas[3];
+  expect(changedAlpha).toBeGreaterThan(0.16);
+  expect(resultsAfter.config).toEqual({ ...resultsBefore.config, alphas: resultsBefore.config.alphas.with(3, changedAlpha) });
   expect(resultsAfter.shown).toBe(resultsBefore.shown);
   expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
-  expect(await readoutValue(widget, 'cross-track skew').textContent()).not.toBe(skew);
+  expect(await readoutValue(widget, 'cross-track skew').textContent()).not.toBe(skewTextBefore);
   // Several inputs between two frames cause one change of the statistics.
-  const changeCount = await widget.evaluate(async (element) => {
+  const statsChangeCount = await widget.evaluate(async (element) => {
     let statsEventCount = 0;
     element.addEventListener('stats', () => statsEventCount++);
     const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#alpha1'));
-    for (const value of ['0.06', '0.07', '0.08', '0.09']) {
-      slider.value = value;
+    for (const alphaText of ['0.06', '0.07', '0.08', '0.09']) {
+      slider.value = alphaText;
       slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
     }
     await /** @type {{ settled: Promise<void> }} */ (/** @type {unknown} */ (element)).settled;
     return statsEventCount;
   });
-  expect(changeCount).toBe(1);
-  expect((await bananaResults(widget)).config.alphas[0]).toBe(0.09);
+  expect(statsChangeCount).toBe(1);
+  expect((await bananaResultsOf(widget)).config.alphas[0]).toBe(0.09);
 });
 
 test('Isolate leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
-  const resultsBefore = await bananaResults(widget);
+  const resultsBefore = await bananaResultsOf(widget);
   await widget.getByLabel('Isolate one').check();
-  expect((await bananaResults(widget)).config).toEqual({ ...resultsBefore.config, isolate: 4 });
+  expect((await bananaResultsOf(widget)).config).toEqual({ ...resultsBefore.config, isolate: 4 });
   await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(5);
   await widget.getByRole('radio', { name: 'Only α₁' }).check();
-  expect((await bananaResults(widget)).config.isolate).toBe(1);
+  expect((await bananaResultsOf(widget)).config.isolate).toBe(1);
   // Moving the slider of another α selects that α.
   await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
-  const { config } = await bananaResults(widget);
+  const { config } = await bananaResultsOf(widget);
   expect(config).toMatchObject({ isolate: 3, alphas: resultsBefore.config.alphas.with(2, 0.06) });
   await widget.getByLabel('Isolate one').uncheck();
-  expect((await bananaResults(widget)).config.isolate).toBeNull();
+  expect((await bananaResultsOf(widget)).config.isolate).toBeNull();
   await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(0);
 });
 
@@ -148,29 +148,29 @@ test('no slider moves under the finger when there is something to note', async (
   const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
   const slider = widget.locator('#omega');
   const note = widget.locator('.note');
-  const sliderTop = async () => {
+  const readSliderTop = async () => {
     await waitForFrames(page);
     return slider.evaluate((element) => element.getBoundingClientRect().top + scrollY);
   };
-  const topBefore = await sliderTop();
+  const topBefore = await readSliderTop();
   await widget.getByLabel('Isolate one').check();
   await expect(note).toContainText('they lie on a line');
-  expect(Math.abs((await sliderTop()) - topBefore)).toBeLessThan(0.5);
+  expect(Math.abs((await readSliderTop()) - topBefore)).toBeLessThan(0.5);
   await slider.fill('0');
   await expect(note).toContainText('no noise at all');
-  expect(Math.abs((await sliderTop()) - topBefore)).toBeLessThan(0.5);
+  expect(Math.abs((await readSliderTop()) - topBefore)).toBeLessThan(0.5);
 });
 
 test('a slider stays in its place when a text above it becomes shorter', async ({ page }) => {
   await page.setViewportSize({ width: 700, height: 900 });
   const widget = await openBananaWithDisclosures(page);
-  const readoutsHeight = () => widget.locator('.readouts').first().evaluate((element) => element.getBoundingClientRect().height);
+  const readReadoutsHeight = () => widget.locator('.readouts').first().evaluate((element) => element.getBoundingClientRect().height);
   await waitForFrames(page);
-  const heightBefore = await readoutsHeight();
+  const heightBefore = await readReadoutsHeight();
   await widget.locator('#v').fill('0');
   await expect(widget.locator('.readouts').first()).toContainText('—');
   await waitForFrames(page);
-  expect(await readoutsHeight()).toBe(heightBefore);
+  expect(await readReadoutsHeight()).toBe(heightBefore);
   await page.setViewportSize({ width: 740, height: 900 });
-  await expect.poll(readoutsHeight).toBeLessThan(heightBefore);
+  await expect.poll(readReadoutsHeight).toBeLessThan(heightBefore);
 });

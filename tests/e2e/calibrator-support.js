@@ -26,16 +26,16 @@ export async function openCalibrator(page, attributes) {
 
 export const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
 export const alphaRowsOf = (/** @type {Locator} */ widget) => widget.locator('table.alphas tbody tr:not([aria-hidden])');
-export const foldedGroup = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
+export const findFoldedGroup = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
 export const statsOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.stats);
 
 /** Returns two tables of the simulated drive, as a user's files have them. @param {Locator} widget */
-export const tablesOf = (widget) =>
+export const simulatedTablesOf = (widget) =>
   widget.evaluate((element) => {
     const { legs } = /** @type {AlphaCalibratorElement} */ (element).simulation;
-    const table = (/** @type {Float64Array} */ poses) =>
+    const tableOfPoses = (/** @type {Float64Array} */ poses) =>
       ['t,x,y,yaw', ...Array.from({ length: legs.count }, (_, leg) => [legs.times[2 * leg], ...poses.subarray(6 * leg, 6 * leg + 3)].join(','))].join('\n');
-    return { odometry: table(legs.odometry), reference: table(legs.reference) };
+    return { odometry: tableOfPoses(legs.odometry), reference: tableOfPoses(legs.reference) };
   });
 
 /** Chooses a recording, as a user does. @param {Locator} widget @param {string} name @param {Buffer} buffer */
@@ -48,16 +48,16 @@ export async function chooseTables(widget, files) {
 }
 
 /** Returns a table of the example log. @param {'odometry' | 'reference'} name */
-export const exampleTable = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
+export const readExampleTable = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
 
 /** Returns t, x, y and yaw of each row of a table of the example log. @param {'odometry' | 'reference'} name */
-export const rowsOf = (name) => exampleTable(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+export const exampleRowsOf = (name) => readExampleTable(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
 
 /** Returns the example log as a recording. @param {string[]} topics that have the poses of the reference */
-export async function recordingWith(topics) {
-  const reference = topics.flatMap((topic) => rowsOf('reference').map(([t, x, y, yaw]) => ({
+export async function exampleRecordingWith(topics) {
+  const referenceMessages = topics.flatMap((topic) => exampleRowsOf('reference').map(([t, x, y, yaw]) => ({
     topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
   })));
-  const odometryMessages = rowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessage(t, x, y, yaw) }));
-  return recordingOf([...odometryMessages, ...reference].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+  const odometryMessages = exampleRowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessage(t, x, y, yaw) }));
+  return recordingOf([...odometryMessages, ...referenceMessages].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
 }

@@ -1,4 +1,4 @@
-// Elements with the strictest Content-Security-Policy that allows them, and with policies that do not allow them.
+// Tests of elements under the strictest Content-Security-Policy that allows them, and under policies that forbid them.
 
 import { fileURLToPath } from 'node:url';
 import { expect, test as testWithWarnings } from '@playwright/test';
@@ -26,7 +26,7 @@ for (const { afterEach } of [test, testWithWarnings]) {
  * @param {string} path
  * @returns {Promise<() => Promise<string[]>>} function that returns the violations so far
  */
-async function openUnder(page, policy, path) {
+async function openUnderPolicy(page, policy, path) {
   server = await serve(DIST, { port: 0, headers: { 'content-security-policy': policy } });
   await page.addInitScript(() => {
     const violations = /** @type {string[]} */ ([]);
@@ -39,57 +39,57 @@ async function openUnder(page, policy, path) {
   return () => page.evaluate(() => /** @type {any} */ (globalThis).violations);
 }
 
-test('a figure asks for nothing that a strict policy forbids', async ({ page, figure }) => {
-  const violations = await openUnder(page, STRICT_POLICY, `embed.html?widget=${figure}`);
-  const widget = page.locator(figure);
+test('a figure asks for nothing that a strict policy forbids', async ({ page, figureName }) => {
+  const readViolations = await openUnderPolicy(page, STRICT_POLICY, `embed.html?widget=${figureName}`);
+  const widget = page.locator(figureName);
   await untilReady(widget);
   await openDisclosures(widget);
   await widget.getByRole('slider').first().press('ArrowRight');
   await waitForFrames(page);
-  expect(await violations()).toEqual([]);
+  expect(await readViolations()).toEqual([]);
 });
 
-/** Policy of a page that names the Trusted Types policies which may be made. @param {string} names */
-const policyTrusting = (names) => `${STRICT_POLICY}; require-trusted-types-for 'script'; trusted-types ${names}`;
+/** Returns a policy that allows only the named Trusted Types policies. @param {string} names */
+const policyWithTrustedTypes = (names) => `${STRICT_POLICY}; require-trusted-types-for 'script'; trusted-types ${names}`;
 
-test('a figure has a Trusted Types policy of its own beside that of the page\'s Lit', async ({ page, figure }) => {
+test('a figure has a Trusted Types policy of its own beside that of the page\'s Lit', async ({ page, figureName }) => {
   // A copy of Lit that the page loads before the figures makes this policy.
   await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ text) => text }));
-  const violations = await openUnder(page, policyTrusting('lit-html motion-widgets'), `embed.html?widget=${figure}`);
-  await untilReady(page.locator(figure));
-  await openDisclosures(page.locator(figure));
-  expect(await violations()).toEqual([]);
+  const readViolations = await openUnderPolicy(page, policyWithTrustedTypes('lit-html motion-widgets'), `embed.html?widget=${figureName}`);
+  await untilReady(page.locator(figureName));
+  await openDisclosures(page.locator(figureName));
+  expect(await readViolations()).toEqual([]);
 });
 
 // The tests below expect messages of the browser in the console.
 testWithWarnings('a Trusted Types policy that is named as that of Lit is enough @nightly', async ({ page }) => {
-  await openUnder(page, policyTrusting('lit-html'), 'embed.html?widget=banana-machine');
+  await openUnderPolicy(page, policyWithTrustedTypes('lit-html'), 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine canvas').first()).toBeVisible();
 });
 
 testWithWarnings('where no Trusted Types policy may be made, a sentence names the one that is missing @nightly', async ({ page }) => {
-  const warning = page.waitForEvent('console', (message) => message.type() === 'warning' && message.text().includes('lacks'));
-  await openUnder(page, policyTrusting("'none'"), 'embed.html?widget=banana-machine');
-  const sentence = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
-  await expect(page.locator('banana-machine')).toHaveText(`This interactive figure cannot run here. ${sentence}`);
-  expect((await warning).text()).toContain(sentence);
+  const consoleWarning = page.waitForEvent('console', (message) => message.type() === 'warning' && message.text().includes('lacks'));
+  await openUnderPolicy(page, policyWithTrustedTypes("'none'"), 'embed.html?widget=banana-machine');
+  const explanation = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
+  await expect(page.locator('banana-machine')).toHaveText(`This interactive figure cannot run here. ${explanation}`);
+  expect((await consoleWarning).text()).toContain(explanation);
 });
 
 testWithWarnings('where WebAssembly is forbidden, a sentence names the directive that is missing', async ({ page }) => {
-  await openUnder(page, "script-src 'self'", 'embed.html?widget=banana-machine');
+  await openUnderPolicy(page, "script-src 'self'", 'embed.html?widget=banana-machine');
   await expect(page.locator('banana-machine').getByRole('alert')).toContainText("lacks 'wasm-unsafe-eval'");
 });
 
 testWithWarnings('where there is no WebAssembly, a sentence says that it cannot run, in the colours of the page', async ({ page }) => {
-  const errors = /** @type {Error[]} */ ([]);
-  page.on('pageerror', (error) => errors.push(error));
+  const pageErrors = /** @type {Error[]} */ ([]);
+  page.on('pageerror', (error) => pageErrors.push(error));
   await page.addInitScript(() => void Reflect.deleteProperty(globalThis, 'WebAssembly'));
-  const html = '<style>body { background: #123; color: #eee }</style><script type="module" src="./motion-widgets.js"></script><banana-machine></banana-machine>';
-  await page.route('**/dark.html', (route) => route.fulfill({ contentType: 'text/html', body: html }));
-  await openUnder(page, "script-src 'self'", 'dark.html');
+  const pageHtml = '<style>body { background: #123; color: #eee }</style><script type="module" src="./motion-widgets.js"></script><banana-machine></banana-machine>';
+  await page.route('**/dark.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
+  await openUnderPolicy(page, "script-src 'self'", 'dark.html');
   const widget = page.locator('banana-machine');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
-  expect(errors).toEqual([]);
+  expect(pageErrors).toEqual([]);
   const colours = await widget.evaluate(async (element) => {
     // A figure that is not visible yet has the same colours.
     const farFigure = /** @type {HTMLElement} */ (element.cloneNode());
@@ -105,14 +105,14 @@ testWithWarnings('where there is no WebAssembly, a sentence says that it cannot 
 });
 
 testWithWarnings('where the module in a file of its own is forbidden, the embedded one is used, and a warning names the directive @nightly', async ({ page }) => {
-  const html = '<script type="module" src="./external.js"></script><banana-machine></banana-machine>';
+  const pageHtml = '<script type="module" src="./external.js"></script><banana-machine></banana-machine>';
   await page.route('**/external.html', (route) =>
-    route.fulfill({ contentType: 'text/html', headers: { 'content-security-policy': STRICT_POLICY }, body: html }),
+    route.fulfill({ contentType: 'text/html', headers: { 'content-security-policy': STRICT_POLICY }, body: pageHtml }),
   );
-  const warning = page.waitForEvent('console', (message) => message.type() === 'warning');
-  await openUnder(page, STRICT_POLICY, 'external.html');
+  const consoleWarning = page.waitForEvent('console', (message) => message.type() === 'warning');
+  await openUnderPolicy(page, STRICT_POLICY, 'external.html');
   await expect(page.locator('banana-machine canvas').first()).toBeVisible();
-  expect((await warning).text()).toMatch(/\.wasm cannot be fetched .*connect-src/);
+  expect((await consoleWarning).text()).toMatch(/\.wasm cannot be fetched .*connect-src/);
 });
 
 testWithWarnings('where WebAssembly may be compiled and not run, as in WebKit, so does one @nightly', async ({ page }) => {
@@ -122,8 +122,8 @@ testWithWarnings('where WebAssembly may be compiled and not run, as in WebKit, s
     };
     Object.assign(WebAssembly, { instantiate: async () => throwCompileError(), Instance: throwCompileError });
   });
-  await openUnder(page, STRICT_POLICY, 'embed.html?widget=banana-machine');
-  const sentence = page.locator('banana-machine').getByRole('alert');
-  await expect(sentence).toContainText("lacks 'wasm-unsafe-eval'");
-  await expect(sentence).not.toContainText('Refused');
+  await openUnderPolicy(page, STRICT_POLICY, 'embed.html?widget=banana-machine');
+  const alert = page.locator('banana-machine').getByRole('alert');
+  await expect(alert).toContainText("lacks 'wasm-unsafe-eval'");
+  await expect(alert).not.toContainText('Refused');
 });

@@ -10,7 +10,7 @@ import { REDUCED_MOTION, dragSlider, waitForFrames, mount, pictureOf, pixelCount
 test.use(REDUCED_MOTION);
 
 /** Opens a page with the figure, and waits for all of its robots. @param {Page} page @param {string} [attributes] */
-async function openReckoning(page, attributes) {
+async function openDeadReckoning(page, attributes) {
   const widget = await mount(page, 'dead-reckoning', { attributes });
   await untilSettled(widget);
   return widget;
@@ -27,13 +27,13 @@ const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.pl
  * @param {Locator} widget
  * @param {number} [recursion] index of its column
  */
-async function missedSteps(widget, recursion = 0) {
+async function missedStepsOf(widget, recursion = 0) {
   await openDisclosures(widget);
   return Promise.all([0, 2, 4].map((row) => widget.locator('.folds tbody tr').nth(row).locator('td').nth(recursion).textContent()));
 }
 
 test('opens with the chapter’s 6 % along the track, and says that the lateral variance misses more before', async ({ page }) => {
-  const widget = await openReckoning(page);
+  const widget = await openDeadReckoning(page);
   expect(await configOf(widget)).toMatchObject({
     command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], compounding: 'chapter', samples: 50_000,
   });
@@ -42,51 +42,51 @@ test('opens with the chapter’s 6 % along the track, and says that the lateral 
   );
   await expect(readoutValue(widget, 'predicted along-track variance')).toHaveText('0.94');
   await expect(readoutDetail(widget, 'predicted along-track variance')).toHaveText('± 0.01 of the measured, at step 20, 50\u202f000 robots');
-  expect(await missedSteps(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
+  expect(await missedStepsOf(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
   await expect(widget.locator('.folded svg.plot')).toHaveAttribute('aria-label', /Equal to first order after 2.00 s\.$/);
   await expect(widget.getByRole('row', { name: 'along, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 20: along 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);
-  for (const [canvas, role] of [['plane', 'prior'], ['plane', 'posterior'], ['twist', 'posterior'], ['twist', 'truth']]) {
-    expect(await pixelCountOf(widget.locator(`canvas.${canvas}`), role), `${role} in ${canvas}`).toBeGreaterThan(10);
+  for (const [canvasClass, colorRole] of [['plane', 'prior'], ['plane', 'posterior'], ['twist', 'posterior'], ['twist', 'truth']]) {
+    expect(await pixelCountOf(widget.locator(`canvas.${canvasClass}`), colorRole), `${colorRole} in ${canvasClass}`).toBeGreaterThan(10);
   }
 });
 
 test('the line of the chart walks along the path, from the keyboard too, and drives nobody', async ({ page }) => {
-  const widget = await openReckoning(page);
-  const slider = widget.getByRole('slider', { name: 'selected step', exact: true });
-  const measuredBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.measured);
-  const picturesOf = () => Promise.all(['plane', 'twist'].map((name) => pictureOf(widget.locator(`canvas.${name}`))));
-  const [planeAtEnd, twistAtEnd] = await picturesOf();
-  await slider.press('ArrowLeft');
+  const widget = await openDeadReckoning(page);
+  const stepSlider = widget.getByRole('slider', { name: 'selected step', exact: true });
+  const variancesBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.measured);
+  const takePictures = () => Promise.all(['plane', 'twist'].map((name) => pictureOf(widget.locator(`canvas.${name}`))));
+  const [floorPictureAtEnd, twistPictureAtEnd] = await takePictures();
+  await stepSlider.press('ArrowLeft');
   await waitForFrames(page);
   expect((await configOf(widget)).step).toBe(19);
-  const [plane, twistPicture] = await picturesOf();
-  expect(plane).not.toBe(planeAtEnd);
-  expect(twistPicture).not.toBe(twistAtEnd);
-  expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.measured)).toEqual(measuredBefore);
-  await expect(slider).toHaveAttribute('aria-valuetext', 'step 19');
-  await slider.press('Home');
+  const [floorPicture, twistPicture] = await takePictures();
+  expect(floorPicture).not.toBe(floorPictureAtEnd);
+  expect(twistPicture).not.toBe(twistPictureAtEnd);
+  expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.measured)).toEqual(variancesBefore);
+  await expect(stepSlider).toHaveAttribute('aria-valuetext', 'step 19');
+  await stepSlider.press('Home');
   await waitForFrames(page);
   await expect(widget.locator('canvas.twist')).toHaveAttribute('aria-label', /measured 0.0316 m and 0.0035 m, predicted 0.0316 m and 0.0000 m/);
   await expect(plotOf(widget)).toContainText('step 1');
-  await dragSlider(slider, 0.5);
+  await dragSlider(stepSlider, 0.5);
   await waitForFrames(page);
   expect((await configOf(widget)).step).toBe(10);
 });
 
 test('with J_r, and to fourth order, every component is right', async ({ page }) => {
-  const widget = await openReckoning(page);
+  const widget = await openDeadReckoning(page);
   for (const [i, name] of ['with Jᵣ, the turn during a step', 'fourth order'].entries()) {
     await widget.getByRole('radio', { name }).check();
     await waitForFrames(page);
-    expect(await missedSteps(widget, i + 1)).toEqual(['never', 'never', 'never']);
+    expect(await missedStepsOf(widget, i + 1)).toEqual(['never', 'never', 'never']);
     await expect(captionOf(widget)).toHaveText('Within 5 % of what 50\u202f000 robots do, in every component at every step.');
   }
   expect((await configOf(widget)).compounding).toBe('fourth-order');
 });
 
 test('entries of the legends hide curves and outlines', async ({ page }) => {
-  const widget = await openReckoning(page, 'overlays="lateral tolerance measured exponential"');
+  const widget = await openDeadReckoning(page, 'overlays="lateral tolerance measured exponential"');
   await expect(widget.locator('[part=caption]')).toHaveText(/^At the end the predicted lateral variance is off by [−+][\d.]+\s%\. Before, it is /);
   await expect(plotOf(widget).locator('path.curve')).toHaveCount(2);
   const twistPicture = await pictureOf(widget.locator('canvas.twist'));
@@ -99,18 +99,18 @@ test('entries of the legends hide curves and outlines', async ({ page }) => {
 });
 
 test('presets are paths, and tell which one it is', async ({ page }) => {
-  const widget = await openReckoning(page);
-  const button = (/** @type {string} */ name) => widget.getByRole('button', { name });
-  await expect(button('The chapter’s 20 steps')).toHaveAttribute('aria-pressed', 'true');
-  await button('Heading σ doubled').click();
+  const widget = await openDeadReckoning(page);
+  const presetButtonNamed = (/** @type {string} */ name) => widget.getByRole('button', { name });
+  await expect(presetButtonNamed('The chapter’s 20 steps')).toHaveAttribute('aria-pressed', 'true');
+  await presetButtonNamed('Heading σ doubled').click();
   await untilSettled(widget);
   expect((await configOf(widget)).alphas).toEqual([0.02, 0.02, 0.08, 0.08, 0.02, 0.02]);
-  expect((await missedSteps(widget))[0]).toBe('steps 9–20');
+  expect((await missedStepsOf(widget))[0]).toBe('steps 9–20');
   await expect(widget).toHaveAttribute('preset', 'doubled');
-  await button('Same path, 200 steps').click();
+  await presetButtonNamed('Same path, 200 steps').click();
   await untilSettled(widget);
   expect(await configOf(widget)).toMatchObject({ steps: 200, command: { dt: 0.02 } });
-  expect((await missedSteps(widget))[0]).toBe('never');
+  expect((await missedStepsOf(widget))[0]).toBe('never');
   await widget.locator('#headingNoise').press('ArrowRight');
   await untilSettled(widget);
   expect((await configOf(widget)).alphas).toEqual([0.02, 0.02, 0.025, 0.025, 0.00625, 0.00625]);
@@ -118,9 +118,9 @@ test('presets are paths, and tell which one it is', async ({ page }) => {
 });
 
 test('more steps are shorter ones of the same path, seen from the same place', async ({ page }) => {
-  const widget = await openReckoning(page, 'step="10" samples="1000"');
+  const widget = await openDeadReckoning(page, 'step="10" samples="1000"');
   const commandedEndOf = (/** @type {Locator} */ figure) => figure.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.commanded.slice(-2)]);
-  const [x, y] = await commandedEndOf(widget);
+  const [xBefore, yBefore] = await commandedEndOf(widget);
   await dragSlider(widget.locator('#steps'), 0.5);
   await untilSettled(widget);
   const { steps, step, command } = await configOf(widget);
@@ -128,24 +128,24 @@ test('more steps are shorter ones of the same path, seen from the same place', a
   expect(Math.abs(steps * command.dt - 4)).toBeLessThan(1e-12);
   expect(Math.abs(step / steps - 0.5)).toBeLessThan(0.02);
   const [endX, endY] = await commandedEndOf(widget);
-  expect(Math.hypot(endX - x, endY - y)).toBeLessThan(1e-12);
+  expect(Math.hypot(endX - xBefore, endY - yBefore)).toBeLessThan(1e-12);
 });
 
 test('with too few robots nothing is known, and without robots the caption says so @nightly', async ({ page }) => {
-  const widget = await openReckoning(page, 'samples="1000"');
+  const widget = await openDeadReckoning(page, 'samples="1000"');
   await expect(captionOf(widget)).toHaveText('Too few robots to tell 5 %: the bands are wider than that.');
-  expect(await missedSteps(widget)).toEqual(['too few', 'too few', 'too few']);
+  expect(await missedStepsOf(widget)).toEqual(['too few', 'too few', 'too few']);
   await widget.getByRole('button', { name: 'Clear' }).click();
   await waitForFrames(page);
   await expect(captionOf(widget)).toHaveText('No robots yet.');
-  expect(await missedSteps(widget)).toEqual(['—', '—', '—']);
+  expect(await missedStepsOf(widget)).toEqual(['—', '—', '—']);
   await widget.getByRole('button', { name: 'Step', exact: true }).click();
   await waitForFrames(page);
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.shown)).toBe(7);
 });
 
 test('no noise has no ratio, and a fourth order without a covariance neither @nightly', async ({ page }) => {
-  const widget = await openReckoning(page, 'samples="500" alpha1="0" alpha2="0" alpha3="0" alpha4="0" alpha5="0" alpha6="0"');
+  const widget = await openDeadReckoning(page, 'samples="500" alpha1="0" alpha2="0" alpha3="0" alpha4="0" alpha5="0" alpha6="0"');
   await expect(captionOf(widget)).toHaveText(/^No noise:/);
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /along —/);
   await widget.evaluate((element) => Object.assign(element, { headingNoise: 60, compounding: 'fourth-order', step: 20 }));
@@ -154,36 +154,36 @@ test('no noise has no ratio, and a fourth order without a covariance neither @ni
 });
 
 test('a robot that is chosen by its number shows its path', async ({ page }) => {
-  const widget = await openReckoning(page, 'step="20"');
+  const widget = await openDeadReckoning(page, 'step="20"');
   await openDisclosures(widget);
-  const canvas = widget.locator('canvas.plane');
-  const pixelsBefore = await pixelCountOf(canvas, 'accent');
+  const floorCanvas = widget.locator('canvas.plane');
+  const pixelCountBefore = await pixelCountOf(floorCanvas, 'accent');
   await widget.getByRole('spinbutton', { name: 'Robot' }).fill('40000');
   await waitForFrames(page);
-  expect(await pixelCountOf(canvas, 'accent')).toBeGreaterThan(pixelsBefore + 100);
-  const end = await widget.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.rollout(39_999)].slice(-3));
-  await expect(widget.locator('.marked output')).toContainText(`x ${end[0].toFixed(3)} m`);
+  expect(await pixelCountOf(floorCanvas, 'accent')).toBeGreaterThan(pixelCountBefore + 100);
+  const endPose = await widget.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.rollout(39_999)].slice(-3));
+  await expect(widget.locator('.marked output')).toContainText(`x ${endPose[0].toFixed(3)} m`);
 });
 
 test('CSV has a row a step', async ({ page }) => {
-  const widget = await openReckoning(page);
-  const { text, measured, predicted } = await widget.evaluate((element) => {
+  const widget = await openDeadReckoning(page);
+  const { text: csvText, measured, predicted } = await widget.evaluate((element) => {
     const { simulation } = /** @type {DeadReckoningElement} */ (element);
     return { text: /** @type {any} */ (element).toCSV(), measured: [...simulation.measured], predicted: [...simulation.predicted['first-order']] };
   });
-  const lines = text.trimEnd().split('\n');
-  const [, columns, ...rows] = lines;
-  const columnNames = columns.split(',');
-  expect(rows).toHaveLength(20);
-  const value = (/** @type {number} */ row, /** @type {string} */ name) => Number(rows[row].split(',')[columnNames.indexOf(name)]);
-  expect(value(0, 'step')).toBe(1);
-  expect(value(4, 'measured_lateral_m2')).toBe(measured[13]);
-  expect(value(19, 'first_order_heading_rad2')).toBe(predicted[59]);
-  expect(value(0, 'chapter_lateral_m2')).toBe(0);
+  const lines = csvText.trimEnd().split('\n');
+  const [, headerLine, ...dataLines] = lines;
+  const columnNames = headerLine.split(',');
+  expect(dataLines).toHaveLength(20);
+  const valueAt = (/** @type {number} */ row, /** @type {string} */ name) => Number(dataLines[row].split(',')[columnNames.indexOf(name)]);
+  expect(valueAt(0, 'step')).toBe(1);
+  expect(valueAt(4, 'measured_lateral_m2')).toBe(measured[13]);
+  expect(valueAt(19, 'first_order_heading_rad2')).toBe(predicted[59]);
+  expect(valueAt(0, 'chapter_lateral_m2')).toBe(0);
 });
 
 test('a million robots answer with a block at once, and the others follow', async ({ page }) => {
-  const widget = await openReckoning(page);
+  const widget = await openDeadReckoning(page);
   const [countInFirstBlock, finalCount] = await widget.evaluate(async (element) => {
     const figure = /** @type {any} */ (element);
     await figure.settled;

@@ -94,21 +94,21 @@ test('boolean attributes may be empty or "true", and lists may have any space @n
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
-test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figure }) => {
-  const widget = await mount(page, figure);
-  const { slider, values: [first, second] } = FIGURE_FACTS[figure];
-  const defaultValue = await propertyOf(widget, slider);
-  await widget.locator(`#${slider}`).fill(String(first));
-  await expect(widget).toHaveAttribute(slider, String(first));
-  expect(await propertyOf(widget, slider)).toBe(first);
-  await widget.evaluate((element, [key, value]) => element.setAttribute(key, value), [slider, String(second)]);
-  expect(await propertyOf(widget, slider)).toBe(second);
-  await expect(widget.locator(`#${slider}`)).toHaveValue(String(second));
-  await widget.evaluate((element, key) => element.setAttribute(key, 'fast'), slider);
+test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figureName }) => {
+  const widget = await mount(page, figureName);
+  const { sliderId, sliderValues: [first, second] } = FIGURE_FACTS[figureName];
+  const defaultValue = await propertyOf(widget, sliderId);
+  await widget.locator(`#${sliderId}`).fill(String(first));
+  await expect(widget).toHaveAttribute(sliderId, String(first));
+  expect(await propertyOf(widget, sliderId)).toBe(first);
+  await widget.evaluate((element, [key, value]) => element.setAttribute(key, value), [sliderId, String(second)]);
+  expect(await propertyOf(widget, sliderId)).toBe(second);
+  await expect(widget.locator(`#${sliderId}`)).toHaveValue(String(second));
+  await widget.evaluate((element, key) => element.setAttribute(key, 'fast'), sliderId);
   expect((await takeEvents(page, ['error'])).map(({ message }) => message).join()).toMatch(/ is "fast"; allowed is a (whole )?number/);
-  expect(await propertyOf(widget, slider)).toBe(second);
-  await widget.evaluate((element, key) => element.removeAttribute(key), slider);
-  expect(await propertyOf(widget, slider)).toBe(defaultValue);
+  expect(await propertyOf(widget, sliderId)).toBe(second);
+  await widget.evaluate((element, key) => element.removeAttribute(key), sliderId);
+  expect(await propertyOf(widget, sliderId)).toBe(defaultValue);
 });
 
 test('attributes that are refused are reported in the words of the core, and the last good value stays', async ({ page }) => {
@@ -132,7 +132,7 @@ test('attributes that are refused are reported in the words of the core, and the
   expect(await propertyValues()).toEqual([0.06, 1.5, 'velocity', 50000]);
 });
 
-test('elements in the table of doc/embedding/figures.md have the attributes that it shows', async ({ page, figure }) => {
+test('elements in the table of doc/embedding/figures.md have the attributes that it shows', async ({ page, figureName }) => {
   const document = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
   const examples = [...document.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
   expect(new Set(examples.map(({ name }) => name)).size).toBe(ALL_NAMES.length);
@@ -140,7 +140,7 @@ test('elements in the table of doc/embedding/figures.md have the attributes that
   const unknownAttributes = await page.locator('.example').evaluateAll((exampleElements) => exampleElements.flatMap(({ attributes, constructor }) =>
     [...attributes].map(({ name }) => name).filter((name) => name !== 'class' && !Reflect.get(constructor, 'observedAttributes').includes(name))));
   expect(unknownAttributes).toEqual([]);
-  for (const widget of await page.locator(`${figure}.example`).all()) {
+  for (const widget of await page.locator(`${figureName}.example`).all()) {
     await widget.scrollIntoViewIfNeeded();
     await untilReady(widget);
   }
@@ -233,9 +233,9 @@ test('properties that were set before the element was defined are taken up, in a
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
-test('properties that are assigned their own value change nothing @nightly', async ({ page, figure }) => {
-  const widget = await mount(page, figure);
-  await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (randomStates(2)[figure]));
+test('properties that are assigned their own value change nothing @nightly', async ({ page, figureName }) => {
+  const widget = await mount(page, figureName);
+  await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (randomStates(2)[figureName]));
   await takeEvents(page, ['stats']);
   const count = await widget.evaluate((element, keys) => {
     const figure = /** @type {any} */ (element);
@@ -243,7 +243,7 @@ test('properties that are assigned their own value change nothing @nightly', asy
     for (const key of names) figure[key] = structuredClone(figure[key]);
     for (const { name, value } of [...element.attributes]) element.setAttribute(name, value);
     return names.length;
-  }, Object.keys(randomStates(2)[figure]));
+  }, Object.keys(randomStates(2)[figureName]));
   expect(count).toBeGreaterThan(6);
   expect(await takeEvents(page, ['stats', 'error', 'input', 'change'])).toEqual([]);
 });

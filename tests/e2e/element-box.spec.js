@@ -27,23 +27,23 @@ const BOXES_BY_NAME = {
   'positioned absolutely': '<div style="position: relative; height: 9000px"><X style="position: absolute"></X></div>',
 };
 
-test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', NEW_PAGE_TAG, async ({ page, figure }) => {
+test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', NEW_PAGE_TAG, async ({ page, figureName }) => {
   const cases = Object.entries(BOXES_BY_NAME).map(([box, html]) => {
     const example = html === 'X' ? '<X></X>' : html;
-    return `<section data-box="${box}" style="display: flow-root">${example.replace('<X', `<${figure}`).replace('</X>', `</${figure}>`)}</section>`;
+    return `<section data-box="${box}" style="display: flow-root">${example.replace('<X', `<${figureName}`).replace('</X>', `</${figureName}>`)}</section>`;
   });
   const head = '<link rel="stylesheet" href="/motion-widgets.css"><style>body { margin: 0; font: 16px/1.5 sans-serif }</style>';
   const wrongWidths = async (/** @type {number} */ width) => {
     await page.setViewportSize({ width, height: 900 });
     await waitForFrames(page);
-    const widths = await page.locator(figure).evaluateAll((figureElements) =>
+    const widths = await page.locator(figureName).evaluateAll((figureElements) =>
       figureElements.map((element) => [/** @type {HTMLElement} */ (element.closest('section')).dataset.box ?? '', element.getBoundingClientRect().width]));
     expect(widths).toHaveLength(cases.length);
     return widths.filter(([, figureWidth]) => Number(figureWidth) > width + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, width) - 0.5);
   };
   for (const script of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
     await showPage(page, cases.join(''), { head, script });
-    if (script) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figure);
+    if (script) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figureName);
     for (const w of [320, 600, 1280]) expect.soft(await wrongWidths(w), `${script ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
   }
 });
@@ -62,17 +62,17 @@ const boxesOf = (page, name, em) =>
     em,
   );
 
-test('a figure is in proportion to the letters around it, whatever the font size of the root', async ({ page, figure }) => {
+test('a figure is in proportion to the letters around it, whatever the font size of the root', async ({ page, figureName }) => {
   const layouts = [];
   for (const [root, em] of [['100%', 16], ['62.5%', 24]]) {
     await page.setViewportSize({ width: 1400, height: 2400 });
-    await showPage(page, `<div style="width: 43.75em"><${figure}></${figure}></div>`, {
+    await showPage(page, `<div style="width: 43.75em"><${figureName}></${figureName}></div>`, {
       head: `<style>html { font-size: ${root} } body { margin: 0; font: ${em}px/1.5 Arial, 'Liberation Sans', 'Nimbus Sans', sans-serif }</style>`,
     });
-    await untilReady(page.locator(figure));
-    await expect(page.locator(figure).locator('.folds')).toBeVisible();
+    await untilReady(page.locator(figureName));
+    await expect(page.locator(figureName).locator('.folds')).toBeVisible();
     await waitForFrames(page);
-    layouts.push({ root, em, boxes: await boxesOf(page, figure, Number(em)) });
+    layouts.push({ root, em, boxes: await boxesOf(page, figureName, Number(em)) });
   }
   const [first, ...others] = layouts;
   for (const { root, em, boxes } of others) {
@@ -83,19 +83,19 @@ test('a figure is in proportion to the letters around it, whatever the font size
   }
 });
 
-test('the picture of a figure stays in sight on a phone, below the header of the site', async ({ page, figure }) => {
+test('the picture of a figure stays in sight on a phone, below the header of the site', async ({ page, figureName }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  await showPage(page, `<header style="position: sticky; top: 0; height: 56px; z-index: 9; background: #fff">Site</header><${figure}></${figure}><div style="height: 2000px"></div>`, {
+  await showPage(page, `<header style="position: sticky; top: 0; height: 56px; z-index: 9; background: #fff">Site</header><${figureName}></${figureName}><div style="height: 2000px"></div>`, {
     head: '<style>:root { --motion-sticky-top: 56px } body { margin: 0 }</style>',
   });
-  const widget = page.locator(figure);
+  const widget = page.locator(figureName);
   await untilReady(widget);
   const picture = widget.locator('[part=picture]').first();
   await widget.locator('.slider input[type=range]').nth(1).evaluate((element) => element.scrollIntoView({ block: 'start' }));
   await waitForFrames(page);
   const { y, height } = await boxOf(picture);
   // The picture of the Banana Machine has a title with a verdict on the ellipse, which stays in sight too.
-  const highest = figure === 'banana-machine' ? await boxOf(widget.locator('.panel-title').first()) : { y };
+  const highest = figureName === 'banana-machine' ? await boxOf(widget.locator('.panel-title').first()) : { y };
   expect(highest.y).toBeCloseTo(56, 0);
   expect((await boxOf(widget.locator('.slider input[type=range]').nth(1))).y).toBeGreaterThanOrEqual(y + height);
 });
@@ -145,9 +145,9 @@ test('tables of a figure scroll over the picture that stays in sight, unless a h
 test.describe('on a screen with two pixels a CSS pixel', () => {
   test.use({ deviceScaleFactor: 2 });
 
-  test('canvases have the pixels of the screen, also one that developer tools imitate', async ({ page, figure }) => {
-    await showPage(page, `<${figure}></${figure}>`);
-    const widget = page.locator(figure);
+  test('canvases have the pixels of the screen, also one that developer tools imitate', async ({ page, figureName }) => {
+    await showPage(page, `<${figureName}></${figureName}>`);
+    const widget = page.locator(figureName);
     await untilReady(widget);
     const ratios = await widget.locator('canvas:visible').evaluateAll((canvases) => canvases.map((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width / canvas.getBoundingClientRect().width));
     expect(ratios.length).toBeGreaterThan(0);

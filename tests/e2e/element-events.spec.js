@@ -151,7 +151,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
     await untilSettled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'callsByFrame')).splice(0, Infinity, []));
   };
-  const slider = widget.locator(`#${FIGURE_FACTS[name].slider}`);
+  const slider = widget.locator(`#${FIGURE_FACTS[name].sliderId}`);
   await slider.scrollIntoViewIfNeeded();
   await callsPerFrame();
   const { x, y, width, height } = await boxOf(slider);
@@ -182,8 +182,8 @@ testEach('each control of a figure fires one input and one change', async (page,
   }
 });
 
-test('a handle that is dragged fires input at each step and one change', async ({ page, handled }) => {
-  const widget = await mount(page, handled);
+test('a handle that is dragged fires input at each step and one change', async ({ page, handleFigureName }) => {
+  const widget = await mount(page, handleFigureName);
   await takeEvents(page);
   const { x, y } = await centreOf(widget.locator('.handle').first());
   await page.mouse.move(x, y);
@@ -198,21 +198,21 @@ test('a handle that is dragged fires input at each step and one change', async (
   expect(namesOf(await takeEvents(page))).toEqual([]);
 });
 
-test('changes by the page fire stats alone, also out of sight', async ({ page, figure }) => {
-  await showPage(page, `<${figure}></${figure}><div style="height: 4000px"></div>`);
-  const widget = page.locator(figure);
+test('changes by the page fire stats alone, also out of sight', async ({ page, figureName }) => {
+  await showPage(page, `<${figureName}></${figureName}><div style="height: 4000px"></div>`);
+  const widget = page.locator(figureName);
   await untilReady(widget);
   await takeEvents(page);
   await page.evaluate(() => scrollTo(0, 4000));
   await takeEvents(page, ['stats']);
   const stateBefore = await stateOf(widget);
-  const [key, value] = FIGURE_FACTS[figure].other;
+  const [key, value] = FIGURE_FACTS[figureName].otherSetting;
   for (const newValue of [value, null, value, undefined]) {
     expect(await setProperty(widget, key, newValue)).toBe('');
     expect(namesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(newValue)).toEqual(['stats']);
   }
   expect(await stateOf(widget)).toEqual(stateBefore);
-  await widget.evaluate((element, [attribute, newValue]) => element.setAttribute(attribute, String(newValue)), FIGURE_FACTS[figure].other);
+  await widget.evaluate((element, [attribute, newValue]) => element.setAttribute(attribute, String(newValue)), FIGURE_FACTS[figureName].otherSetting);
   expect(namesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
   const changedState = await stateOf(widget);
   expect(changedState).not.toEqual(stateBefore);
@@ -221,8 +221,8 @@ test('changes by the page fire stats alone, also out of sight', async ({ page, f
   expect(await stateOf(widget)).toEqual(stateBefore);
 });
 
-test('events report changes alone, whatever is drawn and asked', async ({ page, figure }) => {
-  const widget = await mount(page, figure);
+test('events report changes alone, whatever is drawn and asked', async ({ page, figureName }) => {
+  const widget = await mount(page, figureName);
   await takeEvents(page, ['stats']);
   await widget.locator('canvas.plane').hover({ position: { x: 100, y: 100 } });
   await page.emulateMedia({ colorScheme: 'dark' });
@@ -233,7 +233,7 @@ test('events report changes alone, whatever is drawn and asked', async ({ page, 
     figure.getState();
   });
   expect(await takeEvents(page, ['input', 'change', 'stats'])).toEqual([]);
-  expect(await setProperty(widget, ...FIGURE_FACTS[figure].other)).toBe('');
+  expect(await setProperty(widget, ...FIGURE_FACTS[figureName].otherSetting)).toBe('');
   expect(await takeEvents(page, ['stats'])).toHaveLength(1);
 });
 

@@ -90,11 +90,11 @@ test('figures within six hundred pixels of the window start, and others do not',
   expect(await propertyOf(widgets.nth(1), 'simulation')).toBe(undefined);
 });
 
-test('a cloud that is out of sight asks for no frames, and goes on growing where it was @nightly', async ({ page, cloud }) => {
+test('a cloud that is out of sight asks for no frames, and goes on growing where it was @nightly', async ({ page, cloudFigureName }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   await countFramesAndModules(page);
-  await showPage(page, `<${cloud}></${cloud}><div style="height: 6000px"></div>`);
-  const widget = page.locator(cloud);
+  await showPage(page, `<${cloudFigureName}></${cloudFigureName}><div style="height: 6000px"></div>`);
+  const widget = page.locator(cloudFigureName);
   await untilReady(widget);
   const shownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).simulation.shown);
   const samples = Number(await propertyOf(widget, 'samples'));
@@ -116,11 +116,11 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
   await expect.poll(shownCount, { timeout: 20_000 }).toBe(samples);
 });
 
-test('settled waits for the figure and all of its samples, in sight and far from the window', async ({ page, cloud }) => {
+test('settled waits for the figure and all of its samples, in sight and far from the window', async ({ page, cloudFigureName }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   for (const height of [0, 6000]) {
-    await showPage(page, `<div style="height: ${height}px"></div><${cloud}></${cloud}>`);
-    const [shownCount, samples, playing] = await page.locator(cloud).evaluate(async (element) => {
+    await showPage(page, `<div style="height: ${height}px"></div><${cloudFigureName}></${cloudFigureName}>`);
+    const [shownCount, samples, playing] = await page.locator(cloudFigureName).evaluate(async (element) => {
       const figure = /** @type {any} */ (element);
       await figure.settled;
       return [figure.simulation.shown, figure.samples, figure.playing];
@@ -146,9 +146,9 @@ test('settled waits for the text that follows a picture on a slow device', async
   expect(shownSpeeds).toEqual([0.5, 1.5, 0.6]);
 });
 
-test('a cloud that is half grown stays so over a move and over a removal', async ({ page, cloud }) => {
-  await showPage(page, `<div id="a"><${cloud}></${cloud}></div><div id="b"></div>`);
-  const widget = page.locator(cloud);
+test('a cloud that is half grown stays so over a move and over a removal', async ({ page, cloudFigureName }) => {
+  await showPage(page, `<div id="a"><${cloudFigureName}></${cloudFigureName}></div><div id="b"></div>`);
+  const widget = page.locator(cloudFigureName);
   await untilReady(widget);
   // With this seed every robot is inside the view, so that the view does not zoom out.
   await setProperty(widget, 'seed', 11);
@@ -178,18 +178,18 @@ test('a cloud that is half grown stays so over a move and over a removal', async
   await expect.poll(() => pictureOf(widget.locator('canvas.plane'))).toBe(picture);
 });
 
-test('folds, fields and height of a figure stay over a move and over a removal', async ({ page, figure }) => {
-  await showPage(page, `<div id="a"><${figure}></${figure}></div><div id="b"></div>`);
-  const widget = page.locator(figure);
+test('folds, fields and height of a figure stay over a move and over a removal', async ({ page, figureName }) => {
+  await showPage(page, `<div id="a"><${figureName}></${figureName}></div><div id="b"></div>`);
+  const widget = page.locator(figureName);
   await untilReady(widget);
-  const { fold } = FIGURE_FACTS[figure];
+  const { fieldInFold } = FIGURE_FACTS[figureName];
   const folds = widget.locator('details');
   await expect.poll(() => folds.count()).toBeGreaterThan(1);
   await openDisclosures(widget);
   const openFolds = () => folds.evaluateAll((foldElements) => foldElements.map((details) => /** @type {HTMLDetailsElement} */ (details).open));
   const openFoldsBefore = await openFolds();
-  const field = folds.nth(fold.at).locator(fold.field);
-  await field.fill(fold.value);
+  const field = folds.nth(fieldInFold.foldIndex).locator(fieldInFold.field);
+  await field.fill(fieldInFold.value);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await waitForFrames(page);
   expect(await openFolds()).toEqual(openFoldsBefore);
@@ -204,15 +204,15 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   });
   await untilReady(widget);
   expect(await openFolds()).toEqual(openFoldsBefore);
-  await expect(field).toHaveValue(fold.value);
-  await expect(folds.nth(fold.at).locator('.folded')).not.toBeEmpty();
+  await expect(field).toHaveValue(fieldInFold.value);
+  await expect(folds.nth(fieldInFold.foldIndex).locator('.folded')).not.toBeEmpty();
   // The height of the figure does not change meanwhile.
   expect(heights).toEqual([height, height]);
 });
 
-test('a figure keeps what the user did in the moment before it was removed', async ({ page, figure }) => {
-  const { slider, at, values: [value] } = FIGURE_FACTS[figure];
-  const widget = await mount(page, figure);
+test('a figure keeps what the user did in the moment before it was removed', async ({ page, figureName }) => {
+  const { sliderId, statePath, sliderValues: [value] } = FIGURE_FACTS[figureName];
+  const widget = await mount(page, figureName);
   const stateAfter = await widget.evaluate(async (element, [id, to]) => {
     const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${id}`));
     slider.value = String(to);
@@ -220,13 +220,13 @@ test('a figure keeps what the user did in the moment before it was removed', asy
     element.remove();
     await new Promise(requestAnimationFrame);
     return /** @type {AnyElement} */ (element).getState();
-  }, /** @type {const} */ ([slider, value]));
-  expect(stateAfter).toHaveProperty(at, value);
+  }, /** @type {const} */ ([sliderId, value]));
+  expect(stateAfter).toHaveProperty(statePath, value);
 });
 
-test('a figure that is moved while a handle is held lets go of it, and fits its picture @nightly', async ({ page, handled }) => {
-  await showPage(page, `<div id="a" style="width: 1100px"><${handled}></${handled}></div><div id="b" style="width: 500px"></div>`);
-  const widget = page.locator(handled);
+test('a figure that is moved while a handle is held lets go of it, and fits its picture @nightly', async ({ page, handleFigureName }) => {
+  await showPage(page, `<div id="a" style="width: 1100px"><${handleFigureName}></${handleFigureName}></div><div id="b" style="width: 500px"></div>`);
+  const widget = page.locator(handleFigureName);
   await untilReady(widget);
   const handle = widget.locator('.handle').first();
   const stateBefore = await stateOf(widget);
@@ -249,8 +249,8 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
   await page.mouse.up();
 });
 
-test('a canvas that has got its context back is drawn again', async ({ page, figure }) => {
-  const widget = await mount(page, figure);
+test('a canvas that has got its context back is drawn again', async ({ page, figureName }) => {
+  const widget = await mount(page, figureName);
   const canvas = widget.locator('canvas.plane');
   const pictureBefore = await pictureOf(canvas);
   const blankPicture = await canvas.evaluate((element) => {
@@ -265,8 +265,8 @@ test('a canvas that has got its context back is drawn again', async ({ page, fig
   expect(await pictureOf(canvas)).toBe(pictureBefore);
 });
 
-test('a figure that comes back is drawn on the screen again, even if it was removed during print', async ({ page, figure }) => {
-  const widget = await mount(page, figure);
+test('a figure that comes back is drawn on the screen again, even if it was removed during print', async ({ page, figureName }) => {
+  const widget = await mount(page, figureName);
   await page.emulateMedia({ media: 'print' });
   const canvas = widget.locator('canvas.plane');
   await expect(canvas).toHaveJSProperty('width', 2 * (await canvas.evaluate(({ clientWidth }) => clientWidth)));
@@ -319,20 +319,20 @@ test('a figure that was removed and comes back has no more observers, and does n
   expect((await counts()).observers).toBe(countsBefore.observers);
 });
 
-test('a figure that was not displayed shows what was set meanwhile @nightly', async ({ page, figure }) => {
-  await showPage(page, `<div id="box"><${figure}></${figure}></div>`);
-  const widget = page.locator(figure);
+test('a figure that was not displayed shows what was set meanwhile @nightly', async ({ page, figureName }) => {
+  await showPage(page, `<div id="box"><${figureName}></${figureName}></div>`);
+  const widget = page.locator(figureName);
   await untilReady(widget);
   const canvas = widget.locator('canvas.plane');
   const pictureBefore = await pictureOf(canvas);
   const setDisplay = (/** @type {string} */ value) => page.locator('#box').evaluate((box, to) => void (/** @type {HTMLElement} */ (box).style.display = to), value);
   await setDisplay('none');
   await waitForFrames(page);
-  await setProperty(widget, ...FIGURE_FACTS[figure].other);
+  await setProperty(widget, ...FIGURE_FACTS[figureName].otherSetting);
   await waitForFrames(page);
   await setDisplay('block');
   await expect.poll(() => pictureOf(canvas)).not.toBe(pictureBefore);
-  await expect(widget).toHaveAttribute(FIGURE_FACTS[figure].other[0].replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`), String(FIGURE_FACTS[figure].other[1]));
+  await expect(widget).toHaveAttribute(FIGURE_FACTS[figureName].otherSetting[0].replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`), String(FIGURE_FACTS[figureName].otherSetting[1]));
 });
 
 test('a page that comes back from the back-forward cache is alive @nightly', async ({ baseURL }) => {

@@ -30,8 +30,8 @@ test('Start over brings back the settings, the seed and the lines as the figure 
   await expect.poll(() => stateOf(widget)).toEqual(openingState);
 });
 
-test('a seed is typed, and one that is none is refused by a sentence', async ({ page, cloud }) => {
-  const widget = await mount(page, cloud);
+test('a seed is typed, and one that is none is refused by a sentence', async ({ page, cloudFigureName }) => {
+  const widget = await mount(page, cloudFigureName);
   await openDisclosures(widget);
   const field = widget.getByRole('textbox', { name: 'seed', exact: true });
   await field.fill('42');

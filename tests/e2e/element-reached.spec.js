@@ -32,8 +32,8 @@ async function showFarBelow(page, name) {
 }
 
 for (const [direction, origin, key] of /** @type {const} */ ([['above', '#before', 'Tab'], ['below', '#after', 'Shift+Tab']])) {
-  test(`a figure that Tab reaches from ${direction} before it has started has the focus where it would be`, async ({ page, figure }) => {
-    const widget = await showFarBelow(page, figure);
+  test(`a figure that Tab reaches from ${direction} before it has started has the focus where it would be`, async ({ page, figureName }) => {
+    const widget = await showFarBelow(page, figureName);
     const focusedElement = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
     await page.locator(origin).focus();
     await page.keyboard.press(key);
@@ -46,14 +46,14 @@ for (const [direction, origin, key] of /** @type {const} */ ([['above', '#before
   });
 }
 
-test('a figure that starts after the user has moved the focus leaves it there @nightly', async ({ page, figure }) => {
+test('a figure that starts after the user has moved the focus leaves it there @nightly', async ({ page, figureName }) => {
   let allowModule = () => {};
   const moduleIsAllowed = new Promise((resolve) => (allowModule = () => resolve(undefined)));
   await page.route('**/*.wasm', async (route) => {
     await moduleIsAllowed;
     await route.continue();
   });
-  const widget = await showFarBelow(page, figure);
+  const widget = await showFarBelow(page, figureName);
   const moduleRequest = page.waitForRequest(/\.wasm$/);
   await page.locator('#before').focus();
   await page.keyboard.press('Tab');

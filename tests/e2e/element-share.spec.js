@@ -152,42 +152,42 @@ test('a page with a base of its own keeps its address @nightly', async ({ page }
   expect(await address()).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
 });
 
-test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', NEW_PAGE_TAG, async ({ page, context, figure }) => {
-  const { slider, values, button } = FIGURE_FACTS[figure];
-  const widget = await mount(page, figure, { fragment: '#elsewhere' });
-  await widget.evaluate((element, [key, value]) => void Reflect.set(element, key, value), /** @type {const} */ ([slider, values[0]]));
-  await widget.getByRole('button', { name: button, exact: true }).click();
+test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', NEW_PAGE_TAG, async ({ page, context, figureName }) => {
+  const { sliderId, sliderValues, buttonLabel } = FIGURE_FACTS[figureName];
+  const widget = await mount(page, figureName, { fragment: '#elsewhere' });
+  await widget.evaluate((element, [key, value]) => void Reflect.set(element, key, value), /** @type {const} */ ([sliderId, sliderValues[0]]));
+  await widget.getByRole('button', { name: buttonLabel, exact: true }).click();
   await waitForFrames(page);
   expect(await page.evaluate(() => location.hash)).toBe('#elsewhere');
   const link = await linkOf(widget);
   expect(link.split('#')[0]).toBe(page.url().split('#')[0]);
   const newPage = await context.newPage();
-  await showPage(newPage, `<${figure}></${figure}>`, { fragment: new URL(link).hash });
-  await untilReady(newPage.locator(figure));
-  const openedState = await stateOf(newPage.locator(figure));
+  await showPage(newPage, `<${figureName}></${figureName}>`, { fragment: new URL(link).hash });
+  await untilReady(newPage.locator(figureName));
+  const openedState = await stateOf(newPage.locator(figureName));
   expect(openedState).toEqual(await stateOf(widget));
   // From then on the address follows the figure, and "back" leaves the page.
   const historyLength = await newPage.evaluate(() => history.length);
-  await newPage.locator(figure).locator(`#${slider}`).fill(String(values[1]));
-  await expect.poll(async () => (await newPage.evaluate(() => location.hash)) === (await fragmentOf(newPage.locator(figure)))).toBe(true);
+  await newPage.locator(figureName).locator(`#${sliderId}`).fill(String(sliderValues[1]));
+  await expect.poll(async () => (await newPage.evaluate(() => location.hash)) === (await fragmentOf(newPage.locator(figureName)))).toBe(true);
   expect(newPage.url()).not.toBe(link);
   expect(await newPage.evaluate(() => history.length)).toBe(historyLength);
-  const changedState = await stateOf(newPage.locator(figure));
+  const changedState = await stateOf(newPage.locator(figureName));
   await newPage.reload();
-  await untilReady(newPage.locator(figure));
-  expect(await stateOf(newPage.locator(figure))).toEqual(changedState);
+  await untilReady(newPage.locator(figureName));
+  expect(await stateOf(newPage.locator(figureName))).toEqual(changedState);
 });
 
-test('a figure with share keeps its state in the address, and follows it', async ({ page, figure }) => {
-  const { slider, values, button } = FIGURE_FACTS[figure];
-  await showPage(page, `<${figure} share></${figure}><p id="end">The end</p>`);
-  const widget = page.locator(figure);
+test('a figure with share keeps its state in the address, and follows it', async ({ page, figureName }) => {
+  const { sliderId, sliderValues, buttonLabel } = FIGURE_FACTS[figureName];
+  await showPage(page, `<${figureName} share></${figureName}><p id="end">The end</p>`);
+  const widget = page.locator(figureName);
   await untilReady(widget);
   const hash = () => page.evaluate(() => location.hash);
-  await widget.locator(`#${slider}`).fill(String(values[0]));
-  await expect.poll(hash).toMatch(new RegExp(`^#${figure}\\.1=[\\w-]+$`));
+  await widget.locator(`#${sliderId}`).fill(String(sliderValues[0]));
+  await expect.poll(hash).toMatch(new RegExp(`^#${figureName}\\.1=[\\w-]+$`));
   const [formerHash, state] = [await hash(), await stateOf(widget)];
-  await widget.getByRole('button', { name: button, exact: true }).click();
+  await widget.getByRole('button', { name: buttonLabel, exact: true }).click();
   await expect.poll(hash).not.toBe(formerHash);
   expect(await stateOf(widget)).not.toEqual(state);
   await page.evaluate((fragment) => (location.hash = fragment), formerHash);
@@ -276,16 +276,16 @@ test('the code to embed has the published script where that of the page is nothi
   expect(code).toBe('<script type="module" src="https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js"></script>\n<banana-machine></banana-machine>\n');
 });
 
-test('a frame shows the figure of its address, and sends its height', async ({ page, figure }) => {
+test('a frame shows the figure of its address, and sends its height', async ({ page, figureName }) => {
   await page.addInitScript(() => {
     Object.assign(window, { heights: [] });
     addEventListener('message', ({ data }) => data?.type === 'motion-widgets:height' && Reflect.get(window, 'heights').push(data.height));
   });
-  const { slider, values: [value] } = FIGURE_FACTS[figure];
-  await showPage(page, `<iframe src="/embed.html?widget=${figure}&${slider}=${value}" width="700" height="900"></iframe>`, { script: '' });
-  const widget = page.frameLocator('iframe').locator(figure);
+  const { sliderId, sliderValues: [value] } = FIGURE_FACTS[figureName];
+  await showPage(page, `<iframe src="/embed.html?widget=${figureName}&${sliderId}=${value}" width="700" height="900"></iframe>`, { script: '' });
+  const widget = page.frameLocator('iframe').locator(figureName);
   await expect(widget.locator('.folds')).toBeVisible();
-  expect(await propertyOf(widget, slider)).toBe(value);
+  expect(await propertyOf(widget, sliderId)).toBe(value);
   await expect.poll(async () => {
     const [height, reportedHeight] = [await widget.evaluate(() => document.body.getBoundingClientRect().height), await page.evaluate(() => Reflect.get(window, 'heights').at(-1))];
     return Math.abs(height - reportedHeight);

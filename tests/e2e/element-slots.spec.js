@@ -3,9 +3,9 @@ import { REDUCED_MOTION, setProperty, boxOf, mount, propertyOf, showPage, takeEv
 
 test.use(REDUCED_MOTION);
 
-test('a figure has the title above and the caption below that the page gives it', async ({ page, figure }) => {
-  await showPage(page, `<${figure} heading-level="3"><span slot="title">Figure 9.3 One command</span><p slot="caption">As <b>measured</b>.</p></${figure}>`);
-  const widget = page.locator(figure);
+test('a figure has the title above and the caption below that the page gives it', async ({ page, figureName }) => {
+  await showPage(page, `<${figureName} heading-level="3"><span slot="title">Figure 9.3 One command</span><p slot="caption">As <b>measured</b>.</p></${figureName}>`);
+  const widget = page.locator(figureName);
   await untilReady(widget);
   await expect(widget.getByRole('heading', { name: 'Figure 9.3 One command', level: 3 })).toBeVisible();
   await expect(widget.getByRole('region', { name: 'Figure 9.3 One command' })).toBeVisible();

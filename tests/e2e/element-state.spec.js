@@ -94,8 +94,8 @@ test('a state that comes while a slider plays is what is shown from then on @nig
   expect(/** @type {any} */ (await stateOf(widget)).phase).toBe(1);
 });
 
-test('a state in part keeps the share of samples that are shown, and the mark that is among them @nightly', async ({ page, cloud }) => {
-  const widget = await mount(page, cloud, { attributes: 'samples="300"' });
+test('a state in part keeps the share of samples that are shown, and the mark that is among them @nightly', async ({ page, cloudFigureName }) => {
+  const widget = await mount(page, cloudFigureName, { attributes: 'samples="300"' });
   const states = await widget.evaluate((element) => {
     const figure = /** @type {AnyElement} */ (element);
     const partialStates = [{ shown: 100, marked: 50 }, { seed: 5 }, { shown: 50 }, { samples: 30 }, { samples: 300 }, { shown: 100, playing: true }];

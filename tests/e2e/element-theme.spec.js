@@ -80,8 +80,8 @@ const SCHEME_SOURCES = /** @type {[string, string, (scheme: 'light' | 'dark') =>
 ]);
 
 for (const [source, head, scriptFor] of SCHEME_SOURCES) {
-  test(`a figure follows ${source}`, async ({ page, figure }) => {
-    const widget = await mount(page, figure, { attributes: 'id="it"', head });
+  test(`a figure follows ${source}`, async ({ page, figureName }) => {
+    const widget = await mount(page, figureName, { attributes: 'id="it"', head });
     expect(await schemeOf(widget)).toBe('light');
     for (const scheme of /** @type {const} */ (['dark', 'light'])) {
       await page.evaluate(scriptFor(scheme));
@@ -92,9 +92,9 @@ for (const [source, head, scriptFor] of SCHEME_SOURCES) {
   });
 }
 
-test('a figure follows the system where the page does', async ({ page, figure }) => {
+test('a figure follows the system where the page does', async ({ page, figureName }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
-  const widget = await mount(page, figure, { head: '<style>:root { color-scheme: light dark }</style>' });
+  const widget = await mount(page, figureName, { head: '<style>:root { color-scheme: light dark }</style>' });
   expect(await schemeOf(widget)).toBe('dark');
   await page.emulateMedia({ colorScheme: 'light' });
   await expect.poll(() => schemeOf(widget)).toBe('light');
@@ -159,9 +159,9 @@ const BLACK_ON_DARK = /** @type {[string, Parameters<import('@playwright/test').
 ]);
 
 for (const [situation, media, style] of BLACK_ON_DARK) {
-  test(`a figure on a page with ${situation} is legible`, async ({ page, figure }) => {
+  test(`a figure on a page with ${situation} is legible`, async ({ page, figureName }) => {
     await page.emulateMedia(media);
-    const widget = await mount(page, figure, { attributes: 'theme="auto"', head: `<style>${style}</style>` });
+    const widget = await mount(page, figureName, { attributes: 'theme="auto"', head: `<style>${style}</style>` });
     const setTheme = (/** @type {string} */ name) => widget.evaluate((element, to) => element.setAttribute('theme', to), name);
     for (const name of media?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
       await setTheme(name);
@@ -216,8 +216,8 @@ test('the stylesheet adopts muted text, hairlines and header height of a theme, 
   expect(await adoptedStyle()).toEqual(['#010203', '#040506', 7]);
 });
 
-test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figure }) => {
-  const widget = await mount(page, figure, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
+test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figureName }) => {
+  const widget = await mount(page, figureName, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
   // Light text on a dark background gets the dark palette.
   expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
   expect(await widget.locator('.slider .effect').first().evaluate((element) => getComputedStyle(element).backgroundColor)).toBe('rgb(16, 32, 48)');
@@ -231,8 +231,8 @@ test('custom properties colour controls and canvases, also when they change', as
   expect(await widget.evaluate((element) => getComputedStyle(element).fontFamily)).toBe('monospace');
 });
 
-test('no control has custom properties of its own, which extensions that darken pages leave behind', async ({ page, figure }) => {
-  const widget = await mount(page, figure);
+test('no control has custom properties of its own, which extensions that darken pages leave behind', async ({ page, figureName }) => {
+  const widget = await mount(page, figureName);
   await openDisclosures(widget);
   expect(await widget.locator('.simulation [style*="--"]').count()).toBe(0);
   const thumbs = await widget.getByRole('slider').evaluateAll((sliders) =>

@@ -25,33 +25,33 @@ const expectRestarted = (widget) =>
     return simulation !== undefined && simulation !== Reflect.get(window, 'trapped');
   })).toBe(true);
 
-test('a core that traps is restarted with the same state and picture, and no other element notices', async ({ page, figure }) => {
-  const otherName = ALL_NAMES[(ALL_NAMES.indexOf(figure) + 1) % ALL_NAMES.length];
-  const { slider, values } = FIGURE_FACTS[figure];
-  await showPage(page, `<${figure}></${figure}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${otherName} id="other"></${otherName}></div>`);
-  const widget = page.locator(figure).first();
+test('a core that traps is restarted with the same state and picture, and no other element notices', async ({ page, figureName }) => {
+  const otherName = ALL_NAMES[(ALL_NAMES.indexOf(figureName) + 1) % ALL_NAMES.length];
+  const { sliderId, sliderValues } = FIGURE_FACTS[figureName];
+  await showPage(page, `<${figureName}></${figureName}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${otherName} id="other"></${otherName}></div>`);
+  const widget = page.locator(figureName).first();
   const otherWidget = page.locator('#other');
   await untilReady(widget);
   await untilReady(otherWidget);
-  await widget.locator(`#${slider}`).fill(String(values[0]));
+  await widget.locator(`#${sliderId}`).fill(String(sliderValues[0]));
   await waitForFrames(page);
   const [stateBefore, pictureBefore] = [await stateOf(widget), await pictureOf(widget.locator('canvas.plane'))];
   await otherWidget.evaluate((element) => void Object.assign(window, { otherSimulation: /** @type {AnyElement} */ (element).simulation }));
   await takeEvents(page);
-  await trapNextCall(widget, slider);
+  await trapNextCall(widget, sliderId);
   await expectRestarted(widget);
   const errors = await takeEvents(page, ['error', 'load']);
-  expect(errors.map(({ name, target }) => [name, target])).toEqual([['error', figure]]);
+  expect(errors.map(({ name, target }) => [name, target])).toEqual([['error', figureName]]);
   expect(errors[0].message).toMatch(/memory access out of bounds|unreachable/);
   expect(await stateOf(widget)).toEqual(stateBefore);
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
   expect(await otherWidget.evaluate((element) => /** @type {AnyElement} */ (element).simulation === Reflect.get(window, 'otherSimulation'))).toBe(true);
   // The figure works again.
-  await widget.locator(`#${slider}`).fill(String(values[1]));
-  await expect(widget).toHaveAttribute(slider, String(values[1]));
+  await widget.locator(`#${sliderId}`).fill(String(sliderValues[1]));
+  await expect(widget).toHaveAttribute(sliderId, String(sliderValues[1]));
   // After the next picture, the figure recovers from another trap too.
   await waitForFrames(page);
-  await trapNextCall(widget, slider);
+  await trapNextCall(widget, sliderId);
   await expectRestarted(widget);
   expect(await takeEvents(page, ['error', 'load'])).toHaveLength(1);
 });

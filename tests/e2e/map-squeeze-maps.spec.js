@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { mapFile, openSqueeze, pgmFile, pngFile, squeezeResults, yamlFile } from './squeeze-support.js';
+import { makeMapFile, openSqueeze, makePgmFile, makePngFile, squeezeResultsOf, makeYamlFile } from './squeeze-support.js';
 import { REDUCED_MOTION, dropFiles, waitForFrames, pictureOf, pixelCountOf, test, openDisclosures } from './support.js';
 
 /**
@@ -36,9 +36,9 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
   const widget = await openSqueeze(page);
   const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
   await widget.getByRole('button', { name: 'Open corridor' }).click();
-  await chooseFiles(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
+  await chooseFiles(widget, [makeMapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toHaveText('room.json: 6.0 m × 4.0 m, 5 walls.');
-  const { bounds, walls, startFree, openPlace, config, shown } = await squeezeResults(widget);
+  const { bounds, walls, startFree, openPlace, config, shown } = await squeezeResultsOf(widget);
   expect(bounds).toEqual(ROOM_PLAN.bounds);
   expect(walls).toEqual(ROOM_PLAN.walls.flat());
   // The start in the corridor, (1.4, 4.4), is outside this room.
@@ -49,13 +49,13 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /room\.json/);
 
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
-  expect((await squeezeResults(widget)).bounds).toEqual([0, 0, 12, 9]);
+  expect((await squeezeResultsOf(widget)).bounds).toEqual([0, 0, 12, 9]);
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
 });
 
 test('presets keep the map of the user, and buttons lead to the apartment and back', async ({ page }) => {
   const widget = await openSqueeze(page);
-  await chooseFiles(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
+  await chooseFiles(widget, [makeMapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
   // The presets are positions in the apartment, and are not offered here.
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
@@ -64,18 +64,18 @@ test('presets keep the map of the user, and buttons lead to the apartment and ba
   const placeButton = widget.getByRole('button', { name: 'Place robot in free space' });
   await placeButton.click();
   await expect(placeButton).toHaveAttribute('aria-pressed', 'true');
-  const { config, openPlace, bounds } = await squeezeResults(widget);
+  const { config, openPlace, bounds } = await squeezeResultsOf(widget);
   expect(config.start).toEqual(openPlace);
   expect(bounds).toEqual(ROOM_PLAN.bounds);
   await widget.getByRole('slider', { name: 'Robot', exact: true }).press('ArrowRight');
   await expect(placeButton).toHaveAttribute('aria-pressed', 'false');
-  const resultsAfterMove = await squeezeResults(widget);
+  const resultsAfterMove = await squeezeResultsOf(widget);
 
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
-  expect((await squeezeResults(widget)).bounds).toEqual([0, 0, 12, 9]);
+  expect((await squeezeResultsOf(widget)).bounds).toEqual([0, 0, 12, 9]);
   await widget.getByRole('button', { name: 'Back to room.json' }).click();
-  expect(await squeezeResults(widget)).toEqual(resultsAfterMove);
+  expect(await squeezeResultsOf(widget)).toEqual(resultsAfterMove);
   await expect(currentMapOf(widget)).toContainText('room.json');
   await expect(widget.getByRole('button', { name: 'Back to room.json' })).toHaveCount(0);
 });
@@ -84,19 +84,19 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   const widget = await openSqueeze(page);
   await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
   // A corridor of 4 m × 1 m, whose right half is unknown.
-  const image = pngFile('map.png', 80, 20, (column) => column >= 40);
-  await chooseFiles(widget, [yamlFile('map.yaml', { ...YAML_FIELDS, image: 'map.png', mode: 'scale' }), image]);
+  const image = makePngFile('map.png', 80, 20, (column) => column >= 40);
+  await chooseFiles(widget, [makeYamlFile('map.yaml', { ...YAML_FIELDS, image: 'map.png', mode: 'scale' }), image]);
   await expect(currentMapOf(widget)).toContainText('map.yaml');
   // The robot is in the left half, whose cells are not unknown.
-  expect((await squeezeResults(widget)).config.start.x).toBeLessThan(2);
+  expect((await squeezeResultsOf(widget)).config.start.x).toBeLessThan(2);
   await widget.evaluate((element) => Object.assign(element, { theta: 0 }));
   const canvas = widget.locator('canvas.plane');
   const choice = widget.getByRole('radiogroup', { name: 'Unknown cells' });
   await expect(choice.getByLabel('free')).toBeChecked();
-  const resultsIfFree = await squeezeResults(widget);
+  const resultsIfFree = await squeezeResultsOf(widget);
   const pictureIfFree = await pictureOf(canvas);
   await choice.getByLabel('blocked').check();
-  const resultsIfBlocked = await squeezeResults(widget);
+  const resultsIfBlocked = await squeezeResultsOf(widget);
   expect(resultsIfBlocked.config.unknown).toBe('blocked');
   expect(resultsIfBlocked.poses).toEqual(resultsIfFree.poses);
   expect(resultsIfBlocked.stats.accepted).toBeLessThan(resultsIfFree.stats.accepted);
@@ -110,7 +110,7 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   await expect(choice).toHaveCount(0);
   await widget.evaluate((element, text) => /** @type {any} */ (element).setState(JSON.parse(text)), state);
   await expect(choice.getByLabel('blocked')).toBeChecked();
-  expect(await squeezeResults(widget)).toEqual(resultsIfBlocked);
+  expect(await squeezeResultsOf(widget)).toEqual(resultsIfBlocked);
 });
 
 test('a floor plan can be written on the page', async ({ page }) => {
@@ -124,20 +124,20 @@ test('a floor plan can be written on the page', async ({ page }) => {
   await field.fill('{"bounds": [0, 0, 3, 3],\n"walls": [[0, 0, 3, 3]}');
   await useButton.click();
   await expect(errorMessageOf(widget)).toHaveText(/^Pasted plan: .+; expected is \{"bounds": .+ in metres\.$/);
-  expect((await squeezeResults(widget)).bounds).toEqual([0, 0, 6, 4]);
+  expect((await squeezeResultsOf(widget)).bounds).toEqual([0, 0, 6, 4]);
   await field.fill(JSON.stringify({ bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] }));
   await useButton.click();
   await expect(errorMessageOf(widget)).toBeHidden();
-  expect((await squeezeResults(widget)).walls).toEqual([0, 0, 3, 3]);
+  expect((await squeezeResultsOf(widget)).walls).toEqual([0, 0, 3, 3]);
 });
 
 test('a map_server pair can be dropped on the widget', async ({ page }) => {
   const widget = await openSqueeze(page);
   await expect(currentMapOf(widget)).toHaveCount(0);
-  await dropFiles(widget.locator('.stage'), [yamlFile('room.yaml', YAML_FIELDS), pgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder)]);
+  await dropFiles(widget.locator('.stage'), [makeYamlFile('room.yaml', YAML_FIELDS), makePgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder)]);
   await expect(currentMapOf(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
   await expect(currentMapOf(widget)).toBeVisible();
-  const { bounds, walls, startFree, config, openPlace } = await squeezeResults(widget);
+  const { bounds, walls, startFree, config, openPlace } = await squeezeResultsOf(widget);
   expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
   // Eight walls: the outer and the inner outline of the border.
   expect(walls).toHaveLength(8 * 4);
@@ -149,28 +149,28 @@ test('a map_server pair can be dropped on the widget', async ({ page }) => {
 test('the reason why a dropped map is refused is scrolled into view @nightly', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openSqueeze(page);
-  const resultsBefore = await squeezeResults(widget);
+  const resultsBefore = await squeezeResultsOf(widget);
   await widget.locator('.stage').evaluate((stage) => stage.scrollIntoView());
-  await dropFiles(widget.locator('.stage'), [mapFile('room.txt', 'a room')]);
+  await dropFiles(widget.locator('.stage'), [makeMapFile('room.txt', 'a room')]);
   const alert = widget.getByRole('alert');
   await expect(alert).toHaveText(/^room\.txt: expected is one \.json floor plan/);
   // Rounding to device pixels makes the visible ratio slightly smaller than 1.
   await expect(alert).toBeInViewport({ ratio: 0.99 });
-  expect(await squeezeResults(widget)).toEqual(resultsBefore);
+  expect(await squeezeResultsOf(widget)).toEqual(resultsBefore);
   await expect(currentMapOf(widget)).toContainText('The apartment');
 });
 
 test('a map that is refused is reported in a sentence, and the present map stays', async ({ page }) => {
-  const image = pgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder);
-  const roomYaml = yamlFile('room.yaml', YAML_FIELDS);
+  const image = makePgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder);
+  const roomYaml = makeYamlFile('room.yaml', YAML_FIELDS);
   const widget = await openSqueeze(page);
-  const resultsBefore = await squeezeResults(widget);
+  const resultsBefore = await squeezeResultsOf(widget);
   await chooseFiles(widget, [roomYaml]);
   await expect(errorMessageOf(widget)).toHaveText(/^room\.yaml: image names room\.pgm, which is not there; expected are both files/);
   // The page accepts this image, and the core refuses it.
-  await chooseFiles(widget, [roomYaml, mapFile('room.pgm', 'P5\n60 40\n255\nabc')]);
+  await chooseFiles(widget, [roomYaml, makeMapFile('room.pgm', 'P5\n60 40\n255\nabc')]);
   await expect(errorMessageOf(widget)).toHaveText(/^room\.pgm.*(2400|60 × 40)/);
-  expect(await squeezeResults(widget)).toEqual(resultsBefore);
+  expect(await squeezeResultsOf(widget)).toEqual(resultsBefore);
   await expect(currentMapOf(widget)).toContainText('The apartment');
   await expectAccessible(page);
   await chooseFiles(widget, [roomYaml, image]);
@@ -210,11 +210,11 @@ test('a large map is opened with a message, and another map takes its place @nig
   const widget = await openSqueeze(page);
   const gridSide = 4000;
   const isPost = (/** @type {number} */ c, /** @type {number} */ r) => c === 0 || r === 0 || c === gridSide - 1 || r === gridSide - 1 || (c % 100 === 50 && r % 100 === 50);
-  await chooseFiles(widget, [yamlFile('hall.yaml', { ...YAML_FIELDS, image: 'hall.pgm' }), pgmFile('hall.pgm', gridSide, gridSide, isPost)]);
+  await chooseFiles(widget, [makeYamlFile('hall.yaml', { ...YAML_FIELDS, image: 'hall.pgm' }), makePgmFile('hall.pgm', gridSide, gridSide, isPost)]);
   await expect(currentMapOf(widget)).toContainText('hall.yaml: 200.0 m × 200.0 m', { timeout: 60_000 });
-  const { stats, config } = await squeezeResults(widget);
+  const { stats, config } = await squeezeResultsOf(widget);
   expect(stats.attempts).toBe(config.samples);
-  await chooseFiles(widget, [mapFile('room.json', JSON.stringify(ROOM_PLAN))]);
+  await chooseFiles(widget, [makeMapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
   await waitForFrames(page);
   expect(await pixelCountOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(100);

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { openSqueeze, squeezeResults } from './squeeze-support.js';
+import { openSqueeze, squeezeResultsOf } from './squeeze-support.js';
 import { REDUCED_MOTION, centreOf, waitForFrames, numberIn, pictureOf, readoutValue, stateOf, test, openDisclosures } from './support.js';
 
 /**
@@ -62,7 +62,7 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   await page.mouse.move(1, y, { steps: 3 });
   await page.mouse.up();
   expect(await edgeLabel()).toBe('none');
-  expect((await squeezeResults(widget)).config.start.x).toBe(0);
+  expect((await squeezeResultsOf(widget)).config.start.x).toBe(0);
 
   // With the keyboard, the position and the obstacle are announced.
   const valueAtEdge = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
@@ -75,15 +75,15 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
     await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', valueAtEdge);
     expect(await edgeLabel()).toBe('"The map ends here"');
   }
-  expect((await squeezeResults(widget)).config.start.x).toBe(0);
+  expect((await squeezeResultsOf(widget)).config.start.x).toBe(0);
 });
 
 test('a robot that a key led into a wall is reported @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.evaluate((element) => void Reflect.set(element, 'start', { x: 4.2, y: 2.6, theta: 0 }));
-  expect((await squeezeResults(widget)).startFree).toBe(true);
+  expect((await squeezeResultsOf(widget)).startFree).toBe(true);
   for (let i = 0; i < 2; i++) await bodyHandle(widget).press('ArrowLeft');
-  expect((await squeezeResults(widget)).startFree).toBe(false);
+  expect((await squeezeResultsOf(widget)).startFree).toBe(false);
   await expect(widget.getByRole('status').filter({ hasText: 'The start pose is in collision' })).toHaveCount(1);
   await expect(widget.locator('.verdict')).toContainText('The start pose is in collision');
   for (let i = 0; i < 2; i++) await bodyHandle(widget).press('ArrowRight');
@@ -97,7 +97,7 @@ test('the sampler is chosen by name, and the readouts are those of the simulatio
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   for (const [label, sampler] of Object.entries(samplersByLabel)) {
     await widget.getByLabel(label, { exact: true }).check();
-    const { config, stats } = await squeezeResults(widget);
+    const { config, stats } = await squeezeResultsOf(widget);
     expect(config.sampler).toBe(sampler);
     const shownNumber = async (/** @type {string | RegExp} */ name) => numberIn(await readoutValue(widget, name).textContent());
     expect(await shownNumber(/^\s*drawn/)).toBe(stats.drawn);
@@ -163,7 +163,7 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await widget.getByLabel('Sub-stepped').check();
   await widget.getByRole('slider', { name: 'sub-steps' }).fill('32');
-  const { stats, config } = await squeezeResults(widget);
+  const { stats, config } = await squeezeResultsOf(widget);
   expect(stats.gaveUp).toBe(true);
   await expect(note).toContainText('The robot is wedged');
   const noteText = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
@@ -183,7 +183,7 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
   await page.mouse.down();
   await page.mouse.move(x, y - wallDistance, { steps: 4 });
   await page.mouse.up();
-  const blockedResults = await squeezeResults(widget);
+  const blockedResults = await squeezeResultsOf(widget);
   expect(blockedResults.startFree).toBe(false);
   expect(blockedResults.stats.accepted).toBe(0);
   await expect(note).toHaveText('No sample was accepted: all 600 drawn paths are in collision.');
@@ -192,7 +192,7 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
 
 test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { verdicts, poses } = await squeezeResults(widget);
+  const { verdicts, poses } = await squeezeResultsOf(widget);
   const throughWallIndex = verdicts.indexOf(5);
   const rejectedIndex = verdicts.findIndex((verdict) => (verdict & 4) === 0);
   const field = widget.getByRole('spinbutton', { name: 'Sample' });
@@ -222,7 +222,7 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
 
 test('a marked motion that went through a wall has a leader to it, and no other has @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { verdicts } = await squeezeResults(widget);
+  const { verdicts } = await squeezeResultsOf(widget);
   const hasWallLabel = (/** @type {number | null} */ index) => widget.evaluate((element, marked) => {
     Object.assign(element, { marked });
     return /** @type {any} */ (element).toSVG().includes('through this wall');
@@ -234,14 +234,14 @@ test('a marked motion that went through a wall has a leader to it, and no other 
 
 test('the edge of a doorway and a wall are dragged, and Back to the apartment undoes it', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const resultsBefore = await squeezeResults(widget);
+  const resultsBefore = await squeezeResultsOf(widget);
   const drag = async (/** @type {Locator} */ handle, /** @type {number} */ dx, /** @type {number} */ dy) => {
     const { x, y } = await centreOf(handle);
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + dx, y + dy, { steps: 4 });
     await page.mouse.up();
-    return squeezeResults(widget);
+    return squeezeResultsOf(widget);
   };
   // The left edge of the doorway ahead, from x = 1.6 m to its limit: the right edge is at 2.5 m.
   const afterEdgeDrag = await drag(widget.locator('.handle.to-4'), 300, 40);
@@ -260,24 +260,24 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
   expect(afterSecondDrag.walls[33]).toBeGreaterThan(y0 + 0.1);
   expect(afterSecondDrag.shown).toBe(5000);
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
-  expect((await squeezeResults(widget)).walls).toEqual(resultsBefore.walls);
+  expect((await squeezeResultsOf(widget)).walls).toEqual(resultsBefore.walls);
 });
 
 test('walls are moved by keyboard from one stop of Tab, and their handles are named', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { walls } = await squeezeResults(widget);
+  const { walls } = await squeezeResultsOf(widget);
   await bodyHandle(widget).focus();
   await page.keyboard.press('Shift+Tab');
   const focusedHandle = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.className.split(' ')[2]);
   expect(await focusedHandle()).toBe('to-4');
   await page.keyboard.press('ArrowRight');
-  expect((await squeezeResults(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
+  expect((await squeezeResultsOf(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
   await page.keyboard.press(']');
   expect(await focusedHandle()).toBe('side-4');
   expect(await widget.evaluate(({ shadowRoot }) => getComputedStyle(/** @type {Element} */ (shadowRoot?.activeElement), '::before').content)).toBe('"Drag the wall"');
   await expect(widget.locator('.legend')).toContainText('handles: drag walls and edges of doorways');
   await page.keyboard.press('Shift+ArrowDown');
-  const resultsAfterMove = await squeezeResults(widget);
+  const resultsAfterMove = await squeezeResultsOf(widget);
   expect(resultsAfterMove.walls[17]).toBeCloseTo(walls[17] - 0.25, 9);
   await page.keyboard.press('Shift+Tab');
   expect(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.classList.contains('handle') ?? false)).toBe(false);
@@ -285,12 +285,12 @@ test('walls are moved by keyboard from one stop of Tab, and their handles are na
 
 test('the picture has a description, and a user’s change is announced', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { stats } = await squeezeResults(widget);
+  const { stats } = await squeezeResultsOf(widget);
   const canvas = widget.locator('canvas.plane');
   await expect(canvas).toHaveAttribute('aria-label', /The apartment: 12\.0 m × 9\.0 m, 18 walls/);
   await expect(canvas).toHaveAttribute('aria-label', new RegExp(`${stats.throughWall} of those through a wall`));
   await widget.getByLabel('Whole arc').check();
-  const statsAfter = (await squeezeResults(widget)).stats;
+  const statsAfter = (await squeezeResultsOf(widget)).stats;
   const status = widget.locator('p[role=status]');
   const text = `${statsAfter.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
   await expect(status).toHaveText(text);
@@ -298,7 +298,7 @@ test('the picture has a description, and a user’s change is announced', async 
   // Without the condition all samples are accepted.
   await openDisclosures(widget);
   await widget.getByLabel('Check samples against the map').uncheck();
-  const { throughWall } = (await squeezeResults(widget)).stats;
+  const { throughWall } = (await squeezeResultsOf(widget)).stats;
   await expect(status).toContainText(`Without the map all 600 motions are accepted; ${throughWall} of them, `);
   // Changes by the page are not announced, and end the last announcement.
   await widget.evaluate((element) => Object.assign(element, { conditioned: true }));
@@ -348,7 +348,7 @@ test('many samples are a density, those through a wall in a colour of their own'
   await expect(densityNote).toHaveCount(0);
   await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));
   await expect(densityNote).toContainText('Density');
-  expect((await squeezeResults(widget)).stats.throughWall).toBeGreaterThan(4000);
+  expect((await squeezeResultsOf(widget)).stats.throughWall).toBeGreaterThan(4000);
   // All samples behind the wall at y = 5 passed through one; between the posts of the doorway hardly any did.
   const [colorBehindWall, colorBetweenPosts] = await widget.evaluate((element) => {
     const { picture: { view }, renderRoot } = /** @type {any} */ (element);

@@ -5,7 +5,7 @@
 
 import { expect } from '@playwright/test';
 import { randomGenerator } from '../random.js';
-import { mapFile, pgmFile, yamlFile } from './squeeze-support.js';
+import { makeMapFile, makePgmFile, makeYamlFile } from './squeeze-support.js';
 import { NEW_PAGE_TAG, waitForFrames, test, untilReady } from './support.js';
 import { ALL_NAMES } from './figures.js';
 
@@ -31,16 +31,16 @@ const ATTRIBUTE_TEXTS = ['', 'null', 'true', 'false', 'toString', '__proto__', '
 const LANGUAGES = ['en', 'de', 'de-AT', 'fr', '', 'constructor', 'x'];
 const WINDOW_SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 1080], [600, 900]];
 
-const HALL_IMAGE = pgmFile('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
+const HALL_IMAGE = makePgmFile('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
 /** Files that users may drop, the first of them a map. */
 const DROPPED_FILES = [
-  [yamlFile('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL_IMAGE],
-  [mapFile('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [[0, 0, 5, 0], [5, 0, 5, 4], [5, 4, 0, 4], [0, 4, 0, 0]] }))],
+  [makeYamlFile('hall.yaml', { image: 'hall.pgm', resolution: 0.1, origin: '[0, 0, 0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.2 }), HALL_IMAGE],
+  [makeMapFile('plan.json', JSON.stringify({ bounds: [0, 0, 5, 4], walls: [[0, 0, 5, 0], [5, 0, 5, 4], [5, 4, 0, 4], [0, 4, 0, 0]] }))],
   [HALL_IMAGE],
-  [mapFile('hall.yaml', 'image: &a [*a]')],
-  [mapFile('cut.pgm', HALL_IMAGE.buffer.subarray(0, 200))],
-  [mapFile('plan.json', '{"walls": 7}')],
-  [mapFile('notes.txt', 'no map')],
+  [makeMapFile('hall.yaml', 'image: &a [*a]')],
+  [makeMapFile('cut.pgm', HALL_IMAGE.buffer.subarray(0, 200))],
+  [makeMapFile('plan.json', '{"walls": 7}')],
+  [makeMapFile('notes.txt', 'no map')],
 ];
 
 /** Returns a generator of random numbers and list elements. @param {number} seed @returns {Random} */

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { FIGURE_FACTS } from './figures.js';
-import { REDUCED_MOTION, bananaResults, boxOf, centreOf, waitForFrames, mount, openBanana, pictureOf, pixelCountOf, showPage, stateOf, test, testEach, openDisclosures, untilReady } from './support.js';
+import { REDUCED_MOTION, bananaResultsOf, boxOf, centreOf, waitForFrames, mount, openBanana, pictureOf, pixelCountOf, showPage, stateOf, test, testEach, openDisclosures, untilReady } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -130,7 +130,7 @@ test('sliders speak their value with its unit, and nothing is announced while on
     await waitForFrames(page);
     expect(await status.textContent()).toBe('');
   }
-  const { config } = await bananaResults(widget);
+  const { config } = await bananaResultsOf(widget);
   await page.mouse.up();
   await expect(status).toContainText(`v = ${config.command.v.toFixed(2).replace('-', '−')} m/s`);
   for (const otherSlider of await widget.locator('input[type=range]').all()) {
@@ -138,9 +138,9 @@ test('sliders speak their value with its unit, and nothing is announced while on
   }
 });
 
-test('a figure has targets that are large enough for a finger', async ({ page, figure }) => {
+test('a figure has targets that are large enough for a finger', async ({ page, figureName }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  const widget = await showUnfolded(page, figure);
+  const widget = await showUnfolded(page, figureName);
   const smallTargets = await widget.evaluate((element) =>
     [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('button, input[type=range], label:has(input):not(td label, th label), .handle')]
       .filter((target) => target.checkVisibility())
@@ -178,9 +178,9 @@ test.describe('a finger', () => {
   }
   const spaceAround = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
 
-  test('moves each handle of a figure and not the page', async ({ page, handled }) => {
-    const widget = await showUnfolded(page, handled, spaceAround);
-    for (const selector of FIGURE_FACTS[handled].handles ?? []) {
+  test('moves each handle of a figure and not the page', async ({ page, handleFigureName }) => {
+    const widget = await showUnfolded(page, handleFigureName, spaceAround);
+    for (const selector of FIGURE_FACTS[handleFigureName].handleSelectors ?? []) {
       const handle = widget.locator(selector);
       await scrollToLowerHalf(handle);
       const stateBefore = await stateOf(widget);
@@ -191,9 +191,9 @@ test.describe('a finger', () => {
     }
   });
 
-  test('that swipes over a picture or a slider scrolls the page and changes nothing', async ({ page, figure }) => {
-    const widget = await showUnfolded(page, figure, spaceAround);
-    for (const selector of ['canvas.plane', `#${FIGURE_FACTS[figure].slider}`]) {
+  test('that swipes over a picture or a slider scrolls the page and changes nothing', async ({ page, figureName }) => {
+    const widget = await showUnfolded(page, figureName, spaceAround);
+    for (const selector of ['canvas.plane', `#${FIGURE_FACTS[figureName].sliderId}`]) {
       const part = widget.locator(selector);
       await scrollToLowerHalf(part);
       const stateBefore = await stateOf(widget);
@@ -212,7 +212,7 @@ test.describe('a finger', () => {
     await scrollToLowerHalf(chart);
     const { x, y, width, height } = await boxOf(chart);
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
-    await expect.poll(async () => (await bananaResults(widget)).config.command.omega).toBeGreaterThan(1);
+    await expect.poll(async () => (await bananaResultsOf(widget)).config.command.omega).toBeGreaterThan(1);
     const canvas = widget.locator('canvas.plane');
     await widget.evaluate((element) => element.scrollIntoView());
     const [right, down] = await widget.evaluate((element) => {
@@ -289,10 +289,10 @@ test('paper has figures that were far from the window, with their pictures @nigh
   expect(await page.evaluate(() => Reflect.get(window, 'inked'))).toBe(true);
 });
 
-test('a print shows the disclosures that the user opened, and no controls @nightly', async ({ page, figure }) => {
-  const widget = await mount(page, figure);
-  const { at, part } = FIGURE_FACTS[figure].paper;
-  const fold = widget.locator('.folds details').nth(at);
+test('a print shows the disclosures that the user opened, and no controls @nightly', async ({ page, figureName }) => {
+  const widget = await mount(page, figureName);
+  const { foldIndex, part } = FIGURE_FACTS[figureName].printedPart;
+  const fold = widget.locator('.folds details').nth(foldIndex);
   await expect(fold).toBeVisible();
   await page.emulateMedia({ media: 'print' });
   await expect(fold.locator(part).first()).toBeHidden();

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { openSqueeze, squeezeResults } from './squeeze-support.js';
-import { REDUCED_MOTION, bananaResults, boxOf, waitForFrames, mount, openBanana, posesOf, propertyOf, test, openDisclosures } from './support.js';
+import { openSqueeze, squeezeResultsOf } from './squeeze-support.js';
+import { REDUCED_MOTION, bananaResultsOf, boxOf, waitForFrames, mount, openBanana, posesOf, propertyOf, test, openDisclosures } from './support.js';
 
 /** @import { Locator } from '@playwright/test' */
 /** @typedef {import('../../www/types.d.ts').BananaMachineElement} Figure any element, as far as exports are concerned */
@@ -39,7 +39,7 @@ function elementsOf(page, svg) {
 test('CSV of the Banana Machine has the samples, and the settings that bring them back', async ({ page }) => {
   const widget = await openBanana(page, 'samples="2000"');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
-  const { config, shown } = await bananaResults(widget);
+  const { config, shown } = await bananaResultsOf(widget);
   const poses = await posesOf(widget);
   const { settings, columns, rows } = parsedCSV(await csvOf(widget));
   expect(columns).toEqual([
@@ -62,7 +62,7 @@ test('CSV of the Banana Machine has the samples, and the settings that bring the
 
 test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { config, stats } = await squeezeResults(widget);
+  const { config, stats } = await squeezeResultsOf(widget);
   const { settings, columns, rows } = parsedCSV(await csvOf(widget));
   expect(settings).toEqual({ element: 'map-squeeze', map: null, ...config });
   expect(columns).toEqual(['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted']);
@@ -102,9 +102,9 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   expect(mapElements.paths).toBeGreaterThan(400);
 });
 
-test('PNG of a figure has twice the pixels and opaque paper', async ({ page, figure }) => {
+test('PNG of a figure has twice the pixels and opaque paper', async ({ page, figureName }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
-  const widget = await mount(page, figure);
+  const widget = await mount(page, figureName);
   const png = await widget.evaluate(async (element) => {
     const figure = /** @type {Figure} */ (element);
     const svg = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml').documentElement;

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { FIGURE_FACTS } from './figures.js';
-import { REDUCED_MOTION, bananaResults, waitForFrames, mount, numberIn, openBanana, pictureOf, readoutValue, showPage, test, testEach, openDisclosures, untilReady, untilSettled } from './support.js';
+import { REDUCED_MOTION, bananaResultsOf, waitForFrames, mount, numberIn, openBanana, pictureOf, readoutValue, showPage, test, testEach, openDisclosures, untilReady, untilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -88,7 +88,7 @@ test('the nearest lang decides, also on the form of numbers; a language without 
   const germanSkew = (await readoutValue(widget, /[Qq]uer/).textContent()) ?? '';
   expect(germanSkew).toBe(englishSkew.replaceAll('.', ','));
   expect(germanSkew).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
-  expect(numberIn(germanSkew.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await bananaResults(widget)).stats.crossTrackSkew, 3);
+  expect(numberIn(germanSkew.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await bananaResultsOf(widget)).stats.crossTrackSkew, 3);
   await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await expectPlayButton('Draw samples');
@@ -139,8 +139,8 @@ test('a page may replace words and add languages; a message of another shape is 
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
 });
 
-test('a page from right to left has the same picture, and nothing beside its figure @nightly', async ({ page, figure }) => {
-  const widget = await mount(page, figure);
+test('a page from right to left has the same picture, and nothing beside its figure @nightly', async ({ page, figureName }) => {
+  const widget = await mount(page, figureName);
   const canvas = widget.locator('canvas.plane');
   const pictureBefore = await pictureOf(canvas);
   await page.evaluate(() => void (document.documentElement.dir = 'rtl'));
@@ -153,11 +153,11 @@ test('a page from right to left has the same picture, and nothing beside its fig
   expect(Number(await slider.inputValue())).toBeGreaterThan(value);
 });
 
-test('signs stand left of their numbers on a page from right to left, also among words from right to left', async ({ page, figure }) => {
+test('signs stand left of their numbers on a page from right to left, also among words from right to left', async ({ page, figureName }) => {
   const headHtml = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { play: "נגן" })</script>';
   for (const [lang, direction, values] of [['en', 'ltr', '.simulation'], ['he', 'rtl', '.simulation :is(bdi, [dir=ltr])']]) {
-    await showPage(page, `<div dir="rtl" lang="${lang}"><${figure}><p slot="caption">נגן</p></${figure}></div>`, { head: headHtml });
-    const widget = page.locator(figure);
+    await showPage(page, `<div dir="rtl" lang="${lang}"><${figureName}><p slot="caption">נגן</p></${figureName}></div>`, { head: headHtml });
+    const widget = page.locator(figureName);
     await untilReady(widget);
     await openDisclosures(widget);
     const signsAndSides = await widget.evaluate(({ shadowRoot }, selector) => {
@@ -186,12 +186,12 @@ test('signs stand left of their numbers on a page from right to left, also among
   }
 });
 
-test('a page translator that replaces every text freezes none @nightly', async ({ page, figure }) => {
+test('a page translator that replaces every text freezes none @nightly', async ({ page, figureName }) => {
   // A figure outside the viewport is not drawn: both have to be visible.
   await page.setViewportSize({ width: 1280, height: 4000 });
-  await showPage(page, `<${figure} id="translated"></${figure}><${figure} id="other"></${figure}>`);
+  await showPage(page, `<${figureName} id="translated"></${figureName}><${figureName} id="other"></${figureName}>`);
   const [translated, other] = ['#translated', '#other'].map((id) => page.locator(id));
-  const { slider, values } = FIGURE_FACTS[figure];
+  const { sliderId, sliderValues } = FIGURE_FACTS[figureName];
   const texts = async () => {
     await waitForFrames(page);
     return Promise.all([translated, other].map((widget) => widget.locator('.simulation').evaluate((simulation) => simulation.textContent)));
@@ -210,9 +210,9 @@ test('a page translator that replaces every text freezes none @nightly', async (
       text.replaceWith(font);
     }
   });
-  for (const value of values) {
+  for (const value of sliderValues) {
     const textsBefore = await texts();
-    for (const widget of [translated, other]) await widget.locator(`#${slider}`).fill(String(value));
+    for (const widget of [translated, other]) await widget.locator(`#${sliderId}`).fill(String(value));
     for (const widget of [translated, other]) await untilSettled(widget);
     const [translatedText, otherText] = await texts();
     expect(otherText).not.toBe(textsBefore[1]);

@@ -26,7 +26,7 @@ export async function openSqueeze(page, attributes = '') {
 }
 
 /** Returns the results of the simulation after the next frames. @param {Locator} widget */
-export async function squeezeResults(widget) {
+export async function squeezeResultsOf(widget) {
   await waitForFrames(widget.page());
   const { plan: { bounds, walls }, poses, verdicts, ...others } = await widget.evaluate((element) => {
     const { config, shown, stats, startFree, openPlace, plan, poses, verdicts } = /** @type {MapSqueezeElement} */ (element).simulation;
@@ -36,13 +36,13 @@ export async function squeezeResults(widget) {
 }
 
 /** Returns a file to choose. @param {string} name @param {string | Uint8Array} contents @returns {MapFile} */
-export function mapFile(name, contents) {
+export function makeMapFile(name, contents) {
   return { name, mimeType: 'application/octet-stream', buffer: Buffer.from(contents) };
 }
 
 /** Returns the YAML file of a map. @param {string} name @param {Record<string, unknown>} fields */
-export function yamlFile(name, fields) {
-  return mapFile(name, Object.entries(fields).map(([key, value]) => `${key}: ${value}\n`).join(''));
+export function makeYamlFile(name, fields) {
+  return makeMapFile(name, Object.entries(fields).map(([key, value]) => `${key}: ${value}\n`).join(''));
 }
 
 /**
@@ -53,10 +53,10 @@ export function yamlFile(name, fields) {
  * @param {number} rows
  * @param {CellTest} isBlack
  */
-export function pgmFile(name, columns, rows, isBlack) {
+export function makePgmFile(name, columns, rows, isBlack) {
   const pixels = Buffer.from(Array.from({ length: columns * rows }, (_, i) => (isBlack(i % columns, Math.floor(i / columns)) ? 0 : 254)));
   const header = `P5\n# by hand\n${columns} ${rows}\n# and another comment\n255\n`;
-  return mapFile(name, Buffer.concat([Buffer.from(header), pixels]));
+  return makeMapFile(name, Buffer.concat([Buffer.from(header), pixels]));
 }
 
 /**
@@ -67,10 +67,10 @@ export function pgmFile(name, columns, rows, isBlack) {
  * @param {number} rows
  * @param {CellTest} isTransparent
  */
-export function pngFile(name, columns, rows, isTransparent) {
-  const sample = (/** @type {number} */ column, /** @type {number} */ row, /** @type {number} */ channel) => {
+export function makePngFile(name, columns, rows, isTransparent) {
+  const channelValueAt = (/** @type {number} */ column, /** @type {number} */ row, /** @type {number} */ channel) => {
     if (channel === 0) return 254;
     return isTransparent(column, row) ? 0 : 255;
   };
-  return mapFile(name, pngOf({ width: columns, height: rows, opacity: true, sample }));
+  return makeMapFile(name, pngOf({ width: columns, height: rows, opacity: true, sample: channelValueAt }));
 }

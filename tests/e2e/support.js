@@ -19,10 +19,10 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureFor } from './figures
  */
 
 /**
- * Fixtures: names of the elements on which a test about all figures, all clouds or all handles runs (its title decides), and whether the
- * session has seen the introduction that a figure shows on the first visit.
+ * Fixtures. The first three are names of the element on which a test about all figures, all clouds or all handles runs; the test's title
+ * decides. With the last one, the page behaves as if the user had seen the introduction that a figure shows on the first visit.
  *
- * @typedef {{ figure: Name, cloud: Name, handled: Name, introduced: boolean }} FigureFixtures
+ * @typedef {{ figureName: Name, cloudFigureName: Name, handleFigureName: Name, isIntroductionSkipped: boolean }} FigureFixtures
  */
 
 /**
@@ -32,13 +32,13 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureFor } from './figures
  */
 export const test = playwrightTest.extend({
   /* oxlint-disable no-empty-pattern */
-  figure: async ({}, use, { title }) => use(figureFor(title)),
-  cloud: async ({}, use, { title }) => use(figureFor(title, CLOUD_NAMES)),
-  handled: async ({}, use, { title }) => use(figureFor(title, NAMES_WITH_HANDLES)),
+  figureName: async ({}, use, { title }) => use(figureFor(title)),
+  cloudFigureName: async ({}, use, { title }) => use(figureFor(title, CLOUD_NAMES)),
+  handleFigureName: async ({}, use, { title }) => use(figureFor(title, NAMES_WITH_HANDLES)),
   /* oxlint-enable no-empty-pattern */
-  introduced: [true, { option: true }],
-  page: async ({ page, introduced }, use) => {
-    if (introduced) await page.addInitScript(skipIntroduction);
+  isIntroductionSkipped: [true, { option: true }],
+  page: async ({ page, isIntroductionSkipped }, use) => {
+    if (isIntroductionSkipped) await page.addInitScript(skipIntroduction);
     /** @type {string[]} */
     const consoleMessages = [];
     page.on('console', (message) => {
@@ -51,14 +51,14 @@ export const test = playwrightTest.extend({
 });
 
 /**
- * Declares a test about all figures. The daily tests run it with one figure, which depends on the title, and nightly tests with each.
+ * Declares a test about all figures. Daily tests run it with one figure, chosen by the title. Nightly tests run it with each figure.
  *
  * @param {string} title
  * @param {(page: Page, name: Name, isFull: boolean) => Promise<void>} testBody body of the test; `isFull` is true in nightly tests
  * @param {{ tag?: string }} [details]
  */
 export function testEach(title, testBody, details = {}) {
-  test(title, details, ({ page, figure }) => testBody(page, figure, false));
+  test(title, details, ({ page, figureName }) => testBody(page, figureName, false));
   for (const name of ALL_NAMES) {
     test(`${title}: ${name} @nightly`, details, ({ page }) => {
       test.slow();
@@ -100,9 +100,9 @@ export async function showPage(page, body, { head = '', fragment = '', script = 
         const { message = '' } = /** @type {ErrorEvent} */ (event);
         // With a listener that handles errors, the figure prints no warning.
         event.preventDefault();
-        const value = /** @type {AnyElement} */ (target).v;
-        firedEvents.push({ name, target: target.localName, message, path: event.composedPath().length, value });
-        // Errors do not bubble.
+        const speed = /** @type {AnyElement} */ (target).v;
+        firedEvents.push({ name, target: target.localName, message, path: event.composedPath().length, value: speed });
+        // Error events do not bubble.
       }, { capture: name === 'error' });
     }
   });
@@ -157,6 +157,8 @@ export function propertyOf(widget, name) {
 }
 
 /**
+ * Sets a property of a figure.
+ *
  * @param {Locator} widget
  * @param {string} name
  * @param {unknown} value
@@ -166,10 +168,10 @@ export function setProperty(widget, name, value) {
   return widget.evaluate(
     (element, [key, newValue]) => {
       let errorText = '';
-      const listen = (/** @type {Event} */ event) => void (errorText = String(/** @type {ErrorEvent} */ (event).error));
-      element.addEventListener('error', listen);
+      const recordError = (/** @type {Event} */ event) => void (errorText = String(/** @type {ErrorEvent} */ (event).error));
+      element.addEventListener('error', recordError);
       Reflect.set(element, /** @type {string} */ (key), newValue);
-      element.removeEventListener('error', listen);
+      element.removeEventListener('error', recordError);
       return errorText;
     },
     [name, value],
@@ -192,7 +194,7 @@ export function playSlider(widget, key, maxSteps = Infinity) {
         const button = /** @type {HTMLButtonElement} */ (figure.shadowRoot?.querySelector(`.${key} button`));
         const values = /** @type {number[]} */ ([]);
         let label = '';
-        const listen = async () => {
+        const recordStep = async () => {
           values.push(/** @type {any} */ (figure.getState())[key]);
           if (values.length === 1) {
             await /** @type {any} */ (figure).updateComplete;
@@ -200,9 +202,9 @@ export function playSlider(widget, key, maxSteps = Infinity) {
           }
           if (values.length === maxSteps) button.click();
         };
-        figure.addEventListener('input', listen);
+        figure.addEventListener('input', recordStep);
         figure.addEventListener('change', () => {
-          figure.removeEventListener('input', listen);
+          figure.removeEventListener('input', recordStep);
           resolve({ values, label });
         }, { once: true });
         button.click();
@@ -211,7 +213,7 @@ export function playSlider(widget, key, maxSteps = Infinity) {
   );
 }
 
-/** @param {Locator} widget */
+/** Returns the state of a figure. @param {Locator} widget */
 export function stateOf(widget) {
   return widget.evaluate((element) => /** @type {AnyElement} */ (element).getState());
 }
@@ -224,7 +226,7 @@ export async function openBanana(page, attributes = '') {
 /**
  * Pauses the first figure with this name after one step of its cloud's growth. The code runs in the page, because a test could be too late.
  *
- * @param {Page} page that is opened after this
+ * @param {Page} page which is opened later
  * @param {string} name of the widget
  */
 export async function pauseEarly(page, name) {
@@ -265,7 +267,7 @@ export async function waitForFrames(page) {
 }
 
 /** Returns results of a Banana Machine after the next frames, without its many poses. @param {Locator} widget */
-export async function bananaResults(widget) {
+export async function bananaResultsOf(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
     const { config, shown, stats, table, contours } = /** @type {BananaMachineElement} */ (element).simulation;
@@ -289,33 +291,33 @@ export async function setSliders(widget, values) {
  * Drags a slider's thumb with the mouse.
  *
  * @param {Locator} slider
- * @param {number} to position at which the thumb is released, as a fraction of the range
+ * @param {number} endShare position at which the thumb is released, as a fraction of the range
  */
-export async function dragSlider(slider, to) {
+export async function dragSlider(slider, endShare) {
   const page = slider.page();
   await slider.scrollIntoViewIfNeeded();
   const { x, y, width, height } = await boxOf(slider);
-  const from = await slider.evaluate((element) => {
+  const startShare = await slider.evaluate((element) => {
     const { value, min, max } = /** @type {HTMLInputElement} */ (element);
     return (Number(value) - Number(min)) / (Number(max) - Number(min));
   });
   // The centre of the thumb moves over the width of the input minus the width of the thumb.
-  const pixelAt = (/** @type {number} */ share) => x + height * 0.3 + share * (width - height * 0.6);
-  await page.mouse.move(pixelAt(from), y + height / 2);
+  const xAtShare = (/** @type {number} */ share) => x + height * 0.3 + share * (width - height * 0.6);
+  await page.mouse.move(xAtShare(startShare), y + height / 2);
   await page.mouse.down();
-  await page.mouse.move(pixelAt((from + to) / 2), y + height / 2, { steps: 4 });
-  await page.mouse.move(pixelAt(to), y + height / 2, { steps: 4 });
+  await page.mouse.move(xAtShare((startShare + endShare) / 2), y + height / 2, { steps: 4 });
+  await page.mouse.move(xAtShare(endShare), y + height / 2, { steps: 4 });
   await page.mouse.up();
 }
 
-/** @param {Locator} locator */
+/** Returns the bounding box of an element. @param {Locator} locator */
 export async function boxOf(locator) {
   const box = await locator.boundingBox();
   if (!box) throw new Error('It is not on the page.');
   return box;
 }
 
-/** @param {Locator} locator */
+/** Returns the centre of an element. @param {Locator} locator */
 export async function centreOf(locator) {
   const { x, y, width, height } = await boxOf(locator);
   return { x: x + width / 2, y: y + height / 2 };
@@ -336,14 +338,14 @@ export async function pictureOf(canvas) {
 export async function pixelCountOf(canvas, role) {
   await waitForFrames(canvas.page());
   return canvas.evaluate((element, name) => {
-    const target = /** @type {HTMLCanvasElement} */ (element);
+    const sourceCanvas = /** @type {HTMLCanvasElement} */ (element);
     const colorProbe = document.createElement('span');
-    // In forced colours the roles keep their hues too.
+    // Roles keep their hues in forced colours too.
     colorProbe.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
-    target.after(colorProbe);
+    sourceCanvas.after(colorProbe);
     const pixelCopy = document.createElement('canvas');
-    pixelCopy.width = target.width;
-    pixelCopy.height = target.height;
+    pixelCopy.width = sourceCanvas.width;
+    pixelCopy.height = sourceCanvas.height;
     const context = /** @type {CanvasRenderingContext2D} */ (pixelCopy.getContext('2d', { willReadFrequently: true }));
     // The canvas converts colours of any notation to numbers.
     context.fillStyle = getComputedStyle(colorProbe).color;
@@ -351,12 +353,12 @@ export async function pixelCountOf(canvas, role) {
     context.fillRect(0, 0, 1, 1);
     const roleColor = context.getImageData(0, 0, 1, 1).data.slice(0, 3);
     context.clearRect(0, 0, 1, 1);
-    context.drawImage(target, 0, 0);
+    context.drawImage(sourceCanvas, 0, 0);
     const { data } = context.getImageData(0, 0, pixelCopy.width, pixelCopy.height);
     let count = 0;
     for (let i = 0; i < data.length; i += 4) {
-      const difference = Math.max(...[...roleColor].map((channel, k) => Math.abs(channel - data[i + k])));
-      if (data[i + 3] > 250 && difference < 8) count++;
+      const channelDifference = Math.max(...[...roleColor].map((channel, k) => Math.abs(channel - data[i + k])));
+      if (data[i + 3] > 250 && channelDifference < 8) count++;
     }
     return count;
   }, role);
@@ -378,12 +380,12 @@ export function dropFiles(part, files) {
     (target, newFiles) => {
       const dataTransfer = new DataTransfer();
       for (const { name, bytes } of newFiles) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
-      const event = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
-      const [over, dropFiles] = [event('dragover'), event('drop')];
-      target.dispatchEvent(over);
-      if (!over.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
-      target.dispatchEvent(dropFiles);
-      if (!dropFiles.defaultPrevented) throw new Error('The browser takes the file.');
+      const dragEvent = (/** @type {string} */ name) => new DragEvent(name, { dataTransfer, bubbles: true, composed: true, cancelable: true });
+      const [overEvent, dropEvent] = [dragEvent('dragover'), dragEvent('drop')];
+      target.dispatchEvent(overEvent);
+      if (!overEvent.defaultPrevented || !target.closest('.dropping')) throw new Error('It does not take files.');
+      target.dispatchEvent(dropEvent);
+      if (!dropEvent.defaultPrevented) throw new Error('The browser takes the file.');
       if (target.closest('.dropping')) throw new Error('It is still marked.');
     },
     files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
@@ -405,7 +407,7 @@ export async function openBananaWithDisclosures(page, attributes = '') {
   return widget;
 }
 
-/** Returns a number that a widget prints. @param {string | null} text */
+/** Parses a number in the notation of the widgets. @param {string | null} text */
 export function numberIn(text) {
   const [mantissa, power = '0'] = (text ?? '').replace('\u2212', '-').replace(/[\u202f%]/g, '').split('·10');
   const exponent = power.replace('⁻', '-').replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => String('⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)));

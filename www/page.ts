@@ -1,6 +1,6 @@
 /**
  * Script of the page around the figures: buttons that set the state of a figure, terms that highlight a line in its picture,
- * predictions, and the contents list.
+ * and predictions.
  *
  * @module
  */
@@ -39,8 +39,7 @@ async function enterTriedState(button: HTMLElement) {
   for (const triedButton of button.closest('article')?.querySelectorAll('[data-try]') ?? []) triedButton.removeAttribute('aria-current');
   await enterState(figure, JSON.parse(button.dataset.try ?? '{}'));
   button.setAttribute('aria-current', 'true');
-  const unmarkButton = () => button.removeAttribute('aria-current');
-  figure.addEventListener('input', unmarkButton, { once: true });
+  figure.addEventListener('input', () => button.removeAttribute('aria-current'), { once: true });
 }
 
 /** Highlights the line that a term names while the pointer or the focus is on the term. */
@@ -60,20 +59,6 @@ function keepPicturesInSight() {
   for (const tryList of document.querySelectorAll('.try')) observer.observe(tryList);
 }
 
-/** Marks the section in sight in the contents list. */
-function markSectionInSight() {
-  const links = new Map(
-    [...document.querySelectorAll('nav a[href^="#"]')].map((link) => [document.querySelector(link.getAttribute('href') ?? ''), link]),
-  );
-  const observer = new IntersectionObserver(
-    (entries) => {
-      for (const { target, isIntersecting } of entries) links.get(target)?.toggleAttribute('data-here', isIntersecting);
-    },
-    { rootMargin: '-45% 0% -55%' },
-  );
-  for (const section of links.keys()) if (section) observer.observe(section);
-}
-
 document.addEventListener('load', ({ target }) => {
   const figure = target as Figure;
   if (figure.getState && !openingStates.has(figure)) openingStates.set(figure, figure.getState());
@@ -84,5 +69,4 @@ document.addEventListener('click', ({ target }) => {
 });
 for (const type of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(type, highlightTerm);
 for (const form of document.querySelectorAll('form')) (form.matches('.sketch') ? prepareSketch : prepareBet)(form, (values) => enterState(figureOf(form), values), figureOf(form));
-markSectionInSight();
 keepPicturesInSight();

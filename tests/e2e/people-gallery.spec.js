@@ -100,7 +100,7 @@ for (const [width, height] of [[1280, 720], [375, 760]]) {
     await page.goto('/');
     const article = page.locator('#banana');
     await untilReady(article.locator('banana-machine'));
-    const [heading, stand] = [await boxOf(article.locator('header')), await boxOf(article.locator('.stand'))];
+    const [heading, stand] = [await boxOf(article.locator('.lead')), await boxOf(article.locator('.stand'))];
     expect(stand.y).toBeGreaterThanOrEqual(heading.y + heading.height);
     await article.getByRole('button', { name: 'Odometry model' }).evaluate((button) => button.scrollIntoView({ block: 'end' }));
     await waitForFrames(page);

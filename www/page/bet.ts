@@ -6,11 +6,12 @@ import type { Figure } from '../page.ts';
 const numberAtPath = (stats: Record<string, any>, path: string): number | null => path.split('.').reduce((part: any, key) => part?.[key], stats) ?? null;
 
 /**
- * Prepares a form with one slider. `enterState` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in `stats`,
+ * Completes a form with one slider. `enterState` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in `stats`,
  * and `data-hides` the overlay that shows it, which is hidden while the user bets.
  */
 export function prepareBet(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
   const { try: values = '{}', answer: answerPath = '', unit = '', hides: hiddenOverlay } = form.dataset;
+  form.insertAdjacentHTML('beforeend', '<span class="value" aria-hidden="true"></span> <button disabled>Reveal</button><p role="status"></p>');
   const slider = form.querySelector('input') as HTMLInputElement;
   const valueOutput = form.querySelector('.value') as HTMLElement;
   const submitButton = form.querySelector('button') as HTMLButtonElement;
@@ -21,7 +22,6 @@ export function prepareBet(form: HTMLFormElement, enterState: (values: Record<st
   const showValue = () => (slider.ariaValueText = valueOutput.textContent = formatValue(slider.valueAsNumber));
 
   // A bet is made by moving the slider.
-  submitButton.disabled = true;
   slider.addEventListener('input', () => {
     submitButton.disabled = false;
     showValue();
@@ -37,7 +37,6 @@ export function prepareBet(form: HTMLFormElement, enterState: (values: Record<st
     await figure.settled;
     const number = numberAtPath(figure.stats, answerPath);
     const actualValue = number === null ? null : isPercent ? 100 * number : number;
-    form.style.setProperty('--bet', String((slider.valueAsNumber - min) / (max - min)));
     form.style.setProperty('--truth', String(((actualValue ?? max) - min) / (max - min)));
     form.classList.add('revealed');
     answerOutput.textContent = `Your bet: ${formatValue(slider.valueAsNumber)}. The figure’s answer, ▲:\u00a0${actualValue === null ? 'never' : formatValue(actualValue)}.`;

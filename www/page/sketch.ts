@@ -1,6 +1,6 @@
 /** Sketch of a cloud: the user draws the expected cloud, and the robots of the figure then appear below the drawing. */
 
-import { deviation } from 'd3-array';
+import { deviation, extent } from 'd3-array';
 import type { Figure } from '../page.ts';
 
 /** Point in metres on the floor, or in pixels of the pad. */
@@ -47,11 +47,12 @@ const ringAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
 /** Maximum size in pixels of a drawing that stands for a point. */
 const POINT_SIZE = 25;
 
-const extentAlong = (points: Point[], axis: number) => Math.max(...points.map((point) => point[axis])) - Math.min(...points.map((point) => point[axis]));
-
 /** Returns the shape that a drawing stands for: a point, or any other. */
 function shapeOf(points: Point[]): string {
-  const isLargerThanPoint = [0, 1].some((axis) => extentAlong(points, axis) > POINT_SIZE);
+  const isLargerThanPoint = [0, 1].some((axis) => {
+    const [min, max] = extent(points, (point) => point[axis]) as [number, number];
+    return max - min > POINT_SIZE;
+  });
   return isLargerThanPoint ? 'drawing' : 'point';
 }
 

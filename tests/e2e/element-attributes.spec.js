@@ -54,13 +54,13 @@ test('attributes stay as written until a setting changes, and then reflect it', 
     widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
   expect(await attributesOf(banana)).toEqual({ preset: 'hard', seed: '3' });
   // Reflected values of the preset "hard", which no longer applies.
-  const alphas = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
+  const alphaAttributes = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
   await banana.locator('#v').fill('0.5');
   await waitForFrames(page);
-  expect(await attributesOf(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphas });
+  expect(await attributesOf(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphaAttributes });
   await banana.getByRole('button', { name: 'Pivot' }).click();
   await waitForFrames(page);
-  expect(await attributesOf(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphas });
+  expect(await attributesOf(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphaAttributes });
   await banana.getByLabel('Isolate one').check();
   await banana.getByRole('checkbox', { name: 'linearized' }).check();
   await waitForFrames(page);
@@ -87,41 +87,41 @@ test('boolean attributes may be empty or "true", and lists may have any space @n
   expect(await propertyOf(banana, 'overlays')).toEqual([]);
   await squeeze.scrollIntoViewIfNeeded();
   await untilReady(squeeze);
-  for (const [text, value] of /** @type {const} */ ([['false', false], ['true', true], ['false', false], ['', true]])) {
-    await squeeze.evaluate((element, value) => element.setAttribute('conditioned', value), text);
-    expect(await propertyOf(squeeze, 'conditioned')).toBe(value);
+  for (const [attributeText, expectedValue] of /** @type {const} */ ([['false', false], ['true', true], ['false', false], ['', true]])) {
+    await squeeze.evaluate((element, value) => element.setAttribute('conditioned', value), attributeText);
+    expect(await propertyOf(squeeze, 'conditioned')).toBe(expectedValue);
   }
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
 test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figureName }) => {
   const widget = await mount(page, figureName);
-  const { sliderId, sliderValues: [first, second] } = FIGURE_FACTS[figureName];
+  const { sliderId, sliderValues: [firstValue, secondValue] } = FIGURE_FACTS[figureName];
   const defaultValue = await propertyOf(widget, sliderId);
-  await widget.locator(`#${sliderId}`).fill(String(first));
-  await expect(widget).toHaveAttribute(sliderId, String(first));
-  expect(await propertyOf(widget, sliderId)).toBe(first);
-  await widget.evaluate((element, [key, value]) => element.setAttribute(key, value), [sliderId, String(second)]);
-  expect(await propertyOf(widget, sliderId)).toBe(second);
-  await expect(widget.locator(`#${sliderId}`)).toHaveValue(String(second));
+  await widget.locator(`#${sliderId}`).fill(String(firstValue));
+  await expect(widget).toHaveAttribute(sliderId, String(firstValue));
+  expect(await propertyOf(widget, sliderId)).toBe(firstValue);
+  await widget.evaluate((element, [key, value]) => element.setAttribute(key, value), [sliderId, String(secondValue)]);
+  expect(await propertyOf(widget, sliderId)).toBe(secondValue);
+  await expect(widget.locator(`#${sliderId}`)).toHaveValue(String(secondValue));
   await widget.evaluate((element, key) => element.setAttribute(key, 'fast'), sliderId);
   expect((await takeEvents(page, ['error'])).map(({ message }) => message).join()).toMatch(/ is "fast"; allowed is a (whole )?number/);
-  expect(await propertyOf(widget, sliderId)).toBe(second);
+  expect(await propertyOf(widget, sliderId)).toBe(secondValue);
   await widget.evaluate((element, key) => element.removeAttribute(key), sliderId);
   expect(await propertyOf(widget, sliderId)).toBe(defaultValue);
 });
 
 test('attributes that are refused are reported in the words of the core, and the last good value stays', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { attributes: 'v="fast" omega="0.7" model="walking" samples="0" overlays="ellipse stars"' });
-  const errors = (await takeEvents(page, ['error'])).map(({ message }) => message);
-  expect(errors).toEqual([
+  const errorMessages = (await takeEvents(page, ['error'])).map(({ message }) => message);
+  expect(errorMessages).toEqual([
     'model is "walking"; allowed is "velocity" or "odometry"',
     'command.v is "fast"; allowed is a number',
     'samples is 0; allowed is a whole number from 1 to 10000000',
     'overlays[1] is "stars"; allowed is "command" or "ellipse" or "exponential" or "linearized" or "additive"',
   ]);
-  const propertyValues = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => propertyOf(widget, name)));
-  expect(await propertyValues()).toEqual([1, 0.7, 'velocity', 50000]);
+  const readProperties = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => propertyOf(widget, name)));
+  expect(await readProperties()).toEqual([1, 0.7, 'velocity', 50000]);
   // A blank attribute is neither a number nor zero.
   await widget.evaluate((element) => element.setAttribute('omega', ' '));
   expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
@@ -129,14 +129,14 @@ test('attributes that are refused are reported in the words of the core, and the
   await widget.evaluate((element) => element.setAttribute('dt', '3'));
   expect(await propertyOf(widget, 'dt')).toBe(3);
   await widget.getByRole('button', { name: 'Pivot' }).click();
-  expect(await propertyValues()).toEqual([0.06, 1.5, 'velocity', 50000]);
+  expect(await readProperties()).toEqual([0.06, 1.5, 'velocity', 50000]);
 });
 
 test('elements in the table of doc/embedding/figures.md have the attributes that it shows', async ({ page, figureName }) => {
-  const document = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
-  const examples = [...document.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
-  expect(new Set(examples.map(({ name }) => name)).size).toBe(ALL_NAMES.length);
-  await showPage(page, examples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));
+  const markdown = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
+  const tableExamples = [...markdown.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
+  expect(new Set(tableExamples.map(({ name }) => name)).size).toBe(ALL_NAMES.length);
+  await showPage(page, tableExamples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));
   const unknownAttributes = await page.locator('.example').evaluateAll((exampleElements) => exampleElements.flatMap(({ attributes, constructor }) =>
     [...attributes].map(({ name }) => name).filter((name) => name !== 'class' && !Reflect.get(constructor, 'observedAttributes').includes(name))));
   expect(unknownAttributes).toEqual([]);
@@ -148,37 +148,37 @@ test('elements in the table of doc/embedding/figures.md have the attributes that
 });
 
 /** Values of state fields that no attribute can set, or that one attribute sets together. */
-const WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
+const VALUES_WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
 
 testEach('code to embed opens the settings of a state, with its attributes in any order', async (page, name, isFull) => {
   await showPage(page, `<${name}></${name}>`);
   const widget = page.locator(name).first();
   await untilReady(widget);
   for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
-    const state = { ...randomStates(seed)[name], ...Reflect.get(WITHOUT_ATTRIBUTES, name) };
-    const [original, ...copies] = await widget.evaluate(async (element, newState) => {
+    const state = { ...randomStates(seed)[name], ...Reflect.get(VALUES_WITHOUT_ATTRIBUTES, name) };
+    const [originalConfig, ...copiedConfigs] = await widget.evaluate(async (element, newState) => {
       /** @type {any} */ (element).setState(newState);
-      const template = document.createElement('div');
-      template.innerHTML = /** @type {AnyElement} */ (element).embedCode().split('\n')[1];
-      const [embedded] = template.children;
+      const codeContainer = document.createElement('div');
+      codeContainer.innerHTML = /** @type {AnyElement} */ (element).embedCode().split('\n')[1];
+      const [embeddedCopy] = codeContainer.children;
       const reorderedCopy = document.createElement(element.localName);
-      for (const { name, value } of [...embedded.attributes].reverse()) reorderedCopy.setAttribute(name, value);
-      const boxes = [embedded, reorderedCopy].map((copy) => {
-        const box = document.createElement('div');
-        box.style.cssText = 'position: fixed; inset: 0';
-        box.append(copy);
-        return box;
+      for (const { name, value } of [...embeddedCopy.attributes].reverse()) reorderedCopy.setAttribute(name, value);
+      const containers = [embeddedCopy, reorderedCopy].map((copy) => {
+        const container = document.createElement('div');
+        container.style.cssText = 'position: fixed; inset: 0';
+        container.append(copy);
+        return container;
       });
-      const loadPromises = [embedded, reorderedCopy].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
-      element.before(...boxes);
+      const loadPromises = [embeddedCopy, reorderedCopy].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
+      element.before(...containers);
       await Promise.all(loadPromises);
       // A log is fitted in the frames after the state.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
-      const configs = [element, embedded, reorderedCopy].map((figure) => /** @type {AnyElement} */ (figure).simulation.config);
-      for (const box of boxes) box.remove();
+      const configs = [element, embeddedCopy, reorderedCopy].map((figure) => /** @type {AnyElement} */ (figure).simulation.config);
+      for (const container of containers) container.remove();
       return configs;
     }, /** @type {any} */ (state));
-    for (const copy of copies) expect(copy, `seed ${seed}`).toEqual(original);
+    for (const copiedConfig of copiedConfigs) expect(copiedConfig, `seed ${seed}`).toEqual(originalConfig);
   }
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
@@ -186,12 +186,12 @@ testEach('code to embed opens the settings of a state, with its attributes in an
 test('a list that is written as text is taken up, and other text is reported', async ({ page }) => {
   await showPage(page, '');
   const errorMessage = await page.evaluate(async () => {
-    const box = document.createElement('div');
-    document.body.prepend(box);
+    const container = document.createElement('div');
+    document.body.prepend(container);
     /** @type {Promise<string>} */
-    const message = new Promise((resolve) => box.addEventListener('error', ({ message }) => resolve(message), true));
-    box.innerHTML = '<banana-machine alphas="0.1,0.2,0.1,0.1,0,0" command="[object Object]"></banana-machine><arc-anatomy alphas="[0.1, 0.2, 0.1, 0.1, 0, 0]"></arc-anatomy>';
-    return message;
+    const messagePromise = new Promise((resolve) => container.addEventListener('error', ({ message }) => resolve(message), true));
+    container.innerHTML = '<banana-machine alphas="0.1,0.2,0.1,0.1,0,0" command="[object Object]"></banana-machine><arc-anatomy alphas="[0.1, 0.2, 0.1, 0.1, 0, 0]"></arc-anatomy>';
+    return messagePromise;
   });
   expect(errorMessage).toMatch(/^command is "\[object Object\]"; allowed is an object/);
   for (const name of ['banana-machine', 'arc-anatomy']) await expect(page.locator(name)).toHaveJSProperty('alphas', [0.1, 0.2, 0.1, 0.1, 0, 0]);
@@ -201,26 +201,26 @@ test('properties that were set before the element was defined are taken up, in a
   await showPage(page, '', { script: '' });
   const propertyValues = await page.evaluate(async () => {
     const map = { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] };
-    const cases = /** @type {[string, Record<string, unknown>, string[]][]} */ ([
+    const propertyCases = /** @type {[string, Record<string, unknown>, string[]][]} */ ([
       ['banana-machine', { v: 3, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0], overlays: ['ellipse'], theme: 'dark' }, ['v', 'alphas', 'overlays', 'theme']],
       ['banana-machine', { omega: 0.7, preset: 'hard', alpha2: 0.3, alphas: [0.1, 0.1, 0.1, 0.1], model: 'odometry' }, ['omega', 'v', 'dt', 'alphas']],
       ['banana-machine', { marked: 60_000, samples: 70_000 }, ['marked', 'samples']],
       ['dead-reckoning', { step: 30, steps: 40 }, ['step', 'steps']],
       ['map-squeeze', { marked: 3, start: { x: 3, y: 1, theta: 0 }, map }, ['marked', 'start']],
     ]);
-    const figures = cases.flatMap(([tag, values]) => [Object.entries(values), Object.entries(values).reverse()].map((entries) =>
+    const figures = propertyCases.flatMap(([tag, values]) => [Object.entries(values), Object.entries(values).reverse()].map((entries) =>
       Object.assign(document.createElement(tag), Object.fromEntries(entries))));
     const loadPromises = figures.map((figure) => new Promise((resolve) => figure.addEventListener('load', resolve)));
     await import(/** @type {any} */ ('/motion-widgets.js'));
     document.body.append(...figures.map((figure) => {
-      const box = document.createElement('div');
-      box.style.cssText = 'position: fixed; inset: 0';
-      box.append(figure);
-      return box;
+      const container = document.createElement('div');
+      container.style.cssText = 'position: fixed; inset: 0';
+      container.append(figure);
+      return container;
     }));
     await Promise.all(loadPromises);
-    const names = cases.flatMap(([, , checkedNames]) => [checkedNames, checkedNames]);
-    return figures.map((figure, i) => names[i].map((name) => Reflect.get(figure, name)));
+    const namesByFigure = propertyCases.flatMap(([, , checkedNames]) => [checkedNames, checkedNames]);
+    return figures.map((figure, i) => namesByFigure[i].map((name) => Reflect.get(figure, name)));
   });
   const twice = (/** @type {unknown[]} */ values) => [values, values];
   expect(propertyValues).toEqual([
@@ -237,14 +237,14 @@ test('properties that are assigned their own value change nothing @nightly', asy
   const widget = await mount(page, figureName);
   await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (randomStates(2)[figureName]));
   await takeEvents(page, ['stats']);
-  const count = await widget.evaluate((element, keys) => {
+  const assignedCount = await widget.evaluate((element, keys) => {
     const figure = /** @type {any} */ (element);
-    const names = keys.filter((key) => key in figure && key !== 'playing');
-    for (const key of names) figure[key] = structuredClone(figure[key]);
+    const propertyNames = keys.filter((key) => key in figure && key !== 'playing');
+    for (const key of propertyNames) figure[key] = structuredClone(figure[key]);
     for (const { name, value } of [...element.attributes]) element.setAttribute(name, value);
-    return names.length;
+    return propertyNames.length;
   }, Object.keys(randomStates(2)[figureName]));
-  expect(count).toBeGreaterThan(6);
+  expect(assignedCount).toBeGreaterThan(6);
   expect(await takeEvents(page, ['stats', 'error', 'input', 'change'])).toEqual([]);
 });
 
@@ -252,9 +252,9 @@ test('properties take effect at once and reflect, and those that a model lacks a
   const widget = await mount(page, 'banana-machine');
   expect(await setProperty(widget, 'omega', 1.1)).toBe('');
   expect(await widget.getAttribute('omega')).toBe('1.1');
-  const turn = await widget.evaluate((element) => /** @type {AnyElement} */ (element).stats?.exponential.mean[2]);
+  const meanTurn = await widget.evaluate((element) => /** @type {AnyElement} */ (element).stats?.exponential.mean[2]);
   const { dt } = await widget.evaluate((element) => /** @type {AnyElement} */ (element).getState().command);
-  expect(turn).toBeCloseTo(1.1 * dt, 1);
+  expect(meanTurn).toBeCloseTo(1.1 * dt, 1);
   expect(await setProperty(widget, 'model', 'odometry')).toBe('');
   expect(await propertyOf(widget, 'alpha5')).toBe(null);
   expect(await setProperty(widget, 'alpha5', 0.1)).toContain('alpha5 is 0.1; allowed is none');
@@ -262,21 +262,21 @@ test('properties take effect at once and reflect, and those that a model lacks a
 
 test('properties that are refused fire an error event that does not bubble, and warn in the console if nobody listens', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
-  const messages = await widget.evaluate((element) => {
-    const messages = /** @type {string[]} */ ([]);
-    for (const target of [window, document, document.body]) target.addEventListener('error', () => messages.push('above'));
-    element.addEventListener('error', (event) => messages.push(/** @type {ErrorEvent} */ (event).message));
+  const firedMessages = await widget.evaluate((element) => {
+    const firedMessages = /** @type {string[]} */ ([]);
+    for (const target of [window, document, document.body]) target.addEventListener('error', () => firedMessages.push('above'));
+    element.addEventListener('error', (event) => firedMessages.push(/** @type {ErrorEvent} */ (event).message));
     Object.assign(element, { omega: NaN });
-    return messages;
+    return firedMessages;
   });
-  expect(messages).toEqual(['command.omega is NaN; allowed is a number from -1000000 to 1000000']);
+  expect(firedMessages).toEqual(['command.omega is NaN; allowed is a number from -1000000 to 1000000']);
   // On a page without listeners, the error is printed as a warning.
   const otherPage = await page.context().newPage();
   await otherPage.goto('/embed.html?widget=banana-machine');
-  const warning = otherPage.waitForEvent('console', (message) => message.type() === 'warning');
+  const warningPromise = otherPage.waitForEvent('console', (message) => message.type() === 'warning');
   await otherPage.locator('banana-machine').evaluate((element) => Object.assign(element, { theme: 'sepia' }));
-  const message = await warning;
-  expect(message.text()).toContain('theme is "sepia"; allowed is "auto" or "light" or "dark"');
-  expect(await message.args()[1].evaluate((element) => element.localName)).toBe('banana-machine');
+  const warning = await warningPromise;
+  expect(warning.text()).toContain('theme is "sepia"; allowed is "auto" or "light" or "dark"');
+  expect(await warning.args()[1].evaluate((element) => element.localName)).toBe('banana-machine');
   await otherPage.close();
 });

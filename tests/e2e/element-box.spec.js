@@ -8,8 +8,8 @@ test.use(REDUCED_MOTION);
 /** Preferred width of a figure in CSS pixels: see `preferredWidth`. */
 const PREFERRED_WIDTH = 44 * 16;
 
-/** Boxes whose width depends on their content, an X. @type {Record<string, string>} */
-const BOXES_BY_NAME = {
+/** HTML of containers in which the width of an element, the X, may depend on its contents. @type {Record<string, string>} */
+const CONTAINERS_BY_NAME = {
   block: 'X',
   'flex with auto margins': '<div style="display: flex"><X style="margin: auto"></X></div>',
   'flex row': '<div style="display: flex"><X></X></div>',
@@ -28,35 +28,35 @@ const BOXES_BY_NAME = {
 };
 
 test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', NEW_PAGE_TAG, async ({ page, figureName }) => {
-  const cases = Object.entries(BOXES_BY_NAME).map(([box, html]) => {
-    const example = html === 'X' ? '<X></X>' : html;
-    return `<section data-box="${box}" style="display: flow-root">${example.replace('<X', `<${figureName}`).replace('</X>', `</${figureName}>`)}</section>`;
+  const sections = Object.entries(CONTAINERS_BY_NAME).map(([box, html]) => {
+    const containerHtml = html === 'X' ? '<X></X>' : html;
+    return `<section data-box="${box}" style="display: flow-root">${containerHtml.replace('<X', `<${figureName}`).replace('</X>', `</${figureName}>`)}</section>`;
   });
   const head = '<link rel="stylesheet" href="/motion-widgets.css"><style>body { margin: 0; font: 16px/1.5 sans-serif }</style>';
-  const wrongWidths = async (/** @type {number} */ width) => {
+  const findWrongWidths = async (/** @type {number} */ width) => {
     await page.setViewportSize({ width, height: 900 });
     await waitForFrames(page);
-    const widths = await page.locator(figureName).evaluateAll((figureElements) =>
+    const figureWidths = await page.locator(figureName).evaluateAll((figureElements) =>
       figureElements.map((element) => [/** @type {HTMLElement} */ (element.closest('section')).dataset.box ?? '', element.getBoundingClientRect().width]));
-    expect(widths).toHaveLength(cases.length);
-    return widths.filter(([, figureWidth]) => Number(figureWidth) > width + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, width) - 0.5);
+    expect(figureWidths).toHaveLength(sections.length);
+    return figureWidths.filter(([, figureWidth]) => Number(figureWidth) > width + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, width) - 0.5);
   };
   for (const script of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
-    await showPage(page, cases.join(''), { head, script });
+    await showPage(page, sections.join(''), { head, script });
     if (script) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figureName);
-    for (const w of [320, 600, 1280]) expect.soft(await wrongWidths(w), `${script ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
+    for (const w of [320, 600, 1280]) expect.soft(await findWrongWidths(w), `${script ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
   }
 });
 
-/** Returns the boxes of all parts of a figure, in em. @param {Page} page @param {string} name @param {number} em CSS pixels */
-const boxesOf = (page, name, em) =>
+/** Returns the bounding boxes of all parts of a figure, in em. @param {Page} page @param {string} name @param {number} em CSS pixels */
+const partBoxesOf = (page, name, em) =>
   page.locator(name).evaluate(
     (element, size) => {
       const elementBox = element.getBoundingClientRect();
       return [...(element.shadowRoot?.querySelectorAll('.surface *') ?? [])].map((child) => {
         const { left, top, width, height } = child.getBoundingClientRect();
-        const numbers = [left - elementBox.left, top - elementBox.top, width, height].map((pixels) => pixels / size);
-        return { part: `${child.localName}.${child.getAttribute('class')}`, numbers };
+        const boxInEm = [left - elementBox.left, top - elementBox.top, width, height].map((pixels) => pixels / size);
+        return { part: `${child.localName}.${child.getAttribute('class')}`, numbers: boxInEm };
       });
     },
     em,
@@ -64,21 +64,21 @@ const boxesOf = (page, name, em) =>
 
 test('a figure is in proportion to the letters around it, whatever the font size of the root', async ({ page, figureName }) => {
   const layouts = [];
-  for (const [root, em] of [['100%', 16], ['62.5%', 24]]) {
+  for (const [rootFontSize, fontSize] of [['100%', 16], ['62.5%', 24]]) {
     await page.setViewportSize({ width: 1400, height: 2400 });
     await showPage(page, `<div style="width: 43.75em"><${figureName}></${figureName}></div>`, {
-      head: `<style>html { font-size: ${root} } body { margin: 0; font: ${em}px/1.5 Arial, 'Liberation Sans', 'Nimbus Sans', sans-serif }</style>`,
+      head: `<style>html { font-size: ${rootFontSize} } body { margin: 0; font: ${fontSize}px/1.5 Arial, 'Liberation Sans', 'Nimbus Sans', sans-serif }</style>`,
     });
     await untilReady(page.locator(figureName));
     await expect(page.locator(figureName).locator('.folds')).toBeVisible();
     await waitForFrames(page);
-    layouts.push({ root, em, boxes: await boxesOf(page, figureName, Number(em)) });
+    layouts.push({ root: rootFontSize, em: fontSize, boxes: await partBoxesOf(page, figureName, Number(fontSize)) });
   }
-  const [first, ...others] = layouts;
-  for (const { root, em, boxes } of others) {
-    expect(boxes.map(({ part }) => part)).toEqual(first.boxes.map(({ part }) => part));
+  const [firstLayout, ...otherLayouts] = layouts;
+  for (const { root, em, boxes } of otherLayouts) {
+    expect(boxes.map(({ part }) => part)).toEqual(firstLayout.boxes.map(({ part }) => part));
     // Browsers round the widths of letters to pixels, so that boxes differ by up to a quarter of the font size.
-    const differingBoxes = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - first.boxes[i].numbers[k]) > 0.25));
+    const differingBoxes = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - firstLayout.boxes[i].numbers[k]) > 0.25));
     expect(differingBoxes, `${em} px, root ${root}`).toEqual([]);
   }
 });
@@ -95,8 +95,8 @@ test('the picture of a figure stays in sight on a phone, below the header of the
   await waitForFrames(page);
   const { y, height } = await boxOf(picture);
   // The picture of the Banana Machine has a title with a verdict on the ellipse, which stays in sight too.
-  const highest = figureName === 'banana-machine' ? await boxOf(widget.locator('.panel-title').first()) : { y };
-  expect(highest.y).toBeCloseTo(56, 0);
+  const topmostBox = figureName === 'banana-machine' ? await boxOf(widget.locator('.panel-title').first()) : { y };
+  expect(topmostBox.y).toBeCloseTo(56, 0);
   expect((await boxOf(widget.locator('.slider input[type=range]').nth(1))).y).toBeGreaterThanOrEqual(y + height);
 });
 
@@ -149,9 +149,9 @@ test.describe('on a screen with two pixels a CSS pixel', () => {
     await showPage(page, `<${figureName}></${figureName}>`);
     const widget = page.locator(figureName);
     await untilReady(widget);
-    const ratios = await widget.locator('canvas:visible').evaluateAll((canvases) => canvases.map((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width / canvas.getBoundingClientRect().width));
-    expect(ratios.length).toBeGreaterThan(0);
-    for (const ratio of ratios) expect(ratio).toBeCloseTo(2, 1);
+    const pixelRatios = await widget.locator('canvas:visible').evaluateAll((canvases) => canvases.map((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width / canvas.getBoundingClientRect().width));
+    expect(pixelRatios.length).toBeGreaterThan(0);
+    for (const pixelRatio of pixelRatios) expect(pixelRatio).toBeCloseTo(2, 1);
   });
 });
 
@@ -168,22 +168,22 @@ const SLIDERS_BELOW_TEXTS = /** @type {const} */ ([
   ['banana-machine', 'en', 1280, 'alpha3', ['0.1', '0.05', '0.02', '0', '0.2']],
 ]);
 
-for (const [name, lang, width, slider, values] of SLIDERS_BELOW_TEXTS) {
-  test(`texts do not move the slider ${slider} while it is dragged, and do not overlap: ${name}, ${lang}, ${width} px @nightly`, async ({ page }) => {
+for (const [name, lang, width, sliderId, sliderValues] of SLIDERS_BELOW_TEXTS) {
+  test(`texts do not move the slider ${sliderId} while it is dragged, and do not overlap: ${name}, ${lang}, ${width} px @nightly`, async ({ page }) => {
     await page.setViewportSize({ width, height: 900 });
     const script = ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join('');
     const widget = await mount(page, name, { attributes: `lang="${lang}"`, script, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
-    const tops = [];
-    for (const value of values) {
-      await widget.locator(`#${slider}`).fill(value);
+    const sliderTops = [];
+    for (const sliderValue of sliderValues) {
+      await widget.locator(`#${sliderId}`).fill(sliderValue);
       await untilSettled(widget);
-      tops.push(await widget.locator(`#${slider}`).evaluate((element) => element.getBoundingClientRect().top + scrollY));
+      sliderTops.push(await widget.locator(`#${sliderId}`).evaluate((element) => element.getBoundingClientRect().top + scrollY));
     }
-    expect(Math.max(...tops) - Math.min(...tops)).toBeLessThan(0.5);
-    const texts = await widget.locator('.controls .slider > [for], .controls .slider .value, .controls button').evaluateAll((elements) =>
+    expect(Math.max(...sliderTops) - Math.min(...sliderTops)).toBeLessThan(0.5);
+    const textBoxes = await widget.locator('.controls .slider > [for], .controls .slider .value, .controls button').evaluateAll((elements) =>
       elements.map((element) => ({ text: element.textContent, box: element.getBoundingClientRect() })).filter(({ box }) => box.width > 0));
-    const overlaps = texts.flatMap((one, i) => texts.slice(i + 1).filter(({ box }) =>
+    const overlappingTexts = textBoxes.flatMap((one, i) => textBoxes.slice(i + 1).filter(({ box }) =>
       box.left < one.box.right - 1 && box.right - 1 > one.box.left && box.top < one.box.bottom - 1 && box.bottom - 1 > one.box.top).map((other) => [one.text, other.text]));
-    expect([texts.length > 3, overlaps]).toEqual([true, []]);
+    expect([textBoxes.length > 3, overlappingTexts]).toEqual([true, []]);
   });
 }

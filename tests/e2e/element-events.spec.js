@@ -8,13 +8,13 @@ import { REDUCED_MOTION, setProperty, boxOf, centreOf, dragSlider, waitForFrames
 test.use(REDUCED_MOTION);
 
 /** @param {{ name: string }[]} events */
-const namesOf = (events) => events.map(({ name }) => name);
+const eventNamesOf = (events) => events.map(({ name }) => name);
 
 test('a drag fires input at each step and one change at its end, composed, with the value', async ({ page }) => {
   await showPage(page, '<div id="host"></div>');
   await page.evaluate(() => {
-    const root = /** @type {Element} */ (document.querySelector('#host')).attachShadow({ mode: 'open' });
-    root.innerHTML = '<banana-machine></banana-machine>';
+    const shadowRoot = /** @type {Element} */ (document.querySelector('#host')).attachShadow({ mode: 'open' });
+    shadowRoot.innerHTML = '<banana-machine></banana-machine>';
     const recordedEvents = /** @type {unknown[]} */ ([]);
     Object.assign(window, { all: recordedEvents });
     for (const name of ['input', 'change', 'load', 'stats']) {
@@ -26,20 +26,20 @@ test('a drag fires input at each step and one change at its end, composed, with 
   });
   const widget = page.locator('banana-machine');
   await untilReady(widget);
-  const takeRecorded = () => page.evaluate(() => /** @type {unknown[][]} */ (Reflect.get(window, 'all')).splice(0));
-  const openingEvents = await takeRecorded();
+  const takeRecordedEvents = () => page.evaluate(() => /** @type {unknown[][]} */ (Reflect.get(window, 'all')).splice(0));
+  const openingEvents = await takeRecordedEvents();
   expect(openingEvents.map(([name]) => name).sort()).toEqual(['load', 'stats']);
   await dragSlider(widget.locator('#v'), 0.75);
   await waitForFrames(page);
-  const recordedEvents = await takeRecorded();
-  // One listener gets all events, each from the element itself and not from native controls inside it.
+  const recordedEvents = await takeRecordedEvents();
+  // All recorded events come from the element itself, and none from a native control inside it.
   for (const [, origin, , bubbles, composed] of [...openingEvents, ...recordedEvents]) expect([origin, bubbles, composed]).toEqual(['banana-machine', true, true]);
   const gestureEvents = recordedEvents.filter(([name]) => name !== 'stats');
   expect(gestureEvents.length).toBeGreaterThan(3);
   expect(gestureEvents.map(([name]) => name)).toEqual([...Array(gestureEvents.length - 1).fill('input'), 'change']);
-  const values = gestureEvents.map(([, , v]) => v);
-  expect(values.at(-1)).toBe(Number(await widget.locator('#v').inputValue()));
-  expect(new Set(values).size).toBeGreaterThan(2);
+  const speeds = gestureEvents.map(([, , v]) => v);
+  expect(speeds.at(-1)).toBe(Number(await widget.locator('#v').inputValue()));
+  expect(new Set(speeds).size).toBeGreaterThan(2);
   expect(recordedEvents.some(([name]) => name === 'stats')).toBe(true);
 });
 
@@ -133,12 +133,12 @@ testEach('a frame after an input event calls the core at most six times, and a r
     Object.assign(element, { callsByFrame });
     const { prototype } = /** @type {import('./support.js').AnyElement} */ (element).simulation.constructor;
     for (const [key, { get, value }] of Object.entries(Object.getOwnPropertyDescriptors(prototype))) {
-      const countingCalls = (/** @type {Function} */ member) => /** @this {unknown} */ function (/** @type {any[]} */ ...given) {
+      const withRecordedCalls = (/** @type {Function} */ member) => /** @this {unknown} */ function (/** @type {any[]} */ ...given) {
         /** @type {string[]} */ (callsByFrame.at(-1)).push(key);
         return member.apply(this, given);
       };
-      if (get) Object.defineProperty(prototype, key, { get: countingCalls(get) });
-      else if (!['constructor', '__destroy_into_raw'].includes(key)) Object.defineProperty(prototype, key, { value: countingCalls(value) });
+      if (get) Object.defineProperty(prototype, key, { get: withRecordedCalls(get) });
+      else if (!['constructor', '__destroy_into_raw'].includes(key)) Object.defineProperty(prototype, key, { value: withRecordedCalls(value) });
     }
     const startNextFrame = () => {
       callsByFrame.push([]);
@@ -147,29 +147,29 @@ testEach('a frame after an input event calls the core at most six times, and a r
     startNextFrame();
   });
   // Returns the methods of the simulation that were called, as one list for each frame.
-  const callsPerFrame = async () => {
+  const takeCallsByFrame = async () => {
     await untilSettled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'callsByFrame')).splice(0, Infinity, []));
   };
   const slider = widget.locator(`#${FIGURE_FACTS[name].sliderId}`);
   await slider.scrollIntoViewIfNeeded();
-  await callsPerFrame();
+  await takeCallsByFrame();
   const { x, y, width, height } = await boxOf(slider);
-  const share = await slider.evaluate((input) => {
+  const thumbShare = await slider.evaluate((input) => {
     const { value, min, max } = /** @type {HTMLInputElement} */ (input);
     return (Number(value) - Number(min)) / (Number(max) - Number(min));
   });
-  await page.mouse.move(x + share * width, y + height / 2);
+  await page.mouse.move(x + thumbShare * width, y + height / 2);
   await page.mouse.down();
-  await page.mouse.move(x + (share < 0.5 ? share + 0.1 : share - 0.1) * width, y + height / 2, { steps: 3 });
-  const allCounts = await callsPerFrame();
+  await page.mouse.move(x + (thumbShare < 0.5 ? thumbShare + 0.1 : thumbShare - 0.1) * width, y + height / 2, { steps: 3 });
+  const callsByFrame = await takeCallsByFrame();
   // Map Squeeze measures the costs of its samplers until the first input.
-  const counts = allCounts.slice(allCounts.findIndex((frameCalls) => frameCalls.some((key) => key.startsWith('configure'))));
-  expect(Math.max(...counts.map(({ length }) => length)), `${name}: ${JSON.stringify(counts)}`).toBeLessThanOrEqual(6);
-  expect(counts.flat(), name).toEqual(expect.arrayContaining([expect.stringMatching(/^configure/), 'read']));
+  const callsFromInputOn = callsByFrame.slice(callsByFrame.findIndex((frameCalls) => frameCalls.some((key) => key.startsWith('configure'))));
+  expect(Math.max(...callsFromInputOn.map(({ length }) => length)), `${name}: ${JSON.stringify(callsFromInputOn)}`).toBeLessThanOrEqual(6);
+  expect(callsFromInputOn.flat(), name).toEqual(expect.arrayContaining([expect.stringMatching(/^configure/), 'read']));
   await page.mouse.up();
-  // Map Squeeze measures those costs again once nothing moves.
-  expect((await callsPerFrame()).flat().filter((key) => !['picture', 'surface', 'trial'].includes(key)), name).toEqual([]);
+  // Map Squeeze measures the costs of its samplers again once nothing moves.
+  expect((await takeCallsByFrame()).flat().filter((key) => !['picture', 'surface', 'trial'].includes(key)), name).toEqual([]);
 });
 
 testEach('each control of a figure fires one input and one change', async (page, name) => {
@@ -178,7 +178,7 @@ testEach('each control of a figure fires one input and one change', async (page,
   await takeEvents(page);
   for (const [actionName, runAction] of USER_ACTIONS[name]) {
     await runAction(widget);
-    expect.soft(namesOf(await takeEvents(page, ['input', 'change', 'error'])), actionName).toEqual(['input', 'change']);
+    expect.soft(eventNamesOf(await takeEvents(page, ['input', 'change', 'error'])), actionName).toEqual(['input', 'change']);
   }
 });
 
@@ -189,13 +189,13 @@ test('a handle that is dragged fires input at each step and one change', async (
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 40, y - 20, { steps: 4 });
-  expect(namesOf(await takeEvents(page))).toEqual(Array(4).fill('input'));
+  expect(eventNamesOf(await takeEvents(page))).toEqual(Array(4).fill('input'));
   await page.mouse.up();
-  expect(namesOf(await takeEvents(page))).toEqual(['change']);
-  // A handle is taken and released without a change.
+  expect(eventNamesOf(await takeEvents(page))).toEqual(['change']);
+  // A handle that is pressed and released without a move fires nothing.
   await page.mouse.down();
   await page.mouse.up();
-  expect(namesOf(await takeEvents(page))).toEqual([]);
+  expect(eventNamesOf(await takeEvents(page))).toEqual([]);
 });
 
 test('changes by the page fire stats alone, also out of sight', async ({ page, figureName }) => {
@@ -206,18 +206,18 @@ test('changes by the page fire stats alone, also out of sight', async ({ page, f
   await page.evaluate(() => scrollTo(0, 4000));
   await takeEvents(page, ['stats']);
   const stateBefore = await stateOf(widget);
-  const [key, value] = FIGURE_FACTS[figureName].otherSetting;
-  for (const newValue of [value, null, value, undefined]) {
-    expect(await setProperty(widget, key, newValue)).toBe('');
-    expect(namesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(newValue)).toEqual(['stats']);
+  const [settingName, settingValue] = FIGURE_FACTS[figureName].otherSetting;
+  for (const newValue of [settingValue, null, settingValue, undefined]) {
+    expect(await setProperty(widget, settingName, newValue)).toBe('');
+    expect(eventNamesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(newValue)).toEqual(['stats']);
   }
   expect(await stateOf(widget)).toEqual(stateBefore);
   await widget.evaluate((element, [attribute, newValue]) => element.setAttribute(attribute, String(newValue)), FIGURE_FACTS[figureName].otherSetting);
-  expect(namesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
+  expect(eventNamesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
   const changedState = await stateOf(widget);
   expect(changedState).not.toEqual(stateBefore);
   await widget.evaluate((element, state) => Reflect.get(element, 'setState').call(element, state), stateBefore);
-  expect(namesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
+  expect(eventNamesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
   expect(await stateOf(widget)).toEqual(stateBefore);
 });
 
@@ -246,9 +246,9 @@ test('an arrow key or a space that a control used goes no further; any other key
     const widget = await mount(page, name);
     await openDisclosures(widget);
     await page.evaluate(() => {
-      const keys = /** @type {string[]} */ ([]);
-      Object.assign(window, { keys });
-      addEventListener('keydown', ({ key }) => keys.push(key));
+      const pressedKeys = /** @type {string[]} */ ([]);
+      Object.assign(window, { keys: pressedKeys });
+      addEventListener('keydown', ({ key }) => pressedKeys.push(key));
     });
     for (const selector of selectors) {
       await widget.locator(selector).focus();

@@ -13,10 +13,10 @@ async function countFramesAndModules(page) {
   await page.addInitScript(() => {
     const counts = { frames: 0, compiled: 0, instances: 0 };
     Object.assign(window, { counts, quietFrame: requestAnimationFrame.bind(window) });
-    const { requestAnimationFrame: request } = window;
+    const { requestAnimationFrame: requestFrame } = window;
     window.requestAnimationFrame = (callback) => {
       counts.frames++;
-      return request.call(window, callback);
+      return requestFrame.call(window, callback);
     };
     const { compile, compileStreaming, instantiate } = WebAssembly;
     WebAssembly.compile = (...args) => (counts.compiled++, compile.apply(WebAssembly, args));
@@ -27,8 +27,8 @@ async function countFramesAndModules(page) {
   });
 }
 
-/** Returns the counts. @param {Page} page @returns {Promise<{ frames: number, compiled: number, instances: number }>} */
-const countsOf = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
+/** Returns the numbers of frames and modules so far. @param {Page} page @returns {Promise<{ frames: number, compiled: number, instances: number }>} */
+const pageCountsOf = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
 
 /** Waits for six frames that are not counted. @param {Page} page */
 const waitForSixFrames = (page) =>
@@ -47,39 +47,39 @@ test('figures far from the window fetch and compute nothing, and one module serv
   // Polling is avoided, because it requests frames.
   await page.evaluate((tags) => Promise.all(tags.map((tag) => customElements.whenDefined(tag))).then(() => true), [...TWO_NAMES]);
   await waitForSixFrames(page);
-  expect(await countsOf(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
+  expect(await pageCountsOf(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
   expect(fetchedPaths.filter((path) => path.endsWith('.wasm'))).toEqual([]);
   for (const name of TWO_NAMES) {
     await page.locator(name).scrollIntoViewIfNeeded();
     await untilReady(page.locator(name));
   }
-  expect(await countsOf(page)).toMatchObject({ compiled: 1, instances: TWO_NAMES.length });
+  expect(await pageCountsOf(page)).toMatchObject({ compiled: 1, instances: TWO_NAMES.length });
   expect(fetchedPaths.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
 });
 
 test('a page with one figure fetches the module of that figure @nightly', async ({ page }) => {
   for (const name of ALL_NAMES) {
-    const module = page.waitForRequest(/\.wasm$/);
+    const moduleRequest = page.waitForRequest(/\.wasm$/);
     await showPage(page, `<${name}></${name}>`, { script: '<script type="module" src="/external.js"></script>' });
     await untilReady(page.locator(name));
-    expect(new URL((await module).url()).pathname).toMatch(new RegExp(`^/chunks/${name}-\\w+\\.wasm$`));
+    expect(new URL((await moduleRequest).url()).pathname).toMatch(new RegExp(`^/chunks/${name}-\\w+\\.wasm$`));
   }
 });
 
 test('a script that contains the module compiles it while it is evaluated, and no placeholder is rendered then', async ({ page }) => {
   await countFramesAndModules(page);
   // The second import is evaluated in the same task as the first one.
-  const readCount = 'data:text/javascript,window.compiledDuringScript = counts.compiled';
-  await showPage(page, '<banana-machine></banana-machine>', { script: `<script type="module">import '/motion-widgets.js'; import '${readCount}'</script>` });
+  const countReaderUrl = 'data:text/javascript,window.compiledDuringScript = counts.compiled';
+  await showPage(page, '<banana-machine></banana-machine>', { script: `<script type="module">import '/motion-widgets.js'; import '${countReaderUrl}'</script>` });
   await untilReady(page.locator('banana-machine'));
   expect(await page.evaluate(() => Reflect.get(window, 'compiledDuringScript'))).toBe(1);
-  const firstContents = await page.evaluate(async () => {
+  const hasSimulationAndPlaceholder = await page.evaluate(async () => {
     const figure = /** @type {any} */ (document.createElement('banana-machine'));
     document.body.prepend(figure);
     await figure.updateComplete;
     return ['.simulation', '.reserved'].map((selector) => figure.shadowRoot.querySelector(selector) !== null);
   });
-  expect(firstContents).toEqual([true, false]);
+  expect(hasSimulationAndPlaceholder).toEqual([true, false]);
 });
 
 test('figures within six hundred pixels of the window start, and others do not', async ({ page }) => {
@@ -96,54 +96,54 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
   await showPage(page, `<${cloudFigureName}></${cloudFigureName}><div style="height: 6000px"></div>`);
   const widget = page.locator(cloudFigureName);
   await untilReady(widget);
-  const shownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).simulation.shown);
-  const samples = Number(await propertyOf(widget, 'samples'));
+  const readShownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).simulation.shown);
+  const sampleCount = Number(await propertyOf(widget, 'samples'));
   await widget.evaluate(async (element) => {
-    const statsChanged = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
+    const statsEvent = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
-    await statsChanged;
+    await statsEvent;
     scrollTo(0, 6000);
     // Waits for an observer of this test. The observer of the figure reports in the same frame.
     await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));
   });
   expect(await propertyOf(widget, 'playing')).toBe(true);
   await waitForSixFrames(page);
-  const countsBefore = [(await countsOf(page)).frames, await shownCount()];
-  expect(countsBefore[1]).toBeLessThan(samples);
+  const countsBefore = [(await pageCountsOf(page)).frames, await readShownCount()];
+  expect(countsBefore[1]).toBeLessThan(sampleCount);
   await waitForSixFrames(page);
-  expect([(await countsOf(page)).frames, await shownCount()]).toEqual(countsBefore);
+  expect([(await pageCountsOf(page)).frames, await readShownCount()]).toEqual(countsBefore);
   await page.evaluate(() => scrollTo(0, 0));
-  await expect.poll(shownCount, { timeout: 20_000 }).toBe(samples);
+  await expect.poll(readShownCount, { timeout: 20_000 }).toBe(sampleCount);
 });
 
 test('settled waits for the figure and all of its samples, in sight and far from the window', async ({ page, cloudFigureName }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   for (const height of [0, 6000]) {
     await showPage(page, `<div style="height: ${height}px"></div><${cloudFigureName}></${cloudFigureName}>`);
-    const [shownCount, samples, playing] = await page.locator(cloudFigureName).evaluate(async (element) => {
+    const [shownCount, sampleCount, isPlaying] = await page.locator(cloudFigureName).evaluate(async (element) => {
       const figure = /** @type {any} */ (element);
       await figure.settled;
       return [figure.simulation.shown, figure.samples, figure.playing];
     });
-    expect([shownCount, playing]).toEqual([samples, false]);
+    expect([shownCount, isPlaying]).toEqual([sampleCount, false]);
   }
 });
 
 test('settled waits for the text that follows a picture on a slow device', async ({ page }) => {
   const widget = await mount(page, 'banana-machine');
-  const session = await page.context().newCDPSession(page);
-  await session.send('Emulation.setCPUThrottlingRate', { rate: 6 });
-  const shownSpeeds = await widget.evaluate(async (element) => {
+  const cdpSession = await page.context().newCDPSession(page);
+  await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: 6 });
+  const sliderSpeeds = await widget.evaluate(async (element) => {
     const figure = /** @type {any} */ (element);
-    const shownCounts = [];
+    const sliderSpeeds = [];
     for (const v of [0.5, 1.5, 0.6]) {
       figure.v = v;
       await figure.settled;
-      shownCounts.push(figure.shadowRoot.getElementById('v').valueAsNumber);
+      sliderSpeeds.push(figure.shadowRoot.getElementById('v').valueAsNumber);
     }
-    return shownCounts;
+    return sliderSpeeds;
   });
-  expect(shownSpeeds).toEqual([0.5, 1.5, 0.6]);
+  expect(sliderSpeeds).toEqual([0.5, 1.5, 0.6]);
 });
 
 test('a cloud that is half grown stays so over a move and over a removal', async ({ page, cloudFigureName }) => {
@@ -159,7 +159,7 @@ test('a cloud that is half grown stays so over a move and over a removal', async
   const stateBefore = await stateOf(widget);
   expect(/** @type {any} */ (stateBefore).shown).toBeGreaterThan(0);
   expect(/** @type {any} */ (stateBefore).shown).toBeLessThan(/** @type {any} */ (stateBefore).samples);
-  const picture = await pictureOf(widget.locator('canvas.plane'));
+  const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
   const isSameSimulation = await widget.evaluate((element) => {
     const { simulation } = /** @type {AnyElement} */ (element);
     document.querySelector('#b')?.append(element);
@@ -175,7 +175,7 @@ test('a cloud that is half grown stays so over a move and over a removal', async
   });
   await untilReady(widget);
   expect(await stateOf(widget)).toEqual(stateBefore);
-  await expect.poll(() => pictureOf(widget.locator('canvas.plane'))).toBe(picture);
+  await expect.poll(() => pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
 });
 
 test('folds, fields and height of a figure stay over a move and over a removal', async ({ page, figureName }) => {
@@ -186,32 +186,32 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   const folds = widget.locator('details');
   await expect.poll(() => folds.count()).toBeGreaterThan(1);
   await openDisclosures(widget);
-  const openFolds = () => folds.evaluateAll((foldElements) => foldElements.map((details) => /** @type {HTMLDetailsElement} */ (details).open));
-  const openFoldsBefore = await openFolds();
+  const readOpenFolds = () => folds.evaluateAll((foldElements) => foldElements.map((details) => /** @type {HTMLDetailsElement} */ (details).open));
+  const openFoldsBefore = await readOpenFolds();
   const field = folds.nth(fieldInFold.foldIndex).locator(fieldInFold.field);
   await field.fill(fieldInFold.value);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await waitForFrames(page);
-  expect(await openFolds()).toEqual(openFoldsBefore);
-  const height = (await boxOf(widget)).height;
-  const heights = await widget.evaluate(async (element) => {
+  expect(await readOpenFolds()).toEqual(openFoldsBefore);
+  const heightBefore = (await boxOf(widget)).height;
+  const heightsAfter = await widget.evaluate(async (element) => {
     element.remove();
     await new Promise(requestAnimationFrame);
     document.querySelector('#a')?.append(element);
-    const heights = [element.getBoundingClientRect().height];
+    const heightsAfter = [element.getBoundingClientRect().height];
     await new Promise(requestAnimationFrame);
-    return [...heights, element.getBoundingClientRect().height];
+    return [...heightsAfter, element.getBoundingClientRect().height];
   });
   await untilReady(widget);
-  expect(await openFolds()).toEqual(openFoldsBefore);
+  expect(await readOpenFolds()).toEqual(openFoldsBefore);
   await expect(field).toHaveValue(fieldInFold.value);
   await expect(folds.nth(fieldInFold.foldIndex).locator('.folded')).not.toBeEmpty();
-  // The height of the figure does not change meanwhile.
-  expect(heights).toEqual([height, height]);
+  // The figure has the same height while it loads again and afterwards.
+  expect(heightsAfter).toEqual([heightBefore, heightBefore]);
 });
 
 test('a figure keeps what the user did in the moment before it was removed', async ({ page, figureName }) => {
-  const { sliderId, statePath, sliderValues: [value] } = FIGURE_FACTS[figureName];
+  const { sliderId, statePath, sliderValues: [sliderValue] } = FIGURE_FACTS[figureName];
   const widget = await mount(page, figureName);
   const stateAfter = await widget.evaluate(async (element, [id, to]) => {
     const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${id}`));
@@ -220,8 +220,8 @@ test('a figure keeps what the user did in the moment before it was removed', asy
     element.remove();
     await new Promise(requestAnimationFrame);
     return /** @type {AnyElement} */ (element).getState();
-  }, /** @type {const} */ ([sliderId, value]));
-  expect(stateAfter).toHaveProperty(statePath, value);
+  }, /** @type {const} */ ([sliderId, sliderValue]));
+  expect(stateAfter).toHaveProperty(statePath, sliderValue);
 });
 
 test('a figure that is moved while a handle is held lets go of it, and fits its picture @nightly', async ({ page, handleFigureName }) => {
@@ -301,14 +301,14 @@ test('a figure that was removed and comes back has no more observers, and does n
   await showPage(page, '<map-squeeze></map-squeeze><div style="height: 4000px"></div>');
   const widget = page.locator('map-squeeze');
   await untilReady(widget);
-  const counts = () => page.evaluate(() => ({ ...Reflect.get(window, 'counts') }));
-  const countsBefore = await counts();
+  const readCounts = () => page.evaluate(() => ({ ...Reflect.get(window, 'counts') }));
+  const countsBefore = await readCounts();
   expect(Math.min(countsBefore.observers, countsBefore.paths)).toBeGreaterThan(0);
   for (const y of [3500, 0]) {
     await page.evaluate((top) => scrollTo(0, top), y);
     await waitForFrames(page);
   }
-  expect(await counts()).toEqual(countsBefore);
+  expect(await readCounts()).toEqual(countsBefore);
   await widget.evaluate(async (element) => {
     const { body } = document;
     element.remove();
@@ -316,7 +316,7 @@ test('a figure that was removed and comes back has no more observers, and does n
     body.prepend(element);
   });
   await untilReady(widget);
-  expect((await counts()).observers).toBe(countsBefore.observers);
+  expect((await readCounts()).observers).toBe(countsBefore.observers);
 });
 
 test('a figure that was not displayed shows what was set meanwhile @nightly', async ({ page, figureName }) => {
@@ -348,16 +348,16 @@ test('a page that comes back from the back-forward cache is alive @nightly', asy
   const banana = page.locator('banana-machine');
   await banana.scrollIntoViewIfNeeded();
   await setProperty(banana, 'omega', 1.25);
-  const pictureAndStates = async () => [await pictureOf(banana.locator('canvas.plane')), ...(await Promise.all(ALL_NAMES.map((name) => stateOf(page.locator(name)))))];
-  const shownBefore = await pictureAndStates();
+  const takePictureAndStates = async () => [await pictureOf(banana.locator('canvas.plane')), ...(await Promise.all(ALL_NAMES.map((name) => stateOf(page.locator(name)))))];
+  const pictureAndStatesBefore = await takePictureAndStates();
   await page.evaluate(() => addEventListener('pageshow', ({ persisted }) => void Object.assign(window, { persisted })));
   await page.goto('/embed.html?widget=map-squeeze');
   await page.goBack({ waitUntil: 'commit' });
   await expect.poll(() => page.evaluate(() => Reflect.get(window, 'persisted'))).toBe(true);
   await waitForFrames(page);
-  expect(await pictureAndStates()).toEqual(shownBefore);
+  expect(await takePictureAndStates()).toEqual(pictureAndStatesBefore);
   await banana.locator('#v').fill('0.4');
-  await expect.poll(async () => (await pictureAndStates())[0]).not.toBe(shownBefore[0]);
+  await expect.poll(async () => (await takePictureAndStates())[0]).not.toBe(pictureAndStatesBefore[0]);
   await browser.close();
 });
 
@@ -366,9 +366,9 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
   await showPage(page, '<banana-machine></banana-machine>');
   await untilReady(page.locator('banana-machine'));
   await page.evaluate(() => document.body.replaceChildren());
-  const session = await page.context().newCDPSession(page);
-  await session.send('HeapProfiler.enable');
-  /** Mounts a figure of each kind after the other, and removes it when it is drawn. @param {number} rounds */
+  const cdpSession = await page.context().newCDPSession(page);
+  await cdpSession.send('HeapProfiler.enable');
+  /** Mounts one figure of each kind after the other, and removes each when it is drawn. @param {number} rounds */
   const mountAndRemove = async (rounds) => {
     for (let round = 0; round < rounds; round++) {
       for (const name of ALL_NAMES) {
@@ -385,20 +385,20 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
   };
   /** Counts living objects of some classes after a garbage collection. */
   const countObjects = async () => {
-    await session.send('HeapProfiler.collectGarbage');
+    await cdpSession.send('HeapProfiler.collectGarbage');
     /** @type {Record<string, number>} */
-    const counts = {};
+    const objectCounts = {};
     for (const name of ['WebAssembly.Memory', 'ResizeObserver', 'ShadowRoot', 'MutationObserver', 'IntersectionObserver']) {
-      const { result } = await session.send('Runtime.evaluate', { expression: `${name}.prototype` });
-      const { objects } = await session.send('Runtime.queryObjects', { prototypeObjectId: String(result.objectId) });
-      const { result: length } = await session.send('Runtime.callFunctionOn', {
+      const { result } = await cdpSession.send('Runtime.evaluate', { expression: `${name}.prototype` });
+      const { objects } = await cdpSession.send('Runtime.queryObjects', { prototypeObjectId: String(result.objectId) });
+      const { result: lengthResult } = await cdpSession.send('Runtime.callFunctionOn', {
         objectId: objects.objectId, functionDeclaration: 'function () { return this.length }', returnByValue: true,
       });
-      await session.send('Runtime.releaseObject', { objectId: String(objects.objectId) });
-      counts[name] = length.value;
+      await cdpSession.send('Runtime.releaseObject', { objectId: String(objects.objectId) });
+      objectCounts[name] = lengthResult.value;
     }
-    counts.nodes = (await session.send('Memory.getDOMCounters')).nodes;
-    return counts;
+    objectCounts.nodes = (await cdpSession.send('Memory.getDOMCounters')).nodes;
+    return objectCounts;
   };
   await mountAndRemove(2);
   // The engine may keep the latest object of a class for a while.

@@ -5,13 +5,13 @@ test.use(REDUCED_MOTION);
 
 test('a preset sets every setting but samples and seed, and is marked while all hold', async ({ page }) => {
   const widget = await mount(page, 'map-squeeze', { attributes: 'samples="50" seed="4"' });
-  const button = widget.locator('.presets button').nth(1);
-  await button.click();
-  await expect(button).toHaveAttribute('aria-pressed', 'true');
+  const presetButton = widget.locator('.presets button').nth(1);
+  await presetButton.click();
+  await expect(presetButton).toHaveAttribute('aria-pressed', 'true');
   await widget.evaluate((element) => void Reflect.set(element, 'clearance', 0.2));
-  await expect(button).toHaveAttribute('aria-pressed', 'false');
-  await button.click();
-  await expect(button).toHaveAttribute('aria-pressed', 'true');
+  await expect(presetButton).toHaveAttribute('aria-pressed', 'false');
+  await presetButton.click();
+  await expect(presetButton).toHaveAttribute('aria-pressed', 'true');
   expect(await Promise.all(['clearance', 'samples', 'seed'].map((key) => propertyOf(widget, key)))).toEqual([0.13, 50, 4]);
 });
 
@@ -33,12 +33,12 @@ test('Start over brings back the settings, the seed and the lines as the figure 
 test('a seed is typed, and one that is none is refused by a sentence', async ({ page, cloudFigureName }) => {
   const widget = await mount(page, cloudFigureName);
   await openDisclosures(widget);
-  const field = widget.getByRole('textbox', { name: 'seed', exact: true });
-  await field.fill('42');
+  const seedField = widget.getByRole('textbox', { name: 'seed', exact: true });
+  await seedField.fill('42');
   await expect.poll(() => propertyOf(widget, 'seed')).toBe(42);
-  await field.fill('4.5');
+  await seedField.fill('4.5');
   await expect(widget.locator('.seed [role=alert]')).toContainText('seed must be a whole number between 0 and');
   expect(await propertyOf(widget, 'seed')).toBe(42);
-  await field.blur();
-  await expect(field).toHaveValue('42');
+  await seedField.blur();
+  await expect(seedField).toHaveValue('42');
 });

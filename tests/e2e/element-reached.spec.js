@@ -11,7 +11,7 @@ test.use(REDUCED_MOTION);
  * @param {Page} page
  * @param {string} name
  */
-async function showFarBelow(page, name) {
+async function showFigureFarBelow(page, name) {
   await page.addInitScript(() => {
     window.IntersectionObserver = /** @type {any} */ (
       class {
@@ -31,29 +31,29 @@ async function showFarBelow(page, name) {
   return widget;
 }
 
-for (const [direction, origin, key] of /** @type {const} */ ([['above', '#before', 'Tab'], ['below', '#after', 'Shift+Tab']])) {
+for (const [direction, originSelector, key] of /** @type {const} */ ([['above', '#before', 'Tab'], ['below', '#after', 'Shift+Tab']])) {
   test(`a figure that Tab reaches from ${direction} before it has started has the focus where it would be`, async ({ page, figureName }) => {
-    const widget = await showFarBelow(page, figureName);
-    const focusedElement = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
-    await page.locator(origin).focus();
+    const widget = await showFigureFarBelow(page, figureName);
+    const readFocusedHtml = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
+    await page.locator(originSelector).focus();
     await page.keyboard.press(key);
     await untilReady(widget);
-    const firstFocused = await focusedElement();
-    await page.locator(origin).focus();
+    const firstFocusedHtml = await readFocusedHtml();
+    await page.locator(originSelector).focus();
     await page.keyboard.press(key);
-    expect(firstFocused).toBe(await focusedElement());
-    expect(firstFocused).toBeTruthy();
+    expect(firstFocusedHtml).toBe(await readFocusedHtml());
+    expect(firstFocusedHtml).toBeTruthy();
   });
 }
 
 test('a figure that starts after the user has moved the focus leaves it there @nightly', async ({ page, figureName }) => {
   let allowModule = () => {};
-  const moduleIsAllowed = new Promise((resolve) => (allowModule = () => resolve(undefined)));
+  const modulePermission = new Promise((resolve) => (allowModule = () => resolve(undefined)));
   await page.route('**/*.wasm', async (route) => {
-    await moduleIsAllowed;
+    await modulePermission;
     await route.continue();
   });
-  const widget = await showFarBelow(page, figureName);
+  const widget = await showFigureFarBelow(page, figureName);
   const moduleRequest = page.waitForRequest(/\.wasm$/);
   await page.locator('#before').focus();
   await page.keyboard.press('Tab');

@@ -9,51 +9,51 @@ import { NEW_PAGE_TAG, REDUCED_MOTION, waitForFrames, mount, propertyOf, showPag
 
 test.use(REDUCED_MOTION);
 
-/** @param {Locator} widget */
+/** Returns the link to the state of a figure. @param {Locator} widget */
 const linkOf = (widget) => widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink());
 
-/** @param {Locator} widget @returns {Promise<string>} fragment of its link */
+/** Returns the fragment of the link to a figure. @param {Locator} widget @returns {Promise<string>} */
 const fragmentOf = async (widget) => new URL(await linkOf(widget)).hash;
 
-const THREE_FIGURES = `<banana-machine share></banana-machine>
+const THREE_FIGURES_HTML = `<banana-machine share></banana-machine>
   <h2 id="what-to-try" style="margin-top: 3000px">What to try</h2>
   <banana-machine share id="second one"></banana-machine>
   <banana-machine></banana-machine>`;
 
 test('two widgets and an anchor share the fragment, and the link shows what was there', NEW_PAGE_TAG, async ({ page, context }) => {
-  await showPage(page, THREE_FIGURES, { fragment: '#what-to-try&theme=a%20b' });
-  const [first, second, third] = [0, 1, 2].map((i) => page.locator('banana-machine').nth(i));
-  await first.scrollIntoViewIfNeeded();
-  await untilReady(first);
-  const hash = () => page.evaluate(() => location.hash);
-  expect(await hash()).toBe('#what-to-try&theme=a%20b');
+  await showPage(page, THREE_FIGURES_HTML, { fragment: '#what-to-try&theme=a%20b' });
+  const [firstFigure, secondFigure, thirdFigure] = [0, 1, 2].map((i) => page.locator('banana-machine').nth(i));
+  await firstFigure.scrollIntoViewIfNeeded();
+  await untilReady(firstFigure);
+  const readHash = () => page.evaluate(() => location.hash);
+  expect(await readHash()).toBe('#what-to-try&theme=a%20b');
   const historyLength = await page.evaluate(() => history.length);
 
-  await first.getByRole('button', { name: 'Hard arc' }).click();
-  await expect.poll(hash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+$/);
-  await second.scrollIntoViewIfNeeded();
-  await untilReady(second);
-  await second.getByRole('button', { name: 'Pivot' }).click();
-  await expect.poll(hash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+&banana-machine:second%20one=[\w-]+$/);
-  await third.scrollIntoViewIfNeeded();
-  await untilReady(third);
-  const hashBefore = await hash();
-  await third.getByRole('button', { name: 'Straight' }).click();
+  await firstFigure.getByRole('button', { name: 'Hard arc' }).click();
+  await expect.poll(readHash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+$/);
+  await secondFigure.scrollIntoViewIfNeeded();
+  await untilReady(secondFigure);
+  await secondFigure.getByRole('button', { name: 'Pivot' }).click();
+  await expect.poll(readHash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+&banana-machine:second%20one=[\w-]+$/);
+  await thirdFigure.scrollIntoViewIfNeeded();
+  await untilReady(thirdFigure);
+  const hashBefore = await readHash();
+  await thirdFigure.getByRole('button', { name: 'Straight' }).click();
   await waitForFrames(page);
-  expect(await hash()).toBe(hashBefore);
+  expect(await readHash()).toBe(hashBefore);
   expect(await page.evaluate(() => history.length)).toBe(historyLength);
 
-  const link = await linkOf(first);
+  const link = await linkOf(firstFigure);
   // A link scrolls to the figure of its first part.
   const [anchor, theme, firstPart, secondPart] = hashBefore.slice(1).split('&');
   expect(new URL(link).hash).toBe(`#${[firstPart, anchor, theme, secondPart].join('&')}`);
   const newPage = await context.newPage();
-  await showPage(newPage, THREE_FIGURES, { fragment: new URL(link).hash });
+  await showPage(newPage, THREE_FIGURES_HTML, { fragment: new URL(link).hash });
   const [copy1, copy2, copy3] = [0, 1, 2].map((i) => newPage.locator('banana-machine').nth(i));
-  for (const [copy, original] of [[copy1, first], [copy2, second]]) {
-    await copy.scrollIntoViewIfNeeded();
-    await untilReady(copy);
-    expect(await stateOf(copy)).toEqual(await stateOf(original));
+  for (const [copiedFigure, originalFigure] of [[copy1, firstFigure], [copy2, secondFigure]]) {
+    await copiedFigure.scrollIntoViewIfNeeded();
+    await untilReady(copiedFigure);
+    expect(await stateOf(copiedFigure)).toEqual(await stateOf(originalFigure));
   }
   await copy3.scrollIntoViewIfNeeded();
   await untilReady(copy3);
@@ -85,43 +85,43 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
 
 test('a link leads to the figure that it was copied from, once; a reload leads nowhere', NEW_PAGE_TAG, async ({ page, context }) => {
   const gap = '<p style="margin: 2000px 0">Between</p>';
-  const body = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
-  await showPage(page, body);
-  const figureOf = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
-  const figureTops = (/** @type {import('@playwright/test').Page} */ openPage) =>
+  const pageBody = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
+  await showPage(page, pageBody);
+  const figureAt = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
+  const figureTopsOf = (/** @type {import('@playwright/test').Page} */ openPage) =>
     openPage.locator('banana-machine').evaluateAll((figureElements) => figureElements.map((figure) => Math.round(figure.getBoundingClientRect().top)));
   /** @type {string[]} */
-  const links = [];
+  const linkFragments = [];
   for (const i of [0, 1]) {
-    await figureOf(page, i).scrollIntoViewIfNeeded();
-    await untilReady(figureOf(page, i));
+    await figureAt(page, i).scrollIntoViewIfNeeded();
+    await untilReady(figureAt(page, i));
     // The address contains the state of this figure when the link to the next one is copied.
-    links.push(await fragmentOf(figureOf(page, i)));
-    await page.evaluate((hash) => history.replaceState(null, '', hash), links[i]);
+    linkFragments.push(await fragmentOf(figureAt(page, i)));
+    await page.evaluate((hash) => history.replaceState(null, '', hash), linkFragments[i]);
   }
-  expect(links[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
+  expect(linkFragments[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
   // A figure whose state is in the address already has no second part there.
-  expect(await fragmentOf(figureOf(page, 1))).toBe(links[1]);
-  for (const [i, fragment] of links.entries()) {
+  expect(await fragmentOf(figureAt(page, 1))).toBe(linkFragments[1]);
+  for (const [i, fragment] of linkFragments.entries()) {
     const newPage = await context.newPage();
-    await showPage(newPage, body, { fragment });
-    await untilReady(figureOf(newPage, i));
-    await expect.poll(async () => (await figureTops(newPage))[i]).toBeCloseTo(0);
+    await showPage(newPage, pageBody, { fragment });
+    await untilReady(figureAt(newPage, i));
+    await expect.poll(async () => (await figureTopsOf(newPage))[i]).toBeCloseTo(0);
     // Elements that are added or moved later do not scroll the page.
-    const scrollAfterMove = await newPage.evaluate(async () => {
+    const scrollYAfterMove = await newPage.evaluate(async () => {
       scrollTo(0, 100);
       document.body.append(document.createElement('banana-machine'));
       document.body.append(/** @type {Element} */ (document.querySelector('banana-machine')));
       await new Promise((resolve) => setTimeout(resolve));
       return scrollY;
     });
-    expect(scrollAfterMove).toBe(100);
+    expect(scrollYAfterMove).toBe(100);
     await newPage.close();
   }
-  // A link that is followed on the page.
+  // A link to a figure on the same page scrolls to it.
   await page.evaluate(() => scrollTo(0, 0));
-  await page.evaluate((hash) => (location.hash = hash), links[0]);
-  await expect.poll(async () => (await figureTops(page))[0]).toBeCloseTo(0);
+  await page.evaluate((hash) => (location.hash = hash), linkFragments[0]);
+  await expect.poll(async () => (await figureTopsOf(page))[0]).toBeCloseTo(0);
   await page.evaluate(() => scrollTo(0, 700));
   await page.reload();
   await expect(page.locator('banana-machine:defined')).toHaveCount(2);
@@ -130,26 +130,26 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
 });
 
 test('a link that is broken is reported, and the figure opens as its attributes say', async ({ page }) => {
-  for (const text of ['nonsense!', 'q1YqSy0qzszPU7JSMtAzUKoFAA']) {
+  for (const brokenState of ['nonsense!', 'q1YqSy0qzszPU7JSMtAzUKoFAA']) {
     await page.goto('about:blank');
-    const widget = await mount(page, 'banana-machine', { attributes: 'share v="0.5"', fragment: `#banana-machine.1=${text}` });
-    const errors = await takeEvents(page, ['error']);
-    expect(errors.length, text).toBe(1);
-    expect(errors[0].message).toMatch(/^state.*; allowed (is|are) /);
+    const widget = await mount(page, 'banana-machine', { attributes: 'share v="0.5"', fragment: `#banana-machine.1=${brokenState}` });
+    const errorEvents = await takeEvents(page, ['error']);
+    expect(errorEvents.length, brokenState).toBe(1);
+    expect(errorEvents[0].message).toMatch(/^state.*; allowed (is|are) /);
     expect(/** @type {any} */ (await stateOf(widget)).command.v).toBe(0.5);
   }
 });
 
 test('a page with a base of its own keeps its address @nightly', async ({ page }) => {
   const widget = await mount(page, 'map-squeeze', { attributes: 'share', head: '<base href="/somewhere/else/">' });
-  const address = () => page.evaluate(() => location.href);
+  const readAddress = () => page.evaluate(() => location.href);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
-  await expect.poll(address).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
+  await expect.poll(readAddress).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
   // A later state replaces the earlier one.
-  const formerAddress = await address();
+  const formerAddress = await readAddress();
   await widget.getByRole('button', { name: 'Open corridor' }).click();
-  await expect.poll(address).not.toBe(formerAddress);
-  expect(await address()).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
+  await expect.poll(readAddress).not.toBe(formerAddress);
+  expect(await readAddress()).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
 });
 
 test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', NEW_PAGE_TAG, async ({ page, context, figureName }) => {
@@ -183,24 +183,24 @@ test('a figure with share keeps its state in the address, and follows it', async
   await showPage(page, `<${figureName} share></${figureName}><p id="end">The end</p>`);
   const widget = page.locator(figureName);
   await untilReady(widget);
-  const hash = () => page.evaluate(() => location.hash);
+  const readHash = () => page.evaluate(() => location.hash);
   await widget.locator(`#${sliderId}`).fill(String(sliderValues[0]));
-  await expect.poll(hash).toMatch(new RegExp(`^#${figureName}\\.1=[\\w-]+$`));
-  const [formerHash, state] = [await hash(), await stateOf(widget)];
+  await expect.poll(readHash).toMatch(new RegExp(`^#${figureName}\\.1=[\\w-]+$`));
+  const [formerHash, stateBefore] = [await readHash(), await stateOf(widget)];
   await widget.getByRole('button', { name: buttonLabel, exact: true }).click();
-  await expect.poll(hash).not.toBe(formerHash);
-  expect(await stateOf(widget)).not.toEqual(state);
+  await expect.poll(readHash).not.toBe(formerHash);
+  expect(await stateOf(widget)).not.toEqual(stateBefore);
   await page.evaluate((fragment) => (location.hash = fragment), formerHash);
-  await expect.poll(() => stateOf(widget)).toEqual(state);
+  await expect.poll(() => stateOf(widget)).toEqual(stateBefore);
   // An anchor without a state changes nothing.
   await page.evaluate(() => (location.hash = '#end'));
   await waitForFrames(page);
   expect(await page.evaluate(() => document.querySelector(':target')?.id)).toBe('end');
-  expect(await stateOf(widget)).toEqual(state);
+  expect(await stateOf(widget)).toEqual(stateBefore);
   expect(await takeEvents(page, ['error'])).toEqual([]);
   await page.evaluate((fragment) => (location.hash = fragment.slice(0, -9)), formerHash);
   await expect(widget.getByRole('alert')).toHaveText('This link cannot be read: it may be cut off. The figure stays as it was.');
-  expect(await stateOf(widget)).toEqual(state);
+  expect(await stateOf(widget)).toEqual(stateBefore);
 });
 
 test.describe('the menu', () => {
@@ -210,17 +210,17 @@ test('copies a link, and the code to embed with the address of the script', asyn
   const widget = await mount(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Pivot' }).click();
   await waitForFrames(page);
-  const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
+  const readClipboard = () => page.evaluate(() => navigator.clipboard.readText());
   await widget.getByRole('button', { name: 'Copy link' }).click();
   await expect(widget.getByText('Copied.')).toBeVisible();
-  expect(await clipboard()).toBe(await linkOf(widget));
+  expect(await readClipboard()).toBe(await linkOf(widget));
   await widget.getByText('Numbers and data').click();
   const embedButton = widget.getByRole('button', { name: 'Copy embed code' });
   await expect(embedButton).toHaveAttribute('title', 'HTML that shows the figure as it is now on a page of your own');
   await embedButton.click();
-  await expect.poll(clipboard).toContain('<banana-machine preset="pivot"></banana-machine>');
-  const origin = new URL(page.url()).origin;
-  expect(await clipboard()).toContain(`<script type="module" src="${origin}/motion-widgets.js"></script>`);
+  await expect.poll(readClipboard).toContain('<banana-machine preset="pivot"></banana-machine>');
+  const pageOrigin = new URL(page.url()).origin;
+  expect(await readClipboard()).toContain(`<script type="module" src="${pageOrigin}/motion-widgets.js"></script>`);
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(widget.getByText('Copied.')).toHaveCount(0);
 });
@@ -237,17 +237,17 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
     const random = randomGenerator(1);
-    // Cells that cannot be compressed.
+    // Random cells cannot be compressed.
     const [columns, rows] = [4000, 2000];
     const byteCount = (columns * rows) / 8;
     const map = { columns, rows, resolution: 0.05, origin: [0, 0, 0], occupied: Buffer.alloc(byteCount).toString('base64'), unknown: Buffer.from(Array.from({ length: byteCount }, () => 256 * random())).toString('base64') };
     await widget.evaluate((element, newMap) => void Object.assign(element, { map: newMap }), map);
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toContainText('Your map is too large for a link and is not in it');
-    const [state, fragment] = [await stateOf(widget), await fragmentOf(widget)];
+    const [stateBefore, fragment] = [await stateOf(widget), await fragmentOf(widget)];
     await page.goto('about:blank');
-    const copy = await mount(page, 'map-squeeze', { attributes: 'seed="3"', fragment });
-    expect(await stateOf(copy)).toEqual({ ...state, map: null, start: await propertyOf(await mount(page, 'map-squeeze'), 'start') });
+    const openedFigure = await mount(page, 'map-squeeze', { attributes: 'seed="3"', fragment });
+    expect(await stateOf(openedFigure)).toEqual({ ...stateBefore, map: null, start: await propertyOf(await mount(page, 'map-squeeze'), 'start') });
   });
 });
 
@@ -262,18 +262,18 @@ test('the menu shows what the clipboard does not take @nightly', async ({ page }
 
 test('the code to embed names the script that defined the element', NEW_PAGE_TAG, async ({ page }) => {
   const widget = await mount(page, 'map-squeeze', { script: '<script defer src="/motion-widgets.iife.js"></script>' });
-  const code = await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode());
-  expect(code).toContain(`<script defer src="${new URL(page.url()).origin}/motion-widgets.iife.js"></script>`);
+  const embedCode = await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode());
+  expect(embedCode).toContain(`<script defer src="${new URL(page.url()).origin}/motion-widgets.iife.js"></script>`);
 });
 
 test('the code to embed has the published script where that of the page is nothing to others @nightly', async ({ page }) => {
   await showPage(page, '', { script: '' });
-  const code = await page.evaluate(async () => {
-    const script = new Blob([await (await fetch('/motion-widgets.js')).text()], { type: 'text/javascript' });
-    await import(URL.createObjectURL(script));
+  const embedCode = await page.evaluate(async () => {
+    const scriptBlob = new Blob([await (await fetch('/motion-widgets.js')).text()], { type: 'text/javascript' });
+    await import(URL.createObjectURL(scriptBlob));
     return document.createElement('banana-machine').embedCode();
   });
-  expect(code).toBe('<script type="module" src="https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js"></script>\n<banana-machine></banana-machine>\n');
+  expect(embedCode).toBe('<script type="module" src="https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js"></script>\n<banana-machine></banana-machine>\n');
 });
 
 test('a frame shows the figure of its address, and sends its height', async ({ page, figureName }) => {
@@ -281,11 +281,11 @@ test('a frame shows the figure of its address, and sends its height', async ({ p
     Object.assign(window, { heights: [] });
     addEventListener('message', ({ data }) => data?.type === 'motion-widgets:height' && Reflect.get(window, 'heights').push(data.height));
   });
-  const { sliderId, sliderValues: [value] } = FIGURE_FACTS[figureName];
-  await showPage(page, `<iframe src="/embed.html?widget=${figureName}&${sliderId}=${value}" width="700" height="900"></iframe>`, { script: '' });
+  const { sliderId, sliderValues: [sliderValue] } = FIGURE_FACTS[figureName];
+  await showPage(page, `<iframe src="/embed.html?widget=${figureName}&${sliderId}=${sliderValue}" width="700" height="900"></iframe>`, { script: '' });
   const widget = page.frameLocator('iframe').locator(figureName);
   await expect(widget.locator('.folds')).toBeVisible();
-  expect(await propertyOf(widget, sliderId)).toBe(value);
+  expect(await propertyOf(widget, sliderId)).toBe(sliderValue);
   await expect.poll(async () => {
     const [height, reportedHeight] = [await widget.evaluate(() => document.body.getBoundingClientRect().height), await page.evaluate(() => Reflect.get(window, 'heights').at(-1))];
     return Math.abs(height - reportedHeight);

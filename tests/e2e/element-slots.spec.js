@@ -9,9 +9,9 @@ test('a figure has the title above and the caption below that the page gives it'
   await untilReady(widget);
   await expect(widget.getByRole('heading', { name: 'Figure 9.3 One command', level: 3 })).toBeVisible();
   await expect(widget.getByRole('region', { name: 'Figure 9.3 One command' })).toBeVisible();
-  const [title, picture, caption] = await Promise.all([widget.getByText('Figure 9.3'), widget.locator('canvas').first(), widget.getByText('measured', { exact: true })].map(boxOf));
-  expect(title.y + title.height).toBeLessThanOrEqual(picture.y);
-  expect(caption.y).toBeGreaterThan(picture.y + picture.height);
+  const [titleBox, pictureBox, captionBox] = await Promise.all([widget.getByText('Figure 9.3'), widget.locator('canvas').first(), widget.getByText('measured', { exact: true })].map(boxOf));
+  expect(titleBox.y + titleBox.height).toBeLessThanOrEqual(pictureBox.y);
+  expect(captionBox.y).toBeGreaterThan(pictureBox.y + pictureBox.height);
   await page.emulateMedia({ media: 'print' });
   await expect(widget.getByText('Figure 9.3')).toBeVisible();
   await expect(widget.getByText('measured', { exact: true })).toBeVisible();

@@ -13,21 +13,21 @@ testEach('random states go in and come out, and a second element in the same sta
   await untilReady(secondWidget);
   for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
     const state = randomStates(seed)[name];
-    const [first, second] = await page.evaluate(async (newState) => {
+    const [firstResults, secondResults] = await page.evaluate(async (newState) => {
       const elements = ['one', 'two'].map((id) => /** @type {AnyElement} */ (/** @type {unknown} */ (document.getElementById(id))));
       elements[0].setState(newState);
       elements[1].setState(JSON.parse(JSON.stringify(elements[0].getState())));
       return elements.map((element) => ({ state: element.getState(), stats: element.stats, poses: [...(element.poses ?? [])] }));
     }, /** @type {any} */ (state));
-    expect(first.state, `seed ${seed}`).toEqual(state);
-    expect(second).toEqual(first);
+    expect(firstResults.state, `seed ${seed}`).toEqual(state);
+    expect(secondResults).toEqual(firstResults);
   }
   await waitForFrames(page);
   expect(await takeEvents(page, ['error', 'input', 'change'])).toEqual([]);
 });
 
 test('a state that is refused names the field, and changes nothing', async ({ page }) => {
-  const cases = /** @type {[string, object, string][]} */ ([
+  const refusals = /** @type {[string, object, string][]} */ ([
     ['banana-machine', { version: 2, speed: 1 }, 'RangeError: state.version is 2; allowed is 1'],
     ['banana-machine', { speed: 1 }, 'TypeError: state.speed is an unknown key; allowed are'],
     ['banana-machine', { overlays: ['stars'] }, 'RangeError: state.overlays[0] is "stars"; allowed is'],
@@ -36,11 +36,11 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
     ['dead-reckoning', { steps: 1, step: 2 }, 'RangeError: step is 2; allowed is'],
   ]);
-  for (const name of new Set(cases.map(([caseName]) => caseName))) {
+  for (const name of new Set(refusals.map(([caseName]) => caseName))) {
     const widget = await mount(page, name);
     const stateBefore = await stateOf(widget);
-    for (const [, change, message] of cases.filter(([caseName]) => caseName === name)) {
-      const [thrownError, stateAfter] = await widget.evaluate((element, part) => {
+    for (const [, refusedFields, expectedMessage] of refusals.filter(([caseName]) => caseName === name)) {
+      const [thrownMessage, stateAfter] = await widget.evaluate((element, part) => {
         const widget = /** @type {AnyElement} */ (element);
         try {
           widget.setState({ widget: element.localName, version: 1, ...part });
@@ -48,8 +48,8 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
         } catch (error) {
           return [String(error), widget.getState()];
         }
-      }, change);
-      expect(thrownError).toContain(message);
+      }, refusedFields);
+      expect(thrownMessage).toContain(expectedMessage);
       expect(stateAfter).toEqual(stateBefore);
     }
   }
@@ -96,7 +96,7 @@ test('a state that comes while a slider plays is what is shown from then on @nig
 
 test('a state in part keeps the share of samples that are shown, and the mark that is among them @nightly', async ({ page, cloudFigureName }) => {
   const widget = await mount(page, cloudFigureName, { attributes: 'samples="300"' });
-  const states = await widget.evaluate((element) => {
+  const statesAfter = await widget.evaluate((element) => {
     const figure = /** @type {AnyElement} */ (element);
     const partialStates = [{ shown: 100, marked: 50 }, { seed: 5 }, { shown: 50 }, { samples: 30 }, { samples: 300 }, { shown: 100, playing: true }];
     return partialStates.map((part) => {
@@ -106,5 +106,5 @@ test('a state in part keeps the share of samples that are shown, and the mark th
     });
   });
   // A cloud that was complete stays complete, and does not play for users who prefer reduced motion.
-  expect(states).toEqual([[100, false, 50], [100, false, 50], [50, false, null], [30, false, null], [300, false, null], [300, false, null]]);
+  expect(statesAfter).toEqual([[100, false, 50], [100, false, 50], [50, false, null], [30, false, null], [300, false, null], [300, false, null]]);
 });

@@ -45,30 +45,31 @@ async function coloursOf(widget, roles) {
   }, roles);
 }
 
-/** @param {Locator} widget @returns {Promise<string>} */
+/** Returns the background colour of a figure as hexadecimal digits. @param {Locator} widget @returns {Promise<string>} */
 const paperOf = async (widget) => hex((await coloursOf(widget, ['paper']))[0]);
 
 /** @param {number[]} channels */
 const hex = (channels) => `#${channels.map((channel) => channel.toString(16).padStart(2, '0')).join('')}`;
 
 /** Returns the contrast of two colours by WCAG. @param {number[]} first @param {number[]} second */
-function contrast(first, second) {
-  const linear = (/** @type {number} */ c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
-  const luminance = ([r, g, b] = first) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
-  const [low, high] = [luminance(first), luminance(second)].sort((a, b) => a - b);
-  return (high + 0.05) / (low + 0.05);
+function contrastOf(first, second) {
+  const linearOf = (/** @type {number} */ c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
+  const luminanceOf = ([r, g, b] = first) => 0.2126 * linearOf(r) + 0.7152 * linearOf(g) + 0.0722 * linearOf(b);
+  const [lowerLuminance, higherLuminance] = [luminanceOf(first), luminanceOf(second)].sort((a, b) => a - b);
+  return (higherLuminance + 0.05) / (lowerLuminance + 0.05);
 }
 
-/** @param {Locator} widget */
-const surfaceOf = (widget) =>
+/** Returns computed styles of the surface of a figure. @param {Locator} widget */
+const surfaceStyleOf = (widget) =>
   widget.locator('.surface').evaluate((element) => {
     const { backgroundColor, color, fontFamily, fontSize, colorScheme } = getComputedStyle(element);
     return { backgroundColor, color, fontFamily, fontSize, colorScheme };
   });
 
-/** @param {Locator} widget */
+/** Returns the colour scheme of a figure, by its background. @param {Locator} widget */
 const schemeOf = async (widget) => ((await coloursOf(widget, ['paper']))[0][0] > 128 ? 'light' : 'dark');
 
+/** Sources of a figure's colour scheme: the name, the head of the page, and a script that sets a scheme. */
 const SCHEME_SOURCES = /** @type {[string, string, (scheme: 'light' | 'dark') => string][]} */ ([
   ['the inherited color-scheme', '<style>body { color: #333 }</style>', (scheme) => `document.body.style.colorScheme = '${scheme}'`],
   [
@@ -79,12 +80,12 @@ const SCHEME_SOURCES = /** @type {[string, string, (scheme: 'light' | 'dark') =>
   ['its theme attribute', '<style>:root { color-scheme: light }</style>', (scheme) => `document.querySelector('#it').theme = '${scheme}'`],
 ]);
 
-for (const [source, head, scriptFor] of SCHEME_SOURCES) {
-  test(`a figure follows ${source}`, async ({ page, figureName }) => {
+for (const [sourceName, head, scriptForScheme] of SCHEME_SOURCES) {
+  test(`a figure follows ${sourceName}`, async ({ page, figureName }) => {
     const widget = await mount(page, figureName, { attributes: 'id="it"', head });
     expect(await schemeOf(widget)).toBe('light');
     for (const scheme of /** @type {const} */ (['dark', 'light'])) {
-      await page.evaluate(scriptFor(scheme));
+      await page.evaluate(scriptForScheme(scheme));
       await expect.poll(() => schemeOf(widget)).toBe(scheme);
       // The canvas has the colours of the current theme.
       await expect.poll(() => pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
@@ -102,14 +103,14 @@ test('a figure follows the system where the page does', async ({ page, figureNam
 
 test('a figure on the ground of any theme has its ink and letters, and enough contrast', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { head: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
-  const { backgroundColor, fontFamily, fontSize } = await surfaceOf(widget);
+  const { backgroundColor, fontFamily, fontSize } = await surfaceStyleOf(widget);
   expect({ backgroundColor, fontFamily, fontSize }).toEqual({ backgroundColor: 'rgba(0, 0, 0, 0)', fontFamily: '"DejaVu Sans", sans-serif', fontSize: '17px' });
-  for (const [theme, [ground, text]] of Object.entries(THEME_COLORS)) {
-    await page.evaluate(([background, color]) => Object.assign(document.body.style, { background, color }), [ground, text]);
-    await expect.poll(async () => (await coloursOf(widget, ['paper', 'ink'])).map(hex), theme).toEqual([ground, text]);
-    const [paper, ...colours] = await coloursOf(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
+  for (const [themeName, [backgroundColor, textColor]] of Object.entries(THEME_COLORS)) {
+    await page.evaluate(([background, color]) => Object.assign(document.body.style, { background, color }), [backgroundColor, textColor]);
+    await expect.poll(async () => (await coloursOf(widget, ['paper', 'ink'])).map(hex), themeName).toEqual([backgroundColor, textColor]);
+    const [paperColour, ...roleColours] = await coloursOf(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
     for (const [i, [role, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
-      expect.soft(contrast(colours[i], paper), `${role} on ${theme}`).toBeGreaterThanOrEqual(minContrast);
+      expect.soft(contrastOf(roleColours[i], paperColour), `${role} on ${themeName}`).toBeGreaterThanOrEqual(minContrast);
     }
   }
   expect(await pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
@@ -141,9 +142,9 @@ test('a ground that fades arrives where the page does, also where the text has c
   });
   const widget = page.locator('banana-machine');
   await untilReady(widget);
-  for (const [night, ground] of /** @type {const} */ ([[true, '#101418'], [false, '#ffffff']])) {
-    await page.evaluate((on) => document.documentElement.classList.toggle('night', on), night);
-    await expect.poll(() => paperOf(widget)).toBe(ground);
+  for (const [isNight, expectedPaper] of /** @type {const} */ ([[true, '#101418'], [false, '#ffffff']])) {
+    await page.evaluate((on) => document.documentElement.classList.toggle('night', on), isNight);
+    await expect.poll(() => paperOf(widget)).toBe(expectedPaper);
   }
 });
 
@@ -158,16 +159,16 @@ const BLACK_ON_DARK = /** @type {[string, Parameters<import('@playwright/test').
   ['black text in a dark scheme', { colorScheme: 'dark' }, ':root { color-scheme: light dark } body { color: #000 }'],
 ]);
 
-for (const [situation, media, style] of BLACK_ON_DARK) {
+for (const [situation, media, pageStyle] of BLACK_ON_DARK) {
   test(`a figure on a page with ${situation} is legible`, async ({ page, figureName }) => {
     await page.emulateMedia(media);
-    const widget = await mount(page, figureName, { attributes: 'theme="auto"', head: `<style>${style}</style>` });
+    const widget = await mount(page, figureName, { attributes: 'theme="auto"', head: `<style>${pageStyle}</style>` });
     const setTheme = (/** @type {string} */ name) => widget.evaluate((element, to) => element.setAttribute('theme', to), name);
-    for (const name of media?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
-      await setTheme(name);
-      const [paper, ...colours] = await coloursOf(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
+    for (const theme of media?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
+      await setTheme(theme);
+      const [paperColour, ...roleColours] = await coloursOf(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
       for (const [i, [role, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
-        expect.soft(contrast(colours[i], paper), `${role} in ${name}`).toBeGreaterThanOrEqual(minContrast);
+        expect.soft(contrastOf(roleColours[i], paperColour), `${role} in ${theme}`).toBeGreaterThanOrEqual(minContrast);
       }
     }
     expect(await pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
@@ -175,14 +176,14 @@ for (const [situation, media, style] of BLACK_ON_DARK) {
 }
 
 test('a theme other than that of the page gives a figure its own paper and ink @nightly', async ({ page }) => {
-  const style = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
-  const widget = await mount(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${style}</style><link rel="stylesheet" href="/motion-widgets.css">` });
-  expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
+  const pageStyle = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
+  const widget = await mount(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${pageStyle}</style><link rel="stylesheet" href="/motion-widgets.css">` });
+  expect(await surfaceStyleOf(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
   // The page's colours for muted text and rules do not fit that background, and are not used.
   const pageColors = ['#112233', '#445566'];
   for (const colour of (await coloursOf(widget, ['muted', 'rule'])).map(hex)) expect(pageColors).not.toContain(colour);
   await widget.evaluate((element) => element.setAttribute('theme', 'light'));
-  await expect.poll(() => surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
+  await expect.poll(() => surfaceStyleOf(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
   expect((await coloursOf(widget, ['muted', 'rule'])).map(hex)).toEqual(pageColors);
 });
 
@@ -197,29 +198,29 @@ const THEME_PROPERTIES = {
 
 test('the stylesheet adopts muted text, hairlines and header height of a theme, and --motion- properties override them', async ({ page }) => {
   const widget = await mount(page, 'banana-machine', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
-  const adoptedStyle = async () => [
+  const readAdoptedStyle = async () => [
     ...(await coloursOf(widget, ['muted', 'rule'])).map(hex),
     await widget.locator('.surface').evaluate((element) => {
-      const probe = Object.assign(document.createElement('span'), { style: 'position: absolute; height: var(--top)' });
-      element.append(probe);
-      const { height } = probe.getBoundingClientRect();
-      probe.remove();
+      const heightProbe = Object.assign(document.createElement('span'), { style: 'position: absolute; height: var(--top)' });
+      element.append(heightProbe);
+      const { height } = heightProbe.getBoundingClientRect();
+      heightProbe.remove();
       return height;
     }),
   ];
   const setStyle = (/** @type {string} */ style) => page.evaluate((text) => void (document.documentElement.style.cssText = text), style);
-  for (const [theme, [muted, rule, height]] of Object.entries(THEME_PROPERTIES)) {
-    await setStyle(`${muted}: #112233; ${rule}: #445566; ${height}: 60px`);
-    expect.soft(await adoptedStyle(), theme).toEqual(['#112233', '#445566', 60]);
+  for (const [themeName, [mutedProperty, ruleProperty, heightProperty]] of Object.entries(THEME_PROPERTIES)) {
+    await setStyle(`${mutedProperty}: #112233; ${ruleProperty}: #445566; ${heightProperty}: 60px`);
+    expect.soft(await readAdoptedStyle(), themeName).toEqual(['#112233', '#445566', 60]);
   }
   await setStyle('--ifm-navbar-height: 60px; --motion-muted: #010203; --motion-rule: #040506; --motion-sticky-top: 7px');
-  expect(await adoptedStyle()).toEqual(['#010203', '#040506', 7]);
+  expect(await readAdoptedStyle()).toEqual(['#010203', '#040506', 7]);
 });
 
 test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figureName }) => {
   const widget = await mount(page, figureName, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
   // Light text on a dark background gets the dark palette.
-  expect(await surfaceOf(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
+  expect(await surfaceStyleOf(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
   expect(await widget.locator('.slider .effect').first().evaluate((element) => getComputedStyle(element).backgroundColor)).toBe('rgb(16, 32, 48)');
 });
 
@@ -235,8 +236,8 @@ test('no control has custom properties of its own, which extensions that darken 
   const widget = await mount(page, figureName);
   await openDisclosures(widget);
   expect(await widget.locator('.simulation [style*="--"]').count()).toBe(0);
-  const thumbs = await widget.getByRole('slider').evaluateAll((sliders) =>
+  const thumbProperties = await widget.getByRole('slider').evaluateAll((sliders) =>
     sliders.filter((slider) => slider.matches('input')).map((slider) => getComputedStyle(slider).getPropertyValue('--thumb')));
-  expect(thumbs.length).toBeGreaterThan(3);
-  expect(thumbs).not.toContain('');
+  expect(thumbProperties.length).toBeGreaterThan(3);
+  expect(thumbProperties).not.toContain('');
 });

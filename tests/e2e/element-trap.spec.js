@@ -7,7 +7,7 @@ import { REDUCED_MOTION, waitForFrames, mount, pictureOf, showPage, stateOf, tak
 
 test.use(REDUCED_MOTION);
 
-/** Makes the next call into the core crash, and causes that call by an event of a slider. @param {Locator} widget @param {string} slider */
+/** Makes the next call of the core crash, and fires an event of a slider that causes this call. @param {Locator} widget @param {string} slider */
 function trapNextCall(widget, slider) {
   return widget.evaluate((element, id) => {
     const { simulation, shadowRoot } = /** @type {AnyElement} */ (element);
@@ -18,7 +18,7 @@ function trapNextCall(widget, slider) {
   }, slider);
 }
 
-/** @param {Locator} widget */
+/** Waits until a figure has a new simulation after a crash. @param {Locator} widget */
 const expectRestarted = (widget) =>
   expect.poll(() => widget.evaluate((element) => {
     const { simulation } = /** @type {AnyElement} */ (element);
@@ -40,9 +40,9 @@ test('a core that traps is restarted with the same state and picture, and no oth
   await takeEvents(page);
   await trapNextCall(widget, sliderId);
   await expectRestarted(widget);
-  const errors = await takeEvents(page, ['error', 'load']);
-  expect(errors.map(({ name, target }) => [name, target])).toEqual([['error', figureName]]);
-  expect(errors[0].message).toMatch(/memory access out of bounds|unreachable/);
+  const errorEvents = await takeEvents(page, ['error', 'load']);
+  expect(errorEvents.map(({ name, target }) => [name, target])).toEqual([['error', figureName]]);
+  expect(errorEvents[0].message).toMatch(/memory access out of bounds|unreachable/);
   expect(await stateOf(widget)).toEqual(stateBefore);
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
   expect(await otherWidget.evaluate((element) => /** @type {AnyElement} */ (element).simulation === Reflect.get(window, 'otherSimulation'))).toBe(true);

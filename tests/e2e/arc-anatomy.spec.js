@@ -240,9 +240,9 @@ test('without noise it says so, and draws no map @nightly', async ({ page }) => 
 test('a button plays the drive along the arcs', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await openArcAnatomy(page);
-  const { values, label } = await playSlider(widget, 'underway', 3);
-  expect(label).toBe('Pause');
-  expect(values[0]).toBe(0);
-  expect(values[2]).toBeGreaterThan(values[1]);
+  const { sliderValues, buttonLabel } = await playSlider(widget, 'underway', 3);
+  expect(buttonLabel).toBe('Pause');
+  expect(sliderValues[0]).toBe(0);
+  expect(sliderValues[2]).toBeGreaterThan(sliderValues[1]);
   await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
 });

@@ -34,10 +34,10 @@ test('a preset brings back the floor, also the present one', async ({ page }) =>
 test('Play carries the floor all the way', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await openBanana(page, 'samples="1000"');
-  const { values, label } = await playSlider(widget, 'morph');
-  expect(label).toBe('Pause');
-  expect(values.at(-1)).toBe(1);
-  for (const [i, value] of values.entries()) expect(value).toBeGreaterThan(values[i - 1] ?? 0);
+  const { sliderValues, buttonLabel } = await playSlider(widget, 'morph');
+  expect(buttonLabel).toBe('Pause');
+  expect(sliderValues.at(-1)).toBe(1);
+  for (const [i, sliderValue] of sliderValues.entries()) expect(sliderValue).toBeGreaterThan(sliderValues[i - 1] ?? 0);
 });
 
 test('the end of the arc is moved where the morph shows it @nightly', async ({ page }) => {

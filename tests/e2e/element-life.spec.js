@@ -206,7 +206,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   expect(await readOpenFolds()).toEqual(openFoldsBefore);
   await expect(field).toHaveValue(fieldInFold.value);
   await expect(folds.nth(fieldInFold.foldIndex).locator('.folded')).not.toBeEmpty();
-  // The figure has the same height while it loads again and afterwards.
+  // The figure has its former height in both frames.
   expect(heightsAfter).toEqual([heightBefore, heightBefore]);
 });
 

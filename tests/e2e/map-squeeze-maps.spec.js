@@ -84,18 +84,18 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   const widget = await openSqueeze(page);
   await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
   // A corridor of 4 m × 1 m, whose right half is unknown.
-  const image = makePngFile('map.png', 80, 20, (column) => column >= 40);
-  await chooseFiles(widget, [makeYamlFile('map.yaml', { ...YAML_FIELDS, image: 'map.png', mode: 'scale' }), image]);
+  const imageFile = makePngFile('map.png', 80, 20, (column) => column >= 40);
+  await chooseFiles(widget, [makeYamlFile('map.yaml', { ...YAML_FIELDS, image: 'map.png', mode: 'scale' }), imageFile]);
   await expect(currentMapOf(widget)).toContainText('map.yaml');
   // The robot is in the left half, whose cells are not unknown.
   expect((await squeezeResultsOf(widget)).config.start.x).toBeLessThan(2);
   await widget.evaluate((element) => Object.assign(element, { theta: 0 }));
   const canvas = widget.locator('canvas.plane');
-  const choice = widget.getByRole('radiogroup', { name: 'Unknown cells' });
-  await expect(choice.getByLabel('free')).toBeChecked();
+  const unknownCellsChoice = widget.getByRole('radiogroup', { name: 'Unknown cells' });
+  await expect(unknownCellsChoice.getByLabel('free')).toBeChecked();
   const resultsIfFree = await squeezeResultsOf(widget);
   const pictureIfFree = await pictureOf(canvas);
-  await choice.getByLabel('blocked').check();
+  await unknownCellsChoice.getByLabel('blocked').check();
   const resultsIfBlocked = await squeezeResultsOf(widget);
   expect(resultsIfBlocked.config.unknown).toBe('blocked');
   expect(resultsIfBlocked.poses).toEqual(resultsIfFree.poses);
@@ -105,27 +105,27 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   await expect(widget.locator('.legend').getByLabel('unknown cells')).toBeChecked();
 
   // A state contains the map and the setting of its unknown cells, and restores both.
-  const state = await widget.evaluate((element) => JSON.stringify(/** @type {any} */ (element).getState()));
+  const stateJson = await widget.evaluate((element) => JSON.stringify(/** @type {any} */ (element).getState()));
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
-  await expect(choice).toHaveCount(0);
-  await widget.evaluate((element, text) => /** @type {any} */ (element).setState(JSON.parse(text)), state);
-  await expect(choice.getByLabel('blocked')).toBeChecked();
+  await expect(unknownCellsChoice).toHaveCount(0);
+  await widget.evaluate((element, text) => /** @type {any} */ (element).setState(JSON.parse(text)), stateJson);
+  await expect(unknownCellsChoice.getByLabel('blocked')).toBeChecked();
   expect(await squeezeResultsOf(widget)).toEqual(resultsIfBlocked);
 });
 
 test('a floor plan can be written on the page', async ({ page }) => {
   const widget = await openSqueeze(page);
   await openDisclosures(widget);
-  const field = widget.getByLabel('Or a floor plan here');
+  const planField = widget.getByLabel('Or a floor plan here');
   const useButton = widget.getByRole('button', { name: 'Use this plan' });
   // The text field opens with an example of a floor plan.
   await useButton.click();
   await expect(currentMapOf(widget)).toHaveText('Pasted plan: 6.0 m × 4.0 m, 6 walls.');
-  await field.fill('{"bounds": [0, 0, 3, 3],\n"walls": [[0, 0, 3, 3]}');
+  await planField.fill('{"bounds": [0, 0, 3, 3],\n"walls": [[0, 0, 3, 3]}');
   await useButton.click();
   await expect(errorMessageOf(widget)).toHaveText(/^Pasted plan: .+; expected is \{"bounds": .+ in metres\.$/);
   expect((await squeezeResultsOf(widget)).bounds).toEqual([0, 0, 6, 4]);
-  await field.fill(JSON.stringify({ bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] }));
+  await planField.fill(JSON.stringify({ bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] }));
   await useButton.click();
   await expect(errorMessageOf(widget)).toBeHidden();
   expect((await squeezeResultsOf(widget)).walls).toEqual([0, 0, 3, 3]);
@@ -161,29 +161,29 @@ test('the reason why a dropped map is refused is scrolled into view @nightly', a
 });
 
 test('a map that is refused is reported in a sentence, and the present map stays', async ({ page }) => {
-  const image = makePgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder);
+  const imageFile = makePgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder);
   const roomYaml = makeYamlFile('room.yaml', YAML_FIELDS);
   const widget = await openSqueeze(page);
   const resultsBefore = await squeezeResultsOf(widget);
   await chooseFiles(widget, [roomYaml]);
   await expect(errorMessageOf(widget)).toHaveText(/^room\.yaml: image names room\.pgm, which is not there; expected are both files/);
-  // The page accepts this image, and the core refuses it.
+  // This image has a valid header and too few pixels. The page accepts it, and the core refuses it.
   await chooseFiles(widget, [roomYaml, makeMapFile('room.pgm', 'P5\n60 40\n255\nabc')]);
   await expect(errorMessageOf(widget)).toHaveText(/^room\.pgm.*(2400|60 × 40)/);
   expect(await squeezeResultsOf(widget)).toEqual(resultsBefore);
   await expect(currentMapOf(widget)).toContainText('The apartment');
   await expectAccessible(page);
-  await chooseFiles(widget, [roomYaml, image]);
+  await chooseFiles(widget, [roomYaml, imageFile]);
   await expect(currentMapOf(widget)).toContainText('room.yaml');
   await expect(errorMessageOf(widget)).toBeHidden();
 });
 
 test('a map set by a page is shown, an equal one changes nothing, and an incomplete one is refused', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const results = await widget.evaluate(async (element, room) => {
+  const mapOutcomes = await widget.evaluate(async (element, room) => {
     const figure = /** @type {any} */ (element);
-    /** Sets a map, and returns its keys or the error. @param {any} map @returns {Promise<string>} */
-    const resultOfSetting = (map) => new Promise((resolve) => {
+    /** Sets a map, and returns its keys or the error message. @param {any} map @returns {Promise<string>} */
+    const setMap = (map) => new Promise((resolve) => {
       figure.addEventListener('stats', () => resolve(Object.keys(figure.map).join()), { once: true });
       figure.addEventListener('error', (/** @type {ErrorEvent} */ event) => {
         event.preventDefault();
@@ -193,14 +193,14 @@ test('a map set by a page is shown, an equal one changes nothing, and an incompl
     });
     const grid = { name: 'grid', columns: 8, rows: 1, resolution: 0.5, origin: [0, 0, 0], occupied: 'gA==' };
     const outcomes = [];
-    for (const map of [room, { bounds: room.bounds }, grid]) outcomes.push(await resultOfSetting(map));
-    let changes = 0;
-    figure.addEventListener('stats', () => changes++);
+    for (const map of [room, { bounds: room.bounds }, grid]) outcomes.push(await setMap(map));
+    let statsEventCount = 0;
+    figure.addEventListener('stats', () => statsEventCount++);
     figure.map = { ...grid };
     for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
-    return [...outcomes, changes];
+    return [...outcomes, statsEventCount];
   }, ROOM_PLAN);
-  expect(results).toEqual([
+  expect(mapOutcomes).toEqual([
     'name,bounds,walls', expect.stringMatching(/^map\.walls is undefined; /), 'name,columns,rows,resolution,origin,occupied', 0,
   ]);
 });

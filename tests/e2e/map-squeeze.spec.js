@@ -8,11 +8,11 @@ import { REDUCED_MOTION, centreOf, waitForFrames, numberIn, pictureOf, readoutVa
 
 test.use(REDUCED_MOTION);
 
-const bodyHandle = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot', exact: true });
-const headingHandle = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot' });
+const bodyHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot', exact: true });
+const headingHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot' });
 
-/** Returns the pixels of a metre. @param {Locator} widget */
-const pixelsPerMetre = (widget) => widget.evaluate((element) => {
+/** Returns the number of CSS pixels per metre. @param {Locator} widget */
+const pixelsPerMetreOf = (widget) => widget.evaluate((element) => {
   const { view } = /** @type {any} */ (element).picture;
   return view.toPixelX(1) - view.toPixelX(0);
 });
@@ -21,59 +21,59 @@ test('the robot moves and turns by keyboard', async ({ page }) => {
   const widget = await openSqueeze(page);
   let { start } = /** @type {any} */ (await stateOf(widget));
   const fiveDegrees = Math.PI / 36;
-  const keys = /** @type {const} */ ([
-    [bodyHandle, 'ArrowRight', 0.05, 0, 0],
-    [bodyHandle, 'ArrowUp', 0, 0.05, 0],
-    [bodyHandle, '[', 0, 0, fiveDegrees],
-    [bodyHandle, ']', 0, 0, -fiveDegrees],
-    [bodyHandle, 'Shift+ArrowLeft', -0.25, 0, 0],
-    [bodyHandle, 'PageDown', 0, -0.5, 0],
-    [headingHandle, 'ArrowUp', 0, 0, fiveDegrees],
-    [headingHandle, 'Shift+ArrowRight', 0, 0, -5 * fiveDegrees],
-    [headingHandle, 'PageDown', 0, 0, -10 * fiveDegrees],
+  const keyEffects = /** @type {const} */ ([
+    [bodyHandleOf, 'ArrowRight', 0.05, 0, 0],
+    [bodyHandleOf, 'ArrowUp', 0, 0.05, 0],
+    [bodyHandleOf, '[', 0, 0, fiveDegrees],
+    [bodyHandleOf, ']', 0, 0, -fiveDegrees],
+    [bodyHandleOf, 'Shift+ArrowLeft', -0.25, 0, 0],
+    [bodyHandleOf, 'PageDown', 0, -0.5, 0],
+    [headingHandleOf, 'ArrowUp', 0, 0, fiveDegrees],
+    [headingHandleOf, 'Shift+ArrowRight', 0, 0, -5 * fiveDegrees],
+    [headingHandleOf, 'PageDown', 0, 0, -10 * fiveDegrees],
   ]);
-  for (const [part, key, dx, dy, dTheta] of keys) {
-    await part(widget).press(key);
+  for (const [handleOf, key, dx, dy, dTheta] of keyEffects) {
+    await handleOf(widget).press(key);
     const movedStart = /** @type {any} */ (await stateOf(widget)).start;
     expect(movedStart.x - start.x, key).toBeCloseTo(dx, 9);
     expect(movedStart.y - start.y, key).toBeCloseTo(dy, 9);
     expect(movedStart.theta - start.theta, key).toBeCloseTo(dTheta, 9);
     start = movedStart;
   }
-  await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', `x = ${start.x.toFixed(2)} m, y = ${start.y.toFixed(2)} m`);
-  await expect(headingHandle(widget)).toHaveAttribute('aria-valuetext', `${start.theta.toFixed(2)} rad`);
+  await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', `x = ${start.x.toFixed(2)} m, y = ${start.y.toFixed(2)} m`);
+  await expect(headingHandleOf(widget)).toHaveAttribute('aria-valuetext', `${start.theta.toFixed(2)} rad`);
 });
 
 test('the robot stays inside the map, and says so to the eye and to the ear', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { x, y } = await centreOf(bodyHandle(widget));
-  const edgeLabel = async () => {
+  const { x, y } = await centreOf(bodyHandleOf(widget));
+  const readEdgeLabel = async () => {
     await waitForFrames(page);
-    return bodyHandle(widget).evaluate((element) => getComputedStyle(element, '::before').content);
+    return bodyHandleOf(widget).evaluate((element) => getComputedStyle(element, '::before').content);
   };
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x - 20, y, { steps: 3 });
-  expect(await edgeLabel()).toBe('none');
+  expect(await readEdgeLabel()).toBe('none');
   await page.mouse.move(1, y, { steps: 3 });
-  expect(await edgeLabel()).toBe('"The map ends here"');
+  expect(await readEdgeLabel()).toBe('"The map ends here"');
   await page.mouse.move(x - 20, y, { steps: 3 });
-  expect(await edgeLabel()).toBe('none');
+  expect(await readEdgeLabel()).toBe('none');
   await page.mouse.move(1, y, { steps: 3 });
   await page.mouse.up();
-  expect(await edgeLabel()).toBe('none');
+  expect(await readEdgeLabel()).toBe('none');
   expect((await squeezeResultsOf(widget)).config.start.x).toBe(0);
 
   // With the keyboard, the position and the obstacle are announced.
-  const valueAtEdge = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
-  await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', valueAtEdge);
-  await bodyHandle(widget).press('ArrowRight');
-  await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', /^x = 0\.05 m, y = \d\.\d\d m$/);
-  expect(await edgeLabel()).toBe('none');
+  const valueTextAtEdge = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
+  await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', valueTextAtEdge);
+  await bodyHandleOf(widget).press('ArrowRight');
+  await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', /^x = 0\.05 m, y = \d\.\d\d m$/);
+  expect(await readEdgeLabel()).toBe('none');
   for (let i = 0; i < 2; i++) {
-    await bodyHandle(widget).press('ArrowLeft');
-    await expect(bodyHandle(widget)).toHaveAttribute('aria-valuetext', valueAtEdge);
-    expect(await edgeLabel()).toBe('"The map ends here"');
+    await bodyHandleOf(widget).press('ArrowLeft');
+    await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', valueTextAtEdge);
+    expect(await readEdgeLabel()).toBe('"The map ends here"');
   }
   expect((await squeezeResultsOf(widget)).config.start.x).toBe(0);
 });
@@ -82,11 +82,11 @@ test('a robot that a key led into a wall is reported @nightly', async ({ page })
   const widget = await openSqueeze(page);
   await widget.evaluate((element) => void Reflect.set(element, 'start', { x: 4.2, y: 2.6, theta: 0 }));
   expect((await squeezeResultsOf(widget)).startFree).toBe(true);
-  for (let i = 0; i < 2; i++) await bodyHandle(widget).press('ArrowLeft');
+  for (let i = 0; i < 2; i++) await bodyHandleOf(widget).press('ArrowLeft');
   expect((await squeezeResultsOf(widget)).startFree).toBe(false);
   await expect(widget.getByRole('status').filter({ hasText: 'The start pose is in collision' })).toHaveCount(1);
   await expect(widget.locator('.verdict')).toContainText('The start pose is in collision');
-  for (let i = 0; i < 2; i++) await bodyHandle(widget).press('ArrowRight');
+  for (let i = 0; i < 2; i++) await bodyHandleOf(widget).press('ArrowRight');
   await expect(widget.locator('.verdict')).not.toContainText('start pose is in collision');
 });
 
@@ -99,18 +99,18 @@ test('the sampler is chosen by name, and the readouts are those of the simulatio
     await widget.getByLabel(label, { exact: true }).check();
     const { config, stats } = await squeezeResultsOf(widget);
     expect(config.sampler).toBe(sampler);
-    const shownNumber = async (/** @type {string | RegExp} */ name) => numberIn(await readoutValue(widget, name).textContent());
-    expect(await shownNumber(/^\s*drawn/)).toBe(stats.drawn);
-    expect(await shownNumber(/^\s*accepted\s*[\d\u202f]/)).toBe(stats.accepted);
-    expect(await shownNumber('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
-    expect(await shownNumber('wall distances computed per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
+    const readNumber = async (/** @type {string | RegExp} */ name) => numberIn(await readoutValue(widget, name).textContent());
+    expect(await readNumber(/^\s*drawn/)).toBe(stats.drawn);
+    expect(await readNumber(/^\s*accepted\s*[\d\u202f]/)).toBe(stats.accepted);
+    expect(await readNumber('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
+    expect(await readNumber('wall distances computed per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
     const detailTexts = (await widget.locator('.readouts .detail').allTextContents()).map((text) => text.split('%')[0]);
     expect(numberIn(detailTexts[0])).toBeCloseTo(100 * stats.acceptanceRate, 1);
     if (sampler === 'whole-arc') {
       await expect(readoutValue(widget, 'accepted through a wall')).toHaveText('0, by construction');
       continue;
     }
-    expect(await shownNumber('accepted through a wall')).toBe(stats.throughWall);
+    expect(await readNumber('accepted through a wall')).toBe(stats.throughWall);
     expect(numberIn(detailTexts[1])).toBeCloseTo(100 * stats.throughWallRate, 1);
     const intervalText = stats.throughWallInterval.map((end) => (100 * end).toFixed(1)).join('\u2060–\u2060');
     await expect(widget.locator('.verdict')).toContainText(`(95\u202f% interval ${intervalText}`);
@@ -121,17 +121,17 @@ test('the headline gives the share as a simple fraction, and has words for none 
   const widget = await openSqueeze(page);
   const headline = widget.locator('.headline');
   await expect(headline).toHaveText('1 in 3 accepted motions went through a wall');
-  const { size } = await headline.evaluate((element) => ({ size: parseFloat(getComputedStyle(element).fontSize) }));
-  expect(size).toBeGreaterThanOrEqual(28);
-  expect(size).toBeLessThanOrEqual(32);
-  const cases = /** @type {[Record<string, unknown>, string][]} */ ([
+  const { size: fontSize } = await headline.evaluate((element) => ({ size: parseFloat(getComputedStyle(element).fontSize) }));
+  expect(fontSize).toBeGreaterThanOrEqual(28);
+  expect(fontSize).toBeLessThanOrEqual(32);
+  const headlineCases = /** @type {[Record<string, unknown>, string][]} */ ([
     [{ sampler: 'whole-arc' }, 'No accepted motion went through a wall'],
     [{ x: 3.9, y: 2.6, theta: 0 }, 'No motion was accepted'],
     [{ sampler: 'endpoint', conditioned: false }, 'All accepted motions went through a wall'],
   ]);
-  for (const [settings, text] of cases) {
+  for (const [settings, headlineText] of headlineCases) {
     await widget.evaluate((element, values) => Object.assign(element, values), settings);
-    await expect(headline).toHaveText(text);
+    await expect(headline).toHaveText(headlineText);
   }
 });
 
@@ -143,50 +143,50 @@ test('the table of costs has each sampler, and the share of a processor core fol
   await waitForFrames(page);
   const table = widget.locator('.table');
   await expect(table).toHaveAttribute('aria-busy', 'false');
-  const rows = await table.locator('tbody tr').evaluateAll((rowElements) =>
+  const cellTextsOfRows = await table.locator('tbody tr').evaluateAll((rowElements) =>
     rowElements.map((row) => [...row.querySelectorAll('td')].map((cell) => cell.textContent ?? '')),
   );
-  expect(rows).toHaveLength(3);
-  const [endpoint, wholeArc, subStepped] = rows.map((row) => row.map(numberIn));
-  for (const [, , micros, share] of [endpoint, wholeArc, subStepped]) {
-    expect(micros).toBeGreaterThan(0);
+  expect(cellTextsOfRows).toHaveLength(3);
+  const [endpointNumbers, wholeArcNumbers, subSteppedNumbers] = cellTextsOfRows.map((row) => row.map(numberIn));
+  for (const [, , microseconds, corePercent] of [endpointNumbers, wholeArcNumbers, subSteppedNumbers]) {
+    expect(microseconds).toBeGreaterThan(0);
     // 2000 motions at 20 Hz take 4 % of a core for each microsecond. Both numbers are rounded to two digits, by up to 5 %.
-    expect(Math.abs(share / (4 * micros) - 1)).toBeLessThan(0.11);
+    expect(Math.abs(corePercent / (4 * microseconds) - 1)).toBeLessThan(0.11);
   }
 });
 
 test('a wedged robot is reported with the number of draws @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const note = widget.locator('.verdict.note');
-  await expect(note).toHaveCount(0);
+  const verdictNote = widget.locator('.verdict.note');
+  await expect(verdictNote).toHaveCount(0);
   await openDisclosures(widget);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await widget.getByLabel('Sub-stepped').check();
   await widget.getByRole('slider', { name: 'sub-steps' }).fill('32');
   const { stats, config } = await squeezeResultsOf(widget);
   expect(stats.gaveUp).toBe(true);
-  await expect(note).toContainText('The robot is wedged');
-  const noteText = ((await note.textContent()) ?? '').replaceAll('\u202f', '');
-  // No other sentence contains another count of the same motions.
+  await expect(verdictNote).toContainText('The robot is wedged');
+  const noteText = ((await verdictNote.textContent()) ?? '').replaceAll('\u202f', '');
+  // The note is this one sentence, without a second count of the same motions.
   const throughText = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
   const completedText = `only ${stats.accepted} of ${config.samples} motions were completed; ${throughText} went through a wall`;
   expect(noteText.trim()).toBe(`The robot is wedged: of ${stats.drawn} sub-steps drawn, ${stats.accepted === 0 ? 'none completed a motion' : completedText}.`);
-  const description = ((await widget.locator('canvas.plane').getAttribute('aria-label')) ?? '').replaceAll('\u202f', '');
-  expect(description).toContain(`${stats.drawn} sub-steps drawn; ${stats.accepted} motions accepted`);
-  expect(description.includes('crosses')).toBe(stats.accepted < stats.attempts);
+  const canvasLabel = ((await widget.locator('canvas.plane').getAttribute('aria-label')) ?? '').replaceAll('\u202f', '');
+  expect(canvasLabel).toContain(`${stats.drawn} sub-steps drawn; ${stats.accepted} motions accepted`);
+  expect(canvasLabel.includes('crosses')).toBe(stats.accepted < stats.attempts);
 
-  // Start in the wall, from which no path is free.
+  // The start is dragged into the wall, from which no path is free.
   await widget.getByLabel('Whole arc').check();
-  const { x, y } = await centreOf(bodyHandle(widget));
-  const wallDistance = 1.2 * (await pixelsPerMetre(widget));
+  const { x, y } = await centreOf(bodyHandleOf(widget));
+  const wallDistancePx = 1.2 * (await pixelsPerMetreOf(widget));
   await page.mouse.move(x, y);
   await page.mouse.down();
-  await page.mouse.move(x, y - wallDistance, { steps: 4 });
+  await page.mouse.move(x, y - wallDistancePx, { steps: 4 });
   await page.mouse.up();
   const blockedResults = await squeezeResultsOf(widget);
   expect(blockedResults.startFree).toBe(false);
   expect(blockedResults.stats.accepted).toBe(0);
-  await expect(note).toHaveText('No sample was accepted: all 600 drawn paths are in collision.');
+  await expect(verdictNote).toHaveText('No sample was accepted: all 600 drawn paths are in collision.');
   await expect(widget.locator('p[role=status]')).toContainText('No sample was accepted');
 });
 
@@ -195,29 +195,29 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   const { verdicts, poses } = await squeezeResultsOf(widget);
   const throughWallIndex = verdicts.indexOf(5);
   const rejectedIndex = verdicts.findIndex((verdict) => (verdict & 4) === 0);
-  const field = widget.getByRole('spinbutton', { name: 'Sample' });
-  const output = widget.locator('.marked output');
+  const sampleField = widget.getByRole('spinbutton', { name: 'Sample' });
+  const verdictOutput = widget.locator('.marked output');
   const canvas = widget.locator('canvas.plane');
   await openDisclosures(widget);
   const pictureBefore = await pictureOf(canvas);
 
-  await field.fill(String(throughWallIndex + 1));
-  await expect(output).toHaveText('accepted through a wall: the end pose is free, but the path touches a wall or leaves the map');
+  await sampleField.fill(String(throughWallIndex + 1));
+  await expect(verdictOutput).toHaveText('accepted through a wall: the end pose is free, but the path touches a wall or leaves the map');
   expect(await pictureOf(canvas)).not.toBe(pictureBefore);
-  await field.fill(String(rejectedIndex + 1));
-  await expect(output).toHaveText('rejected: the end pose is in collision');
-  await field.fill(String(verdicts.indexOf(7) + 1));
-  await expect(output).toHaveText('accepted: end pose and path are collision-free');
-  await field.fill('');
+  await sampleField.fill(String(rejectedIndex + 1));
+  await expect(verdictOutput).toHaveText('rejected: the end pose is in collision');
+  await sampleField.fill(String(verdicts.indexOf(7) + 1));
+  await expect(verdictOutput).toHaveText('accepted: end pose and path are collision-free');
+  await sampleField.fill('');
   expect(await pictureOf(canvas)).toBe(pictureBefore);
 
-  // The sample furthest to the right, which has no near neighbour.
-  let rightmost = 0;
-  for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * rightmost]) rightmost = i;
-  const { x, y } = await centreOf(bodyHandle(widget));
-  const metre = await pixelsPerMetre(widget);
-  await page.mouse.move(x + (poses[3 * rightmost] - 2.05) * metre, y - (poses[3 * rightmost + 1] - 2.6) * metre);
-  await expect(field).toHaveValue(String(rightmost + 1));
+  // The pointer is moved to the rightmost sample, which has no near neighbour.
+  let rightmostIndex = 0;
+  for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * rightmostIndex]) rightmostIndex = i;
+  const { x, y } = await centreOf(bodyHandleOf(widget));
+  const metrePx = await pixelsPerMetreOf(widget);
+  await page.mouse.move(x + (poses[3 * rightmostIndex] - 2.05) * metrePx, y - (poses[3 * rightmostIndex + 1] - 2.6) * metrePx);
+  await expect(sampleField).toHaveValue(String(rightmostIndex + 1));
 });
 
 test('a marked motion that went through a wall has a leader to it, and no other has @nightly', async ({ page }) => {
@@ -235,7 +235,7 @@ test('a marked motion that went through a wall has a leader to it, and no other 
 test('the edge of a doorway and a wall are dragged, and Back to the apartment undoes it', async ({ page }) => {
   const widget = await openSqueeze(page);
   const resultsBefore = await squeezeResultsOf(widget);
-  const drag = async (/** @type {Locator} */ handle, /** @type {number} */ dx, /** @type {number} */ dy) => {
+  const dragHandle = async (/** @type {Locator} */ handle, /** @type {number} */ dx, /** @type {number} */ dy) => {
     const { x, y } = await centreOf(handle);
     await page.mouse.move(x, y);
     await page.mouse.down();
@@ -243,22 +243,22 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
     await page.mouse.up();
     return squeezeResultsOf(widget);
   };
-  // The left edge of the doorway ahead, from x = 1.6 m to its limit: the right edge is at 2.5 m.
-  const afterEdgeDrag = await drag(widget.locator('.handle.to-4'), 300, 40);
-  expect(afterEdgeDrag.walls.slice(16, 20)).toEqual([0, 3.8, expect.closeTo(2.45, 9), 3.8]);
-  expect(afterEdgeDrag.stats.throughWall).toBeGreaterThan(resultsBefore.stats.throughWall);
-  expect(afterEdgeDrag.config).toEqual(resultsBefore.config);
-  const afterWallDrag = await drag(widget.locator('.handle.side-8'), 10, -20);
-  const [x0, y0, x1, y1] = afterWallDrag.walls.slice(32, 36);
+  // The left edge of the doorway ahead is dragged from x = 1.6 m to its limit near the right edge, at 2.5 m.
+  const resultsAfterEdgeDrag = await dragHandle(widget.locator('.handle.to-4'), 300, 40);
+  expect(resultsAfterEdgeDrag.walls.slice(16, 20)).toEqual([0, 3.8, expect.closeTo(2.45, 9), 3.8]);
+  expect(resultsAfterEdgeDrag.stats.throughWall).toBeGreaterThan(resultsBefore.stats.throughWall);
+  expect(resultsAfterEdgeDrag.config).toEqual(resultsBefore.config);
+  const resultsAfterWallDrag = await dragHandle(widget.locator('.handle.side-8'), 10, -20);
+  const [x0, y0, x1, y1] = resultsAfterWallDrag.walls.slice(32, 36);
   expect([x0, x1]).toEqual([0, 2.8]);
   expect(y0).toBeGreaterThan(5);
   expect(y1).toBe(y0);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /Edited apartment/);
   // The full number of samples is tested after the walls have stopped moving.
   await widget.evaluate((element) => Object.assign(element, { samples: 5000 }));
-  const afterSecondDrag = await drag(widget.locator('.handle.side-8'), 0, -20);
-  expect(afterSecondDrag.walls[33]).toBeGreaterThan(y0 + 0.1);
-  expect(afterSecondDrag.shown).toBe(5000);
+  const resultsAfterSecondDrag = await dragHandle(widget.locator('.handle.side-8'), 0, -20);
+  expect(resultsAfterSecondDrag.walls[33]).toBeGreaterThan(y0 + 0.1);
+  expect(resultsAfterSecondDrag.shown).toBe(5000);
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   expect((await squeezeResultsOf(widget)).walls).toEqual(resultsBefore.walls);
 });
@@ -266,14 +266,14 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
 test('walls are moved by keyboard from one stop of Tab, and their handles are named', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { walls } = await squeezeResultsOf(widget);
-  await bodyHandle(widget).focus();
+  await bodyHandleOf(widget).focus();
   await page.keyboard.press('Shift+Tab');
-  const focusedHandle = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.className.split(' ')[2]);
-  expect(await focusedHandle()).toBe('to-4');
+  const readFocusedHandle = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.className.split(' ')[2]);
+  expect(await readFocusedHandle()).toBe('to-4');
   await page.keyboard.press('ArrowRight');
   expect((await squeezeResultsOf(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
   await page.keyboard.press(']');
-  expect(await focusedHandle()).toBe('side-4');
+  expect(await readFocusedHandle()).toBe('side-4');
   expect(await widget.evaluate(({ shadowRoot }) => getComputedStyle(/** @type {Element} */ (shadowRoot?.activeElement), '::before').content)).toBe('"Drag the wall"');
   await expect(widget.locator('.legend')).toContainText('handles: drag walls and edges of doorways');
   await page.keyboard.press('Shift+ArrowDown');
@@ -292,9 +292,9 @@ test('the picture has a description, and a user’s change is announced', async 
   await widget.getByLabel('Whole arc').check();
   const statsAfter = (await squeezeResultsOf(widget)).stats;
   const status = widget.locator('p[role=status]');
-  const text = `${statsAfter.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
-  await expect(status).toHaveText(text);
-  await expect(widget.locator('.verdict')).toHaveText(text);
+  const announcement = `${statsAfter.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
+  await expect(status).toHaveText(announcement);
+  await expect(widget.locator('.verdict')).toHaveText(announcement);
   // Without the condition all samples are accepted.
   await openDisclosures(widget);
   await widget.getByLabel('Check samples against the map').uncheck();
@@ -312,19 +312,19 @@ test('either view is within the apartment, and a close one has the whole map bes
   const widget = await openSqueeze(page);
   const overview = widget.locator('.overview');
   await expect(overview).toBeVisible();
-  const viewExtent = () => widget.evaluate((element) => /** @type {any} */ (element).picture.view.extent);
-  const margin = 0.301;
+  const readViewExtent = () => widget.evaluate((element) => /** @type {any} */ (element).picture.view.extent);
+  const maxMargin = 0.301;
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
     await widget.getByRole('button', { name }).click();
-    const { xMin, yMin, xMax, yMax } = await viewExtent();
-    expect(Math.min(xMin, yMin)).toBeGreaterThan(-margin);
-    expect(xMax).toBeLessThan(12 + margin);
-    expect(yMax).toBeLessThan(9 + margin);
+    const { xMin, yMin, xMax, yMax } = await readViewExtent();
+    expect(Math.min(xMin, yMin)).toBeGreaterThan(-maxMargin);
+    expect(xMax).toBeLessThan(12 + maxMargin);
+    expect(yMax).toBeLessThan(9 + maxMargin);
   }
   await openDisclosures(widget);
   await expect(widget.getByLabel('close-up')).toBeChecked();
   await widget.getByLabel('whole map').check();
-  const wholeMapExtent = await viewExtent();
+  const wholeMapExtent = await readViewExtent();
   expect(Math.min(13 / (wholeMapExtent.xMax - wholeMapExtent.xMin), 10 / (wholeMapExtent.yMax - wholeMapExtent.yMin))).toBeGreaterThan(0.9);
   await expect(overview).toHaveCount(0);
 });
@@ -349,25 +349,25 @@ test('many samples are a density, those through a wall in a colour of their own'
   await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));
   await expect(densityNote).toContainText('Density');
   expect((await squeezeResultsOf(widget)).stats.throughWall).toBeGreaterThan(4000);
-  // All samples behind the wall at y = 5 passed through one; between the posts of the doorway hardly any did.
-  const [colorBehindWall, colorBetweenPosts] = await widget.evaluate((element) => {
+  // All samples behind the wall at y = 5 went through a wall. Hardly any of those between the posts of the doorway did.
+  const [greenExcessBehindWall, greenExcessBetweenPosts] = await widget.evaluate((element) => {
     const { picture: { view }, renderRoot } = /** @type {any} */ (element);
     const canvas = renderRoot.querySelector('canvas.plane');
-    const ratio = canvas.width / canvas.clientWidth;
+    const pixelRatio = canvas.width / canvas.clientWidth;
     const pixelCopy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
     const context = /** @type {CanvasRenderingContext2D} */ (pixelCopy.getContext('2d', { willReadFrequently: true }));
     context.drawImage(canvas, 0, 0);
     return [[1.75, 5.4], [2.35, 4.2]].map(([x, y]) => {
-      const [left, top] = [ratio * view.toPixelX(x) - 8, ratio * view.toPixelY(y) - 8];
+      const [left, top] = [pixelRatio * view.toPixelX(x) - 8, pixelRatio * view.toPixelY(y) - 8];
       const { data } = context.getImageData(left, top, 16, 16);
-      let sum = 0;
-      for (let i = 0; i < data.length; i += 4) sum += data[i + 3] * (data[i + 1] - data[i + 2]);
-      return sum;
+      let greenExcess = 0;
+      for (let i = 0; i < data.length; i += 4) greenExcess += data[i + 3] * (data[i + 1] - data[i + 2]);
+      return greenExcess;
     });
   });
   // Purple has more blue than green, orange more green than blue.
-  expect(colorBehindWall).toBeLessThan(0);
-  expect(colorBetweenPosts).toBeGreaterThan(0);
+  expect(greenExcessBehindWall).toBeLessThan(0);
+  expect(greenExcessBetweenPosts).toBeGreaterThan(0);
   await widget.evaluate((element) => Object.assign(element, { samples: 600 }));
   await expect(densityNote).toHaveCount(0);
 });

@@ -1,5 +1,5 @@
 // Monkey test: random clicks, drags, keys, numbers, files, attributes, sizes and languages. No event may cause an error message, a crash of
-// the core or a broken figure. A second figure that gets the state of the first has to show the same results.
+// the core or a broken figure. A second figure in the same state must show the same results.
 //
 // MONKEY_EVENTS is the number of events, MONKEY_SEED the seed. The message of a failure contains both, for a replay.
 
@@ -12,7 +12,7 @@ import { ALL_NAMES } from './figures.js';
 /**
  * @typedef {import('@playwright/test').Page} Page
  * @typedef {import('./support.js').AnyElement} AnyElement
- * @typedef {{ below: (end: number) => number, one: <T>(of: readonly T[]) => T }} Random random numbers, and random elements of lists
+ * @typedef {{ integerBelow: (end: number) => number, itemOf: <T>(list: readonly T[]) => T }} Random random numbers, and random elements of lists
  * @typedef {(page: Page, random: Random) => Promise<string>} Action random action, which returns a description of itself
  */
 
@@ -44,109 +44,109 @@ const DROPPED_FILES = [
 ];
 
 /** Returns a generator of random numbers and list elements. @param {number} seed @returns {Random} */
-function randomOf(seed) {
+function createRandom(seed) {
   const random = randomGenerator(seed);
   const randomBelow = (/** @type {number} */ end) => Math.floor(end * random());
-  return { below: randomBelow, one: (list) => list[randomBelow(list.length)] };
+  return { integerBelow: randomBelow, itemOf: (list) => list[randomBelow(list.length)] };
 }
 
-/** Brings a part of a widget to where the pointer can reach it. @param {Page} page @param {Random} random @param {string} selector */
-async function partAt(page, random, selector) {
-  const [name, choice, x, y] = [random.one(ALL_NAMES), random.below(1e6), random.below(99) + 1, random.below(99) + 1];
+/** Scrolls a random part of a widget into view, and returns a random point in it. @param {Page} page @param {Random} random @param {string} selector */
+async function findReachablePart(page, random, selector) {
+  const [name, choiceIndex, x, y] = [random.itemOf(ALL_NAMES), random.integerBelow(1e6), random.integerBelow(99) + 1, random.integerBelow(99) + 1];
   const box = await page.evaluate(
-    ([name, selector, choice]) => {
+    ([name, selector, choiceIndex]) => {
       const visibleParts = [...(document.querySelector(`${name}`)?.shadowRoot?.querySelectorAll(`${selector}`) ?? [])].filter((part) => part.checkVisibility());
-      const part = visibleParts[Number(choice) % visibleParts.length];
+      const part = visibleParts[Number(choiceIndex) % visibleParts.length];
       if (!part) return;
       part.scrollIntoView({ block: 'nearest', behavior: 'instant' });
       const { left, top, width, height } = part.getBoundingClientRect();
-      return { left, top, width, height, what: `${part.localName} ${part.id || part.className} ${part.textContent?.trim().slice(0, 20)}` };
+      return { left, top, width, height, description: `${part.localName} ${part.id || part.className} ${part.textContent?.trim().slice(0, 20)}` };
     },
-    [name, selector, choice],
+    [name, selector, choiceIndex],
   );
-  return box && { x: box.left + (box.width * x) / 100, y: box.top + (box.height * y) / 100, what: `${name} ${box.what}` };
+  return box && { x: box.left + (box.width * x) / 100, y: box.top + (box.height * y) / 100, description: `${name} ${box.description}` };
 }
 
 /** @type {Record<string, Action>} */
 const ACTIONS = {
   async click(page, random) {
-    const part = await partAt(page, random, PART_SELECTOR);
-    if (part) await page.mouse.click(part.x, part.y, { clickCount: random.one([1, 1, 1, 2]) });
-    return `${part?.what}`;
+    const part = await findReachablePart(page, random, PART_SELECTOR);
+    if (part) await page.mouse.click(part.x, part.y, { clickCount: random.itemOf([1, 1, 1, 2]) });
+    return `${part?.description}`;
   },
   async tap(page, random) {
-    const part = await partAt(page, random, PART_SELECTOR);
+    const part = await findReachablePart(page, random, PART_SELECTOR);
     if (part) await page.touchscreen.tap(part.x, part.y);
-    return `${part?.what}`;
+    return `${part?.description}`;
   },
   async drag(page, random) {
-    const part = await partAt(page, random, 'input[type=range], .handle, canvas');
+    const part = await findReachablePart(page, random, 'input[type=range], .handle, canvas');
     if (!part) return 'nothing';
-    const offset = [random.below(400) - 200, random.below(200) - 100];
+    const offset = [random.integerBelow(400) - 200, random.integerBelow(200) - 100];
     await page.mouse.move(part.x, part.y);
     await page.mouse.down();
     await page.mouse.move(part.x + offset[0], part.y + offset[1], { steps: 4 });
     // Sometimes another event happens during a drag.
-    if (random.below(4) > 0) await page.mouse.up();
-    return `${part.what} by ${offset}`;
+    if (random.integerBelow(4) > 0) await page.mouse.up();
+    return `${part.description} by ${offset}`;
   },
   async key(page, random) {
-    const keys = Array.from({ length: 1 + random.below(4) }, () => random.one(PRESSABLE_KEYS));
+    const keys = Array.from({ length: 1 + random.integerBelow(4) }, () => random.itemOf(PRESSABLE_KEYS));
     for (const key of keys) await page.keyboard.press(key);
     return keys.join(' ');
   },
   async type(page, random) {
-    const part = await partAt(page, random, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
-    const [text, end] = [random.one(TYPED_NUMBERS), random.one(['Enter', 'Tab', 'Escape'])];
+    const part = await findReachablePart(page, random, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
+    const [typedText, endKey] = [random.itemOf(TYPED_NUMBERS), random.itemOf(['Enter', 'Tab', 'Escape'])];
     if (part) {
       await page.mouse.click(part.x, part.y, { clickCount: 3 });
-      await page.keyboard.insertText(text);
-      await page.keyboard.press(end);
+      await page.keyboard.insertText(typedText);
+      await page.keyboard.press(endKey);
     }
-    return `${part?.what}: ${JSON.stringify(text)} ${end}`;
+    return `${part?.description}: ${JSON.stringify(typedText)} ${endKey}`;
   },
   async wheel(page, random) {
-    const scrollDelta = random.below(2000) - 1000;
+    const scrollDelta = random.integerBelow(2000) - 1000;
     await page.mouse.wheel(0, scrollDelta);
     return `${scrollDelta}`;
   },
   async attribute(page, random) {
-    const [name, choice, text] = [random.one(ALL_NAMES), random.below(1e6), random.below(4) === 0 ? null : random.one(ATTRIBUTE_TEXTS)];
-    return page.evaluate(([name, choice, text]) => {
-      const attributes = [.../** @type {any} */ (customElements.get(`${name}`)).observedAttributes, 'lang', 'dir', 'id', 'hidden'];
-      const attribute = attributes[Number(choice) % attributes.length];
+    const [name, choiceIndex, text] = [random.itemOf(ALL_NAMES), random.integerBelow(1e6), random.integerBelow(4) === 0 ? null : random.itemOf(ATTRIBUTE_TEXTS)];
+    return page.evaluate(([name, choiceIndex, text]) => {
+      const attributeNames = [.../** @type {any} */ (customElements.get(`${name}`)).observedAttributes, 'lang', 'dir', 'id', 'hidden'];
+      const attributeName = attributeNames[Number(choiceIndex) % attributeNames.length];
       const element = document.querySelector(`${name}`);
-      if (text === null) element?.removeAttribute(attribute);
-      else element?.setAttribute(attribute, `${text}`);
-      return `${name} ${attribute}=${text}`;
-    }, [name, choice, text]);
+      if (text === null) element?.removeAttribute(attributeName);
+      else element?.setAttribute(attributeName, `${text}`);
+      return `${name} ${attributeName}=${text}`;
+    }, [name, choiceIndex, text]);
   },
   async resize(page, random) {
-    const [width, height] = random.one(WINDOW_SIZES);
+    const [width, height] = random.itemOf(WINDOW_SIZES);
     await page.setViewportSize({ width, height });
     return `${width} × ${height}`;
   },
   async media(page, random) {
-    const media = { colorScheme: random.one(/** @type {const} */ (['light', 'dark'])), reducedMotion: random.one(/** @type {const} */ (['reduce', 'no-preference'])), media: random.one(/** @type {const} */ (['screen', 'screen', 'print'])) };
+    const media = { colorScheme: random.itemOf(/** @type {const} */ (['light', 'dark'])), reducedMotion: random.itemOf(/** @type {const} */ (['reduce', 'no-preference'])), media: random.itemOf(/** @type {const} */ (['screen', 'screen', 'print'])) };
     await page.emulateMedia(media);
     return JSON.stringify(media);
   },
   async language(page, random) {
-    const lang = random.one(LANGUAGES);
+    const lang = random.itemOf(LANGUAGES);
     await page.evaluate((to) => (document.documentElement.lang = to), lang);
     return lang;
   },
   async hash(page, random) {
-    const [name, choice] = [random.one(ALL_NAMES), random.below(4)];
-    return page.evaluate(async ([name, choice]) => {
+    const [name, choiceIndex] = [random.itemOf(ALL_NAMES), random.integerBelow(4)];
+    return page.evaluate(async ([name, choiceIndex]) => {
       const link = await /** @type {AnyElement} */ (document.querySelector(`${name}`)).shareLink();
       const { hash } = new URL(link);
-      location.hash = [hash, hash.slice(0, -9), `#${name}.1=`, '#top'][Number(choice)];
+      location.hash = [hash, hash.slice(0, -9), `#${name}.1=`, '#top'][Number(choiceIndex)];
       return location.hash.slice(0, 60);
-    }, [name, choice]);
+    }, [name, choiceIndex]);
   },
   async files(page, random) {
-    const files = random.one(DROPPED_FILES);
+    const files = random.itemOf(DROPPED_FILES);
     await page.evaluate(async (files) => {
       const section = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('section');
       const dataTransfer = new DataTransfer();
@@ -156,53 +156,53 @@ const ACTIONS = {
     return files.map(({ name }) => name).join(' ');
   },
   async state(page, random) {
-    const [name, choice, key, text] = [random.one(ALL_NAMES), random.below(3), random.below(1e6), random.one([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
-    return page.evaluate(([name, choice, key, text]) => {
+    const [name, choiceIndex, fieldIndex, newValue] = [random.itemOf(ALL_NAMES), random.integerBelow(3), random.integerBelow(1e6), random.itemOf([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
+    return page.evaluate(([name, choiceIndex, fieldIndex, newValue]) => {
       const element = /** @type {any} */ (document.querySelector(`${name}`));
-      const keptStates = /** @type {any} */ (window).kept;
+      const keptStates = /** @type {any} */ (window).keptStates;
       const state = element.getState();
       if (state) keptStates.push(state);
-      const { widget, version, ...values } = state ?? {};
-      const names = Object.keys(values);
-      const field = names[Number(key) % names.length];
-      const nextState = choice === 0 ? { widget, version, [field]: text } : keptStates[Number(key) % keptStates.length];
+      const { widget, version, ...fields } = state ?? {};
+      const fieldNames = Object.keys(fields);
+      const fieldName = fieldNames[Number(fieldIndex) % fieldNames.length];
+      const nextState = choiceIndex === 0 ? { widget, version, [fieldName]: newValue } : keptStates[Number(fieldIndex) % keptStates.length];
       try {
         element.setState(nextState);
       } catch (error) {
         if (!(error instanceof TypeError || error instanceof RangeError)) throw error;
       }
-      return `${name} ${choice === 0 ? `${field}: ${JSON.stringify(text)}` : 'a former state'}`;
-    }, [name, choice, key, text]);
+      return `${name} ${choiceIndex === 0 ? `${fieldName}: ${JSON.stringify(newValue)}` : 'a former state'}`;
+    }, [name, choiceIndex, fieldIndex, newValue]);
   },
   /** Sets a small number of samples, because events are slow with millions. */
-  async few(page, random) {
-    const [name, samples] = [random.one(ALL_NAMES), random.one([1, 20, 300, 2000])];
+  async reduceSamples(page, random) {
+    const [name, samples] = [random.itemOf(ALL_NAMES), random.itemOf([1, 20, 300, 2000])];
     return page.evaluate(([name, samples]) => {
       Object.assign(/** @type {Element} */ (document.querySelector(`${name}`)), { samples });
       return `${name} ${samples}`;
     }, [name, samples]);
   },
   async move(page, random) {
-    const [name, choice] = [random.one(ALL_NAMES), random.below(3)];
-    return page.evaluate(async ([name, choice]) => {
+    const [name, choiceIndex] = [random.itemOf(ALL_NAMES), random.integerBelow(3)];
+    return page.evaluate(async ([name, choiceIndex]) => {
       const element = document.querySelector(`${name}`);
       const placeholder = document.createComment('');
       element?.after(placeholder);
       const movedElement = /** @type {Element} */ (element);
       movedElement.remove();
-      if (choice === 1) await new Promise(requestAnimationFrame);
-      placeholder.replaceWith(choice === 2 ? Object.assign(document.createElement(`${name}`), { id: movedElement.id }) : movedElement);
-      return `${name} ${['moved', 'taken away for a while', 'another one in its place'][Number(choice)]}`;
-    }, [name, choice]);
+      if (choiceIndex === 1) await new Promise(requestAnimationFrame);
+      placeholder.replaceWith(choiceIndex === 2 ? Object.assign(document.createElement(`${name}`), { id: movedElement.id }) : movedElement);
+      return `${name} ${['moved', 'taken away for a while', 'another one in its place'][Number(choiceIndex)]}`;
+    }, [name, choiceIndex]);
   },
 };
 
 /** Relative frequencies of the actions. @type {Record<string, number>} */
-const FREQUENCIES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, language: 1, hash: 1, files: 1, state: 2, few: 4, move: 1 };
-const WEIGHTED_ACTIONS = Object.entries(FREQUENCIES).flatMap(([name, share]) => Array(share).fill(name));
+const ACTION_FREQUENCIES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, language: 1, hash: 1, files: 1, state: 2, reduceSamples: 4, move: 1 };
+const WEIGHTED_ACTION_NAMES = Object.entries(ACTION_FREQUENCIES).flatMap(([name, share]) => Array(share).fill(name));
 
 /**
- * Returns faults of a widget: in its picture and texts, and results that a second widget with its state does not have.
+ * Returns faults of a widget: of its picture, of its texts, and results that differ from those of a second widget in the same state.
  *
  * @param {Page} page
  * @param {string} name
@@ -217,30 +217,30 @@ function faultsOf(page, name) {
     };
     element.hidden = false;
     await untilShown(element);
-    const failure = element.shadowRoot.querySelector('.failure');
-    if (failure || !element.simulation) return [`it shows ${failure?.textContent ?? 'nothing'}`];
+    const failureElement = element.shadowRoot.querySelector('.failure');
+    if (failureElement || !element.simulation) return [`it shows ${failureElement?.textContent ?? 'nothing'}`];
     const faults = [...element.shadowRoot.querySelectorAll('dd, td, output, .typed, .note, .caption')]
       .map((field) => field.value ?? field.textContent)
       .filter((text) => /NaN|Infinity|undefined|\[object/.test(text))
       .map((text) => `it says ${text}`);
 
     const resultTextOf = async (/** @type {any} */ figure) => {
-      const bytes = new Uint8Array(await new Blob([figure.poses, figure.verdicts ?? figure.executed]).arrayBuffer());
-      const hash = [...new Uint8Array(await crypto.subtle.digest('SHA-256', bytes))].join();
-      return JSON.stringify([figure.getState(), figure.stats, hash], (_, value) => (Number.isFinite(value) || typeof value !== 'number' ? value : String(value)));
+      const resultBytes = new Uint8Array(await new Blob([figure.poses, figure.verdicts ?? figure.executed]).arrayBuffer());
+      const resultHash = [...new Uint8Array(await crypto.subtle.digest('SHA-256', resultBytes))].join();
+      return JSON.stringify([figure.getState(), figure.stats, resultHash], (_, value) => (Number.isFinite(value) || typeof value !== 'number' ? value : String(value)));
     };
-    // A growing cloud is paused. Otherwise it would have more samples a moment later.
+    // A growing cloud is paused, because it would have more samples a moment later.
     element.setState({ ...element.getState(), ...('playing' in element.getState() && { playing: false }) });
     await element.settled;
-    const resultText1 = await resultTextOf(element);
+    const resultText = await resultTextOf(element);
     const state = element.getState();
-    const element2 = /** @type {any} */ (document.createElement(name));
-    element2.setState(JSON.parse(JSON.stringify(state)));
-    element.after(element2);
-    await untilShown(element2);
-    const resultText2 = await resultTextOf(element2);
-    element2.remove();
-    if (resultText2 !== resultText1) faults.push(`a second figure with its state differs: ${resultText1.slice(0, 2000)} became ${resultText2.slice(0, 2000)}`);
+    const secondElement = /** @type {any} */ (document.createElement(name));
+    secondElement.setState(JSON.parse(JSON.stringify(state)));
+    element.after(secondElement);
+    await untilShown(secondElement);
+    const secondResultText = await resultTextOf(secondElement);
+    secondElement.remove();
+    if (secondResultText !== resultText) faults.push(`a second figure with its state differs: ${resultText.slice(0, 2000)} became ${secondResultText.slice(0, 2000)}`);
     return faults;
   }, name);
 }
@@ -251,7 +251,7 @@ test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ 
   test.setTimeout(60_000 + EVENT_COUNT * 400);
   page.on('dialog', (dialog) => dialog.dismiss());
   await page.addInitScript(() => {
-    Object.assign(window, { kept: [], trouble: [] });
+    Object.assign(window, { keptStates: [], unexpectedErrors: [] });
     // Full screen is refused, as in many frames, because a window in full screen cannot be resized.
     Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('Fullscreen is not permitted'));
     // A refused value fires an `error` event, which is expected. Other errors are not.
@@ -259,7 +259,7 @@ test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ 
       const { error } = event;
       event.preventDefault();
       const isExpected = event.target instanceof Element && (error instanceof TypeError || error instanceof RangeError) && /allowed|state/.test(error.message);
-      if (!isExpected) Reflect.get(window, 'trouble').push(`${error?.stack ?? event.message}`);
+      if (!isExpected) Reflect.get(window, 'unexpectedErrors').push(`${error?.stack ?? event.message}`);
     }, true);
   });
   await page.goto('/');
@@ -268,23 +268,23 @@ test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ 
     await untilReady(page.locator(name).first());
   }
 
-  const random = randomOf(SEED);
+  const random = createRandom(SEED);
   /** @type {string[]} */
-  const log = [];
-  const replayHint = () => `MONKEY_SEED=${SEED} MONKEY_EVENTS=${EVENT_COUNT}, after ${log.length} events; the last:\n${log.slice(-12).join('\n')}\n`;
-  while (log.length < EVENT_COUNT) {
-    const name = random.one(WEIGHTED_ACTIONS);
-    log.push(`${name} …`);
-    await test.step(name, async () => log.push(`${name} ${await ACTIONS[name](page, random)}`), { box: true }).catch((error) => {
-      throw new Error(replayHint(), { cause: error });
+  const eventLog = [];
+  const describeReplay = () => `MONKEY_SEED=${SEED} MONKEY_EVENTS=${EVENT_COUNT}, after ${eventLog.length} events; the last:\n${eventLog.slice(-12).join('\n')}\n`;
+  while (eventLog.length < EVENT_COUNT) {
+    const name = random.itemOf(WEIGHTED_ACTION_NAMES);
+    eventLog.push(`${name} …`);
+    await test.step(name, async () => eventLog.push(`${name} ${await ACTIONS[name](page, random)}`), { box: true }).catch((error) => {
+      throw new Error(describeReplay(), { cause: error });
     });
-    log.splice(-2, 1);
-    if (log.length % EVENTS_PER_CHECK > 0 && log.length < EVENT_COUNT) continue;
+    eventLog.splice(-2, 1);
+    if (eventLog.length % EVENTS_PER_CHECK > 0 && eventLog.length < EVENT_COUNT) continue;
     await page.mouse.up();
     await page.keyboard.press('Escape');
     await page.emulateMedia({ media: 'screen' });
     await waitForFrames(page);
-    for (const widget of ALL_NAMES) expect(await faultsOf(page, widget), `${widget}: ${replayHint()}`).toEqual([]);
-    expect(await page.evaluate(() => Reflect.get(window, 'trouble').splice(0)), replayHint()).toEqual([]);
+    for (const widget of ALL_NAMES) expect(await faultsOf(page, widget), `${widget}: ${describeReplay()}`).toEqual([]);
+    expect(await page.evaluate(() => Reflect.get(window, 'unexpectedErrors').splice(0)), describeReplay()).toEqual([]);
   }
 });

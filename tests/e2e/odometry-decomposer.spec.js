@@ -9,7 +9,7 @@ test.use(REDUCED_MOTION);
 /** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
 const openDecomposer = (page, attributes) => mount(page, 'odometry-decomposer', { attributes });
 
-/** @param {Locator} widget */
+/** Returns the results of the simulation after the next frames. @param {Locator} widget */
 async function resultsOf(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
@@ -18,38 +18,38 @@ async function resultsOf(widget) {
   });
 }
 
-const slider = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.getByRole('slider', { name, exact: true });
+const sliderNamed = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.getByRole('slider', { name, exact: true });
 
 test('the views have room for the arcs of the turns and for nearly every outcome', async ({ page }) => {
   await page.setViewportSize({ width: 656, height: 900 });
   const widget = await openDecomposer(page);
   await waitForFrames(page);
-  const layout = await widget.evaluate((element) => {
+  const viewMeasures = await widget.evaluate((element) => {
     const { pictures, scene } = /** @type {any} */ (element);
-    const outsideCount = pictures.map((/** @type {any} */ { view: { extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
+    const outsideCounts = pictures.map((/** @type {any} */ { view: { extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
       .filter(([x, y]) => x < extent.xMin || x > extent.xMax || y < extent.yMin || y > extent.yMax).length);
-    // `below` is the space below the end of the drive. The ring of half a turn there has a radius of some 64 pixels.
+    // `pixelsBelow` is the space below the end of the drive, which has a ring with a radius of about 64 pixels for half a turn.
     const { view } = pictures[0];
-    return { outsideCount, below: view.frame.bottom - view.toPixelY(scene.linkage[7]) };
+    return { outsideCount: outsideCounts, below: view.frame.bottom - view.toPixelY(scene.linkage[7]) };
   });
-  expect(Math.max(...layout.outsideCount)).toBeLessThanOrEqual(1);
-  expect(layout.below).toBeGreaterThan(64);
+  expect(Math.max(...viewMeasures.outsideCount)).toBeLessThanOrEqual(1);
+  expect(viewMeasures.pixelsBelow).toBeGreaterThan(64);
 });
 
 test('the scale of the legs depends only on the size of the window @nightly', async ({ page }) => {
-  const size = { width: 375, height: 740 };
-  await page.setViewportSize(size);
+  const windowSize = { width: 375, height: 740 };
+  await page.setViewportSize(windowSize);
   const widget = await openDecomposer(page);
-  const legScale = async () => {
+  const readLegScale = async () => {
     await waitForFrames(page);
     return widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.scaleX);
   };
-  const firstScale = await legScale();
-  for (const otherSize of [{ width: 375, height: 1700 }, { width: 740, height: 375 }, size]) {
-    await page.setViewportSize(otherSize);
-    await legScale();
+  const scaleBefore = await readLegScale();
+  for (const newSize of [{ width: 375, height: 1700 }, { width: 740, height: 375 }, windowSize]) {
+    await page.setViewportSize(newSize);
+    await readLegScale();
   }
-  await expect.poll(legScale).toBeCloseTo(firstScale, 6);
+  await expect.poll(readLegScale).toBeCloseTo(scaleBefore, 6);
 });
 
 test('opens on Reverse, and presets set the reading', async ({ page }) => {
@@ -58,11 +58,11 @@ test('opens on Reverse, and presets set the reading', async ({ page }) => {
   expect(shown).toBe(config.samples);
   await expect(widget).toHaveJSProperty('preset', 'reverse');
   await expect(widget.locator('[part=caption]')).toContainText('two rotations beyond π/2');
-  // 0.743 rad by Table 5.6, and 0.182 rad by Nav2.
+  // The heading deviations are 0.743 rad by Table 5.6 and 0.182 rad by Nav2.
   await expect(readoutValue(widget, 'Table 5.6 expects')).toHaveText('4.1 ×');
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
-  const results = await resultsOf(widget);
-  expect(results.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
+  const resultsAfter = await resultsOf(widget);
+  expect(resultsAfter.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
   await expect(widget).toHaveJSProperty('preset', 'all');
   await expect(widget).toHaveAttribute('tox', '1.2');
   await expect(readoutValue(widget, 'Table 5.6 expects')).toHaveText('1.0 ×');
@@ -70,36 +70,36 @@ test('opens on Reverse, and presets set the reading', async ({ page }) => {
 
 test('the picture names the spreads of two noise models, drawn to one scale', async ({ page }) => {
   const widget = await openDecomposer(page);
-  const pictureFacts = async () => {
+  const readPictureFacts = async () => {
     await waitForFrames(page);
     return widget.evaluate((element) => {
       const { pictures: [{ view }], toSVG } = /** @type {any} */ (element);
-      const names = toSVG.call(element).match(/(?<=>)by [^<]*/g);
-      return { scale: view.scaleX, names: names.toSorted() };
+      const spreadNames = toSVG.call(element).match(/(?<=>)by [^<]*/g);
+      return { scale: view.scaleX, names: spreadNames.toSorted() };
     });
   };
-  const factsOfTable = await pictureFacts();
-  expect(factsOfTable.names).toEqual(['by AMCL of Nav2', 'by Table 5.6']);
+  const factsBefore = await readPictureFacts();
+  expect(factsBefore.names).toEqual(['by AMCL of Nav2', 'by Table 5.6']);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
-  expect(await pictureFacts()).toEqual(factsOfTable);
+  expect(await readPictureFacts()).toEqual(factsBefore);
   // On a forward drive both models have the same noise.
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
-  expect((await pictureFacts()).names).toEqual(['by Table 5.6']);
+  expect((await readPictureFacts()).names).toEqual(['by Table 5.6']);
 });
 
 test('the later pose moves by its body and turns by its heading', async ({ page }) => {
   const widget = await openDecomposer(page);
   const resultsBefore = await resultsOf(widget);
   const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
-  await slider(widget, 'Odometry after').press('ArrowRight');
-  const afterMove = await resultsOf(widget);
-  expect(afterMove.config.to).toEqual({ ...resultsBefore.config.to, x: expect.closeTo(resultsBefore.config.to.x + 0.05, 12) });
-  expect(afterMove.config.from).toEqual(resultsBefore.config.from);
+  await sliderNamed(widget, 'Odometry after').press('ArrowRight');
+  const resultsAfterMove = await resultsOf(widget);
+  expect(resultsAfterMove.config.to).toEqual({ ...resultsBefore.config.to, x: expect.closeTo(resultsBefore.config.to.x + 0.05, 12) });
+  expect(resultsAfterMove.config.from).toEqual(resultsBefore.config.from);
   expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
   await expect(widget).toHaveJSProperty('preset', null);
-  await slider(widget, 'Heading after').press('ArrowLeft');
-  const afterTurn = await resultsOf(widget);
-  expect(afterTurn.config.to.theta - afterMove.config.to.theta).toBeCloseTo(Math.PI / 36, 12);
+  await sliderNamed(widget, 'Heading after').press('ArrowLeft');
+  const resultsAfterTurn = await resultsOf(widget);
+  expect(resultsAfterTurn.config.to.theta - resultsAfterMove.config.to.theta).toBeCloseTo(Math.PI / 36, 12);
 });
 
 test('a rule is chosen in the table, which has the deviations of each rule', async ({ page }) => {
@@ -121,12 +121,12 @@ test('a rule is chosen in the table, which has the deviations of each rule', asy
 
 test('on paper every rule has its name, and the chosen one stands out @nightly', async ({ page }) => {
   const widget = await openDecomposer(page);
-  const ruleName = (/** @type {string} */ rule) => widget.locator('.rules th').getByText(rule, { exact: true });
+  const ruleLabelOf = (/** @type {string} */ rule) => widget.locator('.rules th').getByText(rule, { exact: true });
   await page.emulateMedia({ media: 'print' });
-  for (const rule of ['Table 5.6', 'AMCL of Nav2', 'Beluga 2', 'AMCL, omnidirectional']) await expect(ruleName(rule)).toBeVisible();
+  for (const rule of ['Table 5.6', 'AMCL of Nav2', 'Beluga 2', 'AMCL, omnidirectional']) await expect(ruleLabelOf(rule)).toBeVisible();
   await expect(widget.locator('.rules input').first()).toBeHidden();
-  await expect(ruleName('Table 5.6')).toHaveCSS('font-weight', '700');
-  await expect(ruleName('Beluga 2')).not.toHaveCSS('font-weight', '700');
+  await expect(ruleLabelOf('Table 5.6')).toHaveCSS('font-weight', '700');
+  await expect(ruleLabelOf('Beluga 2')).not.toHaveCSS('font-weight', '700');
   // Other groups of radio buttons print the selected one only.
   await page.emulateMedia({ media: 'screen' });
   await openDisclosures(widget);
@@ -138,15 +138,15 @@ test('on paper every rule has its name, and the chosen one stands out @nightly',
 test('the frame drifts, and no outcome moves', async ({ page }) => {
   const widget = await openDecomposer(page);
   const resultsBefore = await resultsOf(widget);
-  const legPicture = await pictureOf(widget.locator('canvas.plane'));
-  const worldPicture = await pictureOf(widget.locator('canvas.world'));
-  await slider(widget, 'drift time').press('End');
+  const legPictureBefore = await pictureOf(widget.locator('canvas.plane'));
+  const worldPictureBefore = await pictureOf(widget.locator('canvas.world'));
+  await sliderNamed(widget, 'drift time').press('End');
   const resultsAfter = await resultsOf(widget);
   expect(resultsAfter.config.drift).toBe(120);
   expect(resultsAfter.drifted).not.toEqual(resultsBefore.drifted);
   expect(resultsAfter.poses).toEqual(resultsBefore.poses);
-  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(legPicture);
-  expect(await pictureOf(widget.locator('canvas.world'))).not.toBe(worldPicture);
+  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(legPictureBefore);
+  expect(await pictureOf(widget.locator('canvas.world'))).not.toBe(worldPictureBefore);
 });
 
 test('the spread against the drive has the outcomes beside the curve', async ({ page }) => {
@@ -165,18 +165,18 @@ test('the path is scrubbed, and is played to its end and again from its beginnin
   const widget = await openDecomposer(page, 'phase="2.8"');
   // Users who prefer reduced motion have no button.
   await expect(widget.locator('.playable button')).toHaveCount(0);
-  await slider(widget, 'progress of the motion').press('Home');
+  await sliderNamed(widget, 'progress of the motion').press('Home');
   const { robot, config } = await resultsOf(widget);
   expect(robot).toEqual(config.from);
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const secondWidget = await openDecomposer(page, 'phase="2.8"');
   const playButton = secondWidget.locator('.playable.phase button');
-  const { values: valuesToEnd, label } = await playSlider(secondWidget, 'phase');
-  expect(label).toBe('Pause');
+  const { sliderValues: valuesToEnd, buttonLabel } = await playSlider(secondWidget, 'phase');
+  expect(buttonLabel).toBe('Pause');
   expect(valuesToEnd[0]).toBeGreaterThan(2.8);
   expect(valuesToEnd.at(-1)).toBe(3);
   await expect(playButton).toHaveText('Play the motion');
-  const { values: valuesFromStart } = await playSlider(secondWidget, 'phase', 3);
+  const { sliderValues: valuesFromStart } = await playSlider(secondWidget, 'phase', 3);
   expect(valuesFromStart[0]).toBe(0);
   expect(valuesFromStart[2]).toBeGreaterThan(valuesFromStart[1]);
   await expect(playButton).toHaveText('Play the motion');

@@ -184,7 +184,7 @@ export function setProperty(widget, name, value) {
  * @param {Locator} widget
  * @param {string} key of the setting in a state, and class of its group
  * @param {number} [maxSteps] steps until it is paused
- * @returns {Promise<{ values: number[], label: string }>} value at each step, and the label of the button at the first
+ * @returns {Promise<{ sliderValues: number[], buttonLabel: string }>} value at each step, and the label of the button at the first
  */
 export function playSlider(widget, key, maxSteps = Infinity) {
   return widget.evaluate(
@@ -192,20 +192,20 @@ export function playSlider(widget, key, maxSteps = Infinity) {
       new Promise((resolve) => {
         const figure = /** @type {AnyElement} */ (element);
         const button = /** @type {HTMLButtonElement} */ (figure.shadowRoot?.querySelector(`.${key} button`));
-        const values = /** @type {number[]} */ ([]);
-        let label = '';
+        const sliderValues = /** @type {number[]} */ ([]);
+        let buttonLabel = '';
         const recordStep = async () => {
-          values.push(/** @type {any} */ (figure.getState())[key]);
-          if (values.length === 1) {
+          sliderValues.push(/** @type {any} */ (figure.getState())[key]);
+          if (sliderValues.length === 1) {
             await /** @type {any} */ (figure).updateComplete;
-            label = button.innerText;
+            buttonLabel = button.innerText;
           }
-          if (values.length === maxSteps) button.click();
+          if (sliderValues.length === maxSteps) button.click();
         };
         figure.addEventListener('input', recordStep);
         figure.addEventListener('change', () => {
           figure.removeEventListener('input', recordStep);
-          resolve({ values, label });
+          resolve({ sliderValues, buttonLabel });
         }, { once: true });
         button.click();
       }),

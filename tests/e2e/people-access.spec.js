@@ -16,7 +16,7 @@ test.use(REDUCED_MOTION);
  * @param {string} name
  * @param {{ attributes?: string, before?: string, after?: string }} [options]
  */
-async function showUnfolded(page, name, { attributes = '', before = '', after = '' } = {}) {
+async function openUnfolded(page, name, { attributes = '', before = '', after = '' } = {}) {
   await showPage(page, `<main><h1>Bare</h1>${before}<${name} heading-level="2" ${attributes}></${name}>${after}</main>`, {
     head: '<meta name="viewport" content="width=device-width"><style>body { margin: 0 }</style>',
     script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
@@ -40,7 +40,7 @@ testEach('a figure has no accessibility violations in any look', async (page, na
   for (const [media, attributes, width] of isFull ? APPEARANCES : APPEARANCES.slice(0, 2)) {
     await page.emulateMedia(media);
     await page.setViewportSize({ width, height: 812 });
-    await showUnfolded(page, name, { attributes });
+    await openUnfolded(page, name, { attributes });
     await expectAccessible(page, JSON.stringify([media, attributes]));
   }
 });
@@ -48,8 +48,8 @@ testEach('a figure has no accessibility violations in any look', async (page, na
 test('a figure keeps its roles, its tracks and its pressed button in forced colours', async ({ page }) => {
   await page.emulateMedia({ forcedColors: 'active' });
   const widget = await openBanana(page);
-  for (const role of ['prior', 'prediction', 'posterior', 'truth']) {
-    expect(await pixelCountOf(widget.locator('canvas.plane'), role), role).toBeGreaterThan(25);
+  for (const colorRole of ['prior', 'prediction', 'posterior', 'truth']) {
+    expect(await pixelCountOf(widget.locator('canvas.plane'), colorRole), colorRole).toBeGreaterThan(25);
   }
   const [pressedColor, otherColor] = await Promise.all(['Banana', 'Straight'].map((name) =>
     widget.getByRole('button', { name }).evaluate((button) => getComputedStyle(button).backgroundColor)));
@@ -63,57 +63,57 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
 });
 
 testEach('Tab leads to every handle and control of a figure, once, and beyond', async (page, name) => {
-  const widget = await showUnfolded(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
+  const widget = await openUnfolded(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
   await widget.evaluate((element) => {
-    const root = /** @type {ShadowRoot} */ (element.shadowRoot);
-    const stops = [...root.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((stop) => {
+    const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
+    const tabStops = [...shadowRoot.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((stop) => {
       const { type, name, checked } = /** @type {HTMLInputElement} */ (stop);
       // The field of a slider is reached from the slider, and other radio buttons of a group from the selected one.
       if (stop.matches(':disabled, .typed, [tabindex="-1"]') || !stop.checkVisibility({ visibilityProperty: true })) return false;
-      return type !== 'radio' || checked || !root.querySelector(`input[name="${name}"]:checked`);
+      return type !== 'radio' || checked || !shadowRoot.querySelector(`input[name="${name}"]:checked`);
     });
-    Object.assign(window, { stops });
+    Object.assign(window, { stops: tabStops });
   });
   await page.locator('#before').focus();
   /** @type {(number | string)[]} */
   const reachedStops = [];
-  const focusedStop = () => page.evaluate((tag) => {
+  const readFocusedStop = () => page.evaluate((tag) => {
     const focusedElement = document.querySelector(tag)?.shadowRoot?.activeElement;
     return focusedElement ? Reflect.get(window, 'stops').indexOf(focusedElement) : `${document.activeElement?.id}`;
   }, name);
-  const [count, names] = await page.evaluate(() => {
-    const stops = /** @type {Element[]} */ (Reflect.get(window, 'stops'));
-    return [stops.length, stops.map((stop) => stop.outerHTML.slice(0, 120))];
+  const [stopCount, stopTexts] = await page.evaluate(() => {
+    const tabStops = /** @type {Element[]} */ (Reflect.get(window, 'stops'));
+    return [tabStops.length, tabStops.map((stop) => stop.outerHTML.slice(0, 120))];
   });
-  expect(count).toBeGreaterThan(10);
+  expect(stopCount).toBeGreaterThan(10);
   do {
     await page.keyboard.press('Tab');
-    reachedStops.push(await focusedStop());
-  } while (reachedStops.at(-1) !== 'after' && reachedStops.length <= count + 5);
+    reachedStops.push(await readFocusedStop());
+  } while (reachedStops.at(-1) !== 'after' && reachedStops.length <= stopCount + 5);
   expect(reachedStops.at(-1)).toBe('after');
-  const missedStops = names.filter((_, i) => !reachedStops.includes(i));
+  const missedStops = stopTexts.filter((_, i) => !reachedStops.includes(i));
   expect(missedStops).toEqual([]);
-  expect(reachedStops.length).toBe(count + 1);
+  expect(reachedStops.length).toBe(stopCount + 1);
 });
 
 test('the focus stays near a control that goes or is disabled by its own action', async ({ page }) => {
   const classOfFocusedGroup = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.presets, .lines, section')?.className);
   await showPage(page, '<map-squeeze></map-squeeze><arc-anatomy></arc-anatomy>');
-  const map = page.locator('map-squeeze');
-  await untilReady(map);
-  await map.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
-  await map.getByRole('button', { name: 'Back to the apartment' }).press('Enter');
-  await expect(map.getByRole('button', { name: 'Back to the apartment' })).toHaveCount(0);
-  expect(await classOfFocusedGroup(map)).toContain('presets');
-  const arc = page.locator('arc-anatomy');
-  await arc.scrollIntoViewIfNeeded();
-  await untilReady(arc);
-  await arc.evaluate((element) => /** @type {any} */ (element).setState({ widget: 'arc-anatomy', version: 1, line: 8 }));
-  await openDisclosures(arc);
-  const nextButton = arc.getByRole('button', { name: 'Next line' });
-  await nextButton.press('Enter');
-  await expect(nextButton).toBeDisabled();
-  expect(await arc.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.getAttribute('title'))).toBe('Previous line');
+  const mapSqueeze = page.locator('map-squeeze');
+  await untilReady(mapSqueeze);
+  await mapSqueeze.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
+  await mapSqueeze.getByRole('button', { name: 'Back to the apartment' }).press('Enter');
+  await expect(mapSqueeze.getByRole('button', { name: 'Back to the apartment' })).toHaveCount(0);
+  expect(await classOfFocusedGroup(mapSqueeze)).toContain('presets');
+  const arcAnatomy = page.locator('arc-anatomy');
+  await arcAnatomy.scrollIntoViewIfNeeded();
+  await untilReady(arcAnatomy);
+  await arcAnatomy.evaluate((element) => /** @type {any} */ (element).setState({ widget: 'arc-anatomy', version: 1, line: 8 }));
+  await openDisclosures(arcAnatomy);
+  const nextLineButton = arcAnatomy.getByRole('button', { name: 'Next line' });
+  await nextLineButton.press('Enter');
+  await expect(nextLineButton).toBeDisabled();
+  expect(await arcAnatomy.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.getAttribute('title'))).toBe('Previous line');
 });
 
 test('sliders speak their value with its unit, and nothing is announced while one moves', async ({ page }) => {
@@ -125,8 +125,8 @@ test('sliders speak their value with its unit, and nothing is announced while on
   const { x, y, width, height } = await boxOf(slider);
   await page.mouse.move(x + 0.83 * width, y + height / 2);
   await page.mouse.down();
-  for (const share of [0.7, 0.6, 0.5]) {
-    await page.mouse.move(x + share * width, y + height / 2);
+  for (const pointerShare of [0.7, 0.6, 0.5]) {
+    await page.mouse.move(x + pointerShare * width, y + height / 2);
     await waitForFrames(page);
     expect(await status.textContent()).toBe('');
   }
@@ -140,7 +140,7 @@ test('sliders speak their value with its unit, and nothing is announced while on
 
 test('a figure has targets that are large enough for a finger', async ({ page, figureName }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  const widget = await showUnfolded(page, figureName);
+  const widget = await openUnfolded(page, figureName);
   const smallTargets = await widget.evaluate((element) =>
     [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('button, input[type=range], label:has(input):not(td label, th label), .handle')]
       .filter((target) => target.checkVisibility())
@@ -152,15 +152,15 @@ test('a figure has targets that are large enough for a finger', async ({ page, f
 test.describe('a finger', () => {
   test.use({ hasTouch: true, viewport: { width: 375, height: 812 } });
 
-  /** Swipes upwards from a place, as fingers do. @param {Page} page @param {{ x: number, y: number }} from */
-  async function swipe(page, from) {
-    const client = await page.context().newCDPSession(page);
-    await client.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [from] });
+  /** Swipes upwards from a place, as fingers do. @param {Page} page @param {{ x: number, y: number }} start */
+  async function swipe(page, start) {
+    const cdpSession = await page.context().newCDPSession(page);
+    await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [start] });
     for (let moveNumber = 1; moveNumber <= 10; moveNumber++) {
-      const point = { x: from.x + moveNumber / 5, y: from.y - 16 * moveNumber };
-      await client.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [point] });
+      const touchPoint = { x: start.x + moveNumber / 5, y: start.y - 16 * moveNumber };
+      await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [touchPoint] });
     }
-    await client.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+    await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
     await waitForFrames(page);
   }
 
@@ -176,38 +176,38 @@ test.describe('a finger', () => {
     });
     await waitForFrames(part.page());
   }
-  const spaceAround = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
+  const surroundingHtml = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
 
   test('moves each handle of a figure and not the page', async ({ page, handleFigureName }) => {
-    const widget = await showUnfolded(page, handleFigureName, spaceAround);
+    const widget = await openUnfolded(page, handleFigureName, surroundingHtml);
     for (const selector of FIGURE_FACTS[handleFigureName].handleSelectors ?? []) {
       const handle = widget.locator(selector);
       await scrollToLowerHalf(handle);
       const stateBefore = await stateOf(widget);
-      const [from, scrolled] = [await centreOf(handle), await page.evaluate(() => scrollY)];
-      await swipe(page, from);
-      expect(await page.evaluate(() => scrollY), selector).toBe(scrolled);
+      const [handleCentre, scrollYBefore] = [await centreOf(handle), await page.evaluate(() => scrollY)];
+      await swipe(page, handleCentre);
+      expect(await page.evaluate(() => scrollY), selector).toBe(scrollYBefore);
       expect(await stateOf(widget), selector).not.toEqual(stateBefore);
     }
   });
 
   test('that swipes over a picture or a slider scrolls the page and changes nothing', async ({ page, figureName }) => {
-    const widget = await showUnfolded(page, figureName, spaceAround);
+    const widget = await openUnfolded(page, figureName, surroundingHtml);
     for (const selector of ['canvas.plane', `#${FIGURE_FACTS[figureName].sliderId}`]) {
       const part = widget.locator(selector);
       await scrollToLowerHalf(part);
       const stateBefore = await stateOf(widget);
       const { x, y, width, height } = await boxOf(part);
-      const scrolled = await page.evaluate(() => scrollY);
+      const scrollYBefore = await page.evaluate(() => scrollY);
       // No thumb is at a third of the width, so that the track is visible there.
       await swipe(page, { x: x + 0.3 * width, y: y + height / 2 });
-      await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(scrolled + 60);
+      await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(scrollYBefore + 60);
       expect(await stateOf(widget), selector).toEqual(stateBefore);
     }
   });
 
   test('that taps sets the chart and marks a robot @nightly', async ({ page }) => {
-    const widget = await showUnfolded(page, 'banana-machine');
+    const widget = await openUnfolded(page, 'banana-machine');
     const chart = widget.locator('#chart-omega');
     await scrollToLowerHalf(chart);
     const { x, y, width, height } = await boxOf(chart);
@@ -215,20 +215,20 @@ test.describe('a finger', () => {
     await expect.poll(async () => (await bananaResultsOf(widget)).config.command.omega).toBeGreaterThan(1);
     const canvas = widget.locator('canvas.plane');
     await widget.evaluate((element) => element.scrollIntoView());
-    const [right, down] = await widget.evaluate((element) => {
+    const [xShare, yShare] = await widget.evaluate((element) => {
       const { pictures: [{ view }], poses, viewModel: { end } } = /** @type {any} */ (element);
-      const pixelOf = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
-      const handle = [view.toPixelX(end[0]), view.toPixelY(end[1])];
+      const robotPixelOf = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
+      const handlePixel = [view.toPixelX(end[0]), view.toPixelY(end[1])];
       // Finds a robot inside the frame that the handle does not cover.
       for (let i = 0; i < poses.length / 3; i++) {
-        const [x, y] = pixelOf(i);
+        const [x, y] = robotPixelOf(i);
         const { left, right, top, bottom } = view.frame;
-        if (Math.hypot(x - handle[0], y - handle[1]) > 60 && x > left && x < right && y > top && y < bottom) return [x / view.width, y / view.height];
+        if (Math.hypot(x - handlePixel[0], y - handlePixel[1]) > 60 && x > left && x < right && y > top && y < bottom) return [x / view.width, y / view.height];
       }
       throw new Error('No robot is clear of the handle.');
     });
     const box = await boxOf(canvas);
-    await page.touchscreen.tap(box.x + right * box.width, box.y + down * box.height);
+    await page.touchscreen.tap(box.x + xShare * box.width, box.y + yShare * box.height);
     await expect(widget.locator('#robot')).not.toHaveValue('');
   });
 });
@@ -238,38 +238,38 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   const widget = await mount(page, 'banana-machine', { head: '<style>:root { color-scheme: light dark }</style>' });
   const canvas = widget.locator('canvas.plane');
   // Both events are fired synchronously, without a frame in between.
-  const printedPicture = () => canvas.evaluate((element) => {
+  const takePrintedPicture = () => canvas.evaluate((element) => {
     dispatchEvent(new Event('beforeprint'));
     const printedPixels = /** @type {HTMLCanvasElement} */ (element).toDataURL();
     dispatchEvent(new Event('afterprint'));
     return printedPixels;
   });
-  const lightPicture = await printedPicture();
+  const lightPicture = await takePrintedPicture();
   const screenPicture = await pictureOf(canvas);
   await page.emulateMedia({ colorScheme: 'dark' });
   await expect.poll(() => pictureOf(canvas)).not.toBe(screenPicture);
-  expect((await printedPicture()) === lightPicture).toBe(true);
+  expect((await takePrintedPicture()) === lightPicture).toBe(true);
   await page.emulateMedia({ colorScheme: 'dark', media: 'print' });
-  const aspectRatio = () => canvas.evaluate((element) => {
+  const readAspectRatio = () => canvas.evaluate((element) => {
     const { width, height, clientWidth, clientHeight } = /** @type {HTMLCanvasElement} */ (element);
     return (width * clientHeight) / (height * clientWidth);
   });
-  await expect.poll(aspectRatio).toBeCloseTo(1, 1);
+  await expect.poll(readAspectRatio).toBeCloseTo(1, 1);
   await expect(widget.locator('.on-paper')).toHaveText(/α1\s=\s0\.002 α2\s=.* α6\s=\s0\.002/);
-  for (const value of ['1.00 m/s', '2.00 s']) await expect(widget.getByText(value, { exact: true }).first()).toBeVisible();
-  // On paper the pixels of a canvas determine its proportions. It must not set them in every frame, which would resize it each time.
+  for (const valueText of ['1.00 m/s', '2.00 s']) await expect(widget.getByText(valueText, { exact: true }).first()).toBeVisible();
+  // On paper the pixels of a canvas determine its proportions. Setting them in every frame would resize it each time.
   await page.evaluate(() => {
     addEventListener('error', ({ message }) => Object.assign(window, { complaint: message }));
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));
   });
   await untilReady(widget);
-  const sizes = () => canvas.evaluate((element) => ['width', 'height'].map((side) => Reflect.get(element, side)));
+  const readCanvasSize = () => canvas.evaluate((element) => ['width', 'height'].map((side) => Reflect.get(element, side)));
   for (const width of [600, 701, 1127, 1920]) {
     await page.setViewportSize({ width, height: 900 });
     await waitForFrames(page);
-    const sizesBefore = await sizes();
+    const sizeBefore = await readCanvasSize();
     await waitForFrames(page);
-    expect([await sizes(), await page.evaluate(() => Reflect.get(window, 'complaint'))]).toEqual([sizesBefore, undefined]);
+    expect([await readCanvasSize(), await page.evaluate(() => Reflect.get(window, 'complaint'))]).toEqual([sizeBefore, undefined]);
   }
 });
 
@@ -308,44 +308,44 @@ test('a print shows the disclosures that the user opened, and no controls @night
 
 testEach('a figure with all folds open fits into 320 px', async (page, name, isFull) => {
   await page.setViewportSize({ width: 320, height: 812 });
-  const widget = await showUnfolded(page, name);
+  const widget = await openUnfolded(page, name);
   /** Returns the widths of the page, and elements beyond the right edge of the window that cannot be scrolled to. */
-  const overflow = () => widget.evaluate((element) => {
+  const findOverflow = () => widget.evaluate((element) => {
     const { body } = document;
-    const isReached = (/** @type {Element} */ part) => {
-      for (let at = part.parentElement; at; at = at.parentElement) if (getComputedStyle(at).overflowX !== 'visible') return false;
+    const isVisibleOverflow = (/** @type {Element} */ part) => {
+      for (let ancestor = part.parentElement; ancestor; ancestor = ancestor.parentElement) if (getComputedStyle(ancestor).overflowX !== 'visible') return false;
       return part.checkVisibility({ visibilityProperty: true });
     };
-    const overflowingParts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('*')].filter((part) => part.getBoundingClientRect().right > innerWidth + 0.5 && isReached(part));
+    const overflowingParts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('*')].filter((part) => part.getBoundingClientRect().right > innerWidth + 0.5 && isVisibleOverflow(part));
     return [document.documentElement.scrollWidth, body.scrollWidth, ...overflowingParts.map(({ outerHTML }) => outerHTML.slice(0, 80))];
   });
   for (const lang of isFull ? ['en', 'de'] : ['en']) {
     await widget.evaluate((element, to) => element.setAttribute('lang', to), lang);
     await waitForFrames(page);
-    expect(await overflow(), lang).toEqual([320, 320]);
+    expect(await findOverflow(), lang).toEqual([320, 320]);
   }
 });
 
 testEach('the help of a slider covers no slider of its group and no rule, and no outline crosses it', async (page, figure) => {
-  const widget = await showUnfolded(page, figure);
+  const widget = await openUnfolded(page, figure);
   for (const [width, lang] of /** @type {const} */ ([[320, 'en'], [700, 'de']])) {
     await page.setViewportSize({ width, height: 812 });
     await widget.evaluate((element, to) => element.setAttribute('lang', to), lang);
     await waitForFrames(page);
     const coveredSliders = await widget.evaluate((element) => {
-      const root = /** @type {ShadowRoot} */ (element.shadowRoot);
-      const foldsTop = /** @type {Element} */ (root.querySelector('.folds')).getBoundingClientRect().top;
-      return [...root.querySelectorAll('.slider')].flatMap((row) => {
+      const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
+      const foldsTop = /** @type {Element} */ (shadowRoot.querySelector('.folds')).getBoundingClientRect().top;
+      return [...shadowRoot.querySelectorAll('.slider')].flatMap((row) => {
         const slider = /** @type {HTMLInputElement} */ (row.querySelector('input[type=range]'));
         slider.focus();
-        const effectBox = row.querySelector('.effect')?.getBoundingClientRect();
-        if (!effectBox) return [];
+        const helpBox = row.querySelector('.effect')?.getBoundingClientRect();
+        if (!helpBox) return [];
         // The outline of a thumb ends 4 px outside it, and a thumb has the radius 0.525 rem.
         return [.../** @type {Element} */ (row.closest('fieldset, .controls')).querySelectorAll('.slider input[type=range]')]
           .map((control) => control.getBoundingClientRect())
-          .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > effectBox.top && (top + bottom) / 2 < effectBox.bottom)
+          .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > helpBox.top && (top + bottom) / 2 < helpBox.bottom)
           .map(() => slider.id)
-          .concat(effectBox.top < foldsTop && effectBox.bottom > foldsTop ? `${slider.id} on the rule` : []);
+          .concat(helpBox.top < foldsTop && helpBox.bottom > foldsTop ? `${slider.id} on the rule` : []);
       });
     });
     expect(coveredSliders, `${width} px, ${lang}`).toEqual([]);

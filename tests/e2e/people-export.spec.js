@@ -8,8 +8,8 @@ import { REDUCED_MOTION, bananaResultsOf, boxOf, waitForFrames, mount, openBanan
 
 test.use(REDUCED_MOTION);
 
-/** @param {string} text as `toCSV` writes it */
-function parsedCSV(text) {
+/** Parses a CSV export of a figure. @param {string} text */
+function parseCSV(text) {
   const [comment, header, ...lines] = text.trimEnd().split('\n');
   expect(comment.startsWith('# ')).toBe(true);
   return { settings: JSON.parse(comment.slice(2)), columns: header.split(','), rows: lines.map((line) => line.split(',').map(Number)) };
@@ -18,19 +18,19 @@ function parsedCSV(text) {
 const csvOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toCSV());
 const svgOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toSVG());
 
-/** Parses an SVG file, and returns its title, description and size, and the numbers of its elements. @param {import('@playwright/test').Page} page @param {string} svg */
-function elementsOf(page, svg) {
+/** Returns the title, description and size of an SVG file, and the numbers of its elements. @param {import('@playwright/test').Page} page @param {string} svg */
+function describeSVG(page, svg) {
   return page.evaluate((text) => {
     const svgDocument = new DOMParser().parseFromString(text, 'image/svg+xml');
     if (svgDocument.querySelector('parsererror')) throw new Error(svgDocument.documentElement.textContent ?? '');
-    const elementCount = (/** @type {string} */ selector) => svgDocument.querySelectorAll(selector).length;
+    const countElements = (/** @type {string} */ selector) => svgDocument.querySelectorAll(selector).length;
     return {
       title: svgDocument.querySelector('title')?.textContent,
       description: svgDocument.querySelector('desc')?.textContent,
-      paths: elementCount('path'),
-      texts: elementCount('text'),
-      images: elementCount('image'),
-      dashed: elementCount('[stroke-dasharray]'),
+      paths: countElements('path'),
+      texts: countElements('text'),
+      images: countElements('image'),
+      dashed: countElements('[stroke-dasharray]'),
       size: [svgDocument.documentElement.getAttribute('width'), svgDocument.documentElement.getAttribute('height')].map(Number),
     };
   }, svg);
@@ -41,7 +41,7 @@ test('CSV of the Banana Machine has the samples, and the settings that bring the
   await widget.getByRole('button', { name: 'Hard arc' }).click();
   const { config, shown } = await bananaResultsOf(widget);
   const poses = await posesOf(widget);
-  const { settings, columns, rows } = parsedCSV(await csvOf(widget));
+  const { settings, columns, rows } = parseCSV(await csvOf(widget));
   expect(columns).toEqual([
     ...['x_m', 'y_m', 'theta_rad', 'xi_along_m', 'xi_lateral_m', 'xi_heading_rad'],
     ...['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
@@ -63,7 +63,7 @@ test('CSV of the Banana Machine has the samples, and the settings that bring the
 test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { config, stats } = await squeezeResultsOf(widget);
-  const { settings, columns, rows } = parsedCSV(await csvOf(widget));
+  const { settings, columns, rows } = parseCSV(await csvOf(widget));
   expect(settings).toEqual({ element: 'map-squeeze', map: null, ...config });
   expect(columns).toEqual(['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted']);
   expect(rows).toHaveLength(stats.attempts);
@@ -73,67 +73,67 @@ test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async 
 
 test('SVG is vectors with a title and a description: dots while they are few, else an image', async ({ page }) => {
   const widget = await openBanana(page);
-  const plane = widget.locator('canvas.plane');
+  const floorCanvas = widget.locator('canvas.plane');
   await openDisclosures(widget);
   // Position 6 of the slider is a thousand samples.
   await widget.locator('#samples').fill('6');
   await waitForFrames(page);
-  const fewSamples = await elementsOf(page, await svgOf(widget));
-  const { width, height } = await boxOf(plane);
-  expect(fewSamples.title).toBe('The Banana Machine');
-  expect(fewSamples.description).toBe(await plane.getAttribute('aria-label'));
-  expect(fewSamples.size).toEqual([Math.round(width), Math.round(height)]);
-  expect(fewSamples.images).toBe(0);
-  expect(fewSamples.paths).toBeGreaterThan(1000);
-  expect(fewSamples.texts).toBeGreaterThan(8);
+  const svgOfFewSamples = await describeSVG(page, await svgOf(widget));
+  const { width, height } = await boxOf(floorCanvas);
+  expect(svgOfFewSamples.title).toBe('The Banana Machine');
+  expect(svgOfFewSamples.description).toBe(await floorCanvas.getAttribute('aria-label'));
+  expect(svgOfFewSamples.size).toEqual([Math.round(width), Math.round(height)]);
+  expect(svgOfFewSamples.images).toBe(0);
+  expect(svgOfFewSamples.paths).toBeGreaterThan(1000);
+  expect(svgOfFewSamples.texts).toBeGreaterThan(8);
   const svgText = await svgOf(widget);
-  for (const name of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(svgText).toContain(`>${name}`);
+  for (const labelText of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(svgText).toContain(`>${labelText}`);
   // The handle, an element on the page, is exported as a ring.
   expect(svgText).toMatch(/<path[^>]*a7\.5,7\.5[^>]*stroke-width="3"/);
   await widget.locator('#samples').fill('9');
   await waitForFrames(page);
-  const manySamples = await elementsOf(page, await svgOf(widget));
-  expect(manySamples.images).toBe(1);
-  expect(manySamples.paths).toBeLessThan(60);
+  const svgOfManySamples = await describeSVG(page, await svgOf(widget));
+  expect(svgOfManySamples.images).toBe(1);
+  expect(svgOfManySamples.paths).toBeLessThan(60);
 
-  const mapElements = await elementsOf(page, await svgOf(await openSqueeze(page)));
-  expect(mapElements.title).toBe('Map Squeeze');
-  expect(mapElements.images).toBe(0);
-  expect(mapElements.paths).toBeGreaterThan(400);
+  const svgOfMap = await describeSVG(page, await svgOf(await openSqueeze(page)));
+  expect(svgOfMap.title).toBe('Map Squeeze');
+  expect(svgOfMap.images).toBe(0);
+  expect(svgOfMap.paths).toBeGreaterThan(400);
 });
 
 test('PNG of a figure has twice the pixels and opaque paper', async ({ page, figureName }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
   const widget = await mount(page, figureName);
-  const png = await widget.evaluate(async (element) => {
+  const pngMeasures = await widget.evaluate(async (element) => {
     const figure = /** @type {Figure} */ (element);
-    const svg = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml').documentElement;
-    const blob = await figure.toPNG();
-    const image = await createImageBitmap(blob);
-    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(image.width, image.height).getContext('2d'));
-    context.drawImage(image, 0, 0);
-    const pixels = new Uint32Array(context.getImageData(0, 0, image.width, image.height).data.buffer);
+    const svgRoot = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml').documentElement;
+    const pngBlob = await figure.toPNG();
+    const pngBitmap = await createImageBitmap(pngBlob);
+    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(pngBitmap.width, pngBitmap.height).getContext('2d'));
+    context.drawImage(pngBitmap, 0, 0);
+    const pixels = new Uint32Array(context.getImageData(0, 0, pngBitmap.width, pngBitmap.height).data.buffer);
     return {
-      type: blob.type, width: image.width, height: image.height, opaque: pixels.every((pixel) => pixel >>> 24 === 255),
-      colours: new Set(pixels).size, svg: ['width', 'height'].map((name) => Number(svg.getAttribute(name))),
+      type: pngBlob.type, width: pngBitmap.width, height: pngBitmap.height, opaque: pixels.every((pixel) => pixel >>> 24 === 255),
+      colours: new Set(pixels).size, svg: ['width', 'height'].map((name) => Number(svgRoot.getAttribute(name))),
     };
   });
-  expect(png).toMatchObject({ type: 'image/png', opaque: true });
-  expect(Math.abs(png.width - 2 * png.svg[0])).toBeLessThanOrEqual(1);
-  expect(Math.abs(png.height - 2 * png.svg[1])).toBeLessThanOrEqual(1);
-  expect(png.colours).toBeGreaterThan(50);
+  expect(pngMeasures).toMatchObject({ type: 'image/png', opaque: true });
+  expect(Math.abs(pngMeasures.width - 2 * pngMeasures.svg[0])).toBeLessThanOrEqual(1);
+  expect(Math.abs(pngMeasures.height - 2 * pngMeasures.svg[1])).toBeLessThanOrEqual(1);
+  expect(pngMeasures.colours).toBeGreaterThan(50);
 });
 
 test('the menu saves files with names that say what they are, from the keyboard too', async ({ page }) => {
   const widget = await openBanana(page);
   await openDisclosures(widget);
   await widget.locator('.exports button').first().focus();
-  for (const ending of ['png', 'svg', 'csv']) {
+  for (const fileEnding of ['png', 'svg', 'csv']) {
     const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
-    expect(download.suggestedFilename()).toBe(`banana-machine-${await propertyOf(widget, 'seed')}.${ending}`);
+    expect(download.suggestedFilename()).toBe(`banana-machine-${await propertyOf(widget, 'seed')}.${fileEnding}`);
     const fileContents = readFileSync(await download.path());
     expect(fileContents.length).toBeGreaterThan(1000);
-    if (ending === 'csv') expect(fileContents.toString()).toBe(await csvOf(widget));
+    if (fileEnding === 'csv') expect(fileContents.toString()).toBe(await csvOf(widget));
     await page.keyboard.press('Tab');
   }
 });
@@ -143,12 +143,12 @@ const HOSTILE_TEXT = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &
 
 /** Returns a text with the replacements that an export to SVG makes. @param {string} text */
 // oxlint-disable-next-line no-control-regex
-const sanitized = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
+const sanitize = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
 
 test('SVG is well-formed whatever the names of a page are @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.evaluate(async (element, json) => {
-    // JSON keeps halves of surrogate pairs.
+    // JSON keeps unpaired surrogates.
     const text = JSON.parse(json);
     element.append(Object.assign(document.createElement('span'), { slot: 'title', textContent: text }));
     element.style.setProperty('--motion-font', `"${text.replaceAll('"', '').replaceAll('\0', '')}", serif`);
@@ -156,8 +156,8 @@ test('SVG is well-formed whatever the names of a page are @nightly', async ({ pa
     for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   }, JSON.stringify(HOSTILE_TEXT));
   const svg = await svgOf(widget);
-  const { title, description } = await elementsOf(page, svg);
-  expect(title).toBe(sanitized(HOSTILE_TEXT.replace(/\s+/g, ' ')));
-  expect(description).toContain(sanitized(HOSTILE_TEXT));
+  const { title, description } = await describeSVG(page, svg);
+  expect(title).toBe(sanitize(HOSTILE_TEXT.replace(/\s+/g, ' ')));
+  expect(description).toContain(sanitize(HOSTILE_TEXT));
   expect(await page.evaluate((text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelectorAll('script').length, svg)).toBe(0);
 });

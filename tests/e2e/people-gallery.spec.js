@@ -1,4 +1,4 @@
-import { expect, test as plain } from '@playwright/test';
+import { expect, test as plainTest } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL_NAMES } from './figures.js';
 import { REDUCED_MOTION, boxOf, waitForFrames, mount, pictureOf, propertyOf, test, testEach, untilReady } from './support.js';
@@ -18,12 +18,12 @@ test('examples of the reference start when they are opened, and are what their c
     await element.locator('canvas').first().scrollIntoViewIfNeeded();
     await expect(element.locator('.cloud button').first()).toBeVisible();
     await waitForFrames(page);
-    const code = (await example.locator('code').first().textContent()) ?? '';
-    const settings = await element.evaluate((figure) => Reflect.get(figure, 'simulation').config);
-    for (const [name, value] of Object.entries(attributes)) expect(code).toContain(`${name}="${value}"`);
-    if ('samples' in attributes) expect(settings.samples).toBe(Number(attributes.samples));
-    if ('isolate' in attributes) expect(settings.isolate).toBe(Number(attributes.isolate));
-    if ('sampler' in attributes) expect(settings.sampler).toBe(attributes.sampler);
+    const exampleCode = (await example.locator('code').first().textContent()) ?? '';
+    const config = await element.evaluate((figure) => Reflect.get(figure, 'simulation').config);
+    for (const [name, value] of Object.entries(attributes)) expect(exampleCode).toContain(`${name}="${value}"`);
+    if ('samples' in attributes) expect(config.samples).toBe(Number(attributes.samples));
+    if ('isolate' in attributes) expect(config.isolate).toBe(Number(attributes.isolate));
+    if ('sampler' in attributes) expect(config.sampler).toBe(attributes.sampler);
     if (attributes.lang === 'de') await expect(element.getByRole('button', { name: 'Stichproben ziehen' })).toBeVisible();
     await example.locator('summary').first().click();
   }
@@ -38,25 +38,25 @@ testEach('each item sets the whole state that it describes, whatever was pressed
   const figure = article.locator(name);
   await figure.scrollIntoViewIfNeeded();
   await untilReady(figure);
-  const buttons = await article.locator('button[data-try]').all();
-  const stateAfterPress = async (/** @type {import('@playwright/test').Locator} */ button) => {
-    // Clicked by script, because some buttons are in a closed disclosure.
+  const itemButtons = await article.locator('button[data-try]').all();
+  const pressAndReadState = async (/** @type {import('@playwright/test').Locator} */ button) => {
+    // The button is clicked by script, because some buttons are in a closed disclosure.
     await button.evaluate((element) => /** @type {HTMLElement} */ (element).click());
     await expect(button).toHaveAttribute('aria-current', 'true');
     await waitForFrames(page);
-    const values = JSON.parse((await button.getAttribute('data-try')) ?? '{}');
+    const itemSettings = JSON.parse((await button.getAttribute('data-try')) ?? '{}');
     const [state, properties] = await figure.evaluate((element, keys) => {
       const state = /** @type {any} */ (element).getState();
       return [state, Object.fromEntries(keys.map((key) => [key, key in element ? Reflect.get(element, key) : Reflect.get(state, key)]))];
-    }, Object.keys(values));
+    }, Object.keys(itemSettings));
     // After a change no preset is selected.
-    const preset = Object.keys(values).every((key) => KEYS_OUTSIDE_PRESETS.includes(key)) ? values.preset : properties.preset;
-    expect(properties).toEqual({ ...values, ...(values.preset && { preset }) });
+    const expectedPreset = Object.keys(itemSettings).every((key) => KEYS_OUTSIDE_PRESETS.includes(key)) ? itemSettings.preset : properties.preset;
+    expect(properties).toEqual({ ...itemSettings, ...(itemSettings.preset && { preset: expectedPreset }) });
     return state;
   };
   const firstStates = [];
-  for (const button of buttons) firstStates.push(await stateAfterPress(button));
-  for (const [i, button] of [...buttons.entries()].reverse()) expect(await stateAfterPress(button)).toEqual(firstStates[i]);
+  for (const button of itemButtons) firstStates.push(await pressAndReadState(button));
+  for (const [i, button] of [...itemButtons.entries()].reverse()) expect(await pressAndReadState(button)).toEqual(firstStates[i]);
 });
 
 test('an entry of the legend highlights its curve in the chart', async ({ page }) => {
@@ -89,9 +89,9 @@ test('a term and an entry of the legend highlight their line in the picture', as
 
 test('contents lead to every section', async ({ page }) => {
   await page.goto('/');
-  const links = page.getByRole('navigation', { name: 'Contents' }).getByRole('link');
-  const targets = await links.evaluateAll((linkElements) => linkElements.map((link) => link.getAttribute('href')));
-  expect(targets).toEqual(await page.locator('main > [id]').evaluateAll((targetElements) => targetElements.map(({ id }) => `#${id}`)));
+  const contentsLinks = page.getByRole('navigation', { name: 'Contents' }).getByRole('link');
+  const linkTargets = await contentsLinks.evaluateAll((linkElements) => linkElements.map((link) => link.getAttribute('href')));
+  expect(linkTargets).toEqual(await page.locator('main > [id]').evaluateAll((targetElements) => targetElements.map(({ id }) => `#${id}`)));
 });
 
 for (const [width, height] of [[1280, 720], [375, 760]]) {
@@ -100,8 +100,8 @@ for (const [width, height] of [[1280, 720], [375, 760]]) {
     await page.goto('/');
     const article = page.locator('#banana');
     await untilReady(article.locator('banana-machine'));
-    const [heading, stand] = [await boxOf(article.locator('.lead')), await boxOf(article.locator('.stand'))];
-    expect(stand.y).toBeGreaterThanOrEqual(heading.y + heading.height);
+    const [headingBox, standBox] = [await boxOf(article.locator('.lead')), await boxOf(article.locator('.stand'))];
+    expect(standBox.y).toBeGreaterThanOrEqual(headingBox.y + headingBox.height);
     await article.getByRole('button', { name: 'Odometry model' }).evaluate((button) => button.scrollIntoView({ block: 'end' }));
     await waitForFrames(page);
     await expect(article.locator('canvas.plane')).toBeInViewport({ ratio: 0.95 });
@@ -114,8 +114,8 @@ test('nothing on the page moves while figures load', async ({ page }) => {
     const layoutShifts = /** @type {string[]} */ ([]);
     Object.assign(window, { layoutShifts });
     new PerformanceObserver((list) => {
-      const sources = list.getEntries().flatMap((entry) => [...Reflect.get(entry, 'sources')]);
-      for (const { node, previousRect: from, currentRect: to } of sources) layoutShifts.push(`${node?.className ?? node?.nodeName}: ${JSON.stringify([from, to])}`);
+      const shiftSources = list.getEntries().flatMap((entry) => [...Reflect.get(entry, 'sources')]);
+      for (const { node, previousRect, currentRect } of shiftSources) layoutShifts.push(`${node?.className ?? node?.nodeName}: ${JSON.stringify([previousRect, currentRect])}`);
     }).observe({ type: 'layout-shift', buffered: true });
   });
   await page.goto('/');
@@ -126,14 +126,14 @@ test('nothing on the page moves while figures load', async ({ page }) => {
   expect(await page.evaluate(() => Reflect.get(window, 'layoutShifts'))).toEqual([]);
 });
 
-for (const path of ['/', '/reference.html']) {
-  test(`nothing is inaccessible at ${path}`, async ({ page }) => {
-    await page.goto(path);
+for (const pagePath of ['/', '/reference.html']) {
+  test(`nothing is inaccessible at ${pagePath}`, async ({ page }) => {
+    await page.goto(pagePath);
     await expectAccessible(page, undefined, 'body > *');
   });
 }
 
-plain('the gallery says what is missing without JavaScript', async ({ browser, baseURL }) => {
+plainTest('the gallery says what is missing without JavaScript', async ({ browser, baseURL }) => {
   const context = await browser.newContext({ javaScriptEnabled: false, baseURL });
   const page = await context.newPage();
   await page.goto('/');

@@ -10,10 +10,10 @@ const WIDGET_FOLDERS = {
   decomposer: 'odometry-decomposer', reckoning: 'dead-reckoning', calibrator: 'alpha-calibrator',
 };
 
-/** Names of figures that both languages have. */
-const SAME_NAMES = ['Map Squeeze', 'Arc Anatomy'];
+/** Names of figures that are equal in both languages. */
+const UNTRANSLATED_NAMES = ['Map Squeeze', 'Arc Anatomy'];
 
-/** @param {string} lang @returns {Promise<any>} messages of a language */
+/** Returns all messages of a language. @param {string} lang @returns {Promise<any>} */
 async function catalogueOf(lang) {
   const widgetEntries = Object.entries(WIDGET_FOLDERS).map(async ([key, folder]) => [key, (await import(`../../www/widgets/${folder}/${lang}.js`))[lang]]);
   return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...Object.fromEntries(await Promise.all(widgetEntries)) };
@@ -29,44 +29,44 @@ function messagesOf(catalogue, path = '') {
 /** Returns all texts of a figure that a user sees or hears. @param {import('@playwright/test').Locator} widget */
 function textsOf(widget) {
   return widget.evaluate((element) => {
-    const root = /** @type {ShadowRoot} */ (element.shadowRoot);
+    const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
     const texts = [];
-    const walker = document.createTreeWalker(root, NodeFilter.SHOW_ELEMENT | NodeFilter.SHOW_TEXT);
+    const walker = document.createTreeWalker(shadowRoot, NodeFilter.SHOW_ELEMENT | NodeFilter.SHOW_TEXT);
     while (walker.nextNode()) {
       const node = walker.currentNode;
       if (node instanceof Element) {
-        for (const name of ['aria-label', 'aria-description', 'aria-valuetext', 'title', 'placeholder', 'data-longest']) {
-          texts.push(node.getAttribute(name) ?? '');
+        for (const attributeName of ['aria-label', 'aria-description', 'aria-valuetext', 'title', 'placeholder', 'data-longest']) {
+          texts.push(node.getAttribute(attributeName) ?? '');
         }
       } else if (node.parentElement?.localName !== 'style' && node.parentElement?.localName !== 'textarea') {
         texts.push(node.textContent ?? '');
       }
     }
     // Italics and subscripts split a sentence into several nodes.
-    const textElements = [...root.querySelectorAll('p, li, dt, dd, th, td, caption, figcaption, legend, label')];
+    const textElements = [...shadowRoot.querySelectorAll('p, li, dt, dd, th, td, caption, figcaption, legend, label')];
     texts.push(...textElements.map((node) => node.textContent ?? ''));
     return texts.map((text) => text.replace(/\s+/g, ' ').trim()).filter(Boolean);
   });
 }
 
 test('both catalogues have the same messages, with the same values in them', async () => {
-  const [english, german] = (await Promise.all(['en', 'de'].map(catalogueOf))).map((catalogue) => messagesOf(catalogue));
-  const shapesOf = (/** @type {[string, string | Function][]} */ messages) =>
+  const [englishMessages, germanMessages] = (await Promise.all(['en', 'de'].map(catalogueOf))).map((catalogue) => messagesOf(catalogue));
+  const messageShapesOf = (/** @type {[string, string | Function][]} */ messages) =>
     messages.map(([path, message]) => [path, typeof message, typeof message === 'function' ? message.length : 0]);
-  expect(shapesOf(german)).toEqual(shapesOf(english));
-  expect(english.length).toBeGreaterThan(200);
+  expect(messageShapesOf(germanMessages)).toEqual(messageShapesOf(englishMessages));
+  expect(englishMessages.length).toBeGreaterThan(200);
 });
 
 testEach('no English is left in a German figure', async (page, name) => {
   const [englishCatalogue, germanCatalogue] = await Promise.all(['en', 'de'].map(catalogueOf));
   const germanTexts = new Set(messagesOf(germanCatalogue).map(([, message]) => message));
-  const english = messagesOf(englishCatalogue)
+  const englishTexts = messagesOf(englishCatalogue)
     .map(([, message]) => (typeof message === 'string' ? message : String(message(...'\ue001\ue002\ue003\ue004\ue005'))))
     // Text around the values of a message is English too.
     .flatMap((message) => message.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
     .map((part) => part.replace(/[₀-₉]/g, (/** @type {string} */ digit) => String(digit.charCodeAt(0) - 0x2080)).trim())
-    .filter((part) => /\p{L}{4}/u.test(part) && !SAME_NAMES.includes(part) && !germanTexts.has(part));
-  expect(english.length).toBeGreaterThan(400);
+    .filter((part) => /\p{L}{4}/u.test(part) && !UNTRANSLATED_NAMES.includes(part) && !germanTexts.has(part));
+  expect(englishTexts.length).toBeGreaterThan(400);
   await showPage(page, `<${name} lang="de-AT"></${name}>`, {
     script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
   });
@@ -75,7 +75,7 @@ testEach('no English is left in a German figure', async (page, name) => {
   await openDisclosures(widget);
   const texts = await textsOf(widget);
   expect(texts.length).toBeGreaterThan(60);
-  expect(english.filter((part) => texts.some((text) => text === part || (part.includes(' ') && text.includes(part))))).toEqual([]);
+  expect(englishTexts.filter((part) => texts.some((text) => text === part || (part.includes(' ') && text.includes(part))))).toEqual([]);
 });
 
 test('the nearest lang decides, also on the form of numbers; a language without words is English', async ({ page }) => {
@@ -103,7 +103,7 @@ test('the nearest lang decides, also on the form of numbers; a language without 
 test('a page may replace words and add languages; a message of another shape is refused by name', async ({ page }) => {
   const widget = await openBanana(page, 'preset="gentle"');
   await openDisclosures(widget);
-  const errors = await page.evaluate(async () => {
+  const refusals = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
     setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', bend: { right: () => 'À droite.' } } });
     setMessages('en', { pause: 'Hold' });
@@ -122,7 +122,7 @@ test('a page may replace words and add languages; a message of another shape is 
       }
     });
   });
-  expect(errors).toEqual([
+  expect(refusals).toEqual([
     expect.stringMatching(/^TypeError: messages: fr\.banana\.robots is a string; allowed is one of title, /),
     'TypeError: messages: fr.banana.alphaIsSilent is a string; allowed is a function of 4 values.',
     'TypeError: messages: fr.banana.settings.alphas.effects is a string; allowed is a group.',
@@ -134,7 +134,7 @@ test('a page may replace words and add languages; a message of another shape is 
   await expect(widget.getByRole('spinbutton', { name: 'Automate' })).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Step' })).toBeVisible();
   await expect(widget.locator('p[part=caption]')).toHaveText('À droite.');
-  // The digits are Latin in all languages, and so is the separator between them.
+  // Digits and decimal separators are Latin in all languages.
   await widget.evaluate((element) => element.setAttribute('lang', 'ar-EG'));
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
 });
@@ -148,36 +148,36 @@ test('a page from right to left has the same picture, and nothing beside its fig
   expect(await pictureOf(canvas)).toBe(pictureBefore);
   expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
   const slider = widget.locator('.slider input[type=range]').first();
-  const value = Number(await slider.inputValue());
+  const valueBefore = Number(await slider.inputValue());
   await slider.press('ArrowUp');
-  expect(Number(await slider.inputValue())).toBeGreaterThan(value);
+  expect(Number(await slider.inputValue())).toBeGreaterThan(valueBefore);
 });
 
 test('signs stand left of their numbers on a page from right to left, also among words from right to left', async ({ page, figureName }) => {
   const headHtml = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { play: "נגן" })</script>';
-  for (const [lang, direction, values] of [['en', 'ltr', '.simulation'], ['he', 'rtl', '.simulation :is(bdi, [dir=ltr])']]) {
+  for (const [lang, direction, numberSelector] of [['en', 'ltr', '.simulation'], ['he', 'rtl', '.simulation :is(bdi, [dir=ltr])']]) {
     await showPage(page, `<div dir="rtl" lang="${lang}"><${figureName}><p slot="caption">נגן</p></${figureName}></div>`, { head: headHtml });
     const widget = page.locator(figureName);
     await untilReady(widget);
     await openDisclosures(widget);
     const signsAndSides = await widget.evaluate(({ shadowRoot }, selector) => {
-      const range = new Range();
+      const characterRange = new Range();
       const boxOfCharacter = (/** @type {Text} */ text, /** @type {number} */ index) => {
-        range.setStart(text, index);
-        range.setEnd(text, index + 1);
-        return range.getBoundingClientRect();
+        characterRange.setStart(text, index);
+        characterRange.setEnd(text, index + 1);
+        return characterRange.getBoundingClientRect();
       };
       return [.../** @type {ShadowRoot} */ (shadowRoot).querySelectorAll(selector)].flatMap((element) => {
         const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
         const signs = [];
         while (walker.nextNode()) {
-          const text = /** @type {Text} */ (walker.currentNode);
-          const index = text.data.search(/\u2212\d/);
-          if (index >= 0 && text.parentElement?.checkVisibility()) signs.push([text.data, boxOfCharacter(text, index).right <= boxOfCharacter(text, index + 1).left + 0.5]);
+          const textNode = /** @type {Text} */ (walker.currentNode);
+          const signIndex = textNode.data.search(/\u2212\d/);
+          if (signIndex >= 0 && textNode.parentElement?.checkVisibility()) signs.push([textNode.data, boxOfCharacter(textNode, signIndex).right <= boxOfCharacter(textNode, signIndex + 1).left + 0.5]);
         }
         return signs;
       });
-    }, values);
+    }, numberSelector);
     expect(signsAndSides.length).toBeGreaterThan(1);
     expect(signsAndSides.filter(([, isLeftOfNumber]) => !isLeftOfNumber)).toEqual([]);
     const directionOf = (/** @type {string} */ selector) => widget.locator(selector).evaluate((element) => getComputedStyle(element).direction);
@@ -190,31 +190,31 @@ test('a page translator that replaces every text freezes none @nightly', async (
   // A figure outside the viewport is not drawn: both have to be visible.
   await page.setViewportSize({ width: 1280, height: 4000 });
   await showPage(page, `<${figureName} id="translated"></${figureName}><${figureName} id="other"></${figureName}>`);
-  const [translated, other] = ['#translated', '#other'].map((id) => page.locator(id));
+  const [translatedFigure, otherFigure] = ['#translated', '#other'].map((id) => page.locator(id));
   const { sliderId, sliderValues } = FIGURE_FACTS[figureName];
-  const texts = async () => {
+  const readTexts = async () => {
     await waitForFrames(page);
-    return Promise.all([translated, other].map((widget) => widget.locator('.simulation').evaluate((simulation) => simulation.textContent)));
+    return Promise.all([translatedFigure, otherFigure].map((widget) => widget.locator('.simulation').evaluate((simulation) => simulation.textContent)));
   };
-  for (const widget of [translated, other]) {
+  for (const widget of [translatedFigure, otherFigure]) {
     await untilReady(widget);
     await openDisclosures(widget);
   }
-  await translated.evaluate(({ shadowRoot }) => {
+  await translatedFigure.evaluate(({ shadowRoot }) => {
     const walker = document.createTreeWalker(/** @type {ShadowRoot} */ (shadowRoot), NodeFilter.SHOW_TEXT);
     const textNodes = /** @type {Text[]} */ ([]);
     while (walker.nextNode()) textNodes.push(/** @type {Text} */ (walker.currentNode));
-    for (const text of textNodes) {
-      const font = document.createElement('font');
-      font.append(text.data);
-      text.replaceWith(font);
+    for (const textNode of textNodes) {
+      const fontElement = document.createElement('font');
+      fontElement.append(textNode.data);
+      textNode.replaceWith(fontElement);
     }
   });
   for (const value of sliderValues) {
-    const textsBefore = await texts();
-    for (const widget of [translated, other]) await widget.locator(`#${sliderId}`).fill(String(value));
-    for (const widget of [translated, other]) await untilSettled(widget);
-    const [translatedText, otherText] = await texts();
+    const textsBefore = await readTexts();
+    for (const widget of [translatedFigure, otherFigure]) await widget.locator(`#${sliderId}`).fill(String(value));
+    for (const widget of [translatedFigure, otherFigure]) await untilSettled(widget);
+    const [translatedText, otherText] = await readTexts();
     expect(otherText).not.toBe(textsBefore[1]);
     expect(translatedText).toBe(otherText);
   }

@@ -4,8 +4,8 @@ import { REDUCED_MOTION, boxOf, centreOf, waitForFrames, mount, showPage, stateO
 
 test.use({ ...REDUCED_MOTION, viewport: { width: 1920, height: 1080 } });
 
-/** @param {import('@playwright/test').Locator} widget */
-const fitsItsSurface = (widget) => widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight && element.scrollWidth <= element.clientWidth);
+/** Returns true if a presented figure needs no scrolling. @param {import('@playwright/test').Locator} widget */
+const fitsSurface = (widget) => widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight && element.scrollWidth <= element.clientWidth);
 
 test('the button fills the screen, C shows the controls, and Escape leaves', async ({ page }) => {
   await showPage(page, '<div style="height: 300px"></div><banana-machine></banana-machine><div style="height: 3000px"></div>');
@@ -13,7 +13,7 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
   await untilReady(widget);
   await widget.getByRole('button', { name: 'Present' }).click();
   await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('banana-machine');
-  const controls = widget.getByRole('button', { name: 'C Controls' });
+  const controlsButton = widget.getByRole('button', { name: 'C Controls' });
   // After a click no focus ring is visible to the audience.
   await expect(widget.locator('.presenting')).toBeFocused();
   await expect(widget.locator('.presenting')).toHaveCSS('outline-style', 'none');
@@ -22,14 +22,14 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
   await expectAccessible(page, undefined, 'banana-machine');
   // Copying a selection shows no controls.
   await page.keyboard.press('Control+c');
-  await expect(controls).toHaveAttribute('aria-pressed', 'false');
+  await expect(controlsButton).toHaveAttribute('aria-pressed', 'false');
   await page.keyboard.press('c');
-  await expect(controls).toHaveAttribute('aria-pressed', 'true');
+  await expect(controlsButton).toHaveAttribute('aria-pressed', 'true');
   await expect(widget.locator('.slider').first()).toBeVisible();
   // In the field of a value, C is a letter and Escape leaves the field.
   await widget.locator('.typed').first().click();
   await page.keyboard.press('c');
-  await expect(controls).toHaveAttribute('aria-pressed', 'true');
+  await expect(controlsButton).toHaveAttribute('aria-pressed', 'true');
   await page.keyboard.press('Escape');
   await expect(widget).toHaveAttribute('presentation');
   await page.keyboard.press('Escape');
@@ -50,13 +50,13 @@ test('without full screen the attribute fills the window, and the button leaves'
   // A handle stays under the pointer at any font size.
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   await waitForFrames(page);
-  const from = await centreOf(handle);
-  await page.mouse.move(from.x, from.y);
+  const centreBefore = await centreOf(handle);
+  await page.mouse.move(centreBefore.x, centreBefore.y);
   await page.mouse.down();
-  await page.mouse.move(from.x + 60, from.y - 40, { steps: 4 });
+  await page.mouse.move(centreBefore.x + 60, centreBefore.y - 40, { steps: 4 });
   await waitForFrames(page);
-  const to = await centreOf(handle);
-  expect(Math.hypot(to.x - from.x - 60, to.y - from.y + 40)).toBeLessThan(2);
+  const centreAfter = await centreOf(handle);
+  expect(Math.hypot(centreAfter.x - centreBefore.x - 60, centreAfter.y - centreBefore.y + 40)).toBeLessThan(2);
   await page.mouse.up();
   await widget.getByRole('button', { name: 'Esc Exit' }).click();
   await expect(widget).not.toHaveAttribute('presentation');
@@ -118,23 +118,23 @@ test('the browser ends the presentation by a key of its own @nightly', async ({ 
 testEach('a presented figure has large pictures and legible letters, with and without controls', async (page, name) => {
   const widget = await mount(page, name);
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
-  const fontSizes = () => widget.locator('canvas, .readouts dt').evaluateAll((textElements) => textElements.map((textElement) => parseFloat(getComputedStyle(textElement).fontSize)));
-  const sizesOnPage = await fontSizes();
+  const readFontSizes = () => widget.locator('canvas, .readouts dt').evaluateAll((textElements) => textElements.map((textElement) => parseFloat(getComputedStyle(textElement).fontSize)));
+  const fontSizesOnPage = await readFontSizes();
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
   await waitForFrames(page);
-  expect(await fitsItsSurface(widget)).toBe(true);
-  const pictures = await Promise.all((await widget.locator('.stage canvas').all()).map(boxOf));
-  for (const { height } of pictures) expect(height).toBeGreaterThan(1080 * 0.5);
-  for (const [i, size] of (await fontSizes()).entries()) expect(size / sizesOnPage[i]).toBeCloseTo(1.5, 5);
+  expect(await fitsSurface(widget)).toBe(true);
+  const pictureBoxes = await Promise.all((await widget.locator('.stage canvas').all()).map(boxOf));
+  for (const { height } of pictureBoxes) expect(height).toBeGreaterThan(1080 * 0.5);
+  for (const [i, fontSize] of (await readFontSizes()).entries()) expect(fontSize / fontSizesOnPage[i]).toBeCloseTo(1.5, 5);
   await page.keyboard.press('c');
   await expect(widget.locator('.folds')).toBeInViewport({ ratio: 0.99 });
   await waitForFrames(page);
-  expect(await fitsItsSurface(widget)).toBe(true);
-  const bottom = Math.max(...(await Promise.all((await widget.locator('.presenting button').all()).map(boxOf))).map(({ y, height }) => y + height));
+  expect(await fitsSurface(widget)).toBe(true);
+  const buttonsBottom = Math.max(...(await Promise.all((await widget.locator('.presenting button').all()).map(boxOf))).map(({ y, height }) => y + height));
   for (const picture of await widget.locator('.stage canvas').all()) {
     const { y, height } = await boxOf(picture);
-    expect(y).toBeGreaterThanOrEqual(bottom);
+    expect(y).toBeGreaterThanOrEqual(buttonsBottom);
     expect(height).toBeGreaterThanOrEqual(0.3 * 1080);
   }
 });

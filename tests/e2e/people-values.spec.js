@@ -6,19 +6,19 @@ import { REDUCED_MOTION, waitForFrames, mount, propertyOf, takeEvents, test, ope
 
 test.use(REDUCED_MOTION);
 
-/** @param {import('@playwright/test').Page} page @param {string} name */
-async function widgetOf(page, name) {
+/** Opens a page with a figure, with all disclosures open. @param {import('@playwright/test').Page} page @param {string} name */
+async function openUnfolded(page, name) {
   const widget = await mount(page, name);
   await openDisclosures(widget);
   await takeEvents(page);
   return widget;
 }
 
-/** @param {Locator} widget @param {string} key */
+/** Returns the help text of a slider. @param {Locator} widget @param {string} key of the setting */
 const helpOf = (widget, key) => widget.locator(`#${key}-effect`);
 
 test('a digit on a slider leads into its value, Enter back, and the value may lie beyond the slider', async ({ page }) => {
-  const widget = await widgetOf(page, 'banana-machine');
+  const widget = await openUnfolded(page, 'banana-machine');
   const slider = widget.locator('#alpha1');
   await slider.focus();
   await page.keyboard.type('0.4');
@@ -44,7 +44,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
 });
 
 test('a value is typed with its unit, a true minus and few more decimals, and Escape takes it back', async ({ page }) => {
-  const widget = await widgetOf(page, 'banana-machine');
+  const widget = await openUnfolded(page, 'banana-machine');
   const field = valueField(widget, 'v');
   await expect(helpOf(widget, 'v')).toHaveText('How far along the arc; below zero the robot backs up.');
   // The numeric keyboard of a phone has no minus.
@@ -70,8 +70,8 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
 });
 
 test('a value that is refused is reported with the allowed range, and the last good one stays', async ({ page }) => {
-  const widget = await widgetOf(page, 'banana-machine');
-  for (const [key, text, complaint] of [
+  const widget = await openUnfolded(page, 'banana-machine');
+  for (const [key, typedText, expectedError] of [
     ['alpha1', ' -1 ', 'α₁ must be between 0 and 1\u202f000\u202f000 (got −1).'],
     ['omega', '1,5', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000, with a decimal point (got "1,5").'],
     ['omega', '', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000 (got "").'],
@@ -81,9 +81,9 @@ test('a value that is refused is reported with the allowed range, and the last g
     const field = valueField(widget, key);
     const shownText = await field.inputValue();
     await field.click();
-    await field.fill(text);
+    await field.fill(typedText);
     await page.keyboard.press('Enter');
-    await expect(widget.locator('[role=alert]')).toHaveText(complaint);
+    await expect(widget.locator('[role=alert]')).toHaveText(expectedError);
     await expect(helpOf(widget, key)).toBeVisible();
     await expect(field).toBeFocused();
     await expect(field).toHaveValue(shownText);
@@ -97,15 +97,15 @@ test('a value that is refused is reported with the allowed range, and the last g
     await page.keyboard.press('Escape');
   }
   // Thousands separators are accepted in the English form and in the form of the page.
-  for (const text of ['2,000', '3\u202f000']) {
-    await valueField(widget, 'samples').fill(text);
+  for (const numberText of ['2,000', '3\u202f000']) {
+    await valueField(widget, 'samples').fill(numberText);
     await page.keyboard.press('Enter');
-    expect(await propertyOf(widget, 'samples')).toBe(Number(text.replace(/\D/, '')));
+    expect(await propertyOf(widget, 'samples')).toBe(Number(numberText.replace(/\D/, '')));
   }
 });
 
 test('a change by the page leaves what is being typed @nightly', async ({ page }) => {
-  const widget = await widgetOf(page, 'banana-machine');
+  const widget = await openUnfolded(page, 'banana-machine');
   const field = valueField(widget, 'alpha1');
   const setAlpha1 = (/** @type {number} */ value) => widget.evaluate(async (element, value) => {
     /** @type {any} */ (element).alpha1 = value;
@@ -130,15 +130,15 @@ test('a change by the page leaves what is being typed @nightly', async ({ page }
 });
 
 test('German has a decimal comma, and takes a point too', async ({ page }) => {
-  const widget = await widgetOf(page, 'banana-machine');
+  const widget = await openUnfolded(page, 'banana-machine');
   await page.addScriptTag({ type: 'module', url: '/de.js' });
   await page.evaluate(() => (document.documentElement.lang = 'de'));
   await waitForFrames(page);
-  for (const [text, value] of [['0,35', 0.35], ['0.45', 0.45]]) {
+  for (const [typedText, expectedValue] of [['0,35', 0.35], ['0.45', 0.45]]) {
     await widget.locator('#alpha1').focus();
-    await page.keyboard.type(String(text));
+    await page.keyboard.type(String(typedText));
     await page.keyboard.press('Enter');
-    expect(await propertyOf(widget, 'alpha1')).toBe(value);
+    expect(await propertyOf(widget, 'alpha1')).toBe(expectedValue);
   }
   await expect(valueField(widget, 'alpha1')).toHaveValue('0,450');
   // Numbers of robots are integers: a point before three digits separates thousands.

@@ -1,32 +1,38 @@
 //! Accuracy of the α's, their intervals and the noise of the reference, over many simulated logs.
 
-use super::calibrated;
+use super::calibrate_simulation;
 use super::simulated::{ALPHAS, MODELS, Simulation, Violation};
 use motion::calibrate::{ERROR_COUNT, Model, Systematic, SystematicError};
 
-/// Number of legs of a log.
 const LEG_COUNT: usize = 600;
 
 /// Kind of simulated log.
 struct Scenario {
     name: &'static str,
-    change: fn(&mut Simulation),
+    modify: fn(&mut Simulation),
     /// Allowed relative error of a median in addition to three standard errors.
-    bias: f64,
+    allowed_bias: f64,
 }
 
-const EXACT_REFERENCE: Scenario = Scenario { name: "exact reference", change: |_| (), bias: 0.05 };
+const EXACT_REFERENCE: Scenario = Scenario { name: "exact reference", modify: |_| (), allowed_bias: 0.05 };
 const FINE_REFERENCE: Scenario =
-    Scenario { name: "5 mm, 2 mrad", change: |sim| sim.reference_stds = [0.005, 0.002], bias: 0.05 };
+    Scenario { name: "5 mm, 2 mrad", modify: |sim| sim.reference_stds = [0.005, 0.002], allowed_bias: 0.05 };
 const COARSE_REFERENCE: Scenario =
-    Scenario { name: "20 mm, 20 mrad", change: |sim| sim.reference_stds = [0.02, 0.02], bias: 0.05 };
-const SYSTEMATIC_ERRORS: Scenario =
-    Scenario { name: "systematic errors", change: |sim| sim.errors = TRUE_ERRORS, bias: 0.05 };
-const JUMPING_REFERENCE: Scenario = Scenario { name: "jumps", change: |sim| sim.jumps = 0.01, bias: 0.05 };
-const PERSISTENT_ERRORS: Scenario =
-    Scenario { name: "persistent", change: |sim| sim.violation = Violation::Autoregressive(0.7), bias: 0.1 };
+    Scenario { name: "20 mm, 20 mrad", modify: |sim| sim.reference_stds = [0.02, 0.02], allowed_bias: 0.05 };
+const SYSTEMATIC_ERRORS: Scenario = Scenario {
+    name: "systematic errors",
+    modify: |sim| sim.systematic_errors = TRUE_SYSTEMATIC_ERRORS,
+    allowed_bias: 0.05,
+};
+const JUMPING_REFERENCE: Scenario =
+    Scenario { name: "jumps", modify: |sim| sim.jump_fraction = 0.01, allowed_bias: 0.05 };
+const PERSISTENT_ERRORS: Scenario = Scenario {
+    name: "persistent",
+    modify: |sim| sim.violation = Violation::Autoregressive(0.7),
+    allowed_bias: 0.1,
+};
 
-const TRUE_ERRORS: Systematic = Systematic {
+const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
     clock_offset: 0.12,
     mount_yaw: 0.05,
     lever_arm: [0.1, -0.05],
@@ -34,21 +40,21 @@ const TRUE_ERRORS: Systematic = Systematic {
     turn_scale: 0.97,
 };
 
-/// Margin by which intervals of systematic errors (s, m, rad) are extended at both ends. The estimates neglect products of noises, and of noise
-/// and clock offset within a row of 50 ms.
-const NEGLECTED_TERMS: f64 = 1e-3;
+/// Margin by which intervals of systematic errors (s, m, rad) are extended at both ends. The estimates neglect products of noises, and products
+/// of noise and clock offset within a row of 50 ms.
+const INTERVAL_MARGIN: f64 = 1e-3;
 
 /// Results of calibrations of many logs.
-struct Study {
+struct StudyResults {
     /// Sorted ratios of fitted to true value, for each α.
     ratios: Vec<Vec<f64>>,
     /// Number of 95 % intervals that contain the true value, for each α.
-    covered: Vec<usize>,
+    covered_counts: Vec<usize>,
     errors_covered: [usize; ERROR_COUNT],
     /// Sorted estimates of the reference's standard deviations: position (m) and yaw (rad).
     stds: [Vec<f64>; 2],
     stds_covered: [usize; 2],
-    logs: usize,
+    log_count: usize,
 }
 
 /// Returns 1 if an interval contains a value, and otherwise 0.
@@ -56,29 +62,29 @@ fn count_covered(interval: Option<[f64; 2]>, value: f64) -> usize {
     usize::from(interval.is_some_and(|[low, high]| (low..=high).contains(&value)))
 }
 
-fn run_study(model: Model, scenario: &Scenario, logs: usize) -> Study {
-    let count = model.alphas();
-    let mut study = Study {
-        ratios: vec![Vec::new(); count],
-        covered: vec![0; count],
+fn run_study(model: Model, scenario: &Scenario, log_count: usize) -> StudyResults {
+    let alpha_count = model.alphas();
+    let mut study = StudyResults {
+        ratios: vec![Vec::new(); alpha_count],
+        covered_counts: vec![0; alpha_count],
         errors_covered: [0; ERROR_COUNT],
         stds: [Vec::new(), Vec::new()],
         stds_covered: [0; 2],
-        logs,
+        log_count,
     };
-    for seed in 0..logs as u64 {
+    for seed in 0..log_count as u64 {
         let mut sim = Simulation::of(model, LEG_COUNT, 5000 + seed);
-        (scenario.change)(&mut sim);
-        let calibration = calibrated(&sim);
-        for (alpha, truth) in ALPHAS.into_iter().enumerate().take(count) {
+        (scenario.modify)(&mut sim);
+        let calibration = calibrate_simulation(&sim);
+        for (alpha, truth) in ALPHAS.into_iter().enumerate().take(alpha_count) {
             study.ratios[alpha].extend(calibration.alphas[alpha].map(|fitted| fitted / truth));
-            study.covered[alpha] += count_covered(calibration.intervals[alpha], truth);
+            study.covered_counts[alpha] += count_covered(calibration.intervals[alpha], truth);
         }
-        for (error, covered) in SystematicError::ALL.into_iter().zip(&mut study.errors_covered) {
+        for (error, covered_counts) in SystematicError::ALL.into_iter().zip(&mut study.errors_covered) {
             let interval = calibration.interval_of(error);
             let extended_interval =
-                interval.map(|[low, high]| [low - NEGLECTED_TERMS, high + NEGLECTED_TERMS]);
-            *covered += count_covered(extended_interval, sim.errors.get(error));
+                interval.map(|[low, high]| [low - INTERVAL_MARGIN, high + INTERVAL_MARGIN]);
+            *covered_counts += count_covered(extended_interval, sim.systematic_errors.get(error));
         }
         for (index, noise) in calibration.reference_noise.iter().enumerate() {
             study.stds[index].push(noise.value);
@@ -86,11 +92,11 @@ fn run_study(model: Model, scenario: &Scenario, logs: usize) -> Study {
         }
     }
     study.ratios.iter_mut().chain(&mut study.stds).for_each(|sample| sample.sort_unstable_by(f64::total_cmp));
-    let medians: Vec<f64> = study.ratios.iter().map(|ratios| median(ratios)).collect();
-    let Study { covered, errors_covered, stds_covered, .. } = &study;
+    let median_ratios: Vec<f64> = study.ratios.iter().map(|ratios| median(ratios)).collect();
+    let StudyResults { covered_counts, errors_covered, stds_covered, .. } = &study;
     let stds = [0, 1].map(|index| median(&study.stds[index]));
     println!(
-        "{}, {model:?}: {medians:.3?}, covered {covered:?}, σ {stds:.4?} {stds_covered:?}, errors {errors_covered:?}",
+        "{}, {model:?}: {median_ratios:.3?}, covered {covered_counts:?}, σ {stds:.4?} {stds_covered:?}, errors {errors_covered:?}",
         scenario.name
     );
     study
@@ -100,41 +106,45 @@ fn median(sorted: &[f64]) -> f64 {
     sorted[sorted.len() / 2]
 }
 
-/// Returns the standard error of a median of normal numbers, from the range of their middle 68 %.
-fn median_std(sorted: &[f64]) -> f64 {
+/// Returns the standard error of the median of normal numbers, estimated from the range of their middle 68 %.
+fn standard_error_of_median(sorted: &[f64]) -> f64 {
     let count = sorted.len();
     let [low, high] = [0.16, 0.84].map(|quantile| sorted[(quantile * count as f64) as usize]);
     1.25 * 0.5 * (high - low) / (count as f64).sqrt()
 }
 
-/// Returns three standard errors of a fraction of this number of logs.
-fn three_standard_errors(fraction: f64, logs: usize) -> f64 {
-    3.0 * (fraction * (1.0 - fraction) / logs as f64).sqrt()
+/// Returns three standard errors of a fraction that is estimated from `log_count` logs.
+fn three_standard_errors(fraction: f64, log_count: usize) -> f64 {
+    3.0 * (fraction * (1.0 - fraction) / log_count as f64).sqrt()
 }
 
 /// Reports the fraction of intervals that contain the truth, if it is outside of 92 to 98 % by more than three standard errors.
-fn report_wrong_coverage(name: &str, covered: usize, logs: usize) -> Option<String> {
-    let fraction = covered as f64 / logs as f64;
-    let allowed = 0.92 - three_standard_errors(0.92, logs)..=0.98 + three_standard_errors(0.98, logs);
-    (!allowed.contains(&fraction)).then(|| format!("{covered} of {logs} intervals hold {name}"))
+fn report_wrong_coverage(name: &str, covered_count: usize, log_count: usize) -> Option<String> {
+    let fraction = covered_count as f64 / log_count as f64;
+    let allowed_fractions =
+        0.92 - three_standard_errors(0.92, log_count)..=0.98 + three_standard_errors(0.98, log_count);
+    (!allowed_fractions.contains(&fraction))
+        .then(|| format!("{covered_count} of {log_count} intervals hold {name}"))
 }
 
-/// Reports α's whose medians are off by more than the bias and three standard errors, and α's with wrong intervals.
-fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &Study) -> Vec<String> {
+/// Reports α's whose medians are off by more than the allowed bias plus three standard errors, and α's with wrong intervals.
+fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
     let reports_of_alpha = |alpha: usize| {
         let (ratios, name) = (&study.ratios[alpha], format!("α{}", alpha + 1));
-        let (median_ratio, std) = (median(ratios), median_std(ratios));
-        let is_off = ratios.len() < study.logs || (median_ratio - 1.0).abs() > scenario.bias + 3.0 * std;
-        let wrong_median = is_off
-            .then(|| format!("median of {name} in {} logs: {median_ratio:.3} ± {std:.3}", ratios.len()));
-        [wrong_median, report_wrong_coverage(&name, study.covered[alpha], study.logs)]
+        let (median_ratio, standard_error) = (median(ratios), standard_error_of_median(ratios));
+        let is_off = ratios.len() < study.log_count
+            || (median_ratio - 1.0).abs() > scenario.allowed_bias + 3.0 * standard_error;
+        let median_report = is_off.then(|| {
+            format!("median of {name} in {} logs: {median_ratio:.3} ± {standard_error:.3}", ratios.len())
+        });
+        [median_report, report_wrong_coverage(&name, study.covered_counts[alpha], study.log_count)]
     };
-    let reports = (0..study.covered.len()).flat_map(reports_of_alpha).flatten();
+    let reports = (0..study.covered_counts.len()).flat_map(reports_of_alpha).flatten();
     reports.map(|report| format!("{}, {model:?}: {report}", scenario.name)).collect()
 }
 
 /// Asserts that the α's of every model are right in a hundred logs, and that `further_reports` reports nothing.
-fn assert_right_in_every_model(scenario: &Scenario, further_reports: impl Fn(&Study) -> Vec<String>) {
+fn assert_right_in_every_model(scenario: &Scenario, further_reports: impl Fn(&StudyResults) -> Vec<String>) {
     let reports: Vec<String> = MODELS
         .into_iter()
         .flat_map(|model| {
@@ -147,12 +157,12 @@ fn assert_right_in_every_model(scenario: &Scenario, further_reports: impl Fn(&St
     assert!(reports.is_empty(), "{}", reports.join("\n"));
 }
 
-/// Reports a standard deviation of the reference that is off by more than 10 % and three standard errors.
-fn report_wrong_std(study: &Study, component: usize, true_std: f64) -> Vec<String> {
-    let median_of_std = median(&study.stds[component]);
-    let allowed = 0.1 * true_std + 3.0 * median_std(&study.stds[component]);
-    let is_off = (median_of_std - true_std).abs() > allowed;
-    is_off.then(|| format!("median of std {component}: {median_of_std}")).into_iter().collect()
+/// Reports a standard deviation of the reference that is off by more than 10 % plus three standard errors.
+fn report_wrong_std(study: &StudyResults, component: usize, true_std: f64) -> Vec<String> {
+    let median_std = median(&study.stds[component]);
+    let tolerance = 0.1 * true_std + 3.0 * standard_error_of_median(&study.stds[component]);
+    let is_off = (median_std - true_std).abs() > tolerance;
+    is_off.then(|| format!("median of std {component}: {median_std}")).into_iter().collect()
 }
 
 #[test]
@@ -180,7 +190,7 @@ fn alphas_are_right_with_an_exact_reference() {
     assert_right_in_every_model(&EXACT_REFERENCE, |_| Vec::new());
 }
 
-/// Two milliradians are a tenth of the wheels' rotation error on a leg. The log therefore gives only an upper bound for σ of the yaw.
+/// A yaw noise of two milliradians is a tenth of the wheels' rotation error on a leg. The log therefore gives only an upper bound for its σ.
 #[test]
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_are_right_with_an_unstated_noise_of_5_mm_and_2_mrad() {
@@ -200,7 +210,11 @@ fn alphas_are_right_with_an_unstated_noise_of_20_mm_and_20_mrad() {
 fn alphas_and_errors_are_right_with_five_systematic_errors() {
     assert_right_in_every_model(&SYSTEMATIC_ERRORS, |study| {
         let report_of_error = |error: SystematicError| {
-            report_wrong_coverage(&format!("{error:?}"), study.errors_covered[error as usize], study.logs)
+            report_wrong_coverage(
+                &format!("{error:?}"),
+                study.errors_covered[error as usize],
+                study.log_count,
+            )
         };
         SystematicError::ALL.into_iter().filter_map(report_of_error).collect()
     });

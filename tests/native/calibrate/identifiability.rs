@@ -1,18 +1,18 @@
-//! α's that a log does not identify: the reason, and the drive that identifies them.
+//! α's that are not identifiable from a log: the reason, and a drive that identifies them.
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
-use super::{NAV2, calibrated, calibrated_log};
+use super::{NAV2, calibrate_log, calibrate_simulation};
 use motion::calibrate::NotIdentifiable::{
     self, Collinear, InsufficientRotation, InsufficientTranslation, ReferenceTooNoisy,
 };
 use motion::calibrate::{Calibration, Model, Options, Verdict};
 
-/// Function from the number of a leg to its v and ω.
-type Drive = fn(usize) -> [f64; 2];
+/// Function from the index of a leg to its v and ω.
+type VelocityOfLeg = fn(usize) -> [f64; 2];
 
 /// Returns the calibration of the log of a drive.
-fn calibrated_drive(model: Model, drive: Drive) -> Calibration {
-    calibrated(&Simulation { drive: Some(drive), ..Simulation::of(model, 400, 17) })
+fn calibrate_drive(model: Model, drive: VelocityOfLeg) -> Calibration {
+    calibrate_simulation(&Simulation { drive: Some(drive), ..Simulation::of(model, 400, 17) })
 }
 
 /// v and ω of a straight leg.
@@ -28,11 +28,11 @@ const NO_DISTANCE: Option<NotIdentifiable> = Some(InsufficientTranslation);
 /// Drive that does not identify all α's, with the reason for each.
 struct IncompleteDrive {
     name: &'static str,
-    drive: Drive,
+    drive: VelocityOfLeg,
     odometry: [Option<NotIdentifiable>; 5],
     velocity: [Option<NotIdentifiable>; 6],
-    /// Drives with fifty legs of the missing motion, for odometry models and for the velocity model, which does not use turns on the spot.
-    complete: [Drive; 2],
+    /// Drives with fifty legs of the missing motion: for odometry models, and for the velocity model, which does not use turns on the spot.
+    complete: [VelocityOfLeg; 2],
 }
 
 const INCOMPLETE_DRIVES: [IncompleteDrive; 3] = [
@@ -84,29 +84,29 @@ fn incomplete_drives_give_the_reason_for_every_model() {
 }
 
 fn assert_reasons(models: &[Model]) {
-    let (mut covered_count, mut intervals) = (0, 0);
+    let (mut covered_count, mut interval_count) = (0, 0);
     for &model in models {
         for IncompleteDrive { name, drive, odometry, velocity, complete } in &INCOMPLETE_DRIVES {
             let uses_commands = model == Model::Velocity;
-            let expected: &[_] = if uses_commands { velocity } else { odometry };
-            let calibration = calibrated_drive(model, *drive);
-            assert_eq!(calibration.not_identifiable, expected[..model.alphas()], "{model:?} {name}");
+            let expected_reasons: &[_] = if uses_commands { velocity } else { odometry };
+            let calibration = calibrate_drive(model, *drive);
+            assert_eq!(calibration.not_identifiable, expected_reasons[..model.alphas()], "{model:?} {name}");
             for (k, reason) in calibration.not_identifiable.iter().enumerate() {
                 let is_estimated = [calibration.alphas[k].is_some(), calibration.intervals[k].is_some()];
                 assert_eq!(is_estimated, [reason.is_none(); 2], "{model:?} {name}: α{}", k + 1);
             }
-            let complete_calibration = calibrated_drive(model, complete[usize::from(uses_commands)]);
+            let complete_calibration = calibrate_drive(model, complete[usize::from(uses_commands)]);
             assert!(complete_calibration.not_identifiable.iter().all(Option::is_none), "{model:?} {name}");
             for (interval, truth) in complete_calibration.intervals.iter().zip(ALPHAS) {
                 let [low, high] = interval.expect("identifiable");
                 covered_count += u32::from((low..=high).contains(&truth));
-                intervals += 1;
+                interval_count += 1;
             }
         }
     }
-    // Three standard errors of a share of 0.95 are allowed.
-    let fraction = f64::from(covered_count) / f64::from(intervals);
-    let standard_error = (0.95 * 0.05 / f64::from(intervals)).sqrt();
+    // Three standard errors of a fraction of 0.95 are allowed.
+    let fraction = f64::from(covered_count) / f64::from(interval_count);
+    let standard_error = (0.95 * 0.05 / f64::from(interval_count)).sqrt();
     assert!(fraction > 0.95 - 3.0 * standard_error, "{fraction}");
 }
 
@@ -115,7 +115,7 @@ fn assert_reasons(models: &[Model]) {
 fn a_reference_that_hides_the_noise_of_the_wheels_is_too_noisy() {
     let sim = Simulation::of(NAV2, 400, 32);
     let options = Options { position_std: Some(100.0), yaw_std: Some(100.0), ..sim.options() };
-    let calibration = calibrated_log(&sim.log(), &options);
+    let calibration = calibrate_log(&sim.log(), &options);
     assert_eq!(calibration.not_identifiable, [Some(ReferenceTooNoisy); 4]);
     assert_eq!(calibration.diagnostics.verdict, Verdict::Unusable);
 }

@@ -1,4 +1,4 @@
-//! Trajectories, and how they are split into legs.
+//! Trajectories, and their division into legs.
 
 use super::trajectory;
 use motion::calibrate::{Leg, LegLength, LostLegs, Trajectory, split_into_legs};
@@ -8,30 +8,34 @@ use nalgebra::Vector3;
 const AMCL_LEG: LegLength = LegLength::Displacement { distance: 0.25, angle: 0.2 };
 
 /// Returns the trajectory of a robot that drives straight ahead, with a row every 0.1 s.
-fn straight_drive(rows: usize, step: f64) -> Trajectory {
-    trajectory((0..rows).map(|row| (0.1 * row as f64, SE2::new(step * row as f64, 0.0, 0.0))))
+fn straight_drive(row_count: usize, step_length: f64) -> Trajectory {
+    trajectory((0..row_count).map(|row| (0.1 * row as f64, SE2::new(step_length * row as f64, 0.0, 0.0))))
 }
 
-/// Returns the trajectory without the rows between two of them.
-fn without_rows_between(trajectory: &Trajectory, from: usize, to: usize) -> Trajectory {
+/// Returns the trajectory without the rows between the first and last row given.
+fn without_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usize) -> Trajectory {
     super::trajectory(
-        trajectory.samples().enumerate().filter(|(row, _)| !(from < *row && *row < to)).map(|(_, row)| row),
+        trajectory
+            .samples()
+            .enumerate()
+            .filter(|(row, _)| !(first_row < *row && *row < last_row))
+            .map(|(_, row)| row),
     )
 }
 
-fn times(trajectory: &Trajectory) -> Vec<f64> {
+fn sample_times(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.samples().map(|(time, _)| time).collect()
 }
 
 #[test]
 fn legs_end_as_amcl_ends_them() {
     let odometry = straight_drive(41, 0.0625);
-    let (legs, lost) = split_into_legs(&odometry, &odometry, AMCL_LEG, 0.0);
-    // A leg ends beyond a quarter of a metre, and not at exactly that distance: after five steps each.
-    assert_eq!((legs.len(), lost), (8, LostLegs::default()));
+    let (legs, lost_legs) = split_into_legs(&odometry, &odometry, AMCL_LEG, 0.0);
+    // A leg ends beyond a quarter of a metre, and not at exactly that distance. Each leg therefore has five steps.
+    assert_eq!((legs.len(), lost_legs), (8, LostLegs::default()));
     for (i, leg) in legs.iter().enumerate() {
         assert_eq!(leg.odometry[1].x() - leg.odometry[0].x(), 0.3125);
-        assert_eq!(leg.times[0], times(&odometry)[5 * i]);
+        assert_eq!(leg.times[0], sample_times(&odometry)[5 * i]);
         assert_eq!(leg.follows, i > 0);
     }
     // The limit is for each axis: 0.24 m along both is not enough, although the distance is 0.34 m.
@@ -47,11 +51,11 @@ fn legs_end_as_amcl_ends_them() {
     assert_eq!(timed_legs.len(), 8);
 }
 
-/// Ten steps of 0.02 rad equal the limit of 0.2 rad, except for rounding of sums of doubles, or of text with six decimals.
+/// Ten steps of 0.02 rad equal the limit of 0.2 rad, except for the rounding of doubles or of text with six decimals.
 #[test]
 fn rounding_does_not_decide_where_a_leg_ends() {
-    let leg_times = |rounded: fn(f64) -> f64| {
-        let heading = |row: usize| rounded(wrap_angle(0.123_456_7 + 0.02 * row as f64));
+    let leg_times = |round_heading: fn(f64) -> f64| {
+        let heading = |row: usize| round_heading(wrap_angle(0.123_456_7 + 0.02 * row as f64));
         let turning_drive =
             trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, heading(row)))));
         split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0)
@@ -60,10 +64,10 @@ fn rounding_does_not_decide_where_a_leg_ends() {
             .map(|leg| leg.times)
             .collect::<Vec<_>>()
     };
-    let exact_times = leg_times(|heading| heading);
-    // A leg does not end at exactly the limit: each has eleven steps.
-    assert_eq!(exact_times.len(), 36);
-    assert_eq!(leg_times(|heading| (heading * 1e6).round() / 1e6), exact_times);
+    let exact_leg_times = leg_times(|heading| heading);
+    // A leg does not end at exactly the limit. Each leg therefore has eleven steps.
+    assert_eq!(exact_leg_times.len(), 36);
+    assert_eq!(leg_times(|heading| (heading * 1e6).round() / 1e6), exact_leg_times);
 }
 
 /// A leg normally has five steps. A leg with a pause of six steps after its first step is 0.44 m long. With the pause after the fourth
@@ -72,84 +76,94 @@ fn rounding_does_not_decide_where_a_leg_ends() {
 fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
     let drive = straight_drive(101, 0.0625);
     for (after, ends, across_pauses) in [(1, 37, 0), (4, 40, 1)] {
-        let with_pause = without_rows_between(&drive, 30 + after, 30 + after + 6);
-        assert_eq!(with_pause.gaps(), 1);
-        let (legs, lost) = split_into_legs(&with_pause, &drive, AMCL_LEG, 0.0);
-        assert_eq!(lost, LostLegs { across_pauses, ..LostLegs::default() });
-        let leg_across_pause = legs.iter().find(|leg| leg.times[0] == times(&drive)[30]);
+        let drive_with_pause = without_rows_between(&drive, 30 + after, 30 + after + 6);
+        assert_eq!(drive_with_pause.gaps(), 1);
+        let (legs, lost_legs) = split_into_legs(&drive_with_pause, &drive, AMCL_LEG, 0.0);
+        assert_eq!(lost_legs, LostLegs { across_pauses, ..LostLegs::default() });
+        let leg_across_pause = legs.iter().find(|leg| leg.times[0] == sample_times(&drive)[30]);
         assert_eq!(
             leg_across_pause.map(|leg| leg.times[1]),
-            (across_pauses == 0).then_some(times(&drive)[ends])
+            (across_pauses == 0).then_some(sample_times(&drive)[ends])
         );
-        // The leg after one that was lost does not share an end with the leg before it in the list.
-        let next_leg = legs.iter().find(|leg| leg.times[0] == times(&drive)[ends]).expect("it goes on");
+        // A leg after a lost leg does not follow the previous leg of the list.
+        let next_leg =
+            legs.iter().find(|leg| leg.times[0] == sample_times(&drive)[ends]).expect("it goes on");
         assert_eq!(next_leg.follows, across_pauses == 0);
     }
     // Both ends of the leg have a reference pose, although the reference has none in between.
-    let (legs, lost) = split_into_legs(&drive, &without_rows_between(&drive, 30, 35), AMCL_LEG, 0.0);
-    assert_eq!((legs, lost), split_into_legs(&drive, &drive, AMCL_LEG, 0.0));
+    let (legs, lost_legs) = split_into_legs(&drive, &without_rows_between(&drive, 30, 35), AMCL_LEG, 0.0);
+    assert_eq!((legs, lost_legs), split_into_legs(&drive, &drive, AMCL_LEG, 0.0));
 }
 
 #[test]
 fn lost_legs_are_counted_by_cause() {
     let drive = straight_drive(101, 0.05);
     let all_legs = split_into_legs(&drive, &drive, AMCL_LEG, 0.0).0;
-    // A reference with the rows from 12 to 66: it begins after two of sixteen legs and ends before the last five.
+    // The reference has the rows from 12 to 66. It begins after two of sixteen legs and ends before the last five.
     let shorter_reference = trajectory(drive.samples().skip(12).take(55));
-    let (legs, lost) = split_into_legs(&drive, &shorter_reference, AMCL_LEG, 0.0);
+    let (legs, lost_legs) = split_into_legs(&drive, &shorter_reference, AMCL_LEG, 0.0);
     assert_eq!(
         legs.iter().map(|leg| leg.times).collect::<Vec<_>>(),
         all_legs[2..11].iter().map(|leg| leg.times).collect::<Vec<_>>()
     );
-    assert!(lost.without_reference >= 4 && lost.total() == lost.without_reference, "{lost:?}");
+    assert!(
+        lost_legs.without_reference >= 4 && lost_legs.total() == lost_legs.without_reference,
+        "{lost_legs:?}"
+    );
     // The robot stands still for 4 s, in four legs of a second.
-    let standing_drive = trajectory(drive.samples().map(|(time, pose)| {
+    let drive_with_stop = trajectory(drive.samples().map(|(time, pose)| {
         (time, SE2::new(if time < 3.0 { pose.x() } else { 1.5 + (pose.x() - 3.5).max(0.0) }, 0.0, 0.0))
     }));
-    let (legs, lost) =
-        split_into_legs(&standing_drive, &standing_drive, LegLength::Duration { duration: 1.0 }, 0.0);
-    assert_eq!((legs.len(), lost), (6, LostLegs { standing: 4, ..LostLegs::default() }));
+    let (legs, lost_legs) =
+        split_into_legs(&drive_with_stop, &drive_with_stop, LegLength::Duration { duration: 1.0 }, 0.0);
+    assert_eq!((legs.len(), lost_legs), (6, LostLegs { standing: 4, ..LostLegs::default() }));
 }
 
 #[test]
 fn no_leg_leads_across_a_break() {
     let drive = straight_drive(101, 0.1);
     let all_legs = split_into_legs(&drive, &drive, AMCL_LEG, 0.0).0;
-    let breaks = [17, 33, 34, 70];
-    let with_breaks = drive.clone().with_breaks_before(breaks);
-    assert_eq!([drive.gaps(), with_breaks.gaps()], [0, 4]);
+    let break_rows = [17, 33, 34, 70];
+    let drive_with_breaks = drive.clone().with_breaks_before(break_rows);
+    assert_eq!([drive.gaps(), drive_with_breaks.gaps()], [0, 4]);
     let has_break = |leg: &Leg| {
-        let leads_across =
-            |row: usize| leg.times[0] < times(&drive)[row] && times(&drive)[row] <= leg.times[1];
-        breaks.into_iter().any(leads_across)
+        let does_lead_across = |row: usize| {
+            leg.times[0] < sample_times(&drive)[row] && sample_times(&drive)[row] <= leg.times[1]
+        };
+        break_rows.into_iter().any(does_lead_across)
     };
-    let kept_times: Vec<[f64; 2]> =
+    let kept_leg_times: Vec<[f64; 2]> =
         all_legs.iter().filter(|leg| !has_break(leg)).map(|leg| leg.times).collect();
     // A break of the reference removes the legs across it, and no others.
-    let (legs, lost) = split_into_legs(&drive, &with_breaks, AMCL_LEG, 0.0);
-    assert_eq!(legs.iter().map(|leg| leg.times).collect::<Vec<_>>(), kept_times);
-    assert_eq!(lost, LostLegs { across_breaks: all_legs.len() - kept_times.len(), ..LostLegs::default() });
+    let (legs, lost_legs) = split_into_legs(&drive, &drive_with_breaks, AMCL_LEG, 0.0);
+    assert_eq!(legs.iter().map(|leg| leg.times).collect::<Vec<_>>(), kept_leg_times);
+    assert_eq!(
+        lost_legs,
+        LostLegs { across_breaks: all_legs.len() - kept_leg_times.len(), ..LostLegs::default() }
+    );
     // After a break of the odometry a leg begins at the break.
-    let (legs, lost) = split_into_legs(&with_breaks, &drive, AMCL_LEG, 0.0);
+    let (legs, lost_legs) = split_into_legs(&drive_with_breaks, &drive, AMCL_LEG, 0.0);
     assert!(legs.len() > 25 && !legs.iter().any(has_break));
-    assert_eq!(lost, LostLegs { across_breaks: 4, ..LostLegs::default() });
-    assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == times(&drive)[*row])));
-    // There is no pose between the rows, and no break before the first row or after the last.
-    assert!(with_breaks.pose_at(times(&drive)[16] + 0.01).is_none());
-    assert!([16, 17].iter().all(|row| with_breaks.pose_at(times(&drive)[*row]).is_some()));
+    assert_eq!(lost_legs, LostLegs { across_breaks: 4, ..LostLegs::default() });
+    assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == sample_times(&drive)[*row])));
+    // There is no pose between the rows of a break, and no break before the first row or after the last.
+    assert!(drive_with_breaks.pose_at(sample_times(&drive)[16] + 0.01).is_none());
+    assert!([16, 17].iter().all(|row| drive_with_breaks.pose_at(sample_times(&drive)[*row]).is_some()));
     assert_eq!(drive.with_breaks_before([0, 101]).gaps(), 0);
 }
 
 #[test]
 fn no_velocity_spans_a_declared_jump() {
-    let jump = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
+    let jump_offset = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
     let rows = straight_drive(101, 0.1);
-    let rows =
-        rows.samples().enumerate().map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump(row), 0.0)));
-    let with_jumps = trajectory(rows).with_breaks_before([40, 43]);
+    let rows = rows
+        .samples()
+        .enumerate()
+        .map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump_offset(row), 0.0)));
+    let drive_with_jumps = trajectory(rows).with_breaks_before([40, 43]);
     // Some legs consist of the three rows between the jumps.
-    let length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
-    let legs = split_into_legs(&with_jumps, &with_jumps, length, 0.0).0;
+    let leg_length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
+    let legs = split_into_legs(&drive_with_jumps, &drive_with_jumps, leg_length, 0.0).0;
     assert!(legs.len() > 45 && legs.iter().any(|leg| leg.odometry[0].y() == 5.0));
     for leg in legs {
         assert!(leg.velocities.iter().all(|velocity| (velocity - Vector3::x()).norm() < 1e-9));
@@ -160,12 +174,12 @@ fn no_velocity_spans_a_declared_jump() {
 fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
     let drive = straight_drive(1001, 0.05);
     let every_nth_row = |first: usize, step: usize| trajectory(drive.samples().skip(first).step_by(step));
-    let has_sample_at = |samples: &Trajectory, time: f64| times(samples).contains(&time);
-    // With a sample each 0.4 s or each 0.8 s, a leg of half a second ends at the nearest.
+    let has_sample_at = |samples: &Trajectory, time: f64| sample_times(samples).contains(&time);
+    // The sparse drive has a sample each 0.4 s or each 0.8 s. A leg of half a second ends at the nearest sample.
     for (step, duration) in [(4, 0.5), (8, 0.8)] {
         let sparse_drive = every_nth_row(3, step);
-        let length = LegLength::Duration { duration: 0.5 };
-        let legs = split_into_legs(&drive, &sparse_drive, length, 0.0).0;
+        let leg_length = LegLength::Duration { duration: 0.5 };
+        let legs = split_into_legs(&drive, &sparse_drive, leg_length, 0.0).0;
         assert!(legs.len() > 100);
         for leg in &legs {
             assert!(leg.times.iter().all(|time| has_sample_at(&sparse_drive, *time)), "{:?}", leg.times);
@@ -174,7 +188,7 @@ fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
         }
         assert!(legs.windows(2).all(|pair| pair[0].times[1] == pair[1].times[0]));
         // If the odometry is the sparser trajectory, legs end at its samples.
-        let legs = split_into_legs(&sparse_drive, &drive, length, 0.01).0;
+        let legs = split_into_legs(&sparse_drive, &drive, leg_length, 0.01).0;
         assert!(
             legs.len() > 100
                 && legs.iter().all(|leg| leg.times.iter().all(|time| has_sample_at(&sparse_drive, *time)))
@@ -185,25 +199,26 @@ fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
 #[test]
 fn poses_between_samples_lie_on_an_arc() {
     let twist = Vector3::new(0.5, 0.1, 0.8);
-    let start = SE2::new(2.0, 1.0, 3.0);
-    let arc = trajectory([(1.0, start), (2.0, start.boxplus(twist))]);
-    let pose = arc.pose_at(1.25).expect("inside");
-    assert!(pose.boxminus(&start.boxplus(twist * 0.25)).norm() < 1e-12);
-    assert_eq!([0.99, 2.01].map(|time| arc.pose_at(time)), [None; 2]);
+    let start_pose = SE2::new(2.0, 1.0, 3.0);
+    let arc_trajectory = trajectory([(1.0, start_pose), (2.0, start_pose.boxplus(twist))]);
+    let pose = arc_trajectory.pose_at(1.25).expect("inside");
+    assert!(pose.boxminus(&start_pose.boxplus(twist * 0.25)).norm() < 1e-12);
+    assert_eq!([0.99, 2.01].map(|time| arc_trajectory.pose_at(time)), [None; 2]);
 }
 
 #[test]
 fn times_must_rise_and_numbers_must_be_finite() {
-    let error_of = |samples: &[(f64, f64)]| {
+    let error_message = |samples: &[(f64, f64)]| {
         let poses = samples.iter().map(|(time, x)| (*time, SE2::new(*x, 0.0, 0.0)));
         Trajectory::new(poses).err().map(|error| error.to_string())
     };
-    assert_eq!([error_of(&[]), error_of(&[(1.0, 2.0)])], [None, None]);
-    let not_later = "sample 2 is not later than the one before, at 1 s; allowed are times that rise";
-    assert_eq!(error_of(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(not_later));
-    let not_finite = "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
-    assert_eq!(error_of(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(not_finite));
-    assert_eq!(error_of(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(not_finite));
+    assert_eq!([error_message(&[]), error_message(&[(1.0, 2.0)])], [None, None]);
+    let not_later_message = "sample 2 is not later than the one before, at 1 s; allowed are times that rise";
+    assert_eq!(error_message(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(not_later_message));
+    let not_finite_message =
+        "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
+    assert_eq!(error_message(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(not_finite_message));
+    assert_eq!(error_message(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(not_finite_message));
     assert!(Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, f64::NAN, 0.0)]).is_err());
 }
 
@@ -212,24 +227,24 @@ fn commands_are_integrated_along_arcs() {
     let trajectory =
         Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, 0.5, 1.0), (3.0, 0.0, -2.0), (4.0, 9.0, 9.0)]);
     let trajectory = trajectory.expect("times rise");
-    // Commands: a metre straight ahead; an arc of a metre that turns by 2 rad, with radius ½; a turn on the spot back
+    // The commands are a metre straight ahead, an arc of a metre that turns by 2 rad with radius ½, and a turn on the spot back
     // to the first heading.
     let arc = SE2::new(1.0 + 0.5 * libm::sin(2.0), 0.5 * (1.0 - libm::cos(2.0)), 2.0);
-    let expected = [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc, SE2::new(arc.x(), arc.y(), 0.0)];
-    for (time, expected) in [0.0, 1.0, 3.0, 4.0].into_iter().zip(expected) {
+    let expected_poses = [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc, SE2::new(arc.x(), arc.y(), 0.0)];
+    for (time, expected_poses) in [0.0, 1.0, 3.0, 4.0].into_iter().zip(expected_poses) {
         let pose = trajectory.pose_at(time).expect("inside");
-        assert!(pose.boxminus(&expected).norm() < 1e-12, "{pose:?} is not {expected:?}");
+        assert!(pose.boxminus(&expected_poses).norm() < 1e-12, "{pose:?} is not {expected_poses:?}");
     }
 }
 
-/// A command that is held for 20 s has no rows during 40 legs. The trajectory is cut into steps of a tenth of a second, 5 cm
-/// each, and at most 7.5 cm.
+/// A command that lasts 20 s has no rows during 40 legs. The trajectory is therefore cut into steps of a tenth of a second, or 5 cm.
+/// A leg is longer than 25 cm by at most one and a half steps.
 #[test]
 fn a_long_command_is_split_into_legs_between_its_rows() {
     let trajectory =
         Trajectory::from_commands([(0.0, 0.5, 0.0), (20.0, 0.5, 0.0), (40.0, 0.0, 0.0)]).expect("times rise");
-    let (legs, lost) = split_into_legs(&trajectory, &straight_drive(401, 0.05), AMCL_LEG, 0.0);
-    assert_eq!(lost, LostLegs::default());
+    let (legs, lost_legs) = split_into_legs(&trajectory, &straight_drive(401, 0.05), AMCL_LEG, 0.0);
+    assert_eq!(lost_legs, LostLegs::default());
     assert!(legs.len() > 60, "{}", legs.len());
     for leg in legs {
         let distance = leg.odometry[1].x() - leg.odometry[0].x();

@@ -1,4 +1,4 @@
-//! Calibration of logs whose α's and errors are known.
+//! Calibration of simulated logs whose α's and systematic errors are known.
 
 mod accuracy;
 mod checks;
@@ -17,21 +17,19 @@ use simulated::Simulation;
 const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
 
 /// Returns the calibration of a simulated log.
-fn calibrated(simulation: &Simulation) -> Calibration {
-    calibrated_log(&simulation.log(), &simulation.options())
+fn calibrate_simulation(simulation: &Simulation) -> Calibration {
+    calibrate_log(&simulation.log(), &simulation.options())
 }
 
 /// Returns the calibration of odometry and reference.
-fn calibrated_log([odometry, reference]: &[Trajectory; 2], options: &Options) -> Calibration {
-    calibrate(&[Drive { odometry, reference }], options).expect("legs enough")
+fn calibrate_log([odometry, reference]: &[Trajectory; 2], options: &Options) -> Calibration {
+    calibrate(&[Drive { odometry, reference }], options).expect("enough legs")
 }
 
-/// Returns the default options for a model.
-fn options_of(model: Model) -> Options {
+fn default_options(model: Model) -> Options {
     Simulation::of(model, 0, 0).options()
 }
 
-/// Returns a trajectory of samples whose times rise.
 fn trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
     Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
 }

@@ -1,4 +1,4 @@
-//! Logs of robots whose α's and errors are known.
+//! Logs of simulated robots whose α's and systematic errors are known.
 
 use super::trajectory;
 use crate::common::seeded;
@@ -29,11 +29,11 @@ pub enum Violation {
     /// Noise as the model assumes it.
     None,
     /// Student's t distribution with this number of degrees of freedom.
-    Tails(usize),
+    HeavyTails(usize),
     /// Autocorrelated noise: this fraction of the noise of the previous leg, plus independent noise.
     Autoregressive(f64),
     /// Standard deviation times this factor.
-    Times(f64),
+    Scaled(f64),
     /// Standard deviation as a function of the position in the log, from 0 to 1.
     Changing(fn(f64) -> f64),
 }
@@ -42,13 +42,12 @@ pub enum Violation {
 #[derive(Clone, Copy, Debug)]
 pub struct Simulation {
     pub model: Model,
-    pub legs: LegLength,
-    /// Number of legs.
-    pub count: usize,
-    pub errors: Systematic,
+    pub leg_length: LegLength,
+    pub leg_count: usize,
+    pub systematic_errors: Systematic,
     /// Fraction of legs in which the reference jumps by half a metre and stays there.
-    pub jumps: f64,
-    /// Function from the number of a leg to its v and ω; `None` draws random ones.
+    pub jump_fraction: f64,
+    /// Function from the index of a leg to its v and ω. `None` draws random velocities.
     pub drive: Option<fn(usize) -> [f64; 2]>,
     pub violation: Violation,
     pub seed: u64,
@@ -57,13 +56,13 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    pub fn of(model: Model, count: usize, seed: u64) -> Self {
+    pub fn of(model: Model, leg_count: usize, seed: u64) -> Self {
         Self {
             model,
-            legs: LegLength::AMCL,
-            count,
-            errors: Systematic::NONE,
-            jumps: 0.0,
+            leg_length: LegLength::AMCL,
+            leg_count,
+            systematic_errors: Systematic::NONE,
+            jump_fraction: 0.0,
             drive: None,
             violation: Violation::None,
             seed,
@@ -73,10 +72,10 @@ impl Simulation {
 
     /// Returns the options for a calibration of the log.
     pub fn options(&self) -> Options {
-        let Self { model, legs, .. } = *self;
+        let Self { model, leg_length, .. } = *self;
         Options {
             model,
-            legs,
+            legs: leg_length,
             outliers: Outliers::Reject,
             correct: [None; 6],
             position_std: None,
@@ -89,49 +88,52 @@ impl Simulation {
         const STEP_SECONDS: f64 = 0.05;
         let mut rng = seeded(self.seed);
         let [distance_scale, turn_scale] =
-            [Error::DistanceScale, Error::TurnScale].map(|scale| self.errors.get(scale));
+            [Error::DistanceScale, Error::TurnScale].map(|scale| self.systematic_errors.get(scale));
         let mut odometry = vec![(0.0, SE2::identity())];
         let mut base_poses = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
-        let (mut speeds, mut rows_left, mut start_row) = ([0.3, 0.0], 40, 0);
-        // Motion since the start of the leg that the odometry would measure without systematic errors.
-        let (mut motion, mut leg_rows) = (SE2::identity(), Vec::new());
-        let (mut legs, mut unit_noise) = (0, [0.0; 3]);
-        while legs < self.count {
+        let (mut velocity, mut rows_left, mut start_row) = ([0.3, 0.0], 40, 0);
+        // Motion since the start of the leg, as the odometry would measure it without systematic errors.
+        let (mut leg_motion, mut leg_rows) = (SE2::identity(), Vec::new());
+        let (mut leg_index, mut unit_noise) = (0, [0.0; 3]);
+        while leg_index < self.leg_count {
             if rows_left == 0 {
-                speeds = self.speeds(&mut rng);
+                velocity = self.random_velocity(&mut rng);
                 rows_left = rng.random_range(15..60);
             }
             rows_left -= 1;
-            let speeds = self.drive.map_or(speeds, |drive| drive(legs));
+            let velocity = self.drive.map_or(velocity, |drive| drive(leg_index));
             let time = odometry.len() as f64 * STEP_SECONDS;
-            let twist = Vector3::new(speeds[0], 0.0, speeds[1]) * STEP_SECONDS;
-            motion = motion.boxplus(twist);
-            let reading_step = Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale);
-            odometry.push((time, odometry.last().expect("some").1.boxplus(reading_step)));
-            leg_rows.push((time, motion));
-            let [(start_time, start), (_, reading)] = [odometry[start_row], odometry[odometry.len() - 1]];
-            if !has_leg_ended(self.legs, time - start_time, &start, &reading) {
+            let twist = Vector3::new(velocity[0], 0.0, velocity[1]) * STEP_SECONDS;
+            leg_motion = leg_motion.boxplus(twist);
+            let odometry_twist = Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale);
+            odometry.push((time, odometry.last().expect("some").1.boxplus(odometry_twist)));
+            leg_rows.push((time, leg_motion));
+            let [(start_time, start_pose), (_, odometry_pose)] =
+                [odometry[start_row], odometry[odometry.len() - 1]];
+            if !has_leg_ended(self.leg_length, time - start_time, &start_pose, &odometry_pose) {
                 continue;
             }
-            let from = base_poses.last().expect("some").1;
-            unit_noise = self.unit_noise(legs as f64 / self.count as f64, unit_noise, &mut rng);
-            let to = from * executed_motion(self.model, &ALPHAS, &motion, time - start_time, unit_noise);
+            let base_start = base_poses.last().expect("some").1;
+            unit_noise = self.next_unit_noise(leg_index as f64 / self.leg_count as f64, unit_noise, &mut rng);
+            let base_end =
+                base_start * executed_motion(self.model, &ALPHAS, &leg_motion, time - start_time, unit_noise);
             // The noise of a leg is distributed evenly over its rows.
-            let leg_noise = (motion.inverse() * from.inverse() * to).log();
+            let leg_noise = (leg_motion.inverse() * base_start.inverse() * base_end).log();
             let progress = |time: f64| (time - start_time) / (leg_rows.len() as f64 * STEP_SECONDS);
-            base_poses
-                .extend(leg_rows.iter().map(|(t, pose)| (*t, from * pose.boxplus(leg_noise * progress(*t)))));
-            if rng.random_bool(self.jumps) {
+            base_poses.extend(
+                leg_rows.iter().map(|(t, pose)| (*t, base_start * pose.boxplus(leg_noise * progress(*t)))),
+            );
+            if rng.random_bool(self.jump_fraction) {
                 let direction = rng.random_range(-3.0..3.0);
                 let jump = SE2::new(0.5 * libm::cos(direction), 0.5 * libm::sin(direction), 0.0);
-                let (_, last) = base_poses.last_mut().expect("some");
-                *last = jump * *last;
+                let (_, last_pose) = base_poses.last_mut().expect("some");
+                *last_pose = jump * *last_pose;
             }
-            (motion, start_row, legs) = (SE2::identity(), odometry.len() - 1, legs + 1);
+            (leg_motion, start_row, leg_index) = (SE2::identity(), odometry.len() - 1, leg_index + 1);
             leg_rows.clear();
         }
-        let [lever_ahead, lever_left] = self.errors.lever_arm;
-        let mount_pose = SE2::new(lever_ahead, lever_left, self.errors.mount_yaw);
+        let [lever_ahead, lever_left] = self.systematic_errors.lever_arm;
+        let mount_pose = SE2::new(lever_ahead, lever_left, self.systematic_errors.mount_yaw);
         let [position_variance, yaw_variance] = self.reference_stds.map(|std| Variance(std * std));
         let mut reference_error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
         let reference = base_poses.iter().map(|(t, pose)| {
@@ -142,75 +144,76 @@ impl Simulation {
                 reference_error(yaw_variance),
             ];
             (
-                t + self.errors.clock_offset,
+                t + self.systematic_errors.clock_offset,
                 SE2::new(sensor_pose.x() + x, sensor_pose.y() + y, sensor_pose.theta() + theta),
             )
         });
         [trajectory(odometry), trajectory(reference)]
     }
 
-    /// Returns v and ω of a straight drive, a bend, a turn on the spot or, if the rule allows it, a drive in reverse.
-    fn speeds(&self, rng: &mut impl Rng) -> [f64; 2] {
-        let [v, bend] = [rng.random_range(0.2..0.6), rng.random_range(-0.5..0.5)];
+    /// Returns v and ω of a straight drive, a bend, a turn on the spot, or a drive in reverse if the rule allows it.
+    fn random_velocity(&self, rng: &mut impl Rng) -> [f64; 2] {
+        let [v, turn_rate] = [rng.random_range(0.2..0.6), rng.random_range(-0.5..0.5)];
         match rng.random_range(0..6) {
-            0 if self.model != Model::Velocity => [0.0, if bend > 0.0 { 0.6 } else { -0.6 }],
-            0 => [0.06, 2.0 * bend],
-            1 if self.model != Model::Odometry(OdometryRule::Table) => [-v, bend],
+            0 if self.model != Model::Velocity => [0.0, if turn_rate > 0.0 { 0.6 } else { -0.6 }],
+            0 => [0.06, 2.0 * turn_rate],
+            1 if self.model != Model::Odometry(OdometryRule::Table) => [-v, turn_rate],
             2 => [v, 0.0],
-            _ => [v, 2.0 * bend],
+            _ => [v, 2.0 * turn_rate],
         }
     }
 
-    /// Returns the three unit noises of a leg, from those of the leg before it and the position in the log, from 0 to 1.
-    fn unit_noise(&self, fraction: f64, previous: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
+    /// Returns the three unit noises of a leg. `fraction` is the position of the leg in the log, from 0 to 1.
+    fn next_unit_noise(&self, fraction: f64, previous: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
         previous.map(|previous| {
             let unit_draw = NoiseKind::Normal.sample(Variance(1.0), rng);
             match self.violation {
                 Violation::None => unit_draw,
-                Violation::Tails(freedom) => {
-                    let normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
-                    let chi_squared: f64 = (0..freedom).map(normal).map(|z| z * z).sum();
-                    unit_draw * f64::sqrt((freedom as f64 - 2.0) / chi_squared)
+                Violation::HeavyTails(degrees_of_freedom) => {
+                    let draw_normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
+                    let chi_squared: f64 = (0..degrees_of_freedom).map(draw_normal).map(|z| z * z).sum();
+                    unit_draw * f64::sqrt((degrees_of_freedom as f64 - 2.0) / chi_squared)
                 }
                 Violation::Autoregressive(correlation) => {
                     correlation * previous + (1.0 - correlation * correlation).sqrt() * unit_draw
                 }
-                Violation::Times(times) => times * unit_draw,
+                Violation::Scaled(times) => times * unit_draw,
                 Violation::Changing(deviation) => deviation(fraction) * unit_draw,
             }
         })
     }
 }
 
-/// Returns the motion that a robot executed if its odometry read the motion `reading_motion` within `dt`, from noises with variance 1.
+/// Returns the motion that a robot executed while its odometry measured `reading_motion` in the time `dt`.
 pub fn executed_motion(
     model: Model,
     alphas: &[f64; 6],
     reading_motion: &SE2,
     dt: f64,
-    unit_noise: [f64; 3],
+    next_unit_noise: [f64; 3],
 ) -> SE2 {
-    let start = SE2::identity();
+    let origin = SE2::identity();
     match model {
         Model::Odometry(rule) => {
-            let reading = OdomDelta::from_poses(&start, reading_motion);
+            let odom_delta = OdomDelta::from_poses(&origin, reading_motion);
             let alphas = std::array::from_fn(|k| alphas[k]);
-            rule.variances(&reading, &alphas).executed_motion(&rule.legs(&reading), unit_noise).poses(&start)
-                [3]
+            rule.variances(&odom_delta, &alphas)
+                .executed_motion(&rule.legs(&odom_delta), next_unit_noise)
+                .poses(&origin)[3]
         }
         Model::Velocity => {
             let twist = reading_motion.log();
             let command = VelocityCmd { v: twist.x / dt, omega: twist.z / dt, dt };
             let model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
-            model.apply_noise(&command, &start, unit_noise)
+            model.apply_noise(&command, &origin, next_unit_noise)
         }
     }
 }
 
-/// Relative tolerance of the length of a leg: sums of equal steps reach a limit up to rounding.
-const ROUNDING: f64 = 1e-6;
+/// Relative tolerance of the length of a leg, because sums of equal steps reach a limit only up to rounding.
+const ROUNDING_TOLERANCE: f64 = 1e-6;
 
-/// Returns true if a leg ends at a reading, as `LegLength` documents it, by independent code.
+/// Returns true if a leg ends at an odometry pose, as `LegLength` documents it.
 fn has_leg_ended(legs: LegLength, duration_so_far: f64, start: &SE2, reading: &SE2) -> bool {
     match legs {
         LegLength::Displacement { distance, angle } => {
@@ -219,7 +222,8 @@ fn has_leg_ended(legs: LegLength, duration_so_far: f64, start: &SE2, reading: &S
             let largest_displacement = displacement
                 .iter()
                 .fold(0.0, |largest_displacement, along| f64::max(largest_displacement, along.abs()));
-            largest_displacement > distance * (1.0 + ROUNDING) || turn.abs() > angle * (1.0 + ROUNDING)
+            largest_displacement > distance * (1.0 + ROUNDING_TOLERANCE)
+                || turn.abs() > angle * (1.0 + ROUNDING_TOLERANCE)
         }
         LegLength::Duration { duration } => duration_so_far > duration - 1e-6,
     }

@@ -1,6 +1,6 @@
-//! Recommended α's, tested on windows of a metre of another log of the same robot.
+//! Recommended α's, tested on windows of a metre in another log of the same robot.
 
-use super::calibrated;
+use super::calibrate_simulation;
 use super::simulated::{MODELS, Simulation, Violation, executed_motion};
 use crate::common::seeded;
 use motion::calibrate::{Leg, Model, split_into_legs};
@@ -9,85 +9,89 @@ use motion::{NoiseKind, Variance};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 
-/// Number of samples of a window. Their covariance then has relative standard errors of 7 %, which change the coverage by less than a
+/// Number of samples of a window. Their variances then have relative standard errors of 7 %, which change the coverage by less than a
 /// hundredth.
 const SAMPLES_PER_WINDOW: usize = 400;
 
 /// Quantile 0.95 of χ² with 3 degrees of freedom.
 const CHI2_95: f64 = 7.815;
 
-/// Returns the motion that the odometry of a leg reads.
-fn motion_of(leg: &Leg) -> SE2 {
+/// Returns the motion that the odometry of a leg measured.
+fn odometry_motion(leg: &Leg) -> SE2 {
     leg.odometry[0].inverse() * leg.odometry[1]
 }
 
-/// Returns true if the motion over some legs is inside of the 95 % ellipsoid of its samples, in exponential coordinates.
+/// Returns true if the reference motion over some legs is inside of the 95 % ellipsoid of sampled motions, in exponential coordinates.
 fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng) -> bool {
     let composed_motion =
         |motions: &mut dyn Iterator<Item = SE2>| motions.fold(SE2::identity(), |pose, motion| pose * motion);
-    let odom_motion = composed_motion(&mut legs.iter().map(motion_of));
-    let mut sample = |leg| {
+    let odom_motion = composed_motion(&mut legs.iter().map(odometry_motion));
+    let mut sample_motion = |leg| {
         let noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
-        executed_motion(model, alphas, &motion_of(leg), leg.duration(), noise)
+        executed_motion(model, alphas, &odometry_motion(leg), leg.duration(), noise)
     };
     let samples: Vec<Vector3<f64>> = (0..SAMPLES_PER_WINDOW)
-        .map(|_| composed_motion(&mut legs.iter().map(&mut sample)).boxminus(&odom_motion))
+        .map(|_| composed_motion(&mut legs.iter().map(&mut sample_motion)).boxminus(&odom_motion))
         .collect();
     let mean = samples.iter().sum::<Vector3<f64>>() / SAMPLES_PER_WINDOW as f64;
-    let covariance =
-        samples.iter().map(|sample| (sample - mean) * (sample - mean).transpose()).sum::<Matrix3<f64>>();
+    let scatter_matrix = samples
+        .iter()
+        .map(|sample_motion| (sample_motion - mean) * (sample_motion - mean).transpose())
+        .sum::<Matrix3<f64>>();
     let reference_motion = legs[0].reference[0].inverse() * legs[legs.len() - 1].reference[1];
     let deviation = reference_motion.boxminus(&odom_motion) - mean;
     let inverse_covariance =
-        (covariance / SAMPLES_PER_WINDOW as f64).try_inverse().expect("noise in all directions");
+        (scatter_matrix / SAMPLES_PER_WINDOW as f64).try_inverse().expect("noise in all directions");
     deviation.dot(&(inverse_covariance * deviation)) < CHI2_95
 }
 
 /// Returns the number of covered windows of a metre, and the number of all windows, in logs that were not used for the fit.
-fn coverage(model: Model, violation: Violation, logs: u64) -> [usize; 2] {
-    let mut rng = seeded(logs);
-    let mut covered_and_all = [0; 2];
-    for seed in 0..logs {
+fn count_covered_windows(model: Model, violation: Violation, log_count: u64) -> [usize; 2] {
+    let mut rng = seeded(log_count);
+    let mut covered_and_all_counts = [0; 2];
+    for seed in 0..log_count {
         let sim = Simulation { violation, ..Simulation::of(model, 600, 900 + seed) };
-        let recommended = calibrated(&sim).recommended.expect("a usable log").alphas;
-        let alphas =
-            std::array::from_fn(|k| recommended.get(k).map_or(0.0, |alpha| alpha.expect("identifiable")));
+        let recommended_alphas = calibrate_simulation(&sim).recommended.expect("a usable log").alphas;
+        let alphas = std::array::from_fn(|k| {
+            recommended_alphas.get(k).map_or(0.0, |alpha| alpha.expect("identifiable"))
+        });
         let [odometry, reference] = Simulation { seed: 9000 + seed, ..sim }.log();
-        let (legs, _) = split_into_legs(&odometry, &reference, sim.legs, 0.0);
-        let (mut first_leg, mut distance) = (0, 0.0);
+        let (legs, _) = split_into_legs(&odometry, &reference, sim.leg_length, 0.0);
+        let (mut first_leg, mut window_length) = (0, 0.0);
         for (leg_index, leg) in legs.iter().enumerate() {
-            distance += motion_of(leg).x().hypot(motion_of(leg).y());
-            if distance >= 1.0 {
-                covered_and_all[0] +=
+            window_length += odometry_motion(leg).x().hypot(odometry_motion(leg).y());
+            if window_length >= 1.0 {
+                covered_and_all_counts[0] +=
                     usize::from(is_covered(model, &alphas, &legs[first_leg..=leg_index], &mut rng));
-                covered_and_all[1] += 1;
-                (first_leg, distance) = (leg_index + 1, 0.0);
+                covered_and_all_counts[1] += 1;
+                (first_leg, window_length) = (leg_index + 1, 0.0);
             }
         }
     }
     println!(
-        "{model:?}, {violation:?}: {covered_and_all:?}, {:.3}",
-        covered_and_all[0] as f64 / covered_and_all[1] as f64
+        "{model:?}, {violation:?}: {covered_and_all_counts:?}, {:.3}",
+        covered_and_all_counts[0] as f64 / covered_and_all_counts[1] as f64
     );
-    covered_and_all
+    covered_and_all_counts
 }
 
 /// Reports a coverage outside of 93 to 97 % by more than three standard errors.
-fn report_wrong_coverage(model: Model, violation: Violation, logs: u64) -> Option<String> {
-    let [covered, count] = coverage(model, violation, logs);
-    let fraction = covered as f64 / count as f64;
-    // The α's of a log, and the factor by which they are inflated, have standard errors of 5 % each, together 7 %. A variance that is larger
-    // by a fraction changes the coverage of 95 % by 0.14 of that fraction, so by 0.01.
-    let std = (0.93 * 0.07 / count as f64 + 0.01_f64.powi(2) / logs as f64).sqrt();
-    let is_right = (0.93 - 3.0 * std..=0.97 + 3.0 * std).contains(&fraction);
-    (!is_right).then(|| format!("{model:?}, {violation:?}: {covered} of {count} windows are covered"))
+fn report_wrong_coverage(model: Model, violation: Violation, log_count: u64) -> Option<String> {
+    let [covered_count, window_count] = count_covered_windows(model, violation, log_count);
+    let fraction = covered_count as f64 / window_count as f64;
+    // The α's of a log and their inflation have standard errors of 5 % each, together 7 %. A relative error of the variances changes the
+    // coverage of 95 % by 0.14 of that error, here by 0.01.
+    let standard_error = (0.93 * 0.07 / window_count as f64 + 0.01_f64.powi(2) / log_count as f64).sqrt();
+    let is_right = (0.93 - 3.0 * standard_error..=0.97 + 3.0 * standard_error).contains(&fraction);
+    (!is_right)
+        .then(|| format!("{model:?}, {violation:?}: {covered_count} of {window_count} windows are covered"))
 }
 
-const INDEPENDENT_AND_PERSISTENT: [Violation; 2] = [Violation::None, Violation::Autoregressive(0.7)];
+const TESTED_VIOLATIONS: [Violation; 2] = [Violation::None, Violation::Autoregressive(0.7)];
 
 #[test]
 fn recommended_alphas_cover_a_metre_of_a_new_log() {
-    for violation in INDEPENDENT_AND_PERSISTENT {
+    for violation in TESTED_VIOLATIONS {
         assert_eq!(report_wrong_coverage(MODELS[1], violation, 4), None);
     }
 }
@@ -95,8 +99,7 @@ fn recommended_alphas_cover_a_metre_of_a_new_log() {
 #[test]
 #[ignore = "nightly: 400 calibrations"]
 fn recommended_alphas_of_every_model_cover_a_metre_of_new_logs() {
-    let reports_of =
-        |model| INDEPENDENT_AND_PERSISTENT.map(|violation| report_wrong_coverage(model, violation, 40));
+    let reports_of = |model| TESTED_VIOLATIONS.map(|violation| report_wrong_coverage(model, violation, 40));
     let reports: Vec<String> = MODELS.into_iter().flat_map(reports_of).flatten().collect();
     assert!(reports.is_empty(), "{}", reports.join("\n"));
 }

@@ -5,7 +5,7 @@
 #[path = "../fuzz/src/lib.rs"]
 mod targets;
 
-use crate::common::seeded;
+use crate::common::seeded_rng;
 use rand::Rng;
 use std::fs::read_to_string;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -75,7 +75,7 @@ fn run_on_corpus_and_mutations(name: &str, target: Target, every: usize, mutatio
     let corpus: Vec<_> = corpus_text.lines().map(bytes_from_hex).collect();
     assert!(corpus.len() > 20, "{} inputs of {name}", corpus.len());
     corpus.iter().step_by(every).for_each(|bytes| run_target(target, bytes));
-    let mut rng = seeded(2911);
+    let mut rng = seeded_rng(2911);
     for _ in 0..mutations {
         let mut bytes = random_item(&corpus, &mut rng).clone();
         for _ in 0..=random_below(4, &mut rng) {

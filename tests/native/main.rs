@@ -1,4 +1,4 @@
-//! Native tests of the crate, in one program.
+//! Native tests of the crate, in one executable.
 #![allow(
     clippy::disallowed_methods,
     reason = "an expected value may come from the platform's own mathematics"
@@ -22,8 +22,8 @@ mod geometry {
     mod group_laws;
     mod lanes;
 }
-/// Property tests of mathematical laws and of the limits of inputs, with arbitrary doubles. If a law does not hold for all
-/// doubles, its test says why, and which doubles it holds for.
+/// Property tests of mathematical laws and of limits of inputs, with arbitrary doubles. If a law does not hold for all
+/// doubles, its test says why, and for which doubles it holds.
 mod laws {
     pub mod doubles;
     mod geometry;

@@ -2,7 +2,7 @@
 
 use super::simulated::{MODELS, Simulation, Violation};
 use super::{NAV2, calibrate_log, calibrate_simulation, trajectory};
-use crate::common::seeded;
+use crate::common::seeded_rng;
 use motion::calibrate::CheckName::{self, *};
 use motion::calibrate::{
     Calibration, LegLength, Model, Options, Outliers, SystematicError, Trajectory, Verdict,
@@ -191,7 +191,7 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     let sim = good_simulation(600, 12);
     let [odometry, reference] = sim.log();
     let jittered_odometry = |std: f64| {
-        let mut rng = seeded(12);
+        let mut rng = seeded_rng(12);
         let mut noise = || NoiseKind::Normal.sample(Variance(std * std), &mut rng);
         with_poses(&odometry, |pose| SE2::new(pose.x() + noise(), pose.y() + noise(), pose.theta()))
     };

@@ -2,7 +2,7 @@
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
 use super::{NAV2, calibrate_log, calibrate_simulation, default_options, trajectory};
-use crate::common::seeded;
+use crate::common::seeded_rng;
 use motion::calibrate::{
     CalibrateError, Calibration, Drive, LegLength, Model, Options, Systematic, SystematicError, Trajectory,
     calibrate,
@@ -61,7 +61,7 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let simulation = simulation_with_errors(NAV2, 2000, errors);
     let [odometry, reference] = simulation.log();
     let row_count = reference.samples().len();
-    let mut rng = seeded(2);
+    let mut rng = seeded_rng(2);
     let mut frame_heading = 0.0;
     let restarting_reference = trajectory(reference.samples().enumerate().map(|(row, (time, pose))| {
         if row % 400 == 0 {
@@ -230,7 +230,7 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
 /// scale of 0.
 #[test]
 fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
-    let mut rng = seeded(5);
+    let mut rng = seeded_rng(5);
     let mut uniform_noise = |limit: f64| rng.random_range(-limit..limit);
     let (mut odometry_pose, mut true_pose, mut log_rows) = (SE2::identity(), SE2::identity(), Vec::new());
     for row in 0..16_000_usize {

@@ -1,7 +1,7 @@
 //! Logs of simulated robots whose α's and systematic errors are known.
 
 use super::trajectory;
-use crate::common::seeded;
+use crate::common::seeded_rng;
 use motion::calibrate::{
     LegLength, Model, Options, Outliers, Systematic, SystematicError as Error, Trajectory,
 };
@@ -86,7 +86,7 @@ impl Simulation {
     /// Returns odometry and reference.
     pub fn log(&self) -> [Trajectory; 2] {
         const STEP_SECONDS: f64 = 0.05;
-        let mut rng = seeded(self.seed);
+        let mut rng = seeded_rng(self.seed);
         let [distance_scale, turn_scale] =
             [Error::DistanceScale, Error::TurnScale].map(|scale| self.systematic_errors.get(scale));
         let mut odometry = vec![(0.0, SE2::identity())];

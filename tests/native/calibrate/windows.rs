@@ -2,7 +2,7 @@
 
 use super::calibrate_simulation;
 use super::simulated::{MODELS, Simulation, Violation, executed_motion};
-use crate::common::seeded;
+use crate::common::seeded_rng;
 use motion::calibrate::{Leg, Model, split_into_legs};
 use motion::geom::se2::SE2;
 use motion::{NoiseKind, Variance};
@@ -47,7 +47,7 @@ fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng)
 
 /// Returns the number of covered windows of a metre, and the number of all windows, in logs that were not used for the fit.
 fn count_covered_windows(model: Model, violation: Violation, log_count: u64) -> [usize; 2] {
-    let mut rng = seeded(log_count);
+    let mut rng = seeded_rng(log_count);
     let mut covered_and_all_counts = [0; 2];
     for seed in 0..log_count {
         let sim = Simulation { violation, ..Simulation::of(model, 600, 900 + seed) };

@@ -1,5 +1,4 @@
-//! Models as a reader writes them, which implement the trait as the chapter prints it: two methods and a type, with the
-//! chapter's names.
+//! Models that a reader of the chapter may write. They implement the trait as the chapter prints it: two methods and a type.
 
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::{
@@ -81,9 +80,12 @@ fn a_readers_velocity_model_equals_the_crates_model() {
     for _ in 0..1000 {
         let (pose, expected_pose) =
             (readers_model.sample(&COMMAND, &x, &mut rng1), crate_model.sample(&COMMAND, &x, &mut rng2));
-        // A small ω̂ loses digits: the radius v̂/ω̂ multiplies the rounding of two sines, 2e-16 each.
-        let bound = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &expected_pose, 1.0).omega_hat.abs());
-        assert!((pose.x() - expected_pose.x()).abs() < bound && (pose.y() - expected_pose.y()).abs() < bound);
+        // A small ω̂ loses digits, because the radius v̂/ω̂ multiplies the rounding of two sines, 2e-16 each.
+        let position_tolerance = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &expected_pose, 1.0).omega_hat.abs());
+        assert!(
+            (pose.x() - expected_pose.x()).abs() < position_tolerance
+                && (pose.y() - expected_pose.y()).abs() < position_tolerance
+        );
         assert!((pose.theta() - expected_pose.theta()).abs() < 1e-15 * 4.0);
         let [prob, expected] = [
             readers_model.prob(&expected_pose, &COMMAND, &x),

@@ -1,8 +1,8 @@
 //! All numbers of the chapter's worked example: v = 1, ω = 0.5, Δt = 1, α₁₋₄ = 0.02, α₅,₆ = 0, from the origin.
 //!
 //! The tests use `SmallRng`, as the chapter's listing does. Printed numbers are checked to half a unit of their last
-//! digit, and measured ones to 4.5 standard errors, which are estimated from 100 batches of
-//! the sample. The chapter's measurements come from another sample of the same size, which makes that √2 times as much.
+//! digit. Measured numbers are checked to 4.5 standard errors, which are estimated from 100 batches of the sample. The
+//! chapter's measurements come from another sample of the same size, which multiplies the tolerance by √2.
 
 use crate::common::{MAX_STANDARD_ERRORS, with_standard_error};
 use approx::assert_relative_eq;
@@ -25,10 +25,10 @@ fn cloud_of(model: &VelocityModel) -> Vec<SE2> {
     (0..SAMPLES).map(|_| model.sample(&U, &SE2::identity(), &mut rng)).collect()
 }
 
-/// Asserts that a value equals a printed one with this many decimals.
-fn assert_printed(value: f64, printed: f64, decimals: i32, what: &str) {
+/// Asserts that a value equals a number printed with `decimals` decimals.
+fn assert_printed(value: f64, printed: f64, decimals: i32, quantity: &str) {
     let tolerance = 0.5 * 10f64.powi(-decimals) * (1.0 + 1e-9);
-    assert!((value - printed).abs() <= tolerance, "{what}: {value}, printed {printed}");
+    assert!((value - printed).abs() <= tolerance, "{quantity}: {value}, printed {printed}");
 }
 
 #[test]
@@ -48,7 +48,7 @@ fn the_arc_and_the_exponential_map_end_at_the_printed_pose() {
 #[test]
 fn linearized_moments_equal_the_printed_table() {
     let cov = MODEL.cartesian_cov(&U, &SE2::identity());
-    for (entry, printed, what) in [
+    for (entry, printed, quantity) in [
         ((0, 0), 0.023645, "Σxx"),
         ((1, 1), 0.007002, "Σyy"),
         ((2, 2), 0.025000, "Σθθ"),
@@ -56,12 +56,12 @@ fn linearized_moments_equal_the_printed_table() {
         ((0, 2), -0.004063, "Σxθ"),
         ((1, 2), 0.011730, "Σyθ"),
     ] {
-        assert_printed(cov[entry], printed, 6, what);
+        assert_printed(cov[entry], printed, 6, quantity);
         assert_relative_eq!(cov[entry], cov[(entry.1, entry.0)], epsilon = 1e-17);
     }
     assert_printed(cov[(1, 2)] / (cov[(1, 1)] * cov[(2, 2)]).sqrt(), 0.887, 3, "ρyθ");
-    // Columns of the Jacobian: derivatives of the arc with respect to v and ω. With a single α the root of the covariance is √α
-    // times one of them.
+    // The columns of the Jacobian are the derivatives of the arc with respect to v and ω. With a single α of 1 the covariance is the
+    // outer product of one column.
     let covariance_of = |alphas: [f64; 6]| {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         model.cartesian_cov(&U, &SE2::identity())
@@ -78,13 +78,13 @@ fn linearized_moments_equal_the_printed_table() {
 
 #[test]
 fn exact_moments_equal_the_printed_table() {
-    let exact = ExactMoments::of_velocity(&MODEL, &U);
-    assert_printed(exact.mean.x, 0.955006501, 9, "mean x");
-    assert_printed(exact.mean.y, 0.243321663, 9, "mean y");
-    assert_eq!(exact.mean.z, 0.5);
-    assert_printed(exact.cov[(0, 0)], 0.023497983, 9, "Σxx");
-    assert_printed(exact.cov[(1, 1)], 0.007057304, 9, "Σyy");
-    assert_printed(exact.cross_track_skew, -0.30056, 5, "skew");
+    let exact_moments = ExactMoments::of_velocity(&MODEL, &U);
+    assert_printed(exact_moments.mean.x, 0.955006501, 9, "mean x");
+    assert_printed(exact_moments.mean.y, 0.243321663, 9, "mean y");
+    assert_eq!(exact_moments.mean.z, 0.5);
+    assert_printed(exact_moments.cov[(0, 0)], 0.023497983, 9, "Σxx");
+    assert_printed(exact_moments.cov[(1, 1)], 0.007057304, 9, "Σyy");
+    assert_printed(exact_moments.cross_track_skew, -0.30056, 5, "skew");
     let gentle_alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
     let opening_moments = ExactMoments::of_velocity(&VelocityModel { alphas: gentle_alphas, ..MODEL }, &U);
     assert_printed(opening_moments.cross_track_skew, -0.43093, 5, "skew of the opening command");
@@ -94,36 +94,40 @@ fn exact_moments_equal_the_printed_table() {
 #[test]
 fn measured_moments_agree_with_the_printed_table() {
     let cloud = cloud_of(&MODEL);
-    let exact = ExactMoments::of_velocity(&MODEL, &U);
-    let exact_rho = exact.cov[(1, 2)] / (exact.cov[(1, 1)] * exact.cov[(2, 2)]).sqrt();
-    let cov = |i, j| move |poses: &[SE2]| CartesianMoments::from_poses(poses).cov[(i, j)];
+    let exact_moments = ExactMoments::of_velocity(&MODEL, &U);
+    let exact_correlation =
+        exact_moments.cov[(1, 2)] / (exact_moments.cov[(1, 1)] * exact_moments.cov[(2, 2)]).sqrt();
+    let cov_entry = |i, j| move |poses: &[SE2]| CartesianMoments::from_poses(poses).cov[(i, j)];
     let xi_mean = |i| move |poses: &[SE2]| ExponentialMoments::from_poses(poses, &SE2::identity()).mean[i];
     let xi_cov = |i| move |poses: &[SE2]| ExponentialMoments::from_poses(poses, &SE2::identity()).cov[(i, i)];
-    let rho = |poses: &[SE2]| {
-        let cov = CartesianMoments::from_poses(poses).cov;
-        cov[(1, 2)] / (cov[(1, 1)] * cov[(2, 2)]).sqrt()
+    let lateral_heading_correlation = |poses: &[SE2]| {
+        let cov_entry = CartesianMoments::from_poses(poses).cov;
+        cov_entry[(1, 2)] / (cov_entry[(1, 1)] * cov_entry[(2, 2)]).sqrt()
     };
     type Statistic = Box<dyn Fn(&[SE2]) -> f64>;
-    let rows: [(&str, Statistic, f64, i32, f64); 10] = [
-        ("Σxx", Box::new(cov(0, 0)), 0.02355, 5, exact.cov[(0, 0)]),
-        ("Σyy", Box::new(cov(1, 1)), 0.00710, 5, exact.cov[(1, 1)]),
-        ("Σxθ", Box::new(cov(0, 2)), -0.00403, 5, exact.cov[(0, 2)]),
-        ("ρyθ", Box::new(rho), 0.878, 3, exact_rho),
+    let statistics: [(&str, Statistic, f64, i32, f64); 10] = [
+        ("Σxx", Box::new(cov_entry(0, 0)), 0.02355, 5, exact_moments.cov[(0, 0)]),
+        ("Σyy", Box::new(cov_entry(1, 1)), 0.00710, 5, exact_moments.cov[(1, 1)]),
+        ("Σxθ", Box::new(cov_entry(0, 2)), -0.00403, 5, exact_moments.cov[(0, 2)]),
+        ("ρyθ", Box::new(lateral_heading_correlation), 0.878, 3, exact_correlation),
         ("E ξ along", Box::new(xi_mean(0)), 1.0005, 4, 1.0),
         ("E ξ heading", Box::new(xi_mean(2)), 0.4994, 4, 0.5),
         ("Cov ξ along", Box::new(xi_cov(0)), 0.02508, 5, 0.025),
         ("Cov ξ heading", Box::new(xi_cov(2)), 0.02505, 5, 0.025),
-        ("skew", Box::new(motion::stats::cross_track_skew), -0.301, 3, exact.cross_track_skew),
-        ("E x", Box::new(|poses| CartesianMoments::from_poses(poses).mean.x), 0.955, 3, exact.mean.x),
+        ("skew", Box::new(motion::stats::cross_track_skew), -0.301, 3, exact_moments.cross_track_skew),
+        ("E x", Box::new(|poses| CartesianMoments::from_poses(poses).mean.x), 0.955, 3, exact_moments.mean.x),
     ];
-    for (what, statistic, printed, decimals, exact) in rows {
-        let (measured, error) = with_standard_error(&cloud, statistic);
+    for (quantity, statistic, printed, decimals, exact_value) in statistics {
+        let (measured, standard_error) = with_standard_error(&cloud, statistic);
         assert!(
-            (measured - exact).abs() < MAX_STANDARD_ERRORS * error,
-            "{what}: {measured} ± {error}, exactly {exact}"
+            (measured - exact_value).abs() < MAX_STANDARD_ERRORS * standard_error,
+            "{quantity}: {measured} ± {standard_error}, exactly {exact_value}"
         );
-        let allowed = MAX_STANDARD_ERRORS * 2f64.sqrt() * error + 0.5 * 10f64.powi(-decimals);
-        assert!((measured - printed).abs() < allowed, "{what}: {measured} ± {error}, printed {printed}");
+        let tolerance = MAX_STANDARD_ERRORS * 2f64.sqrt() * standard_error + 0.5 * 10f64.powi(-decimals);
+        assert!(
+            (measured - printed).abs() < tolerance,
+            "{quantity}: {measured} ± {standard_error}, printed {printed}"
+        );
     }
     let moments = ExponentialMoments::from_poses(&cloud, &SE2::identity());
     assert!(moments.mean.y.abs() < 1e-15 && moments.cov[(1, 1)] < 1e-30, "printed 0.0000 and 0.00000");
@@ -139,25 +143,27 @@ fn a_last_turn_adds_variance_to_the_lateral_coordinate() {
     let predicted = tangent.compound(&Matrix3::zeros(), &TangentNoiseModel::twist(&U));
     assert_relative_eq!(predicted[(2, 2)], 0.03125, epsilon = 1e-16);
     assert_eq!(predicted[(1, 1)], 0.0);
-    let variance =
+    let exponential_variance =
         |i| move |poses: &[SE2]| ExponentialMoments::from_poses(poses, &SE2::identity()).cov[(i, i)];
     for (axis, printed, decimals) in [(2, 0.0312, 4), (1, 0.0016, 4)] {
-        let (measured, error) = with_standard_error(&cloud, variance(axis));
-        let allowed = MAX_STANDARD_ERRORS * 2f64.sqrt() * error + 0.5 * 10f64.powi(-decimals);
-        assert!((measured - printed).abs() < allowed, "axis {axis}: {measured} ± {error}, printed {printed}");
+        let (measured, standard_error) = with_standard_error(&cloud, exponential_variance(axis));
+        let tolerance = MAX_STANDARD_ERRORS * 2f64.sqrt() * standard_error + 0.5 * 10f64.powi(-decimals);
+        assert!(
+            (measured - printed).abs() < tolerance,
+            "axis {axis}: {measured} ± {standard_error}, printed {printed}"
+        );
     }
 }
 
-/// The names and fields that the chapter prints, for both models.
 #[test]
 fn the_odometry_model_has_the_printed_names() {
     let model = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: NoiseKind::Triangular };
-    let (before, after) = (SE2::identity(), SE2::new(0.958_851, 0.244_835, 0.5));
-    let reading = OdomDelta::from_poses(&before, &after);
+    let (start_pose, end_pose) = (SE2::identity(), SE2::new(0.958_851, 0.244_835, 0.5));
+    let reading = OdomDelta::from_poses(&start_pose, &end_pose);
     assert_relative_eq!(reading.rot1, 0.25, epsilon = 1e-6);
     assert_relative_eq!(reading.trans, 2.0 * 2.0 * 0.25f64.sin(), epsilon = 1e-6);
     assert_relative_eq!(reading.rot2, 0.25, epsilon = 1e-6);
-    let end = model.sample(&reading, &before, &mut SmallRng::seed_from_u64(1));
-    assert_relative_eq!(end.x(), after.x(), epsilon = 1e-15);
-    assert_relative_eq!(end.y(), after.y(), epsilon = 1e-15);
+    let end = model.sample(&reading, &start_pose, &mut SmallRng::seed_from_u64(1));
+    assert_relative_eq!(end.x(), end_pose.x(), epsilon = 1e-15);
+    assert_relative_eq!(end.y(), end_pose.y(), epsilon = 1e-15);
 }

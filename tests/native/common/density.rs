@@ -20,23 +20,23 @@ const GAUSS_LEGENDRE_RULE: [(f64, f64); 8] = [
     (0.960_289_856_497_536, 0.101_228_536_290_376),
 ];
 
-/// A box of the coordinates (c, β, θ), defined at the top of this file. It is cut into equal cells.
-pub struct Grid {
+/// A box of the coordinates (c, β, θ), which are defined at the top of this file. It is divided into equal cells.
+pub struct PolarGrid {
     start: SE2,
     slope: f64,
-    /// Middle of the box. β is taken within a quarter turn of it, and θ within half a turn.
+    /// Middle of the box. β is within a quarter turn of its coordinate, and θ within half a turn.
     centre: [f64; 3],
     step: [f64; 3],
     cells: [usize; 3],
 }
 
-impl Grid {
-    /// Returns the box around the pose `middle` that extends by `half` to either side.
-    pub fn new(start: &SE2, middle: &SE2, slope: f64, half: [f64; 3], cells: [usize; 3]) -> Self {
+impl PolarGrid {
+    /// Returns the box around the pose `middle` that extends by `half_extent` to either side.
+    pub fn new(start: &SE2, middle: &SE2, slope: f64, half_extent: [f64; 3], cells: [usize; 3]) -> Self {
         let (dx, dy) = (middle.x() - start.x(), middle.y() - start.y());
         let bearing = if dx.hypot(dy) > 0.0 { dy.atan2(dx) } else { start.theta() };
         let centre = [dx.hypot(dy), bearing, middle.theta() - slope * bearing];
-        let step = [0, 1, 2].map(|axis| 2.0 * half[axis] / cells[axis] as f64);
+        let step = [0, 1, 2].map(|axis| 2.0 * half_extent[axis] / cells[axis] as f64);
         Self { start: *start, slope, centre, step, cells }
     }
 
@@ -48,12 +48,15 @@ impl Grid {
     /// Returns c, β and θ of a pose.
     fn coordinates(&self, pose: &SE2) -> [f64; 3] {
         let (dx, dy) = (pose.x() - self.start.x(), pose.y() - self.start.y());
-        let off = wrap_angle(dy.atan2(dx) - self.centre[1]);
-        let (distance, off) =
-            if off.abs() <= PI / 2.0 { (dx.hypot(dy), off) } else { (-dx.hypot(dy), off - PI.copysign(off)) };
-        let bearing = self.centre[1] + off;
-        let offset = wrap_angle(pose.theta() - self.slope * bearing - self.centre[2]);
-        [distance, bearing, self.centre[2] + offset]
+        let bearing_offset = wrap_angle(dy.atan2(dx) - self.centre[1]);
+        let (distance, bearing_offset) = if bearing_offset.abs() <= PI / 2.0 {
+            (dx.hypot(dy), bearing_offset)
+        } else {
+            (-dx.hypot(dy), bearing_offset - PI.copysign(bearing_offset))
+        };
+        let bearing = self.centre[1] + bearing_offset;
+        let heading_offset = wrap_angle(pose.theta() - self.slope * bearing - self.centre[2]);
+        [distance, bearing, self.centre[2] + heading_offset]
     }
 
     /// Returns the lower bound of a cell along an axis.
@@ -61,9 +64,9 @@ impl Grid {
         self.centre[axis] + (index as f64 - 0.5 * self.cells[axis] as f64) * self.step[axis]
     }
 
-    /// Returns the probability mass of each cell, by an 8 × 8 × 8 Gauss rule in each.
+    /// Returns the probability mass of each cell, by an 8 × 8 × 8 Gauss rule in each cell.
     pub fn cell_masses(&self, density: impl Fn(&SE2) -> f64) -> Vec<f64> {
-        let nodes = |axis: usize, index: usize| {
+        let nodes_and_weights = |axis: usize, index: usize| {
             let (low, step) = (self.lower_bound(axis, index), self.step[axis]);
             GAUSS_LEGENDRE_RULE.map(|(node, weight)| (low + 0.5 * (1.0 + node) * step, 0.5 * weight * step))
         };
@@ -71,17 +74,17 @@ impl Grid {
         for i in 0..self.cells[0] {
             for j in 0..self.cells[1] {
                 for k in 0..self.cells[2] {
-                    let mut sum = 0.0;
-                    for (c, wc) in nodes(0, i) {
-                        for (beta, wb) in nodes(1, j) {
+                    let mut cell_mass = 0.0;
+                    for (c, wc) in nodes_and_weights(0, i) {
+                        for (beta, wb) in nodes_and_weights(1, j) {
                             let (x, y) = (self.start.x() + c * beta.cos(), self.start.y() + c * beta.sin());
-                            for (theta, wt) in nodes(2, k) {
+                            for (theta, wt) in nodes_and_weights(2, k) {
                                 let pose = SE2::new(x, y, self.slope * beta + theta);
-                                sum += wc * wb * wt * c.abs() * density(&pose);
+                                cell_mass += wc * wb * wt * c.abs() * density(&pose);
                             }
                         }
                     }
-                    cell_masses.push(sum);
+                    cell_masses.push(cell_mass);
                 }
             }
         }
@@ -94,20 +97,22 @@ impl Grid {
     }
 
     /// Returns the number of poses in each cell.
-    fn counts(&self, poses: &[SE2]) -> Vec<f64> {
-        let mut counts = vec![0.0; self.cells.iter().product()];
+    fn pose_counts(&self, poses: &[SE2]) -> Vec<f64> {
+        let mut pose_counts = vec![0.0; self.cells.iter().product()];
         for pose in poses {
-            let mut cell = Some(0);
-            for (axis, value) in self.coordinates(pose).into_iter().enumerate() {
-                let index = ((value - self.lower_bound(axis, 0)) / self.step[axis]).floor();
-                let is_inside = index >= 0.0 && index < self.cells[axis] as f64;
-                cell = cell.filter(|_| is_inside).map(|cell| cell * self.cells[axis] + index as usize);
+            let mut flat_index = Some(0);
+            for (axis, coordinate) in self.coordinates(pose).into_iter().enumerate() {
+                let cell_index = ((coordinate - self.lower_bound(axis, 0)) / self.step[axis]).floor();
+                let is_inside = cell_index >= 0.0 && cell_index < self.cells[axis] as f64;
+                flat_index = flat_index
+                    .filter(|_| is_inside)
+                    .map(|flat_index| flat_index * self.cells[axis] + cell_index as usize);
             }
-            if let Some(cell) = cell {
-                counts[cell] += 1.0;
+            if let Some(flat_index) = flat_index {
+                pose_counts[flat_index] += 1.0;
             }
         }
-        counts
+        pose_counts
     }
 
     /// Returns χ² of a sample against the density, and the limit that χ² exceeds with probability 1e-4. Everything outside the box is
@@ -117,22 +122,25 @@ impl Grid {
     /// samples that changes χ² by about 1, and the limit is above 100.
     pub fn chi_square(&self, poses: &[SE2], density: impl Fn(&SE2) -> f64) -> (f64, f64) {
         let n = poses.len() as f64;
-        let mut observed = self.counts(poses);
+        let mut observed = self.pose_counts(poses);
         let mut expected: Vec<f64> = self.cell_masses(density).iter().map(|mass| mass * n).collect();
         observed.push(n - observed.iter().sum::<f64>());
         expected.push(n - expected.iter().sum::<f64>());
-        let (small, large): (Vec<_>, Vec<_>) =
+        let (sparse_cells, full_cells): (Vec<_>, Vec<_>) =
             observed.into_iter().zip(expected).partition(|(_, expected)| *expected < 20.0);
-        let pooled_cells = small.iter().fold((0.0, 0.0), |(o, e), cell| (o + cell.0, e + cell.1));
-        assert!(large.len() > 40, "{} cells test little", large.len());
+        let pooled_cell = sparse_cells.iter().fold((0.0, 0.0), |(o, e), cell| (o + cell.0, e + cell.1));
+        assert!(full_cells.len() > 40, "{} cells test little", full_cells.len());
         assert!(
-            pooled_cells.1 > -1e-4 * n,
+            pooled_cell.1 > -1e-4 * n,
             "the density has more mass than 1: {} poses remain",
-            pooled_cells.1
+            pooled_cell.1
         );
         let chi_square_term = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
-        // If only a few poses remain, the error of the quadrature may exceed their number. They are left out.
-        let remainder = if pooled_cells.1 >= 20.0 { chi_square_term(&pooled_cells) } else { 0.0 };
-        (large.iter().map(chi_square_term).sum::<f64>() + remainder, chi_square_limit(large.len() + 1))
+        // If few poses remain, the quadrature error may exceed their number. They are therefore left out.
+        let pooled_term = if pooled_cell.1 >= 20.0 { chi_square_term(&pooled_cell) } else { 0.0 };
+        (
+            full_cells.iter().map(chi_square_term).sum::<f64>() + pooled_term,
+            chi_square_limit(full_cells.len() + 1),
+        )
     }
 }

@@ -35,14 +35,14 @@ pub fn distance_to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
     if length == 0.0 {
         return norm(r);
     }
-    let unit = [d[0] / length, d[1] / length];
-    let distance_along = unit[0] * r[0] + unit[1] * r[1];
+    let direction = [d[0] / length, d[1] / length];
+    let distance_along = direction[0] * r[0] + direction[1] * r[1];
     if distance_along <= 0.0 {
         norm(r)
     } else if distance_along >= length {
         norm(difference(p, b))
     } else {
-        cross(unit, r).abs()
+        cross(direction, r).abs()
     }
 }
 
@@ -64,39 +64,49 @@ pub fn distance_of_segments(p: [Point; 2], q: [Point; 2]) -> f64 {
 }
 
 /// Returns a lower and an upper bound of the distance. A piece of the arc with length l and turn t deviates from its chord by at most l·t/8.
-/// The distance to the piece is therefore that to its chord ± l·t/8. Pieces that cannot contain the nearest point are dropped, and the
-/// others are halved until only rounding is left. Halving ends at 1000 pieces, because all may be equally near the centre of the circle.
+/// Pieces that cannot contain the nearest point are dropped, and the others are halved until only rounding is left. Halving ends at 1000
+/// pieces, because all pieces may be equally near the centre of the circle.
 pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
-    let start = [arc.start.x(), arc.start.y()];
-    let ends = [difference(wall.from, start), difference(wall.to, start)];
-    let pieces = (arc.turn.abs() / 0.5).ceil().max(1.0) as u32;
-    let mut size = 1.0 / f64::from(pieces);
-    let mut candidates: Vec<f64> = (0..pieces).map(|i| f64::from(i) * size).collect();
+    let arc_start = [arc.start.x(), arc.start.y()];
+    let wall_ends = [difference(wall.from, arc_start), difference(wall.to, arc_start)];
+    let piece_count = (arc.turn.abs() / 0.5).ceil().max(1.0) as u32;
+    let mut piece_fraction = 1.0 / f64::from(piece_count);
+    let mut piece_starts: Vec<f64> = (0..piece_count).map(|i| f64::from(i) * piece_fraction).collect();
     loop {
-        let max_deviation = (arc.length * size).abs() * (arc.turn * size).abs() / 8.0;
-        let distances: Vec<(f64, f64)> = candidates
+        let max_deviation = (arc.length * piece_fraction).abs() * (arc.turn * piece_fraction).abs() / 8.0;
+        let starts_and_distances: Vec<(f64, f64)> = piece_starts
             .iter()
             .map(|&f| {
-                (f, distance_of_segments([f, (f + size).min(1.0)].map(|f| position_along(arc, f)), ends))
+                (
+                    f,
+                    distance_of_segments(
+                        [f, (f + piece_fraction).min(1.0)].map(|f| position_along(arc, f)),
+                        wall_ends,
+                    ),
+                )
             })
             .collect();
-        let min_distance =
-            distances.iter().fold(f64::INFINITY, |smallest, (_, distance)| smallest.min(*distance));
-        if max_deviation <= 0.1 * f64::EPSILON * extent(arc, wall) || distances.len() > 1000 {
+        let min_distance = starts_and_distances
+            .iter()
+            .fold(f64::INFINITY, |smallest, (_, distance)| smallest.min(*distance));
+        if max_deviation <= 0.1 * f64::EPSILON * extent(arc, wall) || starts_and_distances.len() > 1000 {
             return [min_distance - max_deviation, min_distance + max_deviation];
         }
-        size *= 0.5;
-        candidates = distances
+        piece_fraction *= 0.5;
+        piece_starts = starts_and_distances
             .into_iter()
             .filter(|(_, distance)| *distance <= min_distance + 2.0 * max_deviation)
-            .flat_map(|(f, _)| [f, f + size])
+            .flat_map(|(f, _)| [f, f + piece_fraction])
             .collect();
     }
 }
 
-/// Returns the extent of an arc and a wall, m, to which the rounding of their distance is relative. It is at least 15 m, because random
-/// walls are made from coordinates of that size.
+/// Returns the extent of an arc and a wall (m), to which the rounding of their distance is proportional. It is at least 15 m, the size of
+/// the coordinates of random walls.
 pub fn extent(arc: &Arc, wall: &Segment) -> f64 {
-    let start = [arc.start.x(), arc.start.y()];
-    norm(difference(wall.from, start)).max(norm(difference(wall.to, start))).max(arc.length.abs()).max(15.0)
+    let arc_start = [arc.start.x(), arc.start.y()];
+    norm(difference(wall.from, arc_start))
+        .max(norm(difference(wall.to, arc_start)))
+        .max(arc.length.abs())
+        .max(15.0)
 }

@@ -16,11 +16,11 @@ pub const NOISE_KINDS: [NoiseKind; 2] = [NoiseKind::Normal, NoiseKind::Triangula
 /// Sample size of the distribution tests.
 pub const SAMPLES: usize = 100_000;
 
-/// Number of standard errors by which an estimate may be off. With random seeds one comparison in 150 000 would fail.
+/// Maximum deviation of an estimate in standard errors. With random seeds one comparison in 150 000 would fail.
 pub const MAX_STANDARD_ERRORS: f64 = 4.5;
 
-/// Returns the random numbers of a fixed seed, which gives the same robots in every run.
-pub fn seeded(seed: u64) -> Xoshiro256PlusPlus {
+/// Returns a generator with a fixed seed, which gives the same random numbers in every run.
+pub fn seeded_rng(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
 }
 
@@ -42,16 +42,16 @@ pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
 }
 
 /// Returns the derivative of a pose with respect to three unit noises, by central differences.
-pub fn derivative(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> Matrix3<f64> {
-    const H: f64 = 1e-5;
+pub fn derivative_by_noise(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> Matrix3<f64> {
+    const STEP: f64 = 1e-5;
     Matrix3::from_columns(&[0, 1, 2].map(|axis| {
-        let [after, before] = [H, -H].map(|step| {
+        let [after, before] = [STEP, -STEP].map(|step| {
             let mut noise = noise;
             noise[axis] += step;
             apply(noise)
         });
-        let turn = wrap_angle(after.theta() - before.theta());
-        Vector3::new(after.x() - before.x(), after.y() - before.y(), turn) / (2.0 * H)
+        let heading_difference = wrap_angle(after.theta() - before.theta());
+        Vector3::new(after.x() - before.x(), after.y() - before.y(), heading_difference) / (2.0 * STEP)
     }))
 }
 
@@ -67,8 +67,8 @@ pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
         .windows(2)
         .map(|ends| {
             let [[ax, ay], [bx, by]] = [ends[0], ends[1]];
-            let left = (bx - ax) * (y - ay) > (x - ax) * (by - ay);
-            i32::from(ay <= y && by > y && left) - i32::from(ay > y && by <= y && !left)
+            let is_left = (bx - ax) * (y - ay) > (x - ax) * (by - ay);
+            i32::from(ay <= y && by > y && is_left) - i32::from(ay > y && by <= y && !is_left)
         })
         .sum();
     windings != 0
@@ -123,7 +123,7 @@ impl Row<'_> {
         }
     }
 
-    /// Returns the absolute error of `computed`. The reference is the sum of two columns: its nearest double, and the remainder (`_lo`).
+    /// Returns the absolute error of `computed`. The reference is the sum of two columns: the nearest double and a remainder (`_lo`).
     pub fn error(&self, column: &str, computed: f64) -> f64 {
         ((computed - self.get(column)) - self.get(&format!("{column}_lo"))).abs()
     }
@@ -131,7 +131,7 @@ impl Row<'_> {
 
 // ------------------------------------------------------------------------------------------------- statistics
 
-/// Limit of √n times the Kolmogorov–Smirnov distance, which exceeds it with probability 2·exp(−2·1.95²) = 0.001.
+/// Limit of √n times the Kolmogorov–Smirnov distance. The distance exceeds it with probability 2·exp(−2·1.95²) = 0.001.
 pub const MAX_KOLMOGOROV_SMIRNOV: f64 = 1.95;
 
 /// Returns √n times the Kolmogorov–Smirnov distance between a sample of n numbers and a distribution function.
@@ -145,7 +145,7 @@ pub fn kolmogorov_smirnov(mut sample: Vec<f64>, cdf: impl Fn(f64) -> f64) -> f64
     distance.fold(0.0, f64::max) * n.sqrt()
 }
 
-/// Returns P(Z < z) for noise Z of a kind with variance 1, by formulas that src/ does not use.
+/// Returns P(Z < z) for noise Z with variance 1, by formulas that src/ does not use.
 pub fn unit_cdf(kind: NoiseKind, z: f64) -> f64 {
     match kind {
         NoiseKind::Normal => 0.5 * libm::erfc(-z / 2f64.sqrt()),
@@ -175,7 +175,7 @@ pub fn variance(values: &[f64]) -> f64 {
 
 /// Returns a statistic of a sample and its standard error, from the spread of the statistic over 100 equal batches.
 pub fn with_standard_error<T>(sample: &[T], statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
-    let batch = sample.len() / 100;
-    let batch_statistics: Vec<f64> = sample.chunks_exact(batch).map(&statistic).collect();
+    let batch_size = sample.len() / 100;
+    let batch_statistics: Vec<f64> = sample.chunks_exact(batch_size).map(&statistic).collect();
     (statistic(sample), (variance(&batch_statistics) / batch_statistics.len() as f64).sqrt())
 }

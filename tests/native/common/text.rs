@@ -1,22 +1,22 @@
-//! Printed numbers in the text of a page or a document, which tests compare with computed numbers.
+//! Numbers printed in the text of a page or a document, which tests compare with computed numbers.
 
 /// Text of a page or a document in one line.
 pub struct Text(String);
 
-/// Number as it is printed.
+/// Number printed in a text.
 #[derive(Clone, Copy, Debug)]
-pub struct Number {
+pub struct PrintedNumber {
     pub value: f64,
-    /// Half a unit of the last digit that is printed.
+    /// Half a unit of the last printed digit.
     pub rounding: f64,
 }
 
-impl Number {
+impl PrintedNumber {
     /// Asserts that the printed number equals a computed one, to within `error`.
     pub fn assert(&self, computed: f64, error: f64) {
-        let error_found = (computed - self.value).abs();
+        let deviation = (computed - self.value).abs();
         assert!(
-            error_found <= self.rounding * (1.0 + 1e-9) + error,
+            deviation <= self.rounding * (1.0 + 1e-9) + error,
             "{computed} ± {error} is printed as {}",
             self.value
         );
@@ -35,9 +35,9 @@ impl Text {
     /// Returns the text of a page without its markup.
     pub fn on_page(html: &str) -> Self {
         let mut text = String::new();
-        for part in html.split('<') {
+        for markup_and_text in html.split('<') {
             // The first part has no markup before it.
-            text.push_str(part.split_once('>').map_or(part, |(_, text)| text));
+            text.push_str(markup_and_text.split_once('>').map_or(markup_and_text, |(_, text)| text));
         }
         for (entity, character) in [("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
             text = text.replace(entity, character);
@@ -49,12 +49,15 @@ impl Text {
         Self(text.split([' ', '\n', '\t']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" "))
     }
 
-    /// Returns the numbers that the text has at each `#` of a sentence. The sentence must occur exactly once.
-    pub fn numbers<const N: usize>(&self, sentence: &str) -> [Number; N] {
-        let parts: Vec<&str> = sentence.split('#').collect();
-        assert_eq!(parts.len(), N + 1, "numbers in: {sentence}");
-        let occurrences: Vec<Vec<Number>> =
-            self.0.match_indices(parts[0]).filter_map(|(at, _)| numbers_in(&self.0[at..], &parts)).collect();
+    /// Returns the numbers that stand at each `#` of a sentence. The text must contain the sentence exactly once.
+    pub fn numbers<const N: usize>(&self, sentence: &str) -> [PrintedNumber; N] {
+        let sentence_parts: Vec<&str> = sentence.split('#').collect();
+        assert_eq!(sentence_parts.len(), N + 1, "numbers in: {sentence}");
+        let occurrences: Vec<Vec<PrintedNumber>> = self
+            .0
+            .match_indices(sentence_parts[0])
+            .filter_map(|(at, _)| numbers_in(&self.0[at..], &sentence_parts))
+            .collect();
         assert_eq!(occurrences.len(), 1, "times that the text says: {sentence}");
         std::array::from_fn(|i| occurrences[0][i])
     }
@@ -78,26 +81,26 @@ fn is_thousands(word: &str) -> bool {
     digits.len() == 3 && digits.chars().all(|c| c.is_ascii_digit())
 }
 
-/// Returns the numbers between the parts of a sentence, if the text begins with that sentence.
-fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<Number>> {
+/// Returns the numbers between the parts of a sentence. Returns None if the text does not begin with the sentence.
+fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<PrintedNumber>> {
     let mut remainder = text.strip_prefix(parts[0])?;
     parts[1..]
         .iter()
         .map(|part| {
-            let in_number = |c: char| c.is_ascii_digit() || ['−', '.', THIN_SPACE].contains(&c);
-            let mut end = remainder.find(|c| !in_number(c)).unwrap_or(remainder.len());
+            let is_in_number = |c: char| c.is_ascii_digit() || ['−', '.', THIN_SPACE].contains(&c);
+            let mut number_end = remainder.find(|c| !is_in_number(c)).unwrap_or(remainder.len());
             // Documents separate thousands by a plain space.
-            if remainder[end..].starts_with(' ')
-                && remainder[end + 1..].split(' ').next().is_some_and(is_thousands)
+            if remainder[number_end..].starts_with(' ')
+                && remainder[number_end + 1..].split(' ').next().is_some_and(is_thousands)
             {
-                end += 4;
+                number_end += 4;
             }
             // The period at the end of a sentence is not a decimal point.
-            end -= usize::from(remainder[..end].ends_with('.'));
-            let digits: String = remainder[..end].replace('−', "-").replace([THIN_SPACE, ' '], "");
+            number_end -= usize::from(remainder[..number_end].ends_with('.'));
+            let digits: String = remainder[..number_end].replace('−', "-").replace([THIN_SPACE, ' '], "");
             let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
-            remainder = remainder[end..].strip_prefix(part)?;
-            Some(Number { value: digits.parse().ok()?, rounding: 0.5 * 10f64.powi(-decimals) })
+            remainder = remainder[number_end..].strip_prefix(part)?;
+            Some(PrintedNumber { value: digits.parse().ok()?, rounding: 0.5 * 10f64.powi(-decimals) })
         })
         .collect()
 }

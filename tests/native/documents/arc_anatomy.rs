@@ -1,7 +1,7 @@
-//! Numbers of Arc Anatomy on the page, compared with computed ones.
+//! Numbers of Arc Anatomy on the page, compared with computed numbers.
 
 use super::page;
-use crate::common::text::Number;
+use crate::common::text::PrintedNumber;
 use crate::simulations::arc_anatomy::{preset, stats};
 use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Settings, Stats, SurfaceKind};
 
@@ -13,14 +13,14 @@ fn without_wedge(settings: Settings) -> Settings {
 
 #[test]
 fn the_last_turn_explains_the_low_probability() {
-    let [deviations, share_of_factor, share_of_product] = page().numbers(
+    let [sigma_count, factor_share, product_share] = page().numbers(
         "The last turn is off by # standard deviations: that factor alone leaves # % of its peak, all three leave # %.",
     );
     let Stats { factors, weakest, share, .. } = stats(Settings::default());
     assert_eq!(weakest, 2);
-    deviations.assert(factors[2].deviations, 0.0);
-    share_of_factor.assert_percent(factors[2].share, 0.0);
-    share_of_product.assert_percent(share, 0.0);
+    sigma_count.assert(factors[2].deviations, 0.0);
+    factor_share.assert_percent(factors[2].share, 0.0);
+    product_share.assert_percent(share, 0.0);
     let [remaining_share] =
         page().numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
     let Stats { factors, share, .. } = stats(without_wedge(Settings::default()));
@@ -30,14 +30,14 @@ fn the_last_turn_explains_the_low_probability() {
 
 #[test]
 fn the_printed_table_loses_p_for_centres_to_the_right() {
-    let [speed]: [Number; 1] =
+    let [printed_speed]: [PrintedNumber; 1] =
         page().numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
     for name in ["right", "reverse"] {
         let settings = Settings { printed: true, ..preset(name) };
         let Stats { factors, share, inverted, .. } = stats(settings);
         assert!(inverted.radius < 0.0 && share < 1e-15);
         // The estimated speed has the opposite sign of the command.
-        speed.assert(-factors[0].estimate.abs(), 0.0);
+        printed_speed.assert(-factors[0].estimate.abs(), 0.0);
         assert!(factors[0].estimate * settings.command.v < 0.0);
         // With the unsigned radius of the printed table, contours of equal score stay near the start. With the signed radius they do not.
         let max_distance = |settings: Settings| {

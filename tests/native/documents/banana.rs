@@ -1,13 +1,13 @@
-//! Numbers of the Banana Machine on the page and in doc/statistics.md, compared with computed ones.
+//! Numbers of the Banana Machine on the page and in doc/statistics.md, compared with computed numbers.
 
 use super::page;
-use crate::common::text::{Number, Text};
+use crate::common::text::{PrintedNumber, Text};
 use crate::common::{MAX_STANDARD_ERRORS, preset, winds_around};
 use crate::simulations::banana::simulation;
 use motion::VelocityCmd;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 
-fn document() -> Text {
+fn statistics_document() -> Text {
     Text::in_document(include_str!("../../../doc/statistics.md"))
 }
 
@@ -21,7 +21,8 @@ fn the_presets_are_those_in_the_document() {
         ("banana", "Banana"),
         ("worked", "Worked example"),
     ] {
-        let printed: [Number; 9] = document().numbers(&format!("| {label} | #, #, # | #, #, #, #, #, # |"));
+        let printed: [PrintedNumber; 9] =
+            statistics_document().numbers(&format!("| {label} | #, #, # | #, #, #, #, #, # |"));
         let Settings { command: c, velocity_alphas: [a1, a2, a3, a4, a5, a6], .. } = preset(name);
         assert_eq!(
             printed.map(|number| number.value),
@@ -31,66 +32,67 @@ fn the_presets_are_those_in_the_document() {
     }
 }
 
-/// Checks the rows of the table, and sentences of the page about their presets. Fractions may differ by 4.5 standard errors.
+/// Checks the rows of the table, and sentences of the page about the same presets. Fractions may differ by 4.5 standard errors.
 #[test]
 fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
-    const ROBOTS: usize = 300_000;
-    let error = MAX_STANDARD_ERRORS * (0.117 / ROBOTS as f64).sqrt();
-    let simulation_of = |name| simulation(Settings { samples: ROBOTS, ..preset(name) });
-    let assert_row = |simulation: &BananaMachine, [floor, area, ellipse, skew]: [Number; 4]| {
-        let exact = simulation.table().exact;
-        floor.assert(exact.likelihood_gain.floor, 0.0);
-        area.assert(exact.area_ratio, 0.0);
-        ellipse.assert_percent(simulation.stats().coverage.ellipse, error);
-        skew.assert(exact.cross_track_skew, 1e-12);
-        exact
+    const ROBOT_COUNT: usize = 300_000;
+    let coverage_error = MAX_STANDARD_ERRORS * (0.117 / ROBOT_COUNT as f64).sqrt();
+    let simulation_of = |name| simulation(Settings { samples: ROBOT_COUNT, ..preset(name) });
+    let assert_row = |simulation: &BananaMachine, [floor, area, ellipse, skew]: [PrintedNumber; 4]| {
+        let exact_column = simulation.table().exact;
+        floor.assert(exact_column.likelihood_gain.floor, 0.0);
+        area.assert(exact_column.area_ratio, 0.0);
+        ellipse.assert_percent(simulation.stats().coverage.ellipse, coverage_error);
+        skew.assert(exact_column.cross_track_skew, 1e-12);
+        exact_column
     };
-    let worked_row = document().numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
+    let worked_row =
+        statistics_document().numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
     assert_row(&simulation_of("worked"), worked_row);
-    let [(gentle, _), (hard, hard_simulation), (banana, _)] = [
+    let [(gentle_exact, _), (hard_exact, hard_simulation), (banana_exact, _)] = [
         ("gentle", "| 1, 0.5, 1; (0.05, 0.05, 0.05, 0.09, 0.01, 0.01)"),
         ("hard", "| 1, 1.2, 1.4; the same"),
         ("banana", "| 1, 0, 2; (0.002, 0.002, 0.1, 0.1, 0.002, 0.002)"),
     ]
     .map(|(name, row_start)| {
         let [pose, floor, area, ellipse, skew] =
-            document().numbers(&format!("{row_start} | # | # | # | # % | # |"));
+            statistics_document().numbers(&format!("{row_start} | # | # | # | # % | # |"));
         let simulation = simulation_of(name);
-        let exact = assert_row(&simulation, [floor, area, ellipse, skew]);
-        pose.assert(exact.likelihood_gain.pose, 0.0);
-        (exact, simulation)
+        let exact_column = assert_row(&simulation, [floor, area, ellipse, skew]);
+        pose.assert(exact_column.likelihood_gain.pose, 0.0);
+        (exact_column, simulation)
     });
     let [ellipse, outline_share, skew, gaussian_skew] = page().numbers(
         "do not give the ellipse away, # % and # %. The cross-track skew, the lopsidedness across the path, does: #, \
          where any Gaussian in (x, y) has #, and so has the banana.",
     );
-    ellipse.assert_percent(hard_simulation.stats().coverage.ellipse, error);
-    outline_share.assert_percent(hard_simulation.stats().coverage.exponential, error);
-    skew.assert(hard.cross_track_skew, 0.0);
+    ellipse.assert_percent(hard_simulation.stats().coverage.ellipse, coverage_error);
+    outline_share.assert_percent(hard_simulation.stats().coverage.exponential, coverage_error);
+    skew.assert(hard_exact.cross_track_skew, 0.0);
     gaussian_skew.assert(hard_simulation.table().linearized.cross_track_skew, 0.0);
-    assert!(banana.cross_track_skew.abs() < 1e-9);
+    assert!(banana_exact.cross_track_skew.abs() < 1e-9);
     let [banana_gain, gentle_gain, hard_gain] =
-        [&banana, &gentle, &hard].map(|exact| exact.likelihood_gain.pose);
+        [&banana_exact, &gentle_exact, &hard_exact].map(|exact_column| exact_column.likelihood_gain.pose);
     page().assert(
         "The ellipse covers # times the floor of the green outline: where it alone lies, robots stop a seventh as \
          densely as where the outline alone does. The Gaussian in ξ fits better: a log-likelihood gain of # nats a robot \
          (# nat is a factor of e); on the gentle arc it is #, on the hard one #.",
-        [banana.area_ratio, banana_gain, 1.0, gentle_gain, hard_gain],
+        [banana_exact.area_ratio, banana_gain, 1.0, gentle_gain, hard_gain],
     );
     assert_eq!(Settings::default(), preset("banana"));
     let opening_simulation = simulation(Settings::default());
-    document().assert(
+    statistics_document().assert(
         "α₁₋₄ = 0.02, α₅,₆ = 0: skew #; the Gentle arc's α = (0.05, 0.05, 0.05, 0.09, 0.01, 0.01): #.",
         [simulation(preset("worked")), simulation(preset("gentle"))]
             .map(|simulation| simulation.exact_moments().cross_track_skew),
     );
-    document().assert(
+    statistics_document().assert(
         "The widget opens with # robots. They give the skew of the Banana to ±#.",
         [opening_simulation.settings().samples as f64, opening_simulation.stats().cross_track_skew_error],
     );
 }
 
-/// Densities of 300,000 robots (1/m²) in the areas that only one of the outlines encloses have relative errors of 2 %.
+/// With 300,000 robots, the densities in the areas that only one of the outlines encloses have relative errors of 2 %.
 #[test]
 fn the_ellipse_covers_floor_where_few_robots_stop() {
     page().assert_says(
@@ -98,19 +100,20 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
     );
     let simulation = simulation(Settings { samples: 300_000, ..preset("banana") });
     let contours = simulation.contours();
-    let is_inside = |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
+    let are_inside = |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
     const CELL_SIZE: f64 = 0.02;
-    let grid = (0..250).flat_map(|column| (0..250).map(move |row| (column, row)));
-    let cells: Vec<[bool; 2]> = grid
-        .map(|(column, row)| is_inside([f64::from(column) * CELL_SIZE, f64::from(row) * CELL_SIZE - 2.5]))
+    let cell_indices = (0..250).flat_map(|column| (0..250).map(move |row| (column, row)));
+    let cells_inside: Vec<[bool; 2]> = cell_indices
+        .map(|(column, row)| are_inside([f64::from(column) * CELL_SIZE, f64::from(row) * CELL_SIZE - 2.5]))
         .collect();
-    let robots: Vec<[bool; 2]> = simulation.poses().map(|pose| is_inside([pose.x(), pose.y()])).collect();
-    let density = |inside: [bool; 2]| {
-        let count = |points: &[[bool; 2]]| points.iter().filter(|point| **point == inside).count() as f64;
-        count(&robots) / (count(&cells) * CELL_SIZE * CELL_SIZE)
+    let robots_inside: Vec<[bool; 2]> =
+        simulation.poses().map(|pose| are_inside([pose.x(), pose.y()])).collect();
+    let robot_density = |inside: [bool; 2]| {
+        let count_of = |points: &[[bool; 2]]| points.iter().filter(|point| **point == inside).count() as f64;
+        count_of(&robots_inside) / (count_of(&cells_inside) * CELL_SIZE * CELL_SIZE)
     };
-    let ratio = density([false, true]) / density([true, false]);
-    assert_eq!(ratio.round(), 7.0, "{ratio}");
+    let density_ratio = robot_density([false, true]) / robot_density([true, false]);
+    assert_eq!(density_ratio.round(), 7.0, "{density_ratio}");
 }
 
 #[test]
@@ -124,33 +127,42 @@ fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
     };
     let [long_cloud, short_cloud] =
         [long_drive, short_drive].map(|settings| simulation(Settings { samples: 10, ..settings }));
-    let size = |simulation: &BananaMachine| {
+    let cloud_size = |simulation: &BananaMachine| {
         let cov = simulation.table().exact.cov;
         (cov[(0, 0)] + cov[(1, 1)]).sqrt()
     };
-    assert!(size(&short_cloud) < 0.1 * size(&long_cloud), "{} {}", size(&short_cloud), size(&long_cloud));
+    assert!(
+        cloud_size(&short_cloud) < 0.1 * cloud_size(&long_cloud),
+        "{} {}",
+        cloud_size(&short_cloud),
+        cloud_size(&long_cloud)
+    );
 }
 
 #[test]
 fn the_predicted_skew_misses_under_the_odometry_model() {
-    let [robots, standard_errors] =
+    let [robot_count, min_standard_errors] =
         page().numbers("and the prediction misses: with # robots by more than # standard errors.");
-    let settings = Settings { samples: robots.value as usize, ..preset("gentle") };
+    let settings = Settings { samples: robot_count.value as usize, ..preset("gentle") };
     let mut velocity_alphas = settings.velocity_alphas;
     velocity_alphas[4..].fill(0.0);
-    let relative_miss = |settings| {
+    let miss_in_standard_errors = |settings| {
         let simulation = simulation(settings);
         let stats = simulation.stats();
         (stats.cross_track_skew - stats.gaussian_skew).abs() / stats.cross_track_skew_error
     };
-    assert!(relative_miss(Settings { velocity_alphas, ..settings }) < MAX_STANDARD_ERRORS);
-    assert!(relative_miss(Settings { model: ModelKind::Odometry, ..settings }) > standard_errors.value);
+    assert!(miss_in_standard_errors(Settings { velocity_alphas, ..settings }) < MAX_STANDARD_ERRORS);
+    assert!(
+        miss_in_standard_errors(Settings { model: ModelKind::Odometry, ..settings })
+            > min_standard_errors.value
+    );
 }
 
 #[test]
 fn a_hundred_times_the_robots_leave_a_tenth_of_the_error() {
     page().assert_says("A hundred times the robots leave a tenth of the standard error.");
-    let error = |samples| simulation(Settings { samples, ..preset("gentle") }).stats().cross_track_skew_error;
-    let ratio = error(2000) / error(200_000);
-    assert!((ratio - 10.0).abs() < 1.0, "{ratio}");
+    let skew_error =
+        |samples| simulation(Settings { samples, ..preset("gentle") }).stats().cross_track_skew_error;
+    let error_ratio = skew_error(2000) / skew_error(200_000);
+    assert!((error_ratio - 10.0).abs() < 1.0, "{error_ratio}");
 }

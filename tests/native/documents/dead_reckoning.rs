@@ -1,57 +1,69 @@
-//! Numbers of Dead Reckoning on the page, compared with computed ones.
+//! Numbers of Dead Reckoning on the page, compared with computed numbers.
 
 use super::{exercises_document, page};
 use crate::common::MAX_STANDARD_ERRORS;
-use crate::common::text::Number;
+use crate::common::text::PrintedNumber;
 use crate::simulations::dead_reckoning::simulation;
 use motion::Compounding;
 use motion::sim::dead_reckoning::{DeadReckoning, MISS_TOLERANCE, PRESETS, Settings};
 
-fn preset(name: &str) -> DeadReckoning {
-    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
-    let (command, steps, alphas) = (preset.command, preset.steps, preset.alphas);
+fn simulation_of_preset(name: &str) -> DeadReckoning {
+    let simulation_of_preset = PRESETS
+        .iter()
+        .find(|simulation_of_preset| simulation_of_preset.name == name)
+        .expect("a preset of that name");
+    let (command, steps, alphas) =
+        (simulation_of_preset.command, simulation_of_preset.steps, simulation_of_preset.alphas);
     simulation(Settings { command, steps, alphas, samples: 50_000, ..Settings::default() })
 }
 
-/// Returns ratios of predicted variances of an axis after each step: to those of the fourth order, which is accurate to a few thousandths.
-fn exact_ratios(simulation: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
-    let covs = |order| {
+/// Returns the predicted variances of an axis after each step, divided by those of the fourth order, which are accurate to a few
+/// thousandths.
+fn ratios_to_fourth_order(simulation: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
+    let variances = |order| {
         simulation
             .predicted_covariances(order)
             .iter()
-            .map(move |cov| cov.expect("a covariance")[(axis, axis)])
+            .map(move |variance| variance.expect("a covariance")[(axis, axis)])
     };
-    covs(order).zip(covs(Compounding::FourthOrder)).map(|(cov, exact)| cov / exact).collect()
+    variances(order)
+        .zip(variances(Compounding::FourthOrder))
+        .map(|(variance, exact_variance)| variance / exact_variance)
+        .collect()
 }
 
 /// Returns the steps at which a ratio differs from 1 by more than the tolerance.
-fn steps_off(ratios: &[f64]) -> Vec<usize> {
+fn missed_steps(ratios: &[f64]) -> Vec<usize> {
     (1..=ratios.len()).filter(|k| (ratios[k - 1] - 1.0).abs() > MISS_TOLERANCE).collect()
 }
 
 #[test]
 fn printed_losses_of_variance_equal_those_of_the_simulation() {
     let initial_simulation = simulation(Settings::default());
-    let [printed_loss]: [Number; 1] =
+    let [printed_loss]: [PrintedNumber; 1] =
         page().numbers("what its own loses by the end: # % of the variance along the track");
     let comparison = initial_simulation.comparison(Compounding::Chapter);
     printed_loss.assert_percent(-comparison.misses[0].end, 0.0);
-    printed_loss.assert_percent(1.0 - exact_ratios(&initial_simulation, Compounding::Chapter, 0)[19], 0.0);
-    let [along_loss, lateral_loss]: [Number; 2] = page().numbers(
+    printed_loss
+        .assert_percent(1.0 - ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, 0)[19], 0.0);
+    let [along_loss, lateral_loss]: [PrintedNumber; 2] = page().numbers(
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
     );
-    for (loss, axis) in [(along_loss, 0), (lateral_loss, 1)] {
-        loss.assert_percent(-comparison.misses[axis].end, 0.0);
-        loss.assert_percent(1.0 - exact_ratios(&initial_simulation, Compounding::Chapter, axis)[19], 0.0);
+    for (printed_loss, axis) in [(along_loss, 0), (lateral_loss, 1)] {
+        printed_loss.assert_percent(-comparison.misses[axis].end, 0.0);
+        printed_loss.assert_percent(
+            1.0 - ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, axis)[19],
+            0.0,
+        );
     }
     page().assert_says("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
     assert_eq!(comparison.ratios[0].y, 0.0);
     assert!(initial_simulation.measured_moments()[0].cov[(1, 1)] > 0.0);
-    let [ratio_at_2, ratio_at_5]: [Number; 2] =
+    let [ratio_at_2, ratio_at_5]: [PrintedNumber; 2] =
         page().numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
     for ratios in [
-        exact_ratios(&initial_simulation, Compounding::Chapter, 1),
+        ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, 1),
         comparison.ratios.iter().map(|ratio| ratio.y).collect(),
     ] {
         ratio_at_2.assert(ratios[1], 0.0);
@@ -67,36 +79,44 @@ fn printed_losses_of_variance_equal_those_of_the_simulation() {
     }
 }
 
-/// Checks the numbers on the page and in doc/exercises.md. A ratio of variances of n robots has the standard error √(2/n), and a
-/// larger one if the tails are heavy.
+/// Checks the numbers on the page and in doc/exercises.md. A ratio to the variance of n robots has the standard error √(2/n), or more if
+/// the tails are heavy.
 #[test]
 fn ratios_and_crossings_are_those_of_exercise_7() {
     let document = exercises_document();
-    let simulations = ["chapter", "doubled"].map(preset);
+    let simulations = ["chapter", "doubled"].map(simulation_of_preset);
     for k in [1, 2, 5, 10, 20] {
-        let ratios_of = |order| [0, 1, 2].map(|axis| exact_ratios(&simulations[0], order, axis)[k - 1]);
+        let ratios_of =
+            |order| [0, 1, 2].map(|axis| ratios_to_fourth_order(&simulations[0], order, axis)[k - 1]);
         let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(ratios_of);
         document.assert(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
     }
-    let crossings = simulations.map(|simulation| {
-        let error = MAX_STANDARD_ERRORS * (2.3 / simulation.settings().samples as f64).sqrt();
-        let fourth_order = &simulation.comparison(Compounding::FourthOrder).ratios;
-        assert!(fourth_order.iter().all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < error)));
-        let first = simulation.comparison(Compounding::Chapter).misses[0].first.expect("a miss");
-        assert_eq!(first as usize, steps_off(&exact_ratios(&simulation, Compounding::Chapter, 0))[0]);
-        f64::from(first)
+    let first_missed_steps = simulations.map(|simulation| {
+        let tolerance = MAX_STANDARD_ERRORS * (2.3 / simulation.settings().samples as f64).sqrt();
+        let fourth_order_ratios = &simulation.comparison(Compounding::FourthOrder).ratios;
+        assert!(
+            fourth_order_ratios
+                .iter()
+                .all(|ratios| ratios.iter().all(|ratio| (ratio - 1.0).abs() < tolerance))
+        );
+        let first_missed_step = simulation.comparison(Compounding::Chapter).misses[0].first.expect("a miss");
+        assert_eq!(
+            first_missed_step as usize,
+            missed_steps(&ratios_to_fourth_order(&simulation, Compounding::Chapter, 0))[0]
+        );
+        f64::from(first_missed_step)
     });
     document.assert(
         "off by more than 5 % from step # on. With the heading's standard deviation doubled (α₃ to α₆ four times as \
          large) it is from step # on",
-        crossings,
+        first_missed_steps,
     );
     page().assert(
         "it is off by more than 5 % from step # on, and with the heading σ doubled from step # on, which is earlier, \
          but not by half.",
-        crossings,
+        first_missed_steps,
     );
-    assert!(crossings[1] > crossings[0] / 2.0);
+    assert!(first_missed_steps[1] > first_missed_steps[0] / 2.0);
 }
 
 /// Checks the numbers on the page and in doc/exercises.md.
@@ -104,21 +124,25 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
 fn the_crossing_times_are_those_of_exercise_2() {
     let initial_simulation = simulation(Settings { samples: 1, ..Settings::default() });
     let growth = initial_simulation.straight_growth();
-    let end = growth.durations.len() - 1;
-    let power =
-        |stds: &[f64]| (stds[end] / stds[0]).ln() / (growth.durations[end] / growth.durations[0]).ln();
-    let powers = [&growth.along_first_order, &growth.across_first_order].map(|stds| power(stds));
-    let h = 4.0 * initial_simulation.settings().heading_noise().expect("a level");
-    let alphas = [0.02, 0.02, h, h, h / 4.0, h / 4.0];
-    let doubled = simulation(Settings { alphas, samples: 1, ..Settings::default() });
-    let times = [&growth, &doubled.straight_growth()].map(|growth| growth.crossing.expect("a crossing"));
-    let exercises = exercises_document();
-    page().assert("along the track with the power #, across it with the power #. They cross", powers);
-    exercises.assert("grows with the power # of Δt, across it with #. ", powers);
-    page().assert("They cross after # s; with the heading σ doubled, after # s.", times);
-    exercises.assert(
+    let last_index = growth.durations.len() - 1;
+    let growth_exponent = |stds: &[f64]| {
+        (stds[last_index] / stds[0]).ln() / (growth.durations[last_index] / growth.durations[0]).ln()
+    };
+    let growth_exponents =
+        [&growth.along_first_order, &growth.across_first_order].map(|stds| growth_exponent(stds));
+    let heading_alpha = 4.0 * initial_simulation.settings().heading_noise().expect("a level");
+    let alphas = [0.02, 0.02, heading_alpha, heading_alpha, heading_alpha / 4.0, heading_alpha / 4.0];
+    let doubled_simulation = simulation(Settings { alphas, samples: 1, ..Settings::default() });
+    let crossing_times =
+        [&growth, &doubled_simulation.straight_growth()].map(|growth| growth.crossing.expect("a crossing"));
+    let document = exercises_document();
+    page()
+        .assert("along the track with the power #, across it with the power #. They cross", growth_exponents);
+    document.assert("grows with the power # of Δt, across it with #. ", growth_exponents);
+    page().assert("They cross after # s; with the heading σ doubled, after # s.", crossing_times);
+    document.assert(
         "with α₁ = α₃ after # s, and with the heading's σ doubled (α₃ four times as large) after # s",
-        times,
+        crossing_times,
     );
 }
 
@@ -127,13 +151,16 @@ fn two_hundred_steps_miss_for_half_a_second() {
     page().assert_says(
         "In 200 steps nothing along the track is off by 5 %, and the lateral variance for half a second instead of three:",
     );
-    let [chapter_drive, fine_drive] = ["chapter", "fine"].map(preset);
+    let [chapter_drive, fine_drive] = ["chapter", "fine"].map(simulation_of_preset);
     assert_eq!(fine_drive.settings().steps, 200);
-    assert!(steps_off(&exact_ratios(&fine_drive, Compounding::Chapter, 0)).is_empty());
-    let missed_time = |simulation: &DeadReckoning| {
-        let last = steps_off(&exact_ratios(simulation, Compounding::Chapter, 1)).last().copied().unwrap_or(0);
-        last as f64 * simulation.settings().command.dt
+    assert!(missed_steps(&ratios_to_fourth_order(&fine_drive, Compounding::Chapter, 0)).is_empty());
+    let miss_duration = |simulation: &DeadReckoning| {
+        let last_missed_step = missed_steps(&ratios_to_fourth_order(simulation, Compounding::Chapter, 1))
+            .last()
+            .copied()
+            .unwrap_or(0);
+        last_missed_step as f64 * simulation.settings().command.dt
     };
-    assert_eq!((2.0 * missed_time(&fine_drive)).round() / 2.0, 0.5, "{}", missed_time(&fine_drive));
-    assert_eq!(missed_time(&chapter_drive).round(), 3.0, "{}", missed_time(&chapter_drive));
+    assert_eq!((2.0 * miss_duration(&fine_drive)).round() / 2.0, 0.5, "{}", miss_duration(&fine_drive));
+    assert_eq!(miss_duration(&chapter_drive).round(), 3.0, "{}", miss_duration(&chapter_drive));
 }

@@ -1,8 +1,8 @@
-//! Numbers of doc/exercises.md, compared with computed ones; those of exercises 2 and 7 are in `dead_reckoning.rs`.
+//! Numbers of doc/exercises.md, compared with computed numbers. Exercises 2 and 7 are in `dead_reckoning.rs`.
 
 use super::exercises_document;
-use crate::common::text::Number;
-use crate::common::{derivative, preset, seeded, unit_cdf};
+use crate::common::text::PrintedNumber;
+use crate::common::{derivative_by_noise, preset, seeded_rng, unit_cdf};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::Sampler;
@@ -20,20 +20,21 @@ fn velocity_model(alphas: [f64; 6]) -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
 }
 
-/// Returns the root mean square error (m) of the arc form over all headings, at v = 1 m/s. For small turns the exact
-/// end is computed by its series.
-fn error_of_arc_form(omega: f64, dt: f64) -> f64 {
+/// Returns the root mean square error (m) of the arc form over all headings, at v = 1 m/s. The exact end is computed by a
+/// series for small turns.
+fn rms_error_of_arc_form(omega: f64, dt: f64) -> f64 {
     let (radius, phi) = (1.0 / omega, omega * dt);
     let (forward, left) = (dt * (1.0 - phi * phi / 6.0), dt * phi * (0.5 - phi * phi / 24.0));
-    let headings = 1001;
-    let squared_errors = (0..headings).map(|i| {
-        let theta = 2.0 * PI * f64::from(i) / f64::from(headings) - PI;
+    let heading_count = 1001;
+    let squared_errors = (0..heading_count).map(|i| {
+        let theta = 2.0 * PI * f64::from(i) / f64::from(heading_count) - PI;
         let (sin, cos) = theta.sin_cos();
         let (x, y) = (forward * cos - left * sin, forward * sin + left * cos);
-        let next = theta + phi;
-        (radius * next.sin() - radius * sin - x).powi(2) + (radius * cos - radius * next.cos() - y).powi(2)
+        let end_heading = theta + phi;
+        (radius * end_heading.sin() - radius * sin - x).powi(2)
+            + (radius * cos - radius * end_heading.cos() - y).powi(2)
     });
-    (squared_errors.sum::<f64>() / f64::from(headings)).sqrt()
+    (squared_errors.sum::<f64>() / f64::from(heading_count)).sqrt()
 }
 
 #[test]
@@ -41,84 +42,88 @@ fn exercise_1_prints_the_errors_of_the_straight_line_branch() {
     let dt = 0.1;
     let line_error = |omega: f64| 0.5 * omega * dt * dt;
     // The error varies strongly with ω. Its mean over a tenth of a decade is compared.
-    let ratio = |omega: f64| {
+    let error_ratio = |omega: f64| {
         let turn_rates = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
-        (turn_rates.map(|omega| (error_of_arc_form(omega, dt) / line_error(omega)).ln()).sum::<f64>() / 20.0)
+        (turn_rates.map(|omega| (rms_error_of_arc_form(omega, dt) / line_error(omega)).ln()).sum::<f64>()
+            / 20.0)
             .exp()
     };
-    let crossover =
-        (0..400).map(|i| 1e-9 * 10f64.powf(f64::from(i) / 100.0)).find(|omega| ratio(*omega) < 1.0);
-    let [crossover_printed, estimate_printed]: [Number; 2] =
+    let crossover_turn_rate =
+        (0..400).map(|i| 1e-9 * 10f64.powf(f64::from(i) / 100.0)).find(|omega| error_ratio(*omega) < 1.0);
+    let [printed_crossover, printed_estimate]: [PrintedNumber; 2] =
         exercises_document().numbers("below |ω̂| = # × 10⁻⁷ rad/s, where the estimate √(2ε)/Δt says # × 10⁻⁷");
-    crossover_printed.assert(crossover.expect("a crossover") / 1e-7, 0.0);
-    estimate_printed.assert((2.0 * f64::EPSILON).sqrt() / dt / 1e-7, 0.0);
-    let [line_printed, arc_printed, ratio_printed]: [Number; 3] = exercises_document().numbers(
-        "the straight line is off by # nm, and the arc form by # nm. Switching so early costs # times",
-    );
-    let (line_error, arc_error) = (line_error(1e-6), error_of_arc_form(1e-6, dt));
-    line_printed.assert(line_error / 1e-9, 0.0);
-    arc_printed.assert(arc_error / 1e-9, 0.0);
-    ratio_printed.assert(line_error / arc_error, 0.0);
+    printed_crossover.assert(crossover_turn_rate.expect("a crossover") / 1e-7, 0.0);
+    printed_estimate.assert((2.0 * f64::EPSILON).sqrt() / dt / 1e-7, 0.0);
+    let [printed_line_error, printed_arc_error, printed_ratio]: [PrintedNumber; 3] = exercises_document()
+        .numbers(
+            "the straight line is off by # nm, and the arc form by # nm. Switching so early costs # times",
+        );
+    let (line_error, arc_error) = (line_error(1e-6), rms_error_of_arc_form(1e-6, dt));
+    printed_line_error.assert(line_error / 1e-9, 0.0);
+    printed_arc_error.assert(arc_error / 1e-9, 0.0);
+    printed_ratio.assert(line_error / arc_error, 0.0);
     exercises_document().assert_says("up to half a micrometre where Δt is a second");
-    let end = Arc { start: SE2::identity(), length: 1.0, turn: 1e-6 }.end();
-    assert!(((end.x() - 1.0).hypot(end.y()) - 0.5e-6).abs() < 1e-12, "{end:?}");
+    let arc_end = Arc { start: SE2::identity(), length: 1.0, turn: 1e-6 }.end();
+    assert!(((arc_end.x() - 1.0).hypot(arc_end.y()) - 0.5e-6).abs() < 1e-12, "{arc_end:?}");
 }
 
-/// The determinant is computed by central differences, with an error of the square of the step.
+/// The determinant is computed by central differences, with an error proportional to the square of the step.
 #[test]
 fn exercise_3_prints_the_jacobian_determinant() {
     let model = velocity_model([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
     let x = SE2::identity();
-    let end = x.boxplus(TangentNoiseModel::twist(&U));
-    let [printed]: [Number; 1] =
+    let noise_free_end = x.boxplus(TangentNoiseModel::twist(&U));
+    let [printed_determinant]: [PrintedNumber; 1] =
         exercises_document().numbers("At the noise-free end of the worked example's command it is #, and");
-    let deviations = model.variances(&U).map(|variance| variance.0.sqrt());
-    let noise_jacobian = derivative([0.0; 3], |unit| model.apply_noise(&U, &x, unit));
-    let determinant = noise_jacobian.determinant() / deviations.iter().product::<f64>();
-    printed.assert(determinant, 0.0);
-    let ratio = model.prob(&end, &U, &x) / model.pose_density(&end, &U, &x).expect("noise of full rank");
-    assert!((ratio / determinant - 1.0).abs() < 1e-8, "{ratio} {determinant}");
+    let stds = model.variances(&U).map(|variance| variance.0.sqrt());
+    let noise_jacobian = derivative_by_noise([0.0; 3], |unit| model.apply_noise(&U, &x, unit));
+    let determinant = noise_jacobian.determinant() / stds.iter().product::<f64>();
+    printed_determinant.assert(determinant, 0.0);
+    let prob_ratio = model.prob(&noise_free_end, &U, &x)
+        / model.pose_density(&noise_free_end, &U, &x).expect("noise of full rank");
+    assert!((prob_ratio / determinant - 1.0).abs() < 1e-8, "{prob_ratio} {determinant}");
 
     let odometry = OdometryModel { alphas: OdomAlphas([0.02; 4]), noise: NoiseKind::Normal };
     let u = OdomDelta { rot1: 0.3, trans: 0.8, rot2: 0.2 };
     let density = odometry.pose_density(&u.apply(&x), &u, &x).expect("noise of full rank");
-    let factors: f64 =
+    let peak_factors: f64 =
         odometry.variances(&u).map(|variance| NoiseKind::Normal.prob(0.0, variance)).iter().product();
-    assert!((density / factors * u.trans - 1.0).abs() < 1e-12);
+    assert!((density / peak_factors * u.trans - 1.0).abs() < 1e-12);
 }
 
 #[test]
 fn exercise_4_prints_the_effect_of_each_alpha() {
-    let exact_and_is_point = |index: usize, command: VelocityCmd| {
+    let exact_and_is_one_pose = |index: usize, command: VelocityCmd| {
         let mut alphas = [0.0; 6];
         alphas[index] = 0.09;
         let settings = Settings { command, velocity_alphas: alphas, samples: 1000, ..preset("straight") };
         let simulation = BananaMachine::new(settings).expect("valid settings");
-        let end = simulation.poses().next();
-        (simulation.table().exact, simulation.poses().all(|pose| Some(pose) == end))
+        let first_pose = simulation.poses().next();
+        (simulation.table().exact, simulation.poses().all(|pose| Some(pose) == first_pose))
     };
     let straight_command = preset("straight").command;
     assert_eq!(straight_command.omega, 0.0);
-    assert!([3, 5].iter().all(|i| exact_and_is_point(*i, straight_command).1));
+    assert!([3, 5].iter().all(|i| exact_and_is_one_pose(*i, straight_command).1));
     let turning_command = VelocityCmd { omega: 0.5, ..straight_command };
-    let [alpha, variance, skew]: [Number; 3] = [
+    let [printed_alpha, printed_variance, printed_skew]: [PrintedNumber; 3] = [
         "Δt = 2 s as they are, with # for the one and 0",
         "headings spread with a variance of # rad²",
         "its curve has a cross-track skew of #, which",
     ]
     .map(|sentence| exercises_document().numbers::<1>(sentence)[0]);
-    assert_eq!(alpha.value, 0.09);
-    let [with_alpha4, with_alpha6] = [3, 5].map(|index| exact_and_is_point(index, turning_command).0);
-    variance.assert(with_alpha4.cov[(2, 2)], 0.0);
-    variance.assert(with_alpha6.cov[(2, 2)], 0.0);
-    skew.assert(with_alpha4.cross_track_skew, 0.0);
-    assert_eq!(with_alpha6.cov.fixed_rows::<2>(0).amax(), 0.0);
+    assert_eq!(printed_alpha.value, 0.09);
+    let [exact_with_alpha4, exact_with_alpha6] =
+        [3, 5].map(|index| exact_and_is_one_pose(index, turning_command).0);
+    printed_variance.assert(exact_with_alpha4.cov[(2, 2)], 0.0);
+    printed_variance.assert(exact_with_alpha6.cov[(2, 2)], 0.0);
+    printed_skew.assert(exact_with_alpha4.cross_track_skew, 0.0);
+    assert_eq!(exact_with_alpha6.cov.fixed_rows::<2>(0).amax(), 0.0);
 }
 
-/// Equal seeds give equal motions, so that the fractions equal those of the table to a digit.
+/// Equal seeds give equal motions. The fractions therefore equal those of the table in every digit.
 #[test]
 fn exercise_5_prints_the_fractions_through_walls() {
-    let settings = |n: f64, omega: f64, sampler: Sampler| {
+    let settings_with = |n: f64, omega: f64, sampler: Sampler| {
         let command = VelocityCmd { omega, ..squeeze::Settings::default().command };
         let alphas = alphas_of_noise_level(n);
         squeeze::Settings {
@@ -130,59 +135,62 @@ fn exercise_5_prints_the_fractions_through_walls() {
             ..Default::default()
         }
     };
-    let stats = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
+    let stats_of = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
     for n in ["0.02", "0.05", "0.12", "0.4"] {
-        let printed: [Number; 5] = exercises_document().numbers(&format!("| {n} | # | # | # | # | # |"));
+        let printed: [PrintedNumber; 5] =
+            exercises_document().numbers(&format!("| {n} | # | # | # | # | # |"));
         for (printed, omega) in printed.into_iter().zip([0.0, 0.2, 0.4, 0.6, 0.8]) {
-            let settings = settings(n.parse().expect("a number"), omega, Sampler::Endpoint);
-            printed.assert_percent(stats(settings).through_wall_rate, 0.0);
+            let settings = settings_with(n.parse().expect("a number"), omega, Sampler::Endpoint);
+            printed.assert_percent(stats_of(settings).through_wall_rate, 0.0);
         }
     }
     exercises_document().assert_says("Noise alone, up to 0.4, never gets it to 40 %.");
     for i in [8, 24, 40, 56, 80] {
-        let stats = stats(settings(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
+        let stats = stats_of(settings_with(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
         assert!(stats.through_wall_rate < 0.4, "{i}: {}", stats.through_wall_rate);
     }
-    let [arc_cost_printed, quarters_printed, share_printed, eighths_printed]: [Number; 4] = [
+    let [printed_arc_draws, printed_quarters_draws, printed_quarters_percentage, printed_eighths_draws]: [PrintedNumber; 4] = [
         "Judging the whole arc costs # draws",
         "a quarter of the time cost # draws",
         "draws, and # % still go through one",
         "eight cost # draws",
     ]
     .map(|sentence| exercises_document().numbers::<1>(sentence)[0]);
-    let stats_of = |sampler| stats(settings(0.12, 0.6, sampler));
-    let whole_arc = stats_of(Sampler::WholeArc);
-    arc_cost_printed.assert(whole_arc.draws_per_accepted, 0.0);
-    assert_eq!(whole_arc.through_wall, 0);
-    let [quarters, eighths] = [4, 8].map(|parts| stats_of(Sampler::SubStepped(parts)));
-    quarters_printed.assert(quarters.draws_per_accepted, 0.0);
-    share_printed.assert_percent(quarters.through_wall_rate, 0.0);
-    eighths_printed.assert(eighths.draws_per_accepted, 0.0);
-    let [draws_per_second]: [Number; 1] = exercises_document().numbers("at 20 Hz that is # draws a second");
-    // Printed in thousands.
-    assert!((draws_per_second.value - 2000.0 * 20.0 * whole_arc.draws_per_accepted).abs() <= 500.0);
+    let stats_of_sampler = |sampler| stats_of(settings_with(0.12, 0.6, sampler));
+    let whole_arc_stats = stats_of_sampler(Sampler::WholeArc);
+    printed_arc_draws.assert(whole_arc_stats.draws_per_accepted, 0.0);
+    assert_eq!(whole_arc_stats.through_wall, 0);
+    let [quarters_stats, eighths_stats] = [4, 8].map(|parts| stats_of_sampler(Sampler::SubStepped(parts)));
+    printed_quarters_draws.assert(quarters_stats.draws_per_accepted, 0.0);
+    printed_quarters_percentage.assert_percent(quarters_stats.through_wall_rate, 0.0);
+    printed_eighths_draws.assert(eighths_stats.draws_per_accepted, 0.0);
+    let [draws_per_second]: [PrintedNumber; 1] =
+        exercises_document().numbers("at 20 Hz that is # draws a second");
+    // The number is printed in thousands.
+    assert!((draws_per_second.value - 2000.0 * 20.0 * whole_arc_stats.draws_per_accepted).abs() <= 500.0);
 }
 
 #[test]
 fn exercise_6_prints_the_skew_of_the_triangular_sampler() {
-    let b2 = Variance(0.025);
-    let [limit, tail_printed]: [Number; 2] =
+    let heading_variance = Variance(0.025);
+    let [printed_limit, printed_tail]: [PrintedNumber; 2] =
         exercises_document().numbers("√6·b is # rad for the heading, beyond which # % of normal draws are");
-    limit.assert((6.0 * b2.0).sqrt(), 0.0);
-    let poses = |noise| {
+    printed_limit.assert((6.0 * heading_variance.0).sqrt(), 0.0);
+    let sampled_poses = |noise| {
         let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]), noise };
-        let mut rng = seeded(7);
+        let mut rng = seeded_rng(7);
         (0..200_000).map(move |_| model.sample(&U, &SE2::identity(), &mut rng))
     };
-    tail_printed.assert_percent(2.0 * unit_cdf(NoiseKind::Normal, -6f64.sqrt()), 0.0);
+    printed_tail.assert_percent(2.0 * unit_cdf(NoiseKind::Normal, -6f64.sqrt()), 0.0);
     assert!(
-        poses(NoiseKind::Triangular).all(|pose| (pose.theta() - 0.5).abs() <= limit.value + limit.rounding)
+        sampled_poses(NoiseKind::Triangular)
+            .all(|pose| (pose.theta() - 0.5).abs() <= printed_limit.value + printed_limit.rounding)
     );
-    let printed: [Number; 2] =
+    let printed_skews: [PrintedNumber; 2] =
         exercises_document().numbers("the skew is # with normal noise and # with triangular noise");
-    for (printed, noise) in printed.into_iter().zip([NoiseKind::Normal, NoiseKind::Triangular]) {
+    for (printed_skew, noise) in printed_skews.into_iter().zip([NoiseKind::Normal, NoiseKind::Triangular]) {
         let simulation =
             BananaMachine::new(Settings { noise, samples: 10, ..preset("worked") }).expect("valid settings");
-        printed.assert(simulation.table().exact.cross_track_skew, 0.0);
+        printed_skew.assert(simulation.table().exact.cross_track_skew, 0.0);
     }
 }

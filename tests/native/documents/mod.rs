@@ -1,4 +1,4 @@
-//! Numbers and statements in the page and in doc/, compared with computed ones.
+//! Numbers and statements on the page and in doc/, compared with computed numbers.
 
 mod arc_anatomy;
 mod banana;

@@ -1,8 +1,8 @@
-//! Fractions of Map Squeeze on the page and in doc/model.md, compared with computed ones.
+//! Fractions of Map Squeeze on the page and in doc/model.md, compared with computed numbers.
 
 use super::{model_document, page};
-use crate::common::text::Number;
-use crate::common::{MAX_STANDARD_ERRORS, seeded};
+use crate::common::text::PrintedNumber;
+use crate::common::{MAX_STANDARD_ERRORS, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
@@ -32,7 +32,7 @@ fn fraction_through_wall(settings: Settings) -> (f64, f64) {
     let simulation = simulation(settings);
     assert!(!simulation.gave_up(), "{settings:?}");
     let (fraction, count) = (simulation.tally().through_wall_rate(), simulation.tally().accepted as f64);
-    // The standard error of a fraction of 0 would be 0. It is taken from one sample through the wall instead.
+    // A fraction of 0 would have a standard error of 0. The error of one sample through the wall is used instead.
     (fraction, ((fraction * (1.0 - fraction)).max(1.0 / count) / count).sqrt())
 }
 
@@ -41,31 +41,31 @@ fn fraction_in_parts(preset: usize, parts: u32, omega: f64) -> (f64, f64) {
 }
 
 /// Asserts that a printed percentage equals a computed fraction.
-fn assert_printed((fraction, error): (f64, f64), printed: Number) {
+fn assert_printed((fraction, error): (f64, f64), printed: PrintedNumber) {
     printed.assert_percent(fraction, MAX_STANDARD_ERRORS * error);
 }
 
-/// Asserts that one fraction is less than the other, beyond the standard errors of both.
-fn assert_less(smaller: (f64, f64), larger: (f64, f64), what: &str) {
+/// Asserts that one fraction is less than the other by more than their standard errors.
+fn assert_less(smaller: (f64, f64), larger: (f64, f64), description: &str) {
     assert!(
         larger.0 - smaller.0 > MAX_STANDARD_ERRORS * smaller.1.hypot(larger.1),
-        "{what}: {smaller:?} is not less than {larger:?}"
+        "{description}: {smaller:?} is not less than {larger:?}"
     );
 }
 
 #[test]
 fn most_accepted_samples_lie_behind_the_wall() {
-    let [fraction] = page().numbers(
+    let [printed_fraction] = page().numbers(
         "Drive at a wall # % of what is accepted went through a wall, where the robot could never have gone. Test the \
          whole arc, and only what stopped short of the wall is left.",
     );
-    assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), fraction);
+    assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), printed_fraction);
     let fraction_behind_wall = |sampler| {
         let simulation = simulation(settings(WALL, sampler, 0.0));
-        let accepted: Vec<f64> =
+        let accepted_y: Vec<f64> =
             simulation.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
-        // The wall ahead is at y = 3.8; robots that turn aside end before it too.
-        accepted.iter().filter(|y| **y > 3.8).count() as f64 / accepted.len() as f64
+        // The wall ahead is at y = 3.8. Robots that turn aside also end before it.
+        accepted_y.iter().filter(|y| **y > 3.8).count() as f64 / accepted_y.len() as f64
     };
     assert!(fraction_behind_wall(Sampler::Endpoint) > 0.8);
     assert_eq!(fraction_behind_wall(Sampler::WholeArc), 0.0);
@@ -73,41 +73,49 @@ fn most_accepted_samples_lie_behind_the_wall() {
 
 #[test]
 fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
-    let [noise, fraction] =
+    let [printed_noise_level, printed_fraction] =
         page().numbers("straight ahead at noise level #, # % of the accepted motions went through a wall.");
-    assert_eq!(Settings::default().alphas, alphas_of_noise_level(noise.value));
-    assert_printed(fraction_through_wall(settings(DOORWAY, Sampler::Endpoint, 0.0)), fraction);
+    assert_eq!(Settings::default().alphas, alphas_of_noise_level(printed_noise_level.value));
+    assert_printed(fraction_through_wall(settings(DOORWAY, Sampler::Endpoint, 0.0)), printed_fraction);
 }
 
 #[test]
 #[ignore = "nightly: 30 clouds of 100,000"]
 fn shares_through_walls_by_substeps_are_those_in_the_documents() {
-    let printed = model_document().numbers(
+    let printed_fractions = model_document().numbers(
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
-    for (place, printed) in [DOORWAY, CORRIDOR].into_iter().zip::<[Number; 2]>(printed) {
-        assert_printed(fraction_in_parts(place, 16, 0.0), printed);
+    for (place, printed_fraction) in
+        [DOORWAY, CORRIDOR].into_iter().zip::<[PrintedNumber; 2]>(printed_fractions)
+    {
+        assert_printed(fraction_in_parts(place, 16, 0.0), printed_fraction);
         assert!(fraction_in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
-    let [omega, endpoint_printed, parts_printed, worst_parts] = page().numbers(
+    let [printed_omega, printed_endpoint, printed_parts, printed_part_count] = page().numbers(
         "With ω = # more pass at first, from # % by the endpoint test to # % in # parts, and only then fewer.",
     );
     assert_printed(
-        fraction_through_wall(settings(DOORWAY, Sampler::Endpoint, omega.value)),
-        endpoint_printed,
+        fraction_through_wall(settings(DOORWAY, Sampler::Endpoint, printed_omega.value)),
+        printed_endpoint,
     );
-    assert_printed(fraction_in_parts(DOORWAY, worst_parts.value as u32, omega.value), parts_printed);
+    assert_printed(
+        fraction_in_parts(DOORWAY, printed_part_count.value as u32, printed_omega.value),
+        printed_parts,
+    );
     let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = model_document().numbers(
         "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
          over # and # % to # % at k = 8, and falls to # % at 12.",
     );
-    for (place, endpoint, printed) in [
+    for (place, endpoint, printed_fractions) in [
         (DOORWAY, d1, [(4, d4), (6, d6), (8, d8), (16, d16)]),
         (CORRIDOR, c1, [(4, c4), (6, c6), (8, c8), (12, c12)]),
     ] {
-        assert_printed(fraction_through_wall(settings(place, Sampler::Endpoint, omega.value)), endpoint);
-        for (parts, fraction) in printed {
-            assert_printed(fraction_in_parts(place, parts, omega.value), fraction);
+        assert_printed(
+            fraction_through_wall(settings(place, Sampler::Endpoint, printed_omega.value)),
+            endpoint,
+        );
+        for (parts, fraction) in printed_fractions {
+            assert_printed(fraction_in_parts(place, parts, printed_omega.value), fraction);
         }
     }
 }
@@ -117,24 +125,24 @@ fn shares_through_walls_by_substeps_are_those_in_the_documents() {
 fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     let fractions = [2, 4, 8].map(|parts| fraction_in_parts(WALL, parts, 0.0));
     fractions.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
-    let [at_1, at_2, at_4, at_8, wedged_parts] = model_document().numbers(
+    let [printed_at_1, printed_at_2, printed_at_4, printed_at_8, printed_wedged_parts] = model_document().numbers(
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
-    assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), at_1);
+    assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), printed_at_1);
     fractions
         .into_iter()
-        .zip([at_2, at_4, at_8])
+        .zip([printed_at_2, printed_at_4, printed_at_8])
         .for_each(|(fraction, printed)| assert_printed(fraction, printed));
-    let [from_parts, to_parts, at_two, at_eight] =
+    let [printed_first_parts, printed_last_parts, printed_first_fraction, printed_last_fraction] =
         page().numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
-    assert_eq!((from_parts.value, to_parts.value), (2.0, 8.0));
-    assert_printed(fractions[0], at_two);
-    assert_printed(fractions[2], at_eight);
+    assert_eq!((printed_first_parts.value, printed_last_parts.value), (2.0, 8.0));
+    assert_printed(fractions[0], printed_first_fraction);
+    assert_printed(fractions[2], printed_last_fraction);
     page().assert_says(
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
-    assert_eq!(wedged_parts.value, 16.0);
+    assert_eq!(printed_wedged_parts.value, 16.0);
     assert!(!simulation(settings(WALL, Sampler::SubStepped(12), 0.0)).gave_up());
     for parts in [16, 24, 32, 64] {
         for samples in [600, 10_000] {
@@ -163,8 +171,8 @@ fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
                 MapConditioned { model, plan: &plan, clearance: 0.13, sampler: Sampler::Endpoint };
             let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
             let draw_tester = conditioned.draw_tester(&command, &start);
-            let mut rng = seeded(93);
-            let (mut accepted, mut differing) = (0u32, 0u32);
+            let mut rng = seeded_rng(93);
+            let (mut accepted_count, mut differing_count) = (0u32, 0u32);
             for _ in 0..40_000 {
                 let noise = std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(&mut rng)));
                 let draw = draw_tester.test_draw(noise);
@@ -175,11 +183,12 @@ fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
                 let xi = draw.pose.boxminus(&start);
                 let geodesic_start = SE2::new(x, y, theta + xi.y.atan2(xi.x));
                 let geodesic = Arc { start: geodesic_start, length: xi.xy().norm(), turn: xi.z };
-                accepted += 1;
-                differing += u32::from(plan.test_arc(&geodesic, 0.13).free != draw.path.free);
+                accepted_count += 1;
+                differing_count += u32::from(plan.test_arc(&geodesic, 0.13).free != draw.path.free);
             }
-            let fraction = f64::from(differing) / f64::from(accepted);
-            let error = MAX_STANDARD_ERRORS * (fraction * (1.0 - fraction) / f64::from(accepted)).sqrt();
+            let fraction = f64::from(differing_count) / f64::from(accepted_count);
+            let error =
+                MAX_STANDARD_ERRORS * (fraction * (1.0 - fraction) / f64::from(accepted_count)).sqrt();
             let min_percent = if place == "doorway" { doorway_min } else { min_percent };
             let (min_percent, max_percent) = (min_percent.value / 100.0, max_percent.value / 100.0);
             assert!(

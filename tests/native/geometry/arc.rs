@@ -1,7 +1,7 @@
 //! Distance between a driven arc and a wall, compared with an independent reference without the equation of a circle.
 
 use crate::common::distance::{Point, difference, distance_by_halving, extent, norm, position_along};
-use crate::common::{seeded, signed_log_uniform, uniform};
+use crate::common::{seeded_rng, signed_log_uniform, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -30,7 +30,6 @@ fn nearly_straight_arc(rng: &mut impl Rng) -> Arc {
     random_arc(rng, length, turn)
 }
 
-/// Returns a turn almost on the spot.
 fn turn_almost_on_the_spot(rng: &mut impl Rng) -> Arc {
     let (length, turn) = (signed_log_uniform(rng, 1e-15, 1e-1), uniform(rng, -2.0 * TAU, 2.0 * TAU));
     random_arc(rng, length, turn)
@@ -40,9 +39,9 @@ fn any_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
     Segment { from: random_point(rng, 8.0), to: random_point(rng, 8.0) }
 }
 
-/// Returns the position in the world of a point that is relative to the start of the arc.
-fn to_world(arc: &Arc, local: Point) -> Point {
-    [arc.start.x() + local[0], arc.start.y() + local[1]]
+/// Returns the position of a point that is given relative to the start of the arc.
+fn absolute_position(arc: &Arc, relative_point: Point) -> Point {
+    [arc.start.x() + relative_point[0], arc.start.y() + relative_point[1]]
 }
 
 /// Returns a wall along a tangent of the arc, at a tiny distance.
@@ -51,71 +50,77 @@ fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let heading = arc.start.theta() + f * arc.turn;
     let [x, y] = position_along(arc, f);
     let offset = signed_log_uniform(rng, 1e-15, 1e-1);
-    let foot = [x - offset * heading.sin(), y + offset * heading.cos()];
-    let mut end = || {
-        let reach = uniform(rng, -5.0, 5.0);
-        to_world(arc, [foot[0] + reach * heading.cos(), foot[1] + reach * heading.sin()])
+    let tangent_point = [x - offset * heading.sin(), y + offset * heading.cos()];
+    let mut next_end = || {
+        let distance_along = uniform(rng, -5.0, 5.0);
+        absolute_position(
+            arc,
+            [
+                tangent_point[0] + distance_along * heading.cos(),
+                tangent_point[1] + distance_along * heading.sin(),
+            ],
+        )
     };
-    Segment { from: end(), to: end() }
+    Segment { from: next_end(), to: next_end() }
 }
 
 /// Returns a wall that ends near the end of the arc, or extends beyond it.
-fn wall_by_the_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
+fn wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let [x, y] = position_along(arc, f64::from(rng.next_u32() % 2));
     let mut offset = || signed_log_uniform(rng, 1e-15, 1e-1);
-    let from = to_world(arc, [x + offset(), y + offset()]);
-    let to = if rng.next_u32().is_multiple_of(2) {
+    let near_end = absolute_position(arc, [x + offset(), y + offset()]);
+    let other_end = if rng.next_u32().is_multiple_of(2) {
         random_point(rng, 8.0)
     } else {
         let (heading, reach) = (uniform(rng, -PI, PI), uniform(rng, -3.0, 3.0));
-        [from[0] + reach * heading.cos(), from[1] + reach * heading.sin()]
+        [near_end[0] + reach * heading.cos(), near_end[1] + reach * heading.sin()]
     };
-    Segment { from, to }
+    Segment { from: near_end, to: other_end }
 }
 
 /// Returns a wall with an end near the centre of the arc's circle, where all points of the circle are equally near.
-fn wall_from_the_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
+fn wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let (radius, theta) = (arc.length / arc.turn, arc.start.theta());
     let mut offset = || signed_log_uniform(rng, 1e-16, 1e-1);
-    let from = to_world(arc, [offset() - radius * theta.sin(), offset() + radius * theta.cos()]);
+    let near_end = absolute_position(arc, [offset() - radius * theta.sin(), offset() + radius * theta.cos()]);
     let reach = uniform(rng, 0.0, 1.2) * radius;
     let heading = uniform(rng, -PI, PI);
-    Segment { from, to: [from[0] + reach * heading.cos(), from[1] + reach * heading.sin()] }
+    Segment { from: near_end, to: [near_end[0] + reach * heading.cos(), near_end[1] + reach * heading.sin()] }
 }
 
 /// Returns a wall of length 0.
 fn point_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
-    let from = random_point(rng, 8.0);
-    Segment { from, to: from }
+    let point = random_point(rng, 8.0);
+    Segment { from: point, to: point }
 }
 
-type MakeArc = fn(&mut rand_xoshiro::Xoshiro256PlusPlus) -> Arc;
-type MakeWall = fn(&mut rand_xoshiro::Xoshiro256PlusPlus, &Arc) -> Segment;
+type ArcGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus) -> Arc;
+type WallGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus, &Arc) -> Segment;
 
-const STRAIGHT_ARC: MakeArc = |rng| {
+const STRAIGHT_ARC: ArcGenerator = |rng| {
     let length = uniform(rng, -8.0, 8.0);
     random_arc(rng, length, 0.0)
 };
-const TURN_ON_THE_SPOT: MakeArc = |rng| {
+const TURN_ON_THE_SPOT: ArcGenerator = |rng| {
     let turn = uniform(rng, -TAU, TAU);
     random_arc(rng, 0.0, turn)
 };
-/// Function that returns an arc of up to a kilometre around a circle of any radius.
-const LONG_ARC: MakeArc = |rng| {
+/// Generator of arcs of up to a kilometre around a circle of any radius.
+const LONG_ARC: ArcGenerator = |rng| {
     let (length, turn) = (signed_log_uniform(rng, 1.0, 1e3), signed_log_uniform(rng, 1e-6, 30.0));
     random_arc(rng, length, turn)
 };
 
 /// Kinds of arcs and walls, and the number of pairs of each.
-const ARC_AND_WALL_KINDS: [(&str, MakeArc, MakeWall, u32); 14] = [
+const ARC_AND_WALL_KINDS: [(&str, ArcGenerator, WallGenerator, u32); 14] = [
     ("any arc, any wall", any_arc, any_wall, 4000),
     ("any arc, tangent", any_arc, tangent_wall, 3000),
-    ("any arc, by its end", any_arc, wall_by_the_end, 1500),
-    ("any arc, from its centre", any_arc, wall_from_the_centre, 1500),
+    ("any arc, by its end", any_arc, wall_near_end, 1500),
+    ("any arc, from its centre", any_arc, wall_from_centre, 1500),
     ("any arc, point", any_arc, point_wall, 1000),
     ("nearly straight, any wall", nearly_straight_arc, any_wall, 1500),
     ("nearly straight, tangent", nearly_straight_arc, tangent_wall, 2000),
-    ("nearly straight, by its end", nearly_straight_arc, wall_by_the_end, 1000),
+    ("nearly straight, by its end", nearly_straight_arc, wall_near_end, 1000),
     ("straight, any wall", STRAIGHT_ARC, any_wall, 1000),
     ("straight, parallel", STRAIGHT_ARC, tangent_wall, 1000),
     ("on the spot", TURN_ON_THE_SPOT, any_wall, 500),
@@ -126,52 +131,58 @@ const ARC_AND_WALL_KINDS: [(&str, MakeArc, MakeWall, u32); 14] = [
 
 // --------------------------------------------------------------------------------------------------------- tests
 
-/// Both the analytic distance and the reference round coordinates a few times. Their tolerance is eight units in the last place of
-/// the extent, which are 0.01 pm in the apartment.
+/// Both the analytic distance and the reference round coordinates a few times. The tolerance is eight units in the last place of the
+/// extent.
 #[test]
 fn the_distance_to_an_arc_matches_bisection() {
-    let (mut pairs, mut crossing_pairs, mut narrow_bounds) = (0, 0, 0);
+    let (mut pair_count, mut crossing_count, mut narrow_bounds_count) = (0, 0, 0);
     for (seed, (name, make_arc, make_wall, count)) in (0..).zip(ARC_AND_WALL_KINDS) {
-        let mut rng = seeded(9000 + seed);
+        let mut rng = seeded_rng(9000 + seed);
         for _ in 0..count {
             let arc = make_arc(&mut rng);
             let wall = make_wall(&mut rng, &arc);
-            let exact = wall.distance_to_arc(&arc);
+            let distance = wall.distance_to_arc(&arc);
             let [low, high] = distance_by_halving(&arc, &wall);
             let tolerance = 8.0 * f64::EPSILON * extent(&arc, &wall);
             assert!(
-                (low - tolerance..=high + tolerance).contains(&exact),
-                "{name}: {exact:e} instead of {low:e} to {high:e}: {arc:?} {wall:?}"
+                (low - tolerance..=high + tolerance).contains(&distance),
+                "{name}: {distance:e} instead of {low:e} to {high:e}: {arc:?} {wall:?}"
             );
-            crossing_pairs += u32::from(exact == 0.0);
-            narrow_bounds += u32::from(high - low <= tolerance);
-            pairs += 1;
+            crossing_count += u32::from(distance == 0.0);
+            narrow_bounds_count += u32::from(high - low <= tolerance);
+            pair_count += 1;
         }
     }
     assert!(
-        pairs >= 20_000 && crossing_pairs > pairs / 10 && crossing_pairs < pairs / 2,
-        "{crossing_pairs} of {pairs}"
+        pair_count >= 20_000 && crossing_count > pair_count / 10 && crossing_count < pair_count / 2,
+        "{crossing_count} of {pair_count}"
     );
-    assert!(narrow_bounds > pairs * 9 / 10, "the reference was sharp for {narrow_bounds} of {pairs}");
+    assert!(
+        narrow_bounds_count > pair_count * 9 / 10,
+        "the reference was sharp for {narrow_bounds_count} of {pair_count}"
+    );
 }
 
-/// Drawn points of an arc are 1/50 rad apart. A piece of length s and turn φ rises by s·φ/8 over its chord, which is 0.05 mm
-/// for an arc of a metre that turns by a radian. Beyond two turns the circle repeats itself, and its chords may be longer.
+/// Points of a drawn arc are 1/50 rad apart. A piece of length s and turn φ deviates by s·φ/8 from its chord. That is 0.05 mm for an
+/// arc of a metre that turns by a radian. Beyond two turns the circle repeats itself, and its chords may be longer.
 #[test]
 fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
     for (length, turn) in [(1.0, 1.0), (-2.0, 0.3), (1.0, -2.0 * TAU), (3.0, 0.004), (1.0, 0.0)] {
         let arc = Arc { start: SE2::new(1.0, -2.0, 0.7), length, turn };
         let points = arc.points();
-        let chords = points.len() - 1;
+        let chord_count = points.len() - 1;
         assert_eq!(points[0], [arc.start.x(), arc.start.y()]);
-        assert!(norm(difference(points[chords], to_world(&arc, position_along(&arc, 1.0)))) < 1e-14);
+        assert!(
+            norm(difference(points[chord_count], absolute_position(&arc, position_along(&arc, 1.0)))) < 1e-14
+        );
         for (i, ends) in points.windows(2).enumerate() {
             let chord_middle = [0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]));
-            let arc_middle = to_world(&arc, position_along(&arc, (i as f64 + 0.5) / chords as f64));
-            let rise = norm(difference(chord_middle, arc_middle));
-            let max_rise = 0.02 * 0.02 / 8.0 * (length / turn.abs().max(0.02)).abs() * 1.001;
-            assert!(rise <= max_rise, "{turn}: {rise}");
+            let arc_middle =
+                absolute_position(&arc, position_along(&arc, (i as f64 + 0.5) / chord_count as f64));
+            let chord_deviation = norm(difference(chord_middle, arc_middle));
+            let max_deviation = 0.02 * 0.02 / 8.0 * (length / turn.abs().max(0.02)).abs() * 1.001;
+            assert!(chord_deviation <= max_deviation, "{turn}: {chord_deviation}");
         }
-        assert!(chords <= 640);
+        assert!(chord_count <= 640);
     }
 }

@@ -15,30 +15,30 @@ fn reference_rows() -> impl Iterator<Item = [f64; 7]> {
         })
 }
 
-/// Returns the absolute difference of a value and a reference, which is given as a high and a low part.
-fn error_of(value: DoubleDouble, high: f64, low: f64) -> f64 {
+/// Returns the absolute difference between a value and a reference, which consists of a high and a low part.
+fn deviation(value: DoubleDouble, high: f64, low: f64) -> f64 {
     (value - DoubleDouble { high, low }).to_f64().abs()
 }
 
 #[test]
 fn sine_cosine_and_sinc_match_fifty_digit_references() {
-    let mut count = 0;
+    let mut row_count = 0;
     for [angle, sin_high, sin_low, cos_high, cos_low, sinc_high, sinc_low] in reference_rows() {
         let angle = DoubleDouble::from(angle);
         let (sin, cos) = angle.sin_cos();
-        assert!(error_of(sin, sin_high, sin_low) <= 1e-30, "sin {}", angle.high);
-        assert!(error_of(cos, cos_high, cos_low) <= 1e-30, "cos {}", angle.high);
-        assert!(error_of(angle.sinc(), sinc_high, sinc_low) <= 1e-30, "sinc {}", angle.high);
-        count += 1;
+        assert!(deviation(sin, sin_high, sin_low) <= 1e-30, "sin {}", angle.high);
+        assert!(deviation(cos, cos_high, cos_low) <= 1e-30, "cos {}", angle.high);
+        assert!(deviation(angle.sinc(), sinc_high, sinc_low) <= 1e-30, "sinc {}", angle.high);
+        row_count += 1;
     }
-    assert!(count >= 60);
+    assert!(row_count >= 60);
     assert_eq!(DoubleDouble::from(0.0).sinc().to_f64(), 1.0);
 }
 
 #[test]
 fn errors_of_the_three_arc_forms_grow_as_their_formulas_say() {
     let FormErrors { omega, arc, straight, chord, estimated_crossover, .. } = form_errors();
-    // The chord loses no digits: its error is the rounding of a product and two sums.
+    // The chord form loses no digits. Its error is the rounding of a product and two sums.
     assert!(chord.iter().all(|error| *error < 3e-17), "{chord:?}");
     for (i, omega) in omega.iter().enumerate() {
         let straight_line_error = 0.5 * omega * 0.01;
@@ -46,9 +46,9 @@ fn errors_of_the_three_arc_forms_grow_as_their_formulas_say() {
             assert!((straight[i] / straight_line_error - 1.0).abs() < 1e-3, "{omega} {}", straight[i]);
         }
         // The error is about ε/ω.
-        let ratio = arc[i] / (f64::EPSILON / omega);
+        let ratio_to_estimate = arc[i] / (f64::EPSILON / omega);
         if (1e-11..0.1).contains(omega) {
-            assert!((0.05..3.0).contains(&ratio), "{omega} {ratio}");
+            assert!((0.05..3.0).contains(&ratio_to_estimate), "{omega} {ratio_to_estimate}");
         }
     }
     // The errors of the straight line and of the arc are equal at the turn rate with ½ωΔt² = ε/ω, for Δt = 0.1 s.

@@ -1,9 +1,9 @@
 //! The laws of SE(2) and the accuracy of its maps.
 //!
-//! The laws hold to rounding. Every law below composes at most four maps, each right to a few units in the last place of the largest
-//! coordinate. `LAW_TOLERANCE` allows 32 units.
+//! The laws hold up to rounding. Every law below composes at most four maps, each accurate to a few units in the last place of the
+//! largest coordinate. `LAW_TOLERANCE` allows 32 units.
 
-use crate::common::{Table, pose_distance, seeded, uniform};
+use crate::common::{Table, pose_distance, seeded_rng, uniform};
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 const LAW_TOLERANCE: f64 = 32.0 * f64::EPSILON;
 
 /// Maximum error of exp, log and both Jacobians for |ω| ≤ π, relative to the size of the twist if that exceeds 1.
-const ACCURACY: f64 = 4e-16;
+const RELATIVE_ACCURACY: f64 = 4e-16;
 
 fn assert_same(a: &SE2, b: &SE2, tolerance: f64, law: &str) {
     assert!(pose_distance(a, b) <= tolerance, "{law}: {a:?} and {b:?} differ by more than {tolerance:e}");
@@ -32,15 +32,15 @@ fn composition_places_the_second_pose_in_the_frame_of_the_first() {
     assert_same(&pose_ahead, &SE2::new(5.0, 6.0, PI / 2.0), 16.0 * LAW_TOLERANCE, "in its frame");
 }
 
-/// With a turn given to select the branch, the logarithm inverts exp beyond half a turn. Its coordinates grow towards a full turn.
+/// The given turn selects the branch, so that the logarithm inverts exp beyond half a turn. Its coordinates grow towards a full turn.
 #[test]
 fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
-    let mut rng = seeded(6);
+    let mut rng = seeded_rng(6);
     for _ in 0..2000 {
-        let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
-        let twist = Vector3::new(draw(3.0), draw(3.0), draw(2.0 * PI - 0.3));
+        let mut draw_within = |limit: f64| uniform(&mut rng, -limit, limit);
+        let twist = Vector3::new(draw_within(3.0), draw_within(3.0), draw_within(2.0 * PI - 0.3));
         let pose = SE2::exp(&twist);
-        let turn = twist.z + draw(3.0);
+        let turn = twist.z + draw_within(3.0);
         let logarithm = pose.log_near(turn);
         // The factor 1/sinc(ω/2) amplifies the rounding of the pose, up to 20 times at 0.3 rad from a full turn.
         assert!(
@@ -59,12 +59,12 @@ fn exp_and_jacobians_match_the_references() {
     let table = Table::parse(include_str!("../../reference/group.csv"));
     for row in table.rows() {
         let twist = Vector3::from(row.all(["a", "b", "w"]));
-        let allowed_error = ACCURACY * twist.norm().max(1.0);
+        let tolerance = RELATIVE_ACCURACY * twist.norm().max(1.0);
         let assert_near = |column: &str, computed: f64| {
             let error = row.error(column, computed);
             assert!(
-                error <= allowed_error,
-                "{column} at {:?}: off by {error:e}, allowed {allowed_error:e}",
+                error <= tolerance,
+                "{column} at {:?}: off by {error:e}, allowed {tolerance:e}",
                 twist.as_slice()
             );
         };
@@ -90,13 +90,11 @@ fn log_matches_the_references() {
     for row in Table::parse(include_str!("../../reference/log.csv")).rows() {
         let pose = SE2::new(row.get("x"), row.get("y"), row.get("w"));
         let twist = pose.log();
-        let allowed_error = ACCURACY * Vector3::new(row.get("a"), row.get("b"), row.get("w")).norm().max(1.0);
+        let tolerance =
+            RELATIVE_ACCURACY * Vector3::new(row.get("a"), row.get("b"), row.get("w")).norm().max(1.0);
         for (column, computed) in [("a", twist.x), ("b", twist.y)] {
             let error = row.error(column, computed);
-            assert!(
-                error <= allowed_error,
-                "{column} of log {pose:?}: off by {error:e}, allowed {allowed_error:e}"
-            );
+            assert!(error <= tolerance, "{column} of log {pose:?}: off by {error:e}, allowed {tolerance:e}");
         }
         assert_eq!(twist.z, row.get("w"));
     }

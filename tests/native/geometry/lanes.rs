@@ -1,23 +1,23 @@
 //! Sine and cosine of four angles: accuracy over the whole range, and independence of the lanes.
 
-use crate::common::seeded;
+use crate::common::seeded_rng;
 use motion::geom::lanes::{ACCURACY, Trigonometry};
 use motion::geom::se2::wrap_angle;
 use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 use wide::f64x4;
 
-/// Returns angles of either sign, log-uniform over 32 decades, and dense around multiples of a quarter turn.
+/// Returns angles of either sign that are log-uniform over 32 decades, and angles near multiples of a quarter turn.
 fn angles() -> Vec<f64> {
-    let mut rng = seeded(9);
+    let mut rng = seeded_rng(9);
     let mut angles = vec![0.0, -0.0, FRAC_PI_2, -FRAC_PI_2, PI, -PI, f64::MIN_POSITIVE, 3e6, -3e6, 3.1e6];
     for _ in 0..20_000 {
         let magnitude = libm::pow(10.0, rng.random_range(-17.0..15.0));
         angles.push(if rng.random() { magnitude } else { -magnitude });
         angles.push(rng.random_range(-2.0 * PI..2.0 * PI));
         // Multiples of a quarter turn, and angles next to them.
-        let quarter = f64::from(rng.random_range(-2000..2000)) * FRAC_PI_2;
-        angles.push(quarter + libm::pow(10.0, rng.random_range(-16.0..0.0)));
+        let quarter_turns = f64::from(rng.random_range(-2000..2000)) * FRAC_PI_2;
+        angles.push(quarter_turns + libm::pow(10.0, rng.random_range(-16.0..0.0)));
     }
     angles
 }
@@ -48,27 +48,38 @@ fn sines_and_cosines_agree_with_libm_over_the_whole_range() {
 #[test]
 fn half_headings_lie_on_the_requested_branch() {
     let trigonometry = Trigonometry::default();
-    for near in [0.0, 0.25, -1.5, 1.7, -2.9] {
-        for half in angles().into_iter().step_by(7) {
-            let turn = trigonometry.log_terms_any_angle(f64x4::splat(half), near);
-            let expected = near + 0.5 * wrap_angle(2.0 * (half - near));
-            let half_turn = first_lane(turn.half);
-            // The reduction by half circles rounds in proportion to their number. At the end of the branch either side
-            // is correct.
-            let rounding = ACCURACY * (1.0 + half.abs());
-            let error = (half_turn - expected).abs().min(((half_turn - expected).abs() - PI).abs());
-            assert!(error <= rounding, "{half} near {near}: {half_turn} is not {expected}");
-            assert!((half_turn - near).abs() <= FRAC_PI_2 + rounding, "{half} near {near}: {half_turn}");
+    for branch_centre in [0.0, 0.25, -1.5, 1.7, -2.9] {
+        for half_heading in angles().into_iter().step_by(7) {
+            let log_terms = trigonometry.log_terms_any_angle(f64x4::splat(half_heading), branch_centre);
+            let expected_half_turn = branch_centre + 0.5 * wrap_angle(2.0 * (half_heading - branch_centre));
+            let half_turn = first_lane(log_terms.half);
+            // Reducing the angle by half circles causes rounding in proportion to their number. At the end of the branch
+            // either side is correct.
+            let rounding_tolerance = ACCURACY * (1.0 + half_heading.abs());
+            let deviation = (half_turn - expected_half_turn)
+                .abs()
+                .min(((half_turn - expected_half_turn).abs() - PI).abs());
+            assert!(
+                deviation <= rounding_tolerance,
+                "{half_heading} near {branch_centre}: {half_turn} is not {expected_half_turn}"
+            );
+            assert!(
+                (half_turn - branch_centre).abs() <= FRAC_PI_2 + rounding_tolerance,
+                "{half_heading} near {branch_centre}: {half_turn}"
+            );
             let (sin, cos) = libm::sincos(half_turn);
-            assert!((first_lane(turn.sin).abs() - sin.abs()).abs() <= rounding);
-            assert!((first_lane(turn.sin) * first_lane(turn.cos) - sin * cos).abs() <= 2.0 * rounding);
+            assert!((first_lane(log_terms.sin).abs() - sin.abs()).abs() <= rounding_tolerance);
+            assert!(
+                (first_lane(log_terms.sin) * first_lane(log_terms.cos) - sin * cos).abs()
+                    <= 2.0 * rounding_tolerance
+            );
             let cotangent = if half_turn == 0.0 { 1.0 } else { half_turn * cos / sin };
             // The cotangent divides the error of the sine by the square of the sine.
-            let tolerance = 4.0 * rounding * (1.0 + half_turn.abs())
+            let tolerance = 4.0 * rounding_tolerance * (1.0 + half_turn.abs())
                 / (sin * sin / (half_turn * half_turn).min(1.0)).max(1e-300);
             assert!(
-                (first_lane(turn.cotangent) - cotangent).abs() <= tolerance.max(4.0 * ACCURACY),
-                "{half} {near}"
+                (first_lane(log_terms.cotangent) - cotangent).abs() <= tolerance.max(4.0 * ACCURACY),
+                "{half_heading} {branch_centre}"
             );
         }
     }

@@ -1,4 +1,4 @@
-//! Doubles, poses and twists of any size, and the number of cases of a law.
+//! Strategies for doubles, poses and twists of any size, and the configuration of a law.
 
 use motion::geom::se2::SE2;
 use nalgebra::Vector3;
@@ -7,9 +7,9 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Returns the configuration for a number of cases from a fixed seed, so that results are equal on every simulation. Failing cases are
-/// not stored: each becomes a test of its own in `regressions.rs`.
-pub fn cases(count: u32) -> ProptestConfig {
+/// Returns a configuration with a fixed seed, so that results are equal on every machine. Failing cases are not stored. Each becomes a
+/// test of its own in `regressions.rs`.
+pub fn config_with_cases(count: u32) -> ProptestConfig {
     ProptestConfig {
         cases: count,
         rng_seed: RngSeed::Fixed(19),
@@ -38,7 +38,7 @@ pub fn finite_doubles() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Returns limits of ranges of either sign, and their neighbours.
+/// Returns limits of common ranges, with either sign, and their neighbouring doubles.
 fn range_limits() -> impl Strategy<Value = f64> {
     const LIMITS: [f64; 15] = [
         0.0,
@@ -76,30 +76,36 @@ pub fn doubles_up_to(max_abs: f64) -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Largest coordinate whose sums, and products with an angle, do not overflow.
-pub const LARGE: f64 = 1e300;
+/// Largest coordinate of the poses and twists. Its sums, and its products with an angle, do not overflow.
+pub const MAX_COORDINATE: f64 = 1e300;
 
 pub fn poses() -> impl Strategy<Value = SE2> {
-    (doubles_up_to(LARGE), doubles_up_to(LARGE), doubles_up_to(PI))
+    (doubles_up_to(MAX_COORDINATE), doubles_up_to(MAX_COORDINATE), doubles_up_to(PI))
         .prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
 /// Returns twists that turn by up to `max`.
-pub fn twists(max: f64) -> impl Strategy<Value = Vector3<f64>> {
-    (doubles_up_to(LARGE), doubles_up_to(LARGE), doubles_up_to(max))
+pub fn twists(max_turn: f64) -> impl Strategy<Value = Vector3<f64>> {
+    (doubles_up_to(MAX_COORDINATE), doubles_up_to(MAX_COORDINATE), doubles_up_to(max_turn))
         .prop_map(|(x, y, turn)| Vector3::new(x, y, turn))
 }
 
 /// Returns the sum of the absolute coordinates of a pose.
-pub fn extent(pose: &SE2) -> f64 {
+pub fn position_extent(pose: &SE2) -> f64 {
     pose.x().abs() + pose.y().abs()
 }
 
-/// Asserts that positions are equal to `units` units in the last place of `size`, and headings to as many units in that of a circle.
-pub fn assert_same_pose(a: &SE2, b: &SE2, units: f64, size: f64) -> Result<(), TestCaseError> {
-    let tolerance = units * f64::EPSILON * size + f64::MIN_POSITIVE;
-    let turn = libm::remainder(a.theta() - b.theta(), TAU).abs();
-    let is_near = (a.x() - b.x()).abs() <= tolerance && (a.y() - b.y()).abs() <= tolerance;
-    prop_assert!(is_near && turn <= units * f64::EPSILON * TAU, "{:?} and {:?}, allowed {}", a, b, tolerance);
+/// Asserts that positions are equal up to `units_in_last_place` of `size`, and headings up to as many units of a full circle.
+pub fn assert_same_pose(a: &SE2, b: &SE2, units_in_last_place: f64, size: f64) -> Result<(), TestCaseError> {
+    let tolerance = units_in_last_place * f64::EPSILON * size + f64::MIN_POSITIVE;
+    let heading_difference = libm::remainder(a.theta() - b.theta(), TAU).abs();
+    let is_position_equal = (a.x() - b.x()).abs() <= tolerance && (a.y() - b.y()).abs() <= tolerance;
+    prop_assert!(
+        is_position_equal && heading_difference <= units_in_last_place * f64::EPSILON * TAU,
+        "{:?} and {:?}, allowed {}",
+        a,
+        b,
+        tolerance
+    );
     Ok(())
 }

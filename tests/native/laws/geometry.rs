@@ -3,7 +3,7 @@
 //! A law may be off by a few units in the last place for each map that it composes. The tolerance is 32 units, as in `group_laws.rs`,
 //! relative to the size of the arguments, which may be 10⁻³⁰⁸ or 10³⁰⁰.
 
-use super::doubles::{assert_same_pose, cases, extent, finite_doubles, poses, twists};
+use super::doubles::{assert_same_pose, config_with_cases, finite_doubles, poses, position_extent, twists};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::geom::sinc::sinc;
 use nalgebra::{Matrix3, Vector3};
@@ -13,17 +13,17 @@ use std::f64::consts::{PI, TAU};
 const TOLERANCE_UNITS: f64 = 32.0;
 
 proptest! {
-    #![proptest_config(cases(400))]
+    #![proptest_config(config_with_cases(400))]
 
-    /// The remainder of a division is exact, and so is the subtraction of a full turn.
+    /// The remainder of a division is exact, and the subtraction of a full turn is exact too.
     #[test]
     fn wrapped_angles_are_remainders(angle in finite_doubles()) {
         let wrapped_angle = wrap_angle(angle);
         prop_assert!(-PI < wrapped_angle && wrapped_angle <= PI);
         let remainder = angle % TAU;
-        let turns = if remainder > PI { -1.0 } else if remainder <= -PI { 1.0 } else { 0.0 };
-        let expected = if turns == 0.0 { remainder } else { remainder + turns * TAU };
-        prop_assert_eq!(wrapped_angle.to_bits(), expected.to_bits(), "{} {}", wrapped_angle, expected);
+        let turn_correction = if remainder > PI { -1.0 } else if remainder <= -PI { 1.0 } else { 0.0 };
+        let expected_angle = if turn_correction == 0.0 { remainder } else { remainder + turn_correction * TAU };
+        prop_assert_eq!(wrapped_angle.to_bits(), expected_angle.to_bits(), "{} {}", wrapped_angle, expected_angle);
         prop_assert_eq!(wrap_angle(wrapped_angle).to_bits(), wrapped_angle.to_bits());
         let wrapped_opposite = wrap_angle(-angle);
         prop_assert!(wrapped_opposite == -wrapped_angle || (wrapped_opposite == PI && wrapped_angle == PI));
@@ -31,16 +31,16 @@ proptest! {
 
     #[test]
     fn composition_is_associative_and_has_inverses(a in poses(), b in poses(), c in poses()) {
-        let sizes = extent(&a) + extent(&b) + extent(&c);
-        assert_same_pose(&((a * b) * c), &(a * (b * c)), TOLERANCE_UNITS, sizes)?;
-        assert_same_pose(&(a * a.inverse()), &SE2::identity(), TOLERANCE_UNITS, extent(&a))?;
-        assert_same_pose(&(a.inverse() * a), &SE2::identity(), TOLERANCE_UNITS, extent(&a))?;
-        assert_same_pose(&(a * b).inverse(), &(b.inverse() * a.inverse()), TOLERANCE_UNITS, sizes)?;
+        let total_extent = position_extent(&a) + position_extent(&b) + position_extent(&c);
+        assert_same_pose(&((a * b) * c), &(a * (b * c)), TOLERANCE_UNITS, total_extent)?;
+        assert_same_pose(&(a * a.inverse()), &SE2::identity(), TOLERANCE_UNITS, position_extent(&a))?;
+        assert_same_pose(&(a.inverse() * a), &SE2::identity(), TOLERANCE_UNITS, position_extent(&a))?;
+        assert_same_pose(&(a * b).inverse(), &(b.inverse() * a.inverse()), TOLERANCE_UNITS, total_extent)?;
         prop_assert_eq!(SE2::identity() * a, a);
         prop_assert_eq!(a * SE2::identity(), a);
     }
 
-    /// The law holds for any turn. Beyond half a turn the heading is rounded by 10⁻¹⁶ of the turn, and the arc changes as much.
+    /// The law holds for any turn. Beyond half a turn, heading and arc have a rounding error of 10⁻¹⁶ of the turn.
     #[test]
     fn a_twist_and_its_reverse_cancel(twist in twists(f64::MAX)) {
         let pose = SE2::exp(&twist);
@@ -52,10 +52,10 @@ proptest! {
     fn exp_inverts_log(pose in poses()) {
         let twist = pose.log();
         prop_assert!(twist.z.abs() <= PI && twist.x.is_finite() && twist.y.is_finite());
-        assert_same_pose(&SE2::exp(&twist), &pose, TOLERANCE_UNITS, 2.0 * extent(&pose))?;
+        assert_same_pose(&SE2::exp(&twist), &pose, TOLERANCE_UNITS, 2.0 * position_extent(&pose))?;
     }
 
-    /// Turns are on the principal branch. The last coordinate is returned exactly, whatever the others are.
+    /// Turns are on the principal branch. The turn is returned exactly.
     #[test]
     fn log_inverts_exp(twist in twists(3.1)) {
         let logarithm = SE2::exp(&twist).log();
@@ -66,41 +66,41 @@ proptest! {
 
     #[test]
     fn boxplus_inverts_boxminus(a in poses(), b in poses()) {
-        let sizes = extent(&a) + extent(&b);
-        assert_same_pose(&a.boxplus(b.boxminus(&a)), &b, TOLERANCE_UNITS, 2.0 * sizes)?;
+        let total_extent = position_extent(&a) + position_extent(&b);
+        assert_same_pose(&a.boxplus(b.boxminus(&a)), &b, TOLERANCE_UNITS, 2.0 * total_extent)?;
         prop_assert_eq!(a.boxplus(Vector3::zeros()), a);
         prop_assert_eq!(a.boxplus(b.log()), a * SE2::exp(&b.log()));
     }
 
     #[test]
     fn adjoints_compose_as_poses_do(a in poses(), b in poses()) {
-        assert_close(&(a * b).adjoint(), &(a.adjoint() * b.adjoint()), extent(&a) + extent(&b))?;
-        assert_close(&(a.adjoint() * a.inverse().adjoint()), &Matrix3::identity(), extent(&a))?;
+        assert_close(&(a * b).adjoint(), &(a.adjoint() * b.adjoint()), position_extent(&a) + position_extent(&b))?;
+        assert_close(&(a.adjoint() * a.inverse().adjoint()), &Matrix3::identity(), position_extent(&a))?;
     }
 
     /// x · exp(τ) = exp(Ad τ) · x.
     #[test]
     fn the_adjoint_moves_a_twist_from_the_right_to_the_left(pose in poses(), twist in twists(PI)) {
-        prop_assume!(extent(&pose) < 1e290);
+        prop_assume!(position_extent(&pose) < 1e290);
         let left_twist = pose.adjoint() * twist;
-        let sizes = extent(&pose) + twist.x.abs() + twist.y.abs() + left_twist.x.abs() + left_twist.y.abs();
-        assert_same_pose(&(pose * SE2::exp(&twist)), &(SE2::exp(&left_twist) * pose), TOLERANCE_UNITS, sizes)?;
+        let total_extent = position_extent(&pose) + twist.x.abs() + twist.y.abs() + left_twist.x.abs() + left_twist.y.abs();
+        assert_same_pose(&(pose * SE2::exp(&twist)), &(SE2::exp(&left_twist) * pose), TOLERANCE_UNITS, total_extent)?;
     }
 
     /// The inverse Jacobian diverges at a full turn. This law is tested up to half a turn.
     #[test]
     fn jacobians_have_inverses(twist in twists(PI)) {
         let (jacobian, inverse) = (SE2::right_jacobian(&twist), SE2::right_jacobian_inverse(&twist));
-        let sizes = twist.x.abs() + twist.y.abs();
-        assert_close(&(jacobian * inverse), &Matrix3::identity(), sizes)?;
-        assert_close(&(inverse * jacobian), &Matrix3::identity(), sizes)?;
+        let twist_extent = twist.x.abs() + twist.y.abs();
+        assert_close(&(jacobian * inverse), &Matrix3::identity(), twist_extent)?;
+        assert_close(&(inverse * jacobian), &Matrix3::identity(), twist_extent)?;
         let half_sinc = sinc(0.5 * twist.z);
         let determinant = jacobian[(0, 0)] * jacobian[(1, 1)] - jacobian[(0, 1)] * jacobian[(1, 0)];
         prop_assert!((determinant - half_sinc * half_sinc).abs() <= TOLERANCE_UNITS * f64::EPSILON);
     }
 
-    /// J_l = Ad(exp ξ)·J_r, and J_l(ξ) = J_r(−ξ): Solà et al., eq. 75 and 76. The adjoint has the wrapped heading, which is the turn only
-    /// up to half a turn.
+    /// J_l = Ad(exp ξ)·J_r, and J_l(ξ) = J_r(−ξ): Solà et al., eq. 75 and 76. The adjoint has the wrapped heading, which equals the turn
+    /// only up to half a turn.
     #[test]
     fn the_left_jacobian_is_the_right_jacobian_of_the_reversed_twist(twist in twists(PI)) {
         let left_jacobian = SE2::exp(&twist).adjoint() * SE2::right_jacobian(&twist);
@@ -108,7 +108,7 @@ proptest! {
     }
 }
 
-/// Asserts equality up to rounding: of turns relative to 1, and of positions relative to the `size` of their terms.
+/// Asserts equality up to rounding, which is relative to 1 for turns and to `size` for positions.
 fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, size: f64) -> Result<(), TestCaseError> {
     for i in 0..3 {
         for j in 0..3 {

@@ -1,12 +1,12 @@
-//! Files of maps.
+//! Map files in PGM format.
 
-use super::doubles::cases;
+use super::doubles::config_with_cases;
 use motion::map::{Pixel, read_pgm};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
 /// Returns allowed separators between two words of a header.
-fn gaps() -> impl Strategy<Value = String> {
+fn separators() -> impl Strategy<Value = String> {
     prop_oneof![
         "[ \t\r\n]{1,3}",
         "[ ]?#[ -~]{0,12}\n",
@@ -15,34 +15,34 @@ fn gaps() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(cases(250))]
+    #![proptest_config(config_with_cases(250))]
 
-    /// The image does not depend on white space and comments in the file, nor on its kind (plain or binary).
+    /// The image depends neither on white space and comments in the file, nor on its kind (plain or binary).
     #[test]
     fn pgm_headers_may_have_any_white_space_and_comments(
-        (width, height) in (1..6usize, 1..6usize), greatest in 1..=65_535u32, seeds in vec(any::<u32>(), 36),
-        gaps in vec(gaps(), 40), cut in any::<usize>(),
+        (width, height) in (1..6usize, 1..6usize), max_value in 1..=65_535u32, seeds in vec(any::<u32>(), 36),
+        separators in vec(separators(), 40), cut_position in any::<usize>(),
     ) {
-        let values: Vec<u32> = seeds.into_iter().take(width * height).map(|seed| seed % (greatest + 1)).collect();
+        let grey_values: Vec<u32> = seeds.into_iter().take(width * height).map(|seed| seed % (max_value + 1)).collect();
         let mut plain_file = "P2".to_owned();
-        for (number, gap) in [width as u32, height as u32, greatest].iter().chain(&values).zip(&gaps) {
+        for (number, gap) in [width as u32, height as u32, max_value].iter().chain(&grey_values).zip(&separators) {
             plain_file.push_str(gap);
             plain_file.push_str(&number.to_string());
         }
-        let mut binary_file = format!("P5{}{width}{}{height}{}{greatest}\n", gaps[0], gaps[1], gaps[2]).into_bytes();
-        for value in &values {
+        let mut binary_file = format!("P5{}{width}{}{height}{}{max_value}\n", separators[0], separators[1], separators[2]).into_bytes();
+        for value in &grey_values {
             let bytes = value.to_be_bytes();
-            binary_file.extend(if greatest < 256 { &bytes[3..] } else { &bytes[2..] });
+            binary_file.extend(if max_value < 256 { &bytes[3..] } else { &bytes[2..] });
         }
         let image = read_pgm(plain_file.as_bytes()).expect("a plain file");
         prop_assert!(image.pixels.clone().eq(read_pgm(&binary_file).expect("a binary file").pixels));
         prop_assert_eq!((image.width, image.height), (width, height));
-        for (pixel, value) in image.pixels.zip(&values) {
-            prop_assert_eq!(Pixel::from(pixel).shade, *value as f32 / greatest as f32);
+        for (pixel, value) in image.pixels.zip(&grey_values) {
+            prop_assert_eq!(Pixel::from(pixel).shade, *value as f32 / max_value as f32);
         }
-        // A truncated binary file is refused; a plain one too, unless the cut is in or after its last number.
-        prop_assert!(read_pgm(&binary_file[..cut % binary_file.len()]).is_err());
-        let last_number = plain_file.trim_end_matches(|c: char| c.is_ascii_digit()).len();
-        prop_assert!(read_pgm(&plain_file.as_bytes()[..cut % (last_number + 1)]).is_err());
+        // A truncated binary file is refused. A truncated plain file is refused too, unless the cut is in or after its last number.
+        prop_assert!(read_pgm(&binary_file[..cut_position % binary_file.len()]).is_err());
+        let last_number_start = plain_file.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+        prop_assert!(read_pgm(&plain_file.as_bytes()[..cut_position % (last_number_start + 1)]).is_err());
     }
 }

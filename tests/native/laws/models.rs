@@ -1,6 +1,6 @@
 //! Noises, and probabilities of poses under the models.
 
-use super::doubles::{any_double, cases, doubles_up_to, finite_doubles};
+use super::doubles::{any_double, config_with_cases, doubles_up_to, finite_doubles};
 use motion::geom::se2::SE2;
 use motion::sim::settings::{ALPHA_RANGE, DURATION_RANGE};
 use motion::{
@@ -15,19 +15,19 @@ fn noise_kinds() -> impl Strategy<Value = NoiseKind> {
 }
 
 /// Returns numbers in the range of a setting, including its ends.
-fn in_range(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
+fn numbers_in(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
     let [low, high] = [*range.start(), *range.end()];
     doubles_up_to(high).prop_map(move |number| if low >= 0.0 { number.abs().max(low) } else { number })
 }
 
 fn alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
-    proptest::collection::vec(prop_oneof![3 => 0.0..1.0, 2 => in_range(ALPHA_RANGE), 1 => Just(0.0)], N)
+    proptest::collection::vec(prop_oneof![3 => 0.0..1.0, 2 => numbers_in(ALPHA_RANGE), 1 => Just(0.0)], N)
         .prop_map(|alphas| std::array::from_fn(|i| alphas[i]))
 }
 
 /// Returns commands in the range of the settings.
 fn commands() -> impl Strategy<Value = VelocityCmd> {
-    (doubles_up_to(1e6), doubles_up_to(1e6), in_range(DURATION_RANGE))
+    (doubles_up_to(1e6), doubles_up_to(1e6), numbers_in(DURATION_RANGE))
         .prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
 }
 
@@ -36,7 +36,7 @@ fn start_poses() -> impl Strategy<Value = SE2> {
         .prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
-fn readings() -> impl Strategy<Value = OdomDelta> {
+fn odometry_readings() -> impl Strategy<Value = OdomDelta> {
     (doubles_up_to(PI), doubles_up_to(1e12), doubles_up_to(PI)).prop_map(|(rot1, trans, rot2)| OdomDelta {
         rot1,
         trans: trans.abs(),
@@ -45,7 +45,7 @@ fn readings() -> impl Strategy<Value = OdomDelta> {
 }
 
 /// Returns possible values of a uniform draw: odd multiples of 2⁻⁵⁴. The smallest and largest absolute values are frequent.
-fn uniforms() -> impl Strategy<Value = f64> {
+fn uniform_draws() -> impl Strategy<Value = f64> {
     let scale = 1.0 / (1u64 << 53) as f64;
     prop_oneof![
         any::<i64>().prop_map(|bits| bits >> 11),
@@ -58,10 +58,10 @@ fn uniforms() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(cases(400))]
+    #![proptest_config(config_with_cases(400))]
 
     #[test]
-    fn quantiles_are_odd_and_finite_and_rise(kind in noise_kinds(), a in uniforms(), b in uniforms()) {
+    fn quantiles_are_odd_and_finite_and_rise(kind in noise_kinds(), a in uniform_draws(), b in uniform_draws()) {
         let quantile = |q: f64| kind.quantile(q);
         prop_assert_eq!(quantile(-a).to_bits(), (-quantile(a)).to_bits());
         let limit = if kind == NoiseKind::Normal { 8.5 } else { 6f64.sqrt() };
@@ -73,17 +73,17 @@ proptest! {
 
     /// Residuals are arbitrary. Variances do not overflow when multiplied by six.
     #[test]
-    fn noise_densities_are_at_most_their_peak(kind in noise_kinds(), a in finite_doubles(), b2 in doubles_up_to(1e307)) {
-        let b2 = b2.abs();
-        let (density, peak) = (kind.prob(a, Variance(b2)), kind.prob(0.0, Variance(b2)));
+    fn noise_densities_are_at_most_their_peak(kind in noise_kinds(), residual in finite_doubles(), variance in doubles_up_to(1e307)) {
+        let variance = variance.abs();
+        let (density, peak) = (kind.prob(residual, Variance(variance)), kind.prob(0.0, Variance(variance)));
         prop_assert!(density >= 0.0 && density <= peak, "{} {}", density, peak);
-        prop_assert_eq!(density.to_bits(), kind.prob(-a, Variance(b2)).to_bits());
-        prop_assert_eq!(Variance::new(b2).is_ok(), true);
+        prop_assert_eq!(density.to_bits(), kind.prob(-residual, Variance(variance)).to_bits());
+        prop_assert_eq!(Variance::new(variance).is_ok(), true);
     }
 
     #[test]
-    fn negative_and_nan_variances_are_refused(b2 in any_double()) {
-        prop_assert_eq!(Variance::new(b2).is_ok(), b2 >= 0.0);
+    fn negative_and_nan_variances_are_refused(variance in any_double()) {
+        prop_assert_eq!(Variance::new(variance).is_ok(), variance >= 0.0);
     }
 
     #[test]
@@ -98,7 +98,7 @@ proptest! {
 
     #[test]
     fn odometry_likelihoods_are_never_negative_or_nan(
-        kind in noise_kinds(), alphas in alphas(), u in readings(), x in start_poses(), next in start_poses(), is_reverse_aware in any::<bool>(),
+        kind in noise_kinds(), alphas in alphas(), u in odometry_readings(), x in start_poses(), next in start_poses(), is_reverse_aware in any::<bool>(),
     ) {
         let model = OdometryModel { alphas: OdomAlphas(alphas), noise: kind };
         if is_reverse_aware {
@@ -124,8 +124,8 @@ fn assert_likelihoods_not_negative_or_nan<M: MotionModel>(
     next: &SE2,
 ) -> Result<(), TestCaseError> {
     for next in [next, x] {
-        let score = model.prob(next, u, x);
-        prop_assert!(score >= 0.0, "prob is {}", score);
+        let table_score = model.prob(next, u, x);
+        prop_assert!(table_score >= 0.0, "prob is {}", table_score);
         let density = model.pose_density(next, u, x);
         prop_assert!(density.is_none_or(|density| density >= 0.0), "pose_density is {:?}", density);
     }

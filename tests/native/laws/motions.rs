@@ -1,6 +1,6 @@
-//! Arcs, and motions of rotation, translation and rotation: computed from two poses, and then executed.
+//! Arcs and odometry readings that are computed from two poses and lead from one to the other.
 
-use super::doubles::{assert_same_pose, cases, doubles_up_to, extent, poses};
+use super::doubles::{assert_same_pose, config_with_cases, doubles_up_to, poses, position_extent};
 use motion::geom::arc::{Arc, arc_with_turn_near, chord, invert_arc};
 use motion::geom::se2::SE2;
 use motion::models::OdomDelta;
@@ -15,34 +15,34 @@ fn durations() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(cases(400))]
+    #![proptest_config(config_with_cases(400))]
 
     /// For any two poses, the inverted controls lead from one to the other.
     #[test]
     fn an_inverted_arc_ends_at_the_given_pose(x in poses(), next in poses(), dt in durations()) {
         let inversion = invert_arc(&x, &next, dt);
         let [length, turn, last_turn] = [inversion.v_hat, inversion.omega_hat, inversion.gamma_hat].map(|rate| rate * dt);
-        let half_turn = PI * (1.0 + 2.0 * f64::EPSILON);
-        prop_assert!(turn.abs() <= half_turn && last_turn.abs() <= half_turn, "{:?}", inversion);
+        let max_turn = PI * (1.0 + 2.0 * f64::EPSILON);
+        prop_assert!(turn.abs() <= max_turn && last_turn.abs() <= max_turn, "{:?}", inversion);
         let (forward, left) = chord(length, turn);
         let end = x * SE2::new(forward, left, turn + last_turn);
-        assert_same_pose(&end, &next, TOLERANCE_UNITS, extent(&x) + extent(&next))?;
+        assert_same_pose(&end, &next, TOLERANCE_UNITS, position_extent(&x) + position_extent(&next))?;
     }
 
-    /// The start is the origin, whose coordinates add no rounding. Half a turn is driven forward or in reverse,
-    /// depending on rounding.
+    /// The start is the origin, whose coordinates add no rounding. Turns stay below half a turn, where rounding would decide
+    /// between forward and reverse.
     #[test]
     fn inverting_a_driven_arc_returns_its_controls(length in doubles_up_to(1e300), turn in doubles_up_to(3.1), last_turn in doubles_up_to(3.1), dt in durations()) {
         let (forward, left) = chord(length, turn);
         // The bearing of a shorter chord is inaccurate.
         prop_assume!(forward.hypot(left) > 1e-290 && forward.hypot(left) < 1e290);
         let inversion = invert_arc(&SE2::identity(), &SE2::new(forward, left, turn + last_turn), dt);
-        let rounding = TOLERANCE_UNITS * f64::EPSILON;
-        prop_assert!((inversion.v_hat * dt - length).abs() <= rounding * length.abs(), "{:?}", inversion);
+        let rounding_tolerance = TOLERANCE_UNITS * f64::EPSILON;
+        prop_assert!((inversion.v_hat * dt - length).abs() <= rounding_tolerance * length.abs(), "{:?}", inversion);
         // Turns below this tolerance are lost in the rounding of the chord.
         let chord_rounding = f64::MIN_POSITIVE * (1.0 + 1.0 / forward.hypot(left));
-        prop_assert!((inversion.omega_hat * dt - turn).abs() <= rounding * turn.abs() + chord_rounding, "{:?}", inversion);
-        prop_assert!((inversion.gamma_hat * dt - last_turn).abs() <= rounding * PI, "{:?}", inversion);
+        prop_assert!((inversion.omega_hat * dt - turn).abs() <= rounding_tolerance * turn.abs() + chord_rounding, "{:?}", inversion);
+        prop_assert!((inversion.gamma_hat * dt - last_turn).abs() <= rounding_tolerance * PI, "{:?}", inversion);
     }
 
     /// With any number of additional full turns the arc ends at the same place.
@@ -50,13 +50,12 @@ proptest! {
     fn arcs_with_additional_full_turns_end_at_the_same_position(x in -50.0..50.0, y in -50.0..50.0, near_turn in -300.0..300.0) {
         let next = SE2::new(x, y, 0.0);
         let (length, turn) = arc_with_turn_near(&SE2::identity(), &next, near_turn);
-        // A straight line has no circle. The circle of a nearly straight one is so long that its end cannot be
-        // represented.
+        // The circle of a nearly straight arc is so long that its end cannot be represented.
         prop_assume!(length.abs() < 1e6);
         prop_assert!(turn == 0.0 || (turn - near_turn).abs() <= PI * (1.0 + 1e-12), "{}", turn);
         let end = Arc { start: SE2::identity(), length, turn }.end();
         let distance = (end.x() - x).hypot(end.y() - y);
-        prop_assert!(distance <= TOLERANCE_UNITS * f64::EPSILON * (length.abs() + extent(&next)), "{:e}", distance);
+        prop_assert!(distance <= TOLERANCE_UNITS * f64::EPSILON * (length.abs() + position_extent(&next)), "{:e}", distance);
     }
 
     /// A displacement below a nanometre counts as 0 in an odometry reading.
@@ -64,13 +63,12 @@ proptest! {
     fn an_odometry_reading_leads_to_the_second_pose(prev in poses(), curr in poses()) {
         let reading = OdomDelta::from_poses(&prev, &curr);
         prop_assert!(reading.trans >= 0.0 && [reading.rot1, reading.rot2].iter().all(|turn| -PI < *turn && *turn <= PI));
-        let size = extent(&prev) + extent(&curr);
+        let total_extent = position_extent(&prev) + position_extent(&curr);
         let displacement_tolerance = 1e-9 / (TOLERANCE_UNITS * f64::EPSILON);
-        assert_same_pose(&reading.apply(&prev), &curr, TOLERANCE_UNITS, size + if reading.trans == 0.0 { displacement_tolerance } else { 0.0 })?;
+        assert_same_pose(&reading.apply(&prev), &curr, TOLERANCE_UNITS, total_extent + if reading.trans == 0.0 { displacement_tolerance } else { 0.0 })?;
     }
 
-    /// The reading depends on the relative pose only: it is the same if both poses are moved and turned with their
-    /// frame.
+    /// The reading depends on the relative pose only. It stays the same if both poses move with their frame.
     #[test]
     fn an_odometry_reading_does_not_depend_on_the_frame(x in -1e3..1e3, y in -1e3..1e3, theta in -3.0..3.0, frame in (-1e3..1e3, -1e3..1e3, -3.0..3.0)) {
         let (prev, curr) = (SE2::new(1.0, 2.0, 0.5), SE2::new(x, y, theta));
@@ -78,10 +76,10 @@ proptest! {
         let (reading, moved_reading) = (OdomDelta::from_poses(&prev, &curr), OdomDelta::from_poses(&(frame * prev), &(frame * curr)));
         // The bearing of a displacement that is small relative to the coordinates loses digits.
         prop_assume!(reading.trans > 1.0);
-        let rounding = TOLERANCE_UNITS * f64::EPSILON * 1e4;
-        prop_assert!((reading.trans - moved_reading.trans).abs() <= rounding);
+        let rounding_tolerance = TOLERANCE_UNITS * f64::EPSILON * 1e4;
+        prop_assert!((reading.trans - moved_reading.trans).abs() <= rounding_tolerance);
         for (a, b) in [(reading.rot1, moved_reading.rot1), (reading.rot2, moved_reading.rot2)] {
-            prop_assert!(libm::remainder(a - b, 2.0 * PI).abs() <= rounding, "{} {}", a, b);
+            prop_assert!(libm::remainder(a - b, 2.0 * PI).abs() <= rounding_tolerance, "{} {}", a, b);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Cases that property tests and fuzzing found.
+//! Regression tests of failures that property tests and fuzzing found.
 
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
@@ -14,8 +14,8 @@ fn a_cloud_whose_sixth_powers_underflow_has_no_skew() {
     for (unit, is_finite) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
         let cloud = [0.0, 1.0, 3.0, 7.0].map(|y| SE2::new(unit, unit * y, 0.0));
         let cross_track = CrossTrack::from_poses(&cloud);
-        let values = [cross_track.skew, cross_track.skew_error];
-        assert!(values.iter().all(|value| value.is_finite() == is_finite), "{unit}: {cross_track:?}");
+        let skew_and_error = [cross_track.skew, cross_track.skew_error];
+        assert!(skew_and_error.iter().all(|value| value.is_finite() == is_finite), "{unit}: {cross_track:?}");
     }
     let command = VelocityCmd { v: 1e-60, omega: 0.5, dt: 1.0 };
     let alphas = [0.05, 0.0, 0.05, 0.05, 0.0, 0.0];
@@ -37,39 +37,40 @@ fn an_arc_of_subnormal_length_is_tested_correctly() {
     }
 }
 
-fn model(alphas: [f64; 6]) -> VelocityModel {
+fn model_with_alphas(alphas: [f64; 6]) -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal }
 }
 
 /// The circumference of a circle may overflow to ∞ where the density of the speed is 0. Their product must count as 0.
 #[test]
 fn a_circle_too_long_for_a_double_is_not_driven() {
-    let model = model([0.0, 0.55, 0.0, 0.29, 0.0, 0.41]);
+    let model_with_alphas = model_with_alphas([0.0, 0.55, 0.0, 0.29, 0.0, 0.41]);
     let u = VelocityCmd { v: 0.0, omega: 882_194.88, dt: 1e-6 };
     let (x, next) = (SE2::new(0.0, -3e-269, 0.0), SE2::new(5.3e17, 0.0, 0.0));
-    assert_eq!(model.pose_density(&next, &u, &x), Some(0.0));
+    assert_eq!(model_with_alphas.pose_density(&next, &u, &x), Some(0.0));
 }
 
 /// A displacement whose square underflows must count as 0, instead of giving 0 / 0.
 #[test]
 fn a_displacement_with_a_subnormal_square_counts_as_zero() {
-    let model = model([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);
+    let model_with_alphas = model_with_alphas([0.0, 0.73, 0.06, 0.0, 0.0, 0.33]);
     let u = VelocityCmd { v: 78.0, omega: 38.0, dt: 633_457.9 };
     let (x, next) = (SE2::new(2.2e-308, 0.0, PI), SE2::identity());
-    assert_eq!(model.pose_density(&next, &u, &x), model.pose_density(&x, &u, &x));
+    assert_eq!(model_with_alphas.pose_density(&next, &u, &x), model_with_alphas.pose_density(&x, &u, &x));
 }
 
-/// Solving twice with a root of the covariance divides by a subnormal variance. The product 0 · ∞ must not become NaN.
+/// The density solves twice with a root of the covariance, which divides by a subnormal variance. The product 0 · ∞ must not become NaN.
 #[test]
 fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     let u = VelocityCmd { v: 56.0, omega: 0.0, dt: 1e-6 };
     let tangent =
-        TangentNoiseModel::from_velocity(&model([0.0, 0.0, 0.0, 0.0, 2.2e-308, 0.0]), &u).expect("variances");
+        TangentNoiseModel::from_velocity(&model_with_alphas([0.0, 0.0, 0.0, 0.0, 2.2e-308, 0.0]), &u)
+            .expect("variances");
     let log_prob = tangent.log_prob(&SE2::new(-8.9e17, 0.0, 1e-6), &u, &SE2::identity());
     assert!(log_prob < 0.0, "{log_prob}");
 }
 
-/// The search for an open place divides the shorter side of these plans into squares too, although the longer one is over 256 times as
+/// The search for a free pose divides also the shorter side of these plans into squares, although the longer side is over 256 times as
 /// long.
 #[test]
 fn a_narrow_plan_has_a_free_pose() {

@@ -1,6 +1,6 @@
 //! Moments, skew, gains and contours do not depend on the unit and frame of a cloud.
 
-use super::doubles::{any_double, cases};
+use super::doubles::{any_double, config_with_cases};
 use motion::TangentNoiseModel;
 use motion::geom::se2::SE2;
 use motion::models::TangentNoiseError;
@@ -10,8 +10,8 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// Relative error of sums of fifty terms, each exact to a few units in the last place.
-const ROUNDING: f64 = 256.0 * f64::EPSILON;
+/// Relative rounding error of sums of fifty terms, each accurate to a few units in the last place.
+const RELATIVE_ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// Returns robots around a pose, with headings that differ by less than a quarter turn. Their mean heading is therefore well defined.
 fn clouds() -> impl Strategy<Value = Vec<SE2>> {
@@ -35,45 +35,45 @@ fn covariances() -> impl Strategy<Value = Matrix3<f64>> {
 }
 
 fn is_close(a: f64, b: f64, scale: f64) -> bool {
-    a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= ROUNDING * scale
+    a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= RELATIVE_ROUNDING * scale
 }
 
 /// Maximum distance of a robot from the origin in any frame, m.
-const MAX_DISTANCE: f64 = 20.0;
+const MAX_ROBOT_DISTANCE: f64 = 20.0;
 
 proptest! {
-    #![proptest_config(cases(300))]
+    #![proptest_config(config_with_cases(300))]
 
     /// In another frame the cloud has the transformed mean and the same covariance, rotated.
     #[test]
     fn moments_transform_with_the_frame(cloud in clouds(), frame in frames()) {
         let moved_cloud: Vec<SE2> = cloud.iter().map(|pose| frame * *pose).collect();
         let [moments, moved_moments] = [&cloud, &moved_cloud].map(|cloud| CartesianMoments::from_poses(cloud));
-        let mean = frame * SE2::new(moments.mean.x, moments.mean.y, moments.mean.z);
+        let expected_mean = frame * SE2::new(moments.mean.x, moments.mean.y, moments.mean.z);
         let rotation = SE2::new(0.0, 0.0, frame.theta()).adjoint();
-        let cov = rotation * moments.cov * rotation.transpose();
-        assert_same_moments((&Vector3::new(mean.x(), mean.y(), mean.theta()), &cov), (&moved_moments.mean, &moved_moments.cov))?;
-        let [a, b] = [(&cloud, SE2::identity()), (&moved_cloud, frame)].map(|(cloud, start)| ExponentialMoments::from_poses(cloud, &start));
+        let expected_cov = rotation * moments.cov * rotation.transpose();
+        assert_same_moments((&Vector3::new(expected_mean.x(), expected_mean.y(), expected_mean.theta()), &expected_cov), (&moved_moments.mean, &moved_moments.cov))?;
+        let [moments_in_origin, moments_in_frame] = [(&cloud, SE2::identity()), (&moved_cloud, frame)].map(|(cloud, start)| ExponentialMoments::from_poses(cloud, &start));
         // Near a full turn coordinates diverge, and near half a turn the mean heading is ambiguous.
         if cloud.iter().all(|pose| pose.theta().abs() < 2.0) {
-            assert_same_moments((&a.mean, &a.cov), (&b.mean, &b.cov))?;
+            assert_same_moments((&moments_in_origin.mean, &moments_in_origin.cov), (&moments_in_frame.mean, &moments_in_frame.cov))?;
         }
     }
 
     /// A change of the unit by a power of two, from 10⁻³⁰ m to 10³⁰ m, changes no bit of dimensionless results. A
     /// mirror image changes their sign only.
     #[test]
-    fn cross_track_statistics_do_not_depend_on_the_unit(cloud in clouds(), power in -100..100i32, left in any::<bool>()) {
-        let (unit, side) = (2f64.powi(power), if left { 1.0 } else { -1.0 });
+    fn cross_track_statistics_do_not_depend_on_the_unit(cloud in clouds(), power in -100..100i32, is_mirrored in any::<bool>()) {
+        let (unit, sign) = (2f64.powi(power), if is_mirrored { -1.0 } else { 1.0 });
         let scaled_cloud: Vec<SE2> =
-            cloud.iter().map(|pose| SE2::new(unit * pose.x(), side * unit * pose.y(), side * pose.theta())).collect();
+            cloud.iter().map(|pose| SE2::new(unit * pose.x(), sign * unit * pose.y(), sign * pose.theta())).collect();
         let (a, b) = (CrossTrack::from_poses(&cloud), CrossTrack::from_poses(&scaled_cloud));
-        for (a, b) in [(a.skew, side * b.skew), (a.skew_error, b.skew_error), (a.rho_heading, b.rho_heading)] {
+        for (a, b) in [(a.skew, sign * b.skew), (a.skew_error, b.skew_error), (a.rho_heading, b.rho_heading)] {
             prop_assert!(is_close(a, b, 0.0), "{} {}", a, b);
         }
     }
 
-    /// Points of the outline are moved towards the centre and away from it by a billionth.
+    /// Points of the outline are tested after moving them by a billionth towards the centre and away from it.
     #[test]
     fn ellipses_contain_points_inside_their_outline_only(a in 0.01..10.0f64, b in 0.01..10.0f64, rho in -0.99..0.99f64, power in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {
         let unit = 2f64.powi(power);
@@ -99,8 +99,8 @@ proptest! {
             Ok(model) => prop_assert_eq!(model.r, changed_cov),
             Err(error) => prop_assert_eq!(error == TangentNoiseError::NotFinite, !number.is_finite()),
         }
-        let with_negative_eigenvalue = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + reduction);
-        prop_assert_eq!(TangentNoiseModel::new(with_negative_eigenvalue), Err(TangentNoiseError::NotPositiveSemidefinite));
+        let indefinite_matrix = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + reduction);
+        prop_assert_eq!(TangentNoiseModel::new(indefinite_matrix), Err(TangentNoiseError::NotPositiveSemidefinite));
         if entry.0 != entry.1 {
             let mut asymmetric_cov = cov;
             asymmetric_cov[entry] += reduction * (1.0 + cov.amax());
@@ -109,15 +109,22 @@ proptest! {
     }
 }
 
-/// Asserts that moments are equal up to the rounding errors of a cloud that reaches 20 m from the origin.
+/// Asserts that moments are equal up to the rounding errors of a cloud within 20 m of the origin.
 fn assert_same_moments(
     (mean, cov): (&Vector3<f64>, &Matrix3<f64>),
     (other, other_cov): (&Vector3<f64>, &Matrix3<f64>),
 ) -> Result<(), TestCaseError> {
-    let (size, turn) = (MAX_DISTANCE, libm::remainder(mean.z - other.z, 2.0 * PI));
-    prop_assert!(is_close(mean.x, other.x, size) && is_close(mean.y, other.y, size), "{} {}", mean, other);
-    prop_assert!(is_close(turn, 0.0, size), "{} {}", mean, other);
-    let are_close = cov.iter().zip(other_cov.iter()).all(|(a, b)| is_close(*a, *b, size * size));
+    let (max_distance, heading_difference) =
+        (MAX_ROBOT_DISTANCE, libm::remainder(mean.z - other.z, 2.0 * PI));
+    prop_assert!(
+        is_close(mean.x, other.x, max_distance) && is_close(mean.y, other.y, max_distance),
+        "{} {}",
+        mean,
+        other
+    );
+    prop_assert!(is_close(heading_difference, 0.0, max_distance), "{} {}", mean, other);
+    let are_close =
+        cov.iter().zip(other_cov.iter()).all(|(a, b)| is_close(*a, *b, max_distance * max_distance));
     prop_assert!(are_close, "{} {}", cov, other_cov);
     Ok(())
 }

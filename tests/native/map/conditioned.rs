@@ -1,6 +1,6 @@
-//! Motion conditioned on a map: the published fractions, and the three samplers.
+//! Motion conditioned on a map: the fractions that the chapter publishes, and the three samplers.
 
-use crate::common::{MAX_STANDARD_ERRORS, seeded};
+use crate::common::{MAX_STANDARD_ERRORS, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -21,8 +21,9 @@ fn conditioned_model(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
     MapConditioned { model: model(), plan, clearance: 0.13, sampler }
 }
 
-fn preset(name: &str) -> SE2 {
-    let (_, [x, y, theta]) = PRESETS.into_iter().find(|preset| preset.0 == name).expect("a preset");
+fn start_of_preset(name: &str) -> SE2 {
+    let (_, [x, y, theta]) =
+        PRESETS.into_iter().find(|start_of_preset| start_of_preset.0 == name).expect("a preset");
     SE2::new(x, y, theta)
 }
 
@@ -32,70 +33,74 @@ fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
 
 // -------------------------------------------------------------------------------------- the chapter's numbers
 
-/// Asserts that a fraction equals a published one. Both come from 60 000 draws, and the published one is rounded.
-fn assert_fraction(name: &str, accepted: usize, total: usize, published: f64) {
-    let fraction = accepted as f64 / total as f64;
-    let error = (2.0 * published * (1.0 - published) / total as f64).sqrt();
+/// Asserts that a fraction equals a published fraction. Both come from 60 000 draws, and the published fraction is rounded.
+fn assert_fraction(name: &str, accepted_count: usize, total_count: usize, published_fraction: f64) {
+    let fraction = accepted_count as f64 / total_count as f64;
+    let standard_error = (2.0 * published_fraction * (1.0 - published_fraction) / total_count as f64).sqrt();
     assert!(
-        (fraction - published).abs() < MAX_STANDARD_ERRORS * error + 0.0005,
-        "{name}: {fraction} instead of {published}"
+        (fraction - published_fraction).abs() < MAX_STANDARD_ERRORS * standard_error + 0.0005,
+        "{name}: {fraction} instead of {published_fraction}"
     );
 }
 
 #[test]
 fn fractions_equal_the_published_ones() {
-    const DRAWS: usize = 60_000;
+    const DRAW_COUNT: usize = 60_000;
     let plan = FloorPlan::apartment();
     let endpoint_model = conditioned_model(&plan, Sampler::Endpoint);
-    for (name, omega, acceptance, through_wall) in [
+    for (name, omega, published_acceptance, published_through_wall) in [
         ("doorway", 0.0, 0.849, 0.348),
         ("wall", 0.0, 0.832, 0.867),
         ("corridor", 0.0, 0.840, 0.242),
         ("doorway", 0.6, 0.781, 0.398),
     ] {
-        let (start, command) = (preset(name), VelocityCmd { omega, ..STRAIGHT_COMMAND });
-        let mut rng = seeded(5);
-        let draws: Vec<_> = (0..DRAWS)
+        let (start, command) = (start_of_preset(name), VelocityCmd { omega, ..STRAIGHT_COMMAND });
+        let mut rng = seeded_rng(5);
+        let draws: Vec<_> = (0..DRAW_COUNT)
             .map(|_| endpoint_model.draw_tester(&command, &start).test_draw(unit_noise(&mut rng)))
             .collect();
         let accepted_count = draws.iter().filter(|draw| draw.end.free).count();
         let through_wall_count = draws.iter().filter(|draw| draw.end.free && !draw.path.free).count();
-        assert_fraction(name, accepted_count, DRAWS, acceptance);
-        assert_fraction(name, through_wall_count, accepted_count, through_wall);
+        assert_fraction(name, accepted_count, DRAW_COUNT, published_acceptance);
+        assert_fraction(name, through_wall_count, accepted_count, published_through_wall);
         assert!(draws.iter().all(|draw| draw.end.free || !draw.path.free), "the end is part of the path");
     }
 }
 
 // --------------------------------------------------------------------------------------------------- the samplers
 
-/// The expected poses are drawn as in table 5.7: from the model, until the end or the whole path is free. Equal random numbers give
-/// equal poses, after the same number of draws.
+/// The expected poses are drawn as in table 5.7, until the end or the whole path is free. Equal random numbers give equal poses, after
+/// the same number of draws.
 #[test]
 fn samples_are_those_of_table_5_7() {
     let plan = FloorPlan::apartment();
     let command = VelocityCmd { omega: 0.2, ..STRAIGHT_COMMAND };
-    for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
+    for conditioned in [Sampler::Endpoint, Sampler::WholeArc] {
         for (name, _) in PRESETS {
-            let (start, sampler) = (preset(name), conditioned_model(&plan, sampler));
-            let (mut rng, mut expected_rng) = (seeded(9), seeded(9));
+            let (start, conditioned) = (start_of_preset(name), conditioned_model(&plan, conditioned));
+            let (mut rng, mut expected_rng) = (seeded_rng(9), seeded_rng(9));
             for _ in 0..1000 {
-                let accepted = sampler.sample(&command, &start, &mut rng).expect("it fits");
-                let mut draws = 0;
+                let sample = conditioned.sample(&command, &start, &mut rng).expect("it fits");
+                let mut draw_count = 0;
                 let pose = loop {
                     let mut noise_rng = expected_rng.clone();
                     let pose = model().sample(&command, &start, &mut expected_rng);
-                    let inversion = model().executed_motion(&command, unit_noise(&mut noise_rng));
-                    let arc = Arc { start, length: 2.0 * inversion.v_hat, turn: 2.0 * inversion.omega_hat };
-                    draws += 1;
-                    let end = plan.test_point([pose.x(), pose.y()], 0.13).free;
-                    let is_free =
-                        end && (sampler.sampler == Sampler::Endpoint || plan.test_arc(&arc, 0.13).free);
+                    let executed_motion = model().executed_motion(&command, unit_noise(&mut noise_rng));
+                    let arc = Arc {
+                        start,
+                        length: 2.0 * executed_motion.v_hat,
+                        turn: 2.0 * executed_motion.omega_hat,
+                    };
+                    draw_count += 1;
+                    let is_end_free = plan.test_point([pose.x(), pose.y()], 0.13).free;
+                    let is_free = is_end_free
+                        && (conditioned.sampler == Sampler::Endpoint || plan.test_arc(&arc, 0.13).free);
                     if is_free {
                         break pose;
                     }
                 };
-                assert!(crate::common::pose_distance(&pose, &accepted.pose) < 1e-14);
-                assert_eq!(accepted.cost.draws, draws);
+                assert!(crate::common::pose_distance(&pose, &sample.pose) < 1e-14);
+                assert_eq!(sample.cost.draws, draw_count);
             }
         }
     }
@@ -114,19 +119,20 @@ fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
     let start = SE2::new(2.1, 2.1, 0.0);
     for sampler in SAMPLERS {
         let error = conditioned_model(&plan, sampler)
-            .sample(&STRAIGHT_COMMAND, &start, &mut seeded(12))
+            .sample(&STRAIGHT_COMMAND, &start, &mut seeded_rng(12))
             .expect_err("no room");
         assert_eq!(error.0.draws, MAX_DRAWS);
         assert_eq!(error.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
     }
-    // The first part of the motion, 1 m ± 1 mm, is free and leads to a wall, which blocks the second part. All draws count.
+    // The first part of the motion, 1 m ± 1 mm, is free. A wall blocks the second part. The draws of both parts count.
     let dead_end = FloorPlan::new(vec![Segment { from: [1.5, 0.0], to: [1.5, 2.0] }], [0.0, 0.0, 2.0, 2.0])
         .expect("a valid plan");
     let precise_model =
         VelocityModel { alphas: VelocityAlphas([1e-6, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
     let sampler =
         MapConditioned { model: precise_model, ..conditioned_model(&dead_end, Sampler::SubStepped(2)) };
-    let error =
-        sampler.sample(&STRAIGHT_COMMAND, &SE2::new(0.3, 1.0, 0.0), &mut seeded(13)).expect_err("a dead end");
+    let error = sampler
+        .sample(&STRAIGHT_COMMAND, &SE2::new(0.3, 1.0, 0.0), &mut seeded_rng(13))
+        .expect_err("a dead end");
     assert_eq!(error.0.draws, MAX_DRAWS + 1);
 }

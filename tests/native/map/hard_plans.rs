@@ -1,6 +1,6 @@
-//! Plans with many walls in one place: a collision check measures the distance to few of them.
+//! Plans with many walls in one place. A collision check must measure the distance to few of them.
 
-use crate::common::{seeded, uniform};
+use crate::common::{seeded_rng, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -10,66 +10,76 @@ use std::f64::consts::{PI, TAU};
 
 const ROOM: [f64; 4] = [0.0, 0.0, 10.0, 10.0];
 
-fn wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
+fn clamped_wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
     let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(|x| x.clamp(0.0, 10.0));
     Segment { from: [x0, y0], to: [x1, y1] }
 }
 
 /// Returns names and walls of plans with many walls in one place, on one line, through one point, around one point, or nearly equal.
 fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
-    let mut rng = seeded(9800);
-    let make_walls =
+    let mut rng = seeded_rng(9800);
+    let walls_from =
         |make: &mut dyn FnMut(f64) -> Segment| (0..count).map(|i| make(i as f64 / count as f64)).collect();
-    let diagonal = |width: f64| move |s: f64| wall(width * s, 0.0, 10.0, 10.0 - width * s);
+    let diagonal = |width: f64| move |s: f64| clamped_wall(width * s, 0.0, 10.0, 10.0 - width * s);
     let ray = |s: f64, reach: f64| {
         let (sin, cos) = (TAU * s).sin_cos();
-        wall(5.0, 5.0, 5.0 + reach * cos, 5.0 + reach * sin)
+        clamped_wall(5.0, 5.0, 5.0 + reach * cos, 5.0 + reach * sin)
     };
-    let mut random = move || uniform(&mut rng, 0.0, 10.0);
+    let mut random_coordinate = move || uniform(&mut rng, 0.0, 10.0);
     vec![
-        ("equal diagonals", make_walls(&mut diagonal(0.0))),
-        ("nearly equal diagonals", make_walls(&mut diagonal(1e-9))),
-        ("diagonals close together", make_walls(&mut diagonal(0.1))),
+        ("equal diagonals", walls_from(&mut diagonal(0.0))),
+        ("nearly equal diagonals", walls_from(&mut diagonal(1e-9))),
+        ("diagonals close together", walls_from(&mut diagonal(0.1))),
         ("equal but for their direction", {
             let mut is_forward = false;
-            make_walls(&mut |_| {
+            walls_from(&mut |_| {
                 is_forward = !is_forward;
-                if is_forward { wall(1.0, 2.0, 9.0, 7.0) } else { wall(9.0, 7.0, 1.0, 2.0) }
+                if is_forward { clamped_wall(1.0, 2.0, 9.0, 7.0) } else { clamped_wall(9.0, 7.0, 1.0, 2.0) }
             })
         }),
         (
             "covered by a longer one",
-            make_walls(&mut |s| wall(5.0 - 4.0 * s, 5.0 - 3.0 * s, 5.0 + 4.0 * s, 5.0 + 3.0 * s)),
+            walls_from(&mut |s| clamped_wall(5.0 - 4.0 * s, 5.0 - 3.0 * s, 5.0 + 4.0 * s, 5.0 + 3.0 * s)),
         ),
-        ("overlapping", make_walls(&mut |s| wall(6.0 * s, 3.0, 6.0 * s + 4.0, 3.0))),
-        ("dots on a line", make_walls(&mut |s| wall(10.0 * s, 5.0, 10.0 * s, 5.0))),
-        ("a star", make_walls(&mut |s| ray(s, 5.0))),
-        ("all in one cell", make_walls(&mut |s| ray(s, 1e-3))),
+        ("overlapping", walls_from(&mut |s| clamped_wall(6.0 * s, 3.0, 6.0 * s + 4.0, 3.0))),
+        ("dots on a line", walls_from(&mut |s| clamped_wall(10.0 * s, 5.0, 10.0 * s, 5.0))),
+        ("a star", walls_from(&mut |s| ray(s, 5.0))),
+        ("all in one cell", walls_from(&mut |s| ray(s, 1e-3))),
         (
             "tangents to a circle",
-            make_walls(&mut |s| {
+            walls_from(&mut |s| {
                 let (sin, cos) = (TAU * s).sin_cos();
                 let point_at = |t: f64| [5.0 + 0.5 * cos - t * sin, 5.0 + 0.5 * sin + t * cos];
                 let ([x0, y0], [x1, y1]) = (point_at(-3.0), point_at(3.0));
-                wall(x0, y0, x1, y1)
+                clamped_wall(x0, y0, x1, y1)
             }),
         ),
-        ("long ones anywhere", make_walls(&mut |_| wall(random(), random(), random(), random()))),
+        (
+            "long ones anywhere",
+            walls_from(&mut |_| {
+                clamped_wall(
+                    random_coordinate(),
+                    random_coordinate(),
+                    random_coordinate(),
+                    random_coordinate(),
+                )
+            }),
+        ),
         ("a mesh", {
             let mut is_horizontal = false;
-            make_walls(&mut |s| {
+            walls_from(&mut |s| {
                 is_horizontal = !is_horizontal;
                 if is_horizontal {
-                    wall(0.0, 10.0 * s, 10.0, 10.0 * s)
+                    clamped_wall(0.0, 10.0 * s, 10.0, 10.0 * s)
                 } else {
-                    wall(10.0 * s, 0.0, 10.0 * s, 10.0)
+                    clamped_wall(10.0 * s, 0.0, 10.0 * s, 10.0)
                 }
             })
         }),
     ]
 }
 
-fn some_arc(rng: &mut impl Rng) -> Arc {
+fn random_arc(rng: &mut impl Rng) -> Arc {
     let is_central = rng.next_u32().is_multiple_of(2);
     let [x, y] =
         std::array::from_fn(|_| if is_central { uniform(rng, 4.9, 5.1) } else { uniform(rng, 2.0, 8.0) });
@@ -77,7 +87,7 @@ fn some_arc(rng: &mut impl Rng) -> Arc {
     Arc { start: SE2::new(x, y, uniform(rng, -PI, PI)), length, turn: uniform(rng, -1.0, 1.0) }
 }
 
-/// Limit of the mean number of walls whose distance is measured for an arc: 1/200 of all walls.
+/// Maximum mean number of walls whose distance is measured for an arc.
 const MAX_MEAN_WALL_TESTS: usize = FloorPlan::MAX_WALLS / 200;
 
 #[test]
@@ -85,8 +95,8 @@ fn a_collision_check_in_a_hard_plan_measures_few_walls() {
     for (name, walls) in hard_plans(FloorPlan::MAX_WALLS) {
         let plan = FloorPlan::new(walls, ROOM).expect("allowed");
         assert_eq!(plan.walls().len(), FloorPlan::MAX_WALLS);
-        let mut rng = seeded(9802);
-        let wall_tests: usize = (0..300).map(|_| plan.test_arc(&some_arc(&mut rng), 0.13).wall_tests).sum();
+        let mut rng = seeded_rng(9802);
+        let wall_tests: usize = (0..300).map(|_| plan.test_arc(&random_arc(&mut rng), 0.13).wall_tests).sum();
         assert!(wall_tests < 300 * MAX_MEAN_WALL_TESTS, "{name}: {wall_tests}");
     }
 }

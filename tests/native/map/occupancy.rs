@@ -1,6 +1,6 @@
 //! Occupancy grids: exact distances to cells, outlines, unknown cells, and free poses.
 
-use crate::common::{seeded, uniform};
+use crate::common::{seeded_rng, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -13,7 +13,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 const BLACK: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
 const WHITE: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
 
-/// Cells from which a grid is made.
+/// Description of a grid by its cells.
 struct Cells {
     width: usize,
     height: usize,
@@ -41,13 +41,13 @@ impl Cells {
         OccupancyGrid::new(&image, &Interpretation::default(), self.resolution, SE2::new(x, y, yaw))
     }
 
-    /// Returns the position in the map of a point in the grid's own axes, in cells.
+    /// Returns the map position (m) of a point whose coordinates are given in cells, along the axes of the grid.
     fn to_map(&self, column: f64, row: f64) -> [f64; 2] {
         let ([x, y, yaw], (u, v)) = (self.origin, (column * self.resolution, row * self.resolution));
         [x + u * yaw.cos() - v * yaw.sin(), y + u * yaw.sin() + v * yaw.cos()]
     }
 
-    /// Returns the distance (m) from a point to the nearest occupied square cell; 0 inside of a cell.
+    /// Returns the distance (m) from a point to the nearest occupied cell, which is 0 inside of a cell.
     fn distance(&self, [x, y]: [f64; 2]) -> f64 {
         let ([x0, y0, yaw], size) = (self.origin, self.resolution);
         let u = (x - x0) * yaw.cos() + (y - y0) * yaw.sin();
@@ -68,11 +68,11 @@ impl Cells {
 
 // ----------------------------------------------------------------------------------------------------- distances
 
-/// For points outside the occupied cells, the distances to the walls of a grid equal those to the cells.
+/// For points outside the occupied cells, the distance to the walls of a grid equals the distance to the cells.
 #[test]
 fn distances_to_walls_equal_distances_to_cells() {
-    let mut rng = seeded(9900);
-    let (mut points_inside, mut points_outside) = (0, 0);
+    let mut rng = seeded_rng(9900);
+    let (mut inside_count, mut outside_count) = (0, 0);
     for _ in 0..100 {
         let cells = Cells::random(&mut rng);
         let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
@@ -82,27 +82,30 @@ fn distances_to_walls_equal_distances_to_cells() {
             let row = uniform(&mut rng, 0.0, cells.height as f64);
             let point = cells.to_map(column, row);
             assert!((left..=right).contains(&point[0]) && (bottom..=top).contains(&point[1]));
-            let distance = cells.distance(point);
-            if distance == 0.0 {
+            let cell_distance = cells.distance(point);
+            if cell_distance == 0.0 {
                 assert!(
                     cells.grid().is_blocked_at(point) && !plan.test_point(point, 0.0).free,
                     "inside a cell"
                 );
-                points_inside += 1;
+                inside_count += 1;
                 continue;
             }
-            let nearest =
+            let wall_distance =
                 plan.walls().iter().map(|wall| wall.distance_to_point(point)).fold(f64::INFINITY, f64::min);
             // Fifty metres from the origin the corners are rounded by 1e-14 m.
-            assert!(nearest == distance || (nearest - distance).abs() < 1e-13, "{nearest}, {distance}");
+            assert!(
+                wall_distance == cell_distance || (wall_distance - cell_distance).abs() < 1e-13,
+                "{wall_distance}, {cell_distance}"
+            );
             let clearance = uniform(&mut rng, 0.0, 1.0);
-            if (clearance - distance).abs() > 1e-12 {
-                assert_eq!(plan.test_point(point, clearance).free, distance > clearance);
+            if (clearance - cell_distance).abs() > 1e-12 {
+                assert_eq!(plan.test_point(point, clearance).free, cell_distance > clearance);
             }
-            points_outside += 1;
+            outside_count += 1;
         }
     }
-    assert!(points_inside > 1000 && points_outside > 1000, "{points_inside} {points_outside}");
+    assert!(inside_count > 1000 && outside_count > 1000, "{inside_count} {outside_count}");
 }
 
 /// Neighbouring sides of cells form one wall. Between two occupied cells there is no wall, and walls meet at corners.
@@ -115,7 +118,7 @@ fn sides_of_neighbouring_cells_form_one_wall() {
     let mut walls: Vec<[f64; 4]> =
         plan.walls().iter().map(|Segment { from, to }| [from[0], from[1], to[0], to[1]]).collect();
     walls.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
-    let expected = [
+    let expected_walls = [
         [1.0, 2.5, 1.0, 3.5],
         [1.0, 2.5, 1.5, 2.5],
         [1.0, 3.5, 2.0, 3.5],
@@ -127,12 +130,12 @@ fn sides_of_neighbouring_cells_form_one_wall() {
         [2.0, 3.0, 2.0, 3.5],
         [2.5, 2.0, 2.5, 2.5],
     ];
-    assert_eq!(walls, expected);
+    assert_eq!(walls, expected_walls);
     assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
     let rotated_cells = Cells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
     let bounds = FloorPlan::from_grid(rotated_cells.grid()).expect("a small grid").bounds();
-    for (bound, expected) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
-        assert!((bound - expected).abs() < 1e-15, "{bounds:?}");
+    for (bound, expected_walls) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
+        assert!((bound - expected_walls).abs() < 1e-15, "{bounds:?}");
     }
 }
 
@@ -144,7 +147,7 @@ fn a_grid_of_too_many_walls_is_refused() {
         .collect();
     let single_cells =
         Cells { width: cells_per_side, height: cells_per_side, occupied, resolution: 0.05, origin: [0.0; 3] };
-    // 160 · 160 cells that stand alone, with four sides each.
+    // The grid has 160 · 160 single cells with four sides each.
     let error = FloorPlan::from_grid(single_cells.grid()).err();
     assert_eq!(error, Some(FloorPlanError::TooManySides(20_001)));
     let message = error.map(|error| error.to_string()).unwrap_or_default();
@@ -157,12 +160,12 @@ fn a_grid_of_too_many_walls_is_refused() {
 /// The error message names the origin, which is a field of the map.
 #[test]
 fn a_grid_outside_the_range_of_coordinates_is_refused() {
-    let grid = |resolution, origin| {
+    let grid_at = |resolution, origin| {
         Cells { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.grid()
     };
-    assert!(FloorPlan::from_grid(grid(0.5, [-1e6, 1e6 - 1.0, 0.0])).is_ok());
+    assert!(FloorPlan::from_grid(grid_at(0.5, [-1e6, 1e6 - 1.0, 0.0])).is_ok());
     for (resolution, origin) in [(0.5, [1e6 - 1.0, 0.0, 0.0]), (4e4, [0.0; 3]), (0.004, [0.0; 3])] {
-        let error = FloorPlan::from_grid(grid(resolution, origin)).err();
+        let error = FloorPlan::from_grid(grid_at(resolution, origin)).err();
         assert!(matches!(error, Some(FloorPlanError::BadGrid(_))), "{error:?}");
         let message = error.map(|error| error.to_string()).unwrap_or_default();
         assert!(message.starts_with("origin has the cells from ["), "{message}");
@@ -171,8 +174,8 @@ fn a_grid_outside_the_range_of_coordinates_is_refused() {
 
 // ----------------------------------------------------------------------------------------------------- free poses
 
-/// Returns a grid drawn with `#` (occupied), `?` (unknown) and `.` (free), the first row at the top, with cells of 10
-/// cm.
+/// Returns a grid with cells of 10 cm that are drawn as `#` (occupied), `?` (unknown) and `.` (free). The first row is at the
+/// top.
 fn grid_of(rows: &[&str], unknown: UnknownCells) -> OccupancyGrid {
     let shade = |cell| match cell {
         '#' => 0.0,
@@ -185,8 +188,8 @@ fn grid_of(rows: &[&str], unknown: UnknownCells) -> OccupancyGrid {
     OccupancyGrid::new(&image, &Interpretation::default(), 0.1, SE2::identity()).with_unknown(unknown)
 }
 
-/// The pose is in the middle of the largest square that is known to be free, heading along the longest path known to be
-/// free.
+/// The pose is in the middle of the largest square of free cells. Its heading is that of the longest free straight path. Unknown
+/// cells do not count as free.
 #[test]
 fn the_free_pose_is_in_the_largest_free_square() {
     let rows = [
@@ -199,23 +202,23 @@ fn the_free_pose_is_in_the_largest_free_square() {
         "#........#??????",
         "##########??????",
     ];
-    for unknown in [UnknownCells::Free, UnknownCells::Blocked] {
-        let plan = FloorPlan::from_grid(grid_of(&rows, unknown)).expect("a small grid");
+    for unknown_cells in [UnknownCells::Free, UnknownCells::Blocked] {
+        let plan = FloorPlan::from_grid(grid_of(&rows, unknown_cells)).expect("a small grid");
         let free_pose = plan.find_free_pose(0.1).expect("there is room");
         // The pose is in the middle of the first square of four free cells, and heads through the door.
         assert!((free_pose.x() - 0.3).abs() + (free_pose.y() - 0.3).abs() < 1e-12, "{free_pose:?}");
         assert!(plan.test_point([free_pose.x(), free_pose.y()], 0.1).free);
-        let drive = Arc { start: free_pose, length: 0.5, turn: 0.0 };
-        assert!(plan.test_arc(&drive, 0.0).free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
+        let straight_arc = Arc { start: free_pose, length: 0.5, turn: 0.0 };
+        assert!(plan.test_arc(&straight_arc, 0.0).free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
     }
-    // A robot that just fits cannot move: the heading is then 0.
-    let room =
+    // A robot that just fits cannot move. The heading is then 0.
+    let one_cell_plan =
         FloorPlan::from_grid(grid_of(&["###", "#.#", "###"], UnknownCells::Free)).expect("a small grid");
-    assert_eq!(room.find_free_pose(0.0499).expect("there is room").theta(), 0.0);
-    // All cells are unknown: free or blocked, as the setting says.
-    let unknown = grid_of(&["???", "???", "???"], UnknownCells::Free);
+    assert_eq!(one_cell_plan.find_free_pose(0.0499).expect("there is room").theta(), 0.0);
+    // All cells are unknown, and count as free or blocked as the setting says.
+    let unknown_grid = grid_of(&["???", "???", "???"], UnknownCells::Free);
     let free_pose =
-        FloorPlan::from_grid(unknown).expect("no walls").find_free_pose(0.1).expect("there is room");
+        FloorPlan::from_grid(unknown_grid).expect("no walls").find_free_pose(0.1).expect("there is room");
     assert!((free_pose.x() - 0.05).abs() + (free_pose.y() - 0.05).abs() < 1e-12, "the first: {free_pose:?}");
     let blocked_grid = grid_of(&["???", "???", "???"], UnknownCells::Blocked);
     assert!(blocked_grid.cells().all(|cell| cell == Cell::Unknown), "the cells themselves are unchanged");

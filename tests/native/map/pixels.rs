@@ -1,50 +1,61 @@
-//! Conversion of pixels to cells, as in `map_server`, and valid and invalid PGM files.
+//! Conversion of pixels to cells as in `map_server`, and valid and malformed PGM files.
 
 use motion::geom::se2::SE2;
 use motion::map::{Cell, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, PgmPixels, Pixel, read_pgm};
 
 // -------------------------------------------------------------------------------------------- map_server's pixels
 
-/// As in `map_server`, a cell is occupied if the occupancy is above the threshold, and not if it is equal.
+/// As in `map_server`, a cell is occupied if its occupancy is above the threshold, but not if it equals the threshold.
 #[test]
 fn pixels_are_read_as_map_server_reads_them() {
-    let trinary = Interpretation::default();
-    let pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opacity: 1.0 };
-    let transparent = |value: u8| Pixel { opacity: 0.0, ..pixel(value) };
-    let scale_mode = Interpretation { mode: Mode::Scale, ..trinary };
-    let raw_mode = Interpretation { mode: Mode::Raw, ..trinary };
-    let occupied_above = |occupied_thresh| Interpretation { occupied_thresh, ..trinary };
-    let negated = |occupied_thresh| Interpretation { negate: true, ..occupied_above(occupied_thresh) };
-    let free_below = |free_thresh| Interpretation { free_thresh, ..trinary };
+    let trinary_mode = Interpretation::default();
+    let grey_pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opacity: 1.0 };
+    let transparent_pixel = |value: u8| Pixel { opacity: 0.0, ..grey_pixel(value) };
+    let scale_mode = Interpretation { mode: Mode::Scale, ..trinary_mode };
+    let raw_mode = Interpretation { mode: Mode::Raw, ..trinary_mode };
+    let with_occupied_threshold = |occupied_thresh| Interpretation { occupied_thresh, ..trinary_mode };
+    let negated_with_threshold =
+        |occupied_thresh| Interpretation { negate: true, ..with_occupied_threshold(occupied_thresh) };
+    let with_free_threshold = |free_thresh| Interpretation { free_thresh, ..trinary_mode };
     let cases = [
-        ("black", trinary, pixel(0), Cell::Occupied),
-        ("white", trinary, pixel(255), Cell::Free),
-        ("the grey that maps are saved with where nothing is known", trinary, pixel(205), Cell::Unknown),
-        ("occupancy 0.192", trinary, pixel(206), Cell::Free),
-        ("occupancy 0.651", trinary, pixel(89), Cell::Occupied),
-        ("occupancy 0.647", trinary, pixel(90), Cell::Unknown),
-        ("transparent black", trinary, transparent(0), Cell::Occupied),
-        ("black, negated", negated(0.65), pixel(0), Cell::Free),
-        ("white, negated", negated(0.65), pixel(255), Cell::Occupied),
-        ("at the threshold", occupied_above(0.6), pixel(102), Cell::Unknown),
-        ("past it", occupied_above(0.6), pixel(101), Cell::Occupied),
-        ("nothing is above 1", occupied_above(1.0), pixel(0), Cell::Unknown),
-        ("at the threshold for free", free_below(0.2), pixel(204), Cell::Unknown),
-        ("below the threshold for free", free_below(0.2), pixel(205), Cell::Free),
-        ("nothing is below 0", free_below(0.0), pixel(255), Cell::Unknown),
-        ("scale, black", scale_mode, pixel(0), Cell::Occupied),
-        ("scale, transparent black is unknown", scale_mode, transparent(0), Cell::Unknown),
-        ("scale, what is between the thresholds is known in degrees", scale_mode, pixel(150), Cell::Free),
-        ("raw, 100", raw_mode, pixel(100), Cell::Occupied),
-        ("raw, 99", raw_mode, pixel(99), Cell::Free),
-        ("raw, 101 is unknown", raw_mode, pixel(101), Cell::Unknown),
-        ("raw, 0 is free", raw_mode, pixel(0), Cell::Free),
-        ("raw, 255 is unknown", raw_mode, pixel(255), Cell::Unknown),
-        ("raw does not negate", Interpretation { negate: true, ..raw_mode }, pixel(100), Cell::Occupied),
-        ("raw does not negate", Interpretation { negate: true, ..raw_mode }, pixel(155), Cell::Unknown),
+        ("black", trinary_mode, grey_pixel(0), Cell::Occupied),
+        ("white", trinary_mode, grey_pixel(255), Cell::Free),
+        (
+            "the grey that maps are saved with where nothing is known",
+            trinary_mode,
+            grey_pixel(205),
+            Cell::Unknown,
+        ),
+        ("occupancy 0.192", trinary_mode, grey_pixel(206), Cell::Free),
+        ("occupancy 0.651", trinary_mode, grey_pixel(89), Cell::Occupied),
+        ("occupancy 0.647", trinary_mode, grey_pixel(90), Cell::Unknown),
+        ("transparent black", trinary_mode, transparent_pixel(0), Cell::Occupied),
+        ("black, negated", negated_with_threshold(0.65), grey_pixel(0), Cell::Free),
+        ("white, negated", negated_with_threshold(0.65), grey_pixel(255), Cell::Occupied),
+        ("at the threshold", with_occupied_threshold(0.6), grey_pixel(102), Cell::Unknown),
+        ("past it", with_occupied_threshold(0.6), grey_pixel(101), Cell::Occupied),
+        ("nothing is above 1", with_occupied_threshold(1.0), grey_pixel(0), Cell::Unknown),
+        ("at the threshold for free", with_free_threshold(0.2), grey_pixel(204), Cell::Unknown),
+        ("below the threshold for free", with_free_threshold(0.2), grey_pixel(205), Cell::Free),
+        ("nothing is below 0", with_free_threshold(0.0), grey_pixel(255), Cell::Unknown),
+        ("scale, black", scale_mode, grey_pixel(0), Cell::Occupied),
+        ("scale, transparent black is unknown", scale_mode, transparent_pixel(0), Cell::Unknown),
+        (
+            "scale, what is between the thresholds is known in degrees",
+            scale_mode,
+            grey_pixel(150),
+            Cell::Free,
+        ),
+        ("raw, 100", raw_mode, grey_pixel(100), Cell::Occupied),
+        ("raw, 99", raw_mode, grey_pixel(99), Cell::Free),
+        ("raw, 101 is unknown", raw_mode, grey_pixel(101), Cell::Unknown),
+        ("raw, 0 is free", raw_mode, grey_pixel(0), Cell::Free),
+        ("raw, 255 is unknown", raw_mode, grey_pixel(255), Cell::Unknown),
+        ("raw does not negate", Interpretation { negate: true, ..raw_mode }, grey_pixel(100), Cell::Occupied),
+        ("raw does not negate", Interpretation { negate: true, ..raw_mode }, grey_pixel(155), Cell::Unknown),
     ];
-    for (name, interpretation, pixel, cell) in cases {
-        assert_eq!(interpretation.cell(pixel), cell, "{name}: {interpretation:?} {pixel:?}");
+    for (name, interpretation, grey_pixel, cell) in cases {
+        assert_eq!(interpretation.cell(grey_pixel), cell, "{name}: {interpretation:?} {grey_pixel:?}");
     }
 }
 
@@ -59,8 +70,8 @@ fn shades(image: &Image<PgmPixels>) -> Vec<f32> {
 
 #[test]
 fn pgm_rasters_may_hold_any_bytes() {
-    let with_trailer = read_pgm(b"P5 2 1 5\n\x00\x05anything that follows").expect("a valid file");
-    assert_eq!(shades(&with_trailer), [0.0, 1.0]);
+    let image_with_trailer = read_pgm(b"P5 2 1 5\n\x00\x05anything that follows").expect("a valid file");
+    assert_eq!(shades(&image_with_trailer), [0.0, 1.0]);
     // The first byte of the raster may look like white space or a comment.
     assert_eq!(shades(&read_pgm(b"P5 2 1 255\n\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
     assert_eq!(shades(&read_pgm(b"P5 1 1 100\n\xff").expect("a pixel too bright")), [1.0]);
@@ -69,7 +80,7 @@ fn pgm_rasters_may_hold_any_bytes() {
         let file = [header.as_bytes(), &[0, 5]].concat();
         assert_eq!(shades(&read_pgm(&file).expect("a header of Windows")), [0.0, 1.0], "{header:?}");
     }
-    // If the file has exactly the expected length, the line feed is the first pixel.
+    // If the file has exactly the expected length, the line feed after the carriage return is the first pixel.
     assert_eq!(shades(&read_pgm(b"P5 2 1 255\r\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
 }
 
@@ -119,7 +130,7 @@ fn errors_of_malformed_pgm_files_name_line_field_and_value() {
 /// In mode trinary, `map_server` averages opacity with the colours, if the image has transparency.
 #[test]
 fn transparency_counts_as_a_colour_in_trinary() {
-    let occupied = |pixels: &[(f32, f32)]| -> Vec<bool> {
+    let occupied_cells = |pixels: &[(f32, f32)]| -> Vec<bool> {
         let pixels: Vec<Pixel> = pixels.iter().map(|&(shade, opacity)| Pixel { shade, opacity }).collect();
         let image = Image { width: pixels.len(), height: 1, pixels };
         let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.05, SE2::identity());
@@ -127,11 +138,11 @@ fn transparency_counts_as_a_colour_in_trinary() {
     };
     // Opaque black then has the shade (0 + 0 + 0 + 1)/4 = 0.25, dark grey of 60/255 has 0.43, and transparent white 0.75.
     assert_eq!(
-        occupied(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 0.0), (0.0, 0.0)]),
+        occupied_cells(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 0.0), (0.0, 0.0)]),
         [true, false, false, true]
     );
     assert_eq!(
-        occupied(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 1.0)]),
+        occupied_cells(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 1.0)]),
         [true, true, false],
         "no transparency"
     );

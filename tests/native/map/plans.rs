@@ -1,6 +1,6 @@
 //! Floor plans: validity, the apartment, and collision tests that skip no wall.
 
-use crate::common::{seeded, signed_log_uniform, uniform};
+use crate::common::{seeded_rng, signed_log_uniform, uniform};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -19,7 +19,7 @@ fn random_point([left, bottom, right, top]: [f64; 4], rng: &mut impl Rng) -> [f6
 }
 
 /// Returns a straight or curved, long or short arc, forward or in reverse.
-fn arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
+fn random_arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
     let turn = match rng.next_u32() % 3 {
         0 => signed_log_uniform(rng, 1e-18, 1e-3),
         1 => 0.0,
@@ -30,17 +30,20 @@ fn arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
 }
 
 /// Returns walls whose coordinates extend by at most `size` m, a third of them along the axes.
-fn random_walls(count: usize, size: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
+fn random_walls(count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
     let [left, bottom, right, top] = bounds;
     (0..count)
         .map(|_| {
-            let from = random_point(bounds, rng);
-            let mut to = [from[0] + uniform(rng, -size, size), from[1] + uniform(rng, -size, size)];
+            let start = random_point(bounds, rng);
+            let mut end = [
+                start[0] + uniform(rng, -max_extent, max_extent),
+                start[1] + uniform(rng, -max_extent, max_extent),
+            ];
             if rng.next_u32().is_multiple_of(3) {
                 let axis = (rng.next_u32() % 2) as usize;
-                to[axis] = from[axis];
+                end[axis] = start[axis];
             }
-            Segment { from, to: [to[0].clamp(left, right), to[1].clamp(bottom, top)] }
+            Segment { from: start, to: [end[0].clamp(left, right), end[1].clamp(bottom, top)] }
         })
         .collect()
 }
@@ -53,41 +56,41 @@ fn plans_with_too_many_walls_are_refused() {
     let error = FloorPlan::new(vec![wall_segment; FloorPlan::MAX_WALLS + 1], ROOM).expect_err("too many");
     assert_eq!(error, FloorPlanError::TooManyWalls(20_001));
     assert_eq!(error.to_string(), "walls has a length of 20001 or more; allowed is at most 20000");
-    for count in [0, 1, 16, 17, FloorPlan::MAX_WALLS] {
-        let plan = FloorPlan::new(vec![wall_segment; count], ROOM).expect("allowed");
-        assert_eq!(plan.walls().len(), count);
-        assert_eq!(plan.test_point([5.0, 1.5], 0.51).free, count == 0);
+    for wall_count in [0, 1, 16, 17, FloorPlan::MAX_WALLS] {
+        let plan = FloorPlan::new(vec![wall_segment; wall_count], ROOM).expect("allowed");
+        assert_eq!(plan.walls().len(), wall_count);
+        assert_eq!(plan.test_point([5.0, 1.5], 0.51).free, wall_count == 0);
         assert!(plan.test_point([5.0, 1.5], 0.49).free);
     }
 }
 
 // ------------------------------------------------------------------------------------------------------ verdicts
 
-/// Collision results equal those of a loop over all walls. Maps are the apartment, long slanted walls close together, and a rotated
-/// grid. Arcs of all sizes turn by up to two circles, and robots have all sizes.
+/// The plans are the apartment, rooms with long slanted walls close together, and a rotated grid. Arcs of all sizes turn by up to two
+/// circles, and robots have several sizes.
 #[test]
 fn collision_results_equal_those_of_a_loop_over_all_walls() {
-    let mut rng = seeded(9650);
+    let mut rng = seeded_rng(9650);
     let diagonal_walls = |count: u32| -> Vec<Segment> {
-        let end = |offset: f64| (offset.min(10.0), (offset - 10.0).max(0.0));
+        let end_coordinates = |offset: f64| (offset.min(10.0), (offset - 10.0).max(0.0));
         let offsets = (0..count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(count));
-        offsets.map(end).map(|(larger, smaller)| wall(smaller, larger, larger, smaller)).collect()
+        offsets.map(end_coordinates).map(|(larger, smaller)| wall(smaller, larger, larger, smaller)).collect()
     };
-    let pixel = |dark: bool| Pixel { shade: if dark { 0.0 } else { 1.0 }, opacity: 1.0 };
-    let pixels: Vec<_> = (0..1600).map(|_| pixel(rng.next_u32().is_multiple_of(40))).collect();
+    let binary_pixel = |dark: bool| Pixel { shade: if dark { 0.0 } else { 1.0 }, opacity: 1.0 };
+    let pixels: Vec<_> = (0..1600).map(|_| binary_pixel(rng.next_u32().is_multiple_of(40))).collect();
     let image = Image { width: 40, height: 40, pixels };
     let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
-    let room = |walls| FloorPlan::new(walls, ROOM).expect("a valid plan");
+    let plan_of_room = |walls| FloorPlan::new(walls, ROOM).expect("a valid plan");
     let long_walls = random_walls(12, 10.0, ROOM, &mut rng);
     let plans = [
         FloorPlan::apartment(),
-        room(diagonal_walls(20)),
-        room(diagonal_walls(300)),
-        room(long_walls),
-        room(vec![wall(2.0, 2.0, 9.0, 9.0); 300]),
+        plan_of_room(diagonal_walls(20)),
+        plan_of_room(diagonal_walls(300)),
+        plan_of_room(long_walls),
+        plan_of_room(vec![wall(2.0, 2.0, 9.0, 9.0); 300]),
         FloorPlan::from_grid(grid).expect("a small grid"),
     ];
-    for (number, plan) in plans.iter().enumerate() {
+    for (plan_index, plan) in plans.iter().enumerate() {
         let [left, bottom, right, top] = plan.bounds();
         let box_corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
         let corners = plan.grid().map_or(box_corners, OccupancyGrid::corners);
@@ -95,15 +98,15 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
         for _ in 0..3_000 {
             let start = random_point(plan.bounds(), &mut rng);
             let length_factor = signed_log_uniform(&mut rng, 1e-3, 1.0);
-            let arc = arc_from(start, &mut rng);
+            let arc = random_arc_from(start, &mut rng);
             let turn = if rng.next_u32().is_multiple_of(3) { 2.0 * arc.turn } else { arc.turn };
             let arc = Arc { length: length_factor * arc.length, turn, ..arc };
             let clearance = [0.0, 0.01, 0.13, 0.4][(rng.next_u32() % 4) as usize];
-            let end = [arc.end().x(), arc.end().y()];
+            let arc_end = [arc.end().x(), arc.end().y()];
             let min_distance = |distance: &dyn Fn(&Segment) -> f64| {
                 plan.walls().iter().map(distance).fold(f64::INFINITY, f64::min)
             };
-            let distance_to_end = min_distance(&|wall| wall.distance_to_point(end));
+            let distance_to_end = min_distance(&|wall| wall.distance_to_point(arc_end));
             let distance_to_arc = min_distance(&|wall| wall.distance_to_arc(&arc));
             if (distance_to_end - clearance).abs() < 1e-12 || (distance_to_arc - clearance).abs() < 1e-12 {
                 continue;
@@ -115,20 +118,29 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
                 })
             };
             let edges = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] });
-            let crosses_edge =
+            let does_cross_edge =
                 edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
             let is_in_occupied_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
-            let is_end_free = is_on_map(end) && !is_in_occupied_cell(end) && distance_to_end > clearance;
+            let is_end_free =
+                is_on_map(arc_end) && !is_in_occupied_cell(arc_end) && distance_to_end > clearance;
             let is_path_free = is_on_map(start)
-                && !crosses_edge
+                && !does_cross_edge
                 && !is_in_occupied_cell(start)
                 && is_end_free
                 && distance_to_arc > clearance;
-            assert_eq!(plan.test_point(end, clearance).free, is_end_free, "{number}: {arc:?} {clearance}");
-            assert_eq!(plan.test_arc(&arc, clearance).free, is_path_free, "{number}: {arc:?} {clearance}");
+            assert_eq!(
+                plan.test_point(arc_end, clearance).free,
+                is_end_free,
+                "{plan_index}: {arc:?} {clearance}"
+            );
+            assert_eq!(
+                plan.test_arc(&arc, clearance).free,
+                is_path_free,
+                "{plan_index}: {arc:?} {clearance}"
+            );
             verdict_counts[usize::from(is_end_free) + usize::from(is_path_free)] += 1;
         }
-        assert!(verdict_counts.iter().all(|count| *count > 25), "{number}: {verdict_counts:?}");
+        assert!(verdict_counts.iter().all(|count| *count > 25), "{plan_index}: {verdict_counts:?}");
     }
 }
 
@@ -141,7 +153,7 @@ fn touching_is_not_free() {
     let parallel_arc = Arc { start: SE2::new(4.0, 2.25, 0.0), length: 2.0, turn: 0.0 };
     assert!(!plan.test_arc(&parallel_arc, 0.25).free);
     assert!(plan.test_arc(&parallel_arc, 0.2499).free);
-    // A half circle leads around the end of the wall. Its middle is 0.25 m from that end, the rest is farther away.
+    // A half circle leads around the end of the wall. Its middle is 0.25 m from that end, and the rest is farther away.
     let half_circle = Arc { start: SE2::new(9.0, 2.25, 0.0), length: -0.25 * PI, turn: PI };
     assert!(!plan.test_arc(&half_circle, 0.0).free, "in reverse it goes through the wall");
     let half_circle = Arc { length: 0.25 * PI, turn: -PI, ..half_circle };
@@ -152,22 +164,26 @@ fn touching_is_not_free() {
 fn the_free_pose_is_in_the_largest_free_square() {
     let apartment = FloorPlan::apartment();
     for clearance in [0.0, 0.13, 0.5, 1.0] {
-        let pose = apartment.find_free_pose(clearance).expect("there is room");
-        assert!(apartment.test_point([pose.x(), pose.y()], clearance).free);
-        // The largest room has a square of 4 m between the closet's side and the wall opposite.
-        assert!((pose.x() - 4.0).abs() < 0.1 && (pose.y() - 7.0).abs() < 0.1, "{pose:?}");
-        let straight_arc = Arc { start: pose, length: 2.0, turn: 0.0 };
-        assert!(apartment.test_arc(&straight_arc, 0.13).free, "{pose:?}");
+        let free_pose = apartment.find_free_pose(clearance).expect("there is room");
+        assert!(apartment.test_point([free_pose.x(), free_pose.y()], clearance).free);
+        // The largest room has a free square of 4 m between the closet and the opposite wall.
+        assert!((free_pose.x() - 4.0).abs() < 0.1 && (free_pose.y() - 7.0).abs() < 0.1, "{free_pose:?}");
+        let straight_arc = Arc { start: free_pose, length: 2.0, turn: 0.0 };
+        assert!(apartment.test_arc(&straight_arc, 0.13).free, "{free_pose:?}");
     }
     assert_eq!(apartment.find_free_pose(2.5), None, "no room is that large");
     for bounds in [[-3.0, -2.0, 7.0, 5.0], [3.0, 2.0, 7.0, 5.0]] {
         let empty_plan = FloorPlan::new(vec![], bounds).expect("a valid plan");
-        let pose = empty_plan.find_free_pose(0.3).expect("there is room");
+        let free_pose = empty_plan.find_free_pose(0.3).expect("there is room");
         let [left, bottom, right, top] = bounds;
-        let room = [pose.x() - left, right - pose.x(), pose.y() - bottom, top - pose.y()];
-        assert!(room.into_iter().all(|room| room > 1.4), "not at the edge: {pose:?}");
+        let distances_to_bounds =
+            [free_pose.x() - left, right - free_pose.x(), free_pose.y() - bottom, top - free_pose.y()];
+        assert!(
+            distances_to_bounds.into_iter().all(|distances_to_bounds| distances_to_bounds > 1.4),
+            "not at the edge: {free_pose:?}"
+        );
     }
     let walls = (0..=20).map(|i| wall(0.0, 0.5 * f64::from(i), 10.0, 0.5 * f64::from(i))).collect();
-    let narrow_gaps = FloorPlan::new(walls, ROOM).expect("a valid plan");
-    assert!(narrow_gaps.find_free_pose(0.3).is_none(), "walls are half a metre apart everywhere");
+    let plan_with_narrow_gaps = FloorPlan::new(walls, ROOM).expect("a valid plan");
+    assert!(plan_with_narrow_gaps.find_free_pose(0.3).is_none(), "walls are half a metre apart everywhere");
 }

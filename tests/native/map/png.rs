@@ -1,6 +1,6 @@
 //! PNG images: every colour type is read exactly, and damaged or too large images are refused.
 
-use crate::common::seeded;
+use crate::common::seeded_rng;
 use motion::geom::se2::SE2;
 use motion::map::{ImageError, Interpretation, MAX_PIXELS, PngError, read_grid, read_png};
 use png::{BitDepth, ColorType, Encoder, Filter};
@@ -14,25 +14,25 @@ struct Format {
     transparency: Option<Vec<u8>>,
 }
 
-/// Returns the file of an image. Samples of a pixel follow each other.
+/// Returns the file of an image. The samples of a pixel are adjacent.
 fn encoded_png(format: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
-    let row = width as usize * format.color.samples();
-    let mut data = Vec::new();
-    for row in samples.chunks(row) {
-        let bits: String =
+    let row_length = width as usize * format.color.samples();
+    let mut raster = Vec::new();
+    for row in samples.chunks(row_length) {
+        let row_bits: String =
             row.iter().map(|sample| format!("{sample:0width$b}", width = format.bits as usize)).collect();
-        let bytes = bits.as_bytes().chunks(8).map(|byte| {
+        let row_bytes = row_bits.as_bytes().chunks(8).map(|byte| {
             let digits = byte.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
             digits << (8 - byte.len())
         });
-        data.extend(bytes);
+        raster.extend(row_bytes);
     }
     let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, width, (samples.len() / row) as u32);
+    let mut encoder = Encoder::new(&mut file, width, (samples.len() / row_length) as u32);
     encoder.set_color(format.color);
     encoder.set_depth(BitDepth::from_u8(format.bits as u8).expect("a depth"));
     encoder.set_filter(Filter::Adaptive);
-    // A gamma chunk changes the shades in browsers. It must not affect this reader.
+    // A gamma chunk changes the shades in browsers. It must not affect the reader under test.
     encoder.set_source_gamma(png::ScaledFloat::new(0.3));
     if let Some(palette) = &format.palette {
         encoder.set_palette(palette.clone());
@@ -40,7 +40,7 @@ fn encoded_png(format: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
     if let Some(transparency) = &format.transparency {
         encoder.set_trns(transparency.clone());
     }
-    encoder.write_header().expect("a header").write_image_data(&data).expect("an image");
+    encoder.write_header().expect("a header").write_image_data(&raster).expect("an image");
     file
 }
 
@@ -52,7 +52,7 @@ fn grey_png(width: u32, samples: &[u16]) -> Vec<u8> {
 
 #[test]
 fn every_kind_of_image_is_decoded_exactly() {
-    let mut rng = seeded(9911);
+    let mut rng = seeded_rng(9911);
     let formats = [
         (ColorType::Grayscale, &[1, 2, 4, 8, 16][..]),
         (ColorType::Rgb, &[8, 16]),
@@ -62,10 +62,10 @@ fn every_kind_of_image_is_decoded_exactly() {
     ];
     for (color, depths) in formats {
         for (&bits, (width, height)) in depths.iter().flat_map(|bits| [(bits, (1, 1)), (bits, (33, 17))]) {
-            for is_clear in [false, true] {
-                let count = width as usize * height * color.samples();
+            for has_transparency in [false, true] {
+                let sample_count = width as usize * height * color.samples();
                 let mut random_below = |end: u32| (rng.next_u32() % end) as u16;
-                let samples: Vec<u16> = (0..count).map(|_| random_below(1 << bits)).collect();
+                let samples: Vec<u16> = (0..sample_count).map(|_| random_below(1 << bits)).collect();
                 let palette: Vec<u8> = (0..3 << bits.min(8)).map(|_| random_below(256) as u8).collect();
                 let opacities: Vec<u8> =
                     (0..1 << (bits.min(8) - 1)).map(|_| random_below(256) as u8).collect();
@@ -74,24 +74,28 @@ fn every_kind_of_image_is_decoded_exactly() {
                     ColorType::Indexed => opacities.clone(),
                     _ => first_pixel.iter().flat_map(|sample| sample.to_be_bytes()).collect(),
                 };
-                let has_key = is_clear && !matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
+                let has_transparent_colour =
+                    has_transparency && !matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
                 let format = Format {
                     color,
                     bits,
                     palette: (color == ColorType::Indexed).then(|| palette.clone()),
-                    transparency: has_key.then_some(transparency),
+                    transparency: has_transparent_colour.then_some(transparency),
                 };
                 let max_sample = f64::from((1u32 << bits) - 1);
                 let to_byte = |sample: u16| (255.0 * f64::from(sample) / max_sample).round() as u8;
                 let expected: Vec<[u8; 4]> = samples
                     .chunks(color.samples())
                     .map(|pixel| {
-                        let opacity = if has_key && pixel == first_pixel { 0 } else { 255 };
+                        let opacity = if has_transparent_colour && pixel == first_pixel { 0 } else { 255 };
                         match *pixel {
                             [index] if color == ColorType::Indexed => {
                                 let index = usize::from(index);
-                                let opacity =
-                                    opacities.get(index).copied().filter(|_| has_key).unwrap_or(255);
+                                let opacity = opacities
+                                    .get(index)
+                                    .copied()
+                                    .filter(|_| has_transparent_colour)
+                                    .unwrap_or(255);
                                 [palette[3 * index], palette[3 * index + 1], palette[3 * index + 2], opacity]
                             }
                             [grey] => [to_byte(grey), to_byte(grey), to_byte(grey), opacity],
@@ -106,7 +110,7 @@ fn every_kind_of_image_is_decoded_exactly() {
                     .collect();
                 let image = read_png(&encoded_png(&format, width, &samples)).expect("an image");
                 assert_eq!((image.width, image.height), (width as usize, height));
-                assert_eq!(image.pixels, expected, "{color:?} {bits} {width} {is_clear}");
+                assert_eq!(image.pixels, expected, "{color:?} {bits} {width} {has_transparency}");
             }
         }
     }
@@ -133,7 +137,7 @@ fn an_image_that_is_cut_short_is_refused() {
     );
 }
 
-/// A small file may contain an enormous image. It must be refused from the size in its header.
+/// A small file may contain an enormous image. It must be refused because of the size in its header.
 #[test]
 fn an_image_that_is_too_large_is_refused_by_its_header() {
     let mut file = Vec::new();

@@ -1,22 +1,25 @@
-//! `sample(b²)` and `prob(a, b²)`: both kinds of noise compared with their exact distributions.
+//! `sample(b²)` and `prob(a, b²)` of both kinds of noise, compared with the exact distributions.
 
 use crate::common::{
-    MAX_KOLMOGOROV_SMIRNOV, NOISE_KINDS, SAMPLES, Table, kolmogorov_smirnov, seeded, unit_cdf,
+    MAX_KOLMOGOROV_SMIRNOV, NOISE_KINDS, SAMPLES, Table, kolmogorov_smirnov, seeded_rng, unit_cdf,
 };
 use motion::{NoiseKind, Variance};
 
-fn draws(kind: NoiseKind, b2: f64, count: usize, seed: u64) -> Vec<f64> {
-    let mut rng = seeded(seed);
-    (0..count).map(|_| kind.sample(Variance(b2), &mut rng)).collect()
+fn sample_of_noise(kind: NoiseKind, variance: f64, count: usize, seed: u64) -> Vec<f64> {
+    let mut rng = seeded_rng(seed);
+    (0..count).map(|_| kind.sample(Variance(variance), &mut rng)).collect()
 }
 
 #[test]
 fn samples_follow_the_exact_distribution() {
     for kind in NOISE_KINDS {
-        for (seed, b2) in [(1, 1.0), (2, 0.025), (3, 1e-8), (4, 400.0)] {
-            let sample = draws(kind, b2, SAMPLES, seed);
-            let distance = kolmogorov_smirnov(sample, |a| unit_cdf(kind, a / b2.sqrt()));
-            assert!(distance < MAX_KOLMOGOROV_SMIRNOV, "{kind:?} of variance {b2}: √n·D = {distance}");
+        for (seed, variance) in [(1, 1.0), (2, 0.025), (3, 1e-8), (4, 400.0)] {
+            let sample = sample_of_noise(kind, variance, SAMPLES, seed);
+            let ks_statistic = kolmogorov_smirnov(sample, |a| unit_cdf(kind, a / variance.sqrt()));
+            assert!(
+                ks_statistic < MAX_KOLMOGOROV_SMIRNOV,
+                "{kind:?} of variance {variance}: √n·D = {ks_statistic}"
+            );
         }
     }
 }
@@ -24,47 +27,47 @@ fn samples_follow_the_exact_distribution() {
 #[test]
 fn prob_is_the_density_of_the_samples() {
     for kind in NOISE_KINDS {
-        for b2 in [1e-6, 0.025, 1.0, 90.0] {
-            let b = f64::sqrt(b2);
-            // Simpson's rule over each of 60 intervals must give the increase of the distribution function, and 1 in total. The kinks of the
-            // triangular density lie on ends of intervals.
-            let (limit, panels) = (6f64.sqrt() * 4.0 * b, 60);
-            let width = 2.0 * limit / panels as f64;
+        for variance in [1e-6, 0.025, 1.0, 90.0] {
+            let std = f64::sqrt(variance);
+            // Simpson's rule over each of 60 intervals must give the increase of the distribution function, and 1 in total. The kinks of
+            // the triangular density lie on ends of intervals.
+            let (integration_limit, interval_count) = (6f64.sqrt() * 4.0 * std, 60);
+            let interval_width = 2.0 * integration_limit / interval_count as f64;
             let mut integral = 0.0;
-            for panel in 0..panels {
-                let interval_start = -limit + panel as f64 * width;
-                let h = width / 64.0;
-                let simpson: f64 = (0..=64)
+            for interval in 0..interval_count {
+                let interval_start = -integration_limit + interval as f64 * interval_width;
+                let step = interval_width / 64.0;
+                let interval_integral: f64 = (0..=64)
                     .map(|i| {
                         let weight = if i == 0 || i == 64 { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
-                        weight * kind.prob(interval_start + i as f64 * h, Variance(b2))
+                        weight * kind.prob(interval_start + i as f64 * step, Variance(variance))
                     })
                     .sum::<f64>()
-                    * h
+                    * step
                     / 3.0;
-                let increase_of_cdf =
-                    unit_cdf(kind, (interval_start + width) / b) - unit_cdf(kind, interval_start / b);
+                let cdf_increase = unit_cdf(kind, (interval_start + interval_width) / std)
+                    - unit_cdf(kind, interval_start / std);
                 assert!(
-                    (simpson - increase_of_cdf).abs() < 3e-10,
-                    "{kind:?} b² = {b2} at {interval_start}: {simpson}, not {increase_of_cdf}"
+                    (interval_integral - cdf_increase).abs() < 3e-10,
+                    "{kind:?} b² = {variance} at {interval_start}: {interval_integral}, not {cdf_increase}"
                 );
-                integral += simpson;
+                integral += interval_integral;
             }
-            assert!((integral - 1.0).abs() < 1e-9, "{kind:?} b² = {b2}: integral {integral}");
-            assert_eq!(kind.prob(0.3 * b, Variance(b2)), kind.prob(-0.3 * b, Variance(b2)));
+            assert!((integral - 1.0).abs() < 1e-9, "{kind:?} b² = {variance}: integral {integral}");
+            assert_eq!(kind.prob(0.3 * std, Variance(variance)), kind.prob(-0.3 * std, Variance(variance)));
         }
         // With variance 1 the densities at 0 are 1/√(2π) and 1/√6.
         let peak = kind.prob(0.0, Variance(1.0));
-        let expected =
+        let expected_peak =
             if kind == NoiseKind::Normal { 0.398_942_280_401_432_7 } else { 0.408_248_290_463_863 };
-        assert!((peak - expected).abs() < 1e-15);
+        assert!((peak - expected_peak).abs() < 1e-15);
     }
 }
 
 #[test]
 fn with_zero_variance_samples_are_zero_and_prob_is_zero_or_one() {
     for kind in NOISE_KINDS {
-        let mut rng = seeded(8);
+        let mut rng = seeded_rng(8);
         for _ in 0..100 {
             assert_eq!(kind.sample(Variance(0.0), &mut rng), 0.0);
         }
@@ -74,7 +77,7 @@ fn with_zero_variance_samples_are_zero_and_prob_is_zero_or_one() {
         for residual in [1e-6, -1e-6, 0.1, -3.0, f64::INFINITY] {
             assert_eq!(kind.prob(residual, Variance(0.0)), 0.0);
         }
-        // With a tiny variance `prob` is a density with a high peak. Only with variance 0 it is 0 or 1.
+        // With a tiny variance `prob` is a density with a high peak. It is 0 or 1 only if the variance is 0.
         assert!(kind.prob(0.0, Variance(1e-20)) > 1e9);
         assert_eq!(kind.prob(1.0, Variance(1e-20)), 0.0);
     }
@@ -86,8 +89,11 @@ fn quantiles_match_references_to_1e_15() {
         let q = row.get("q");
         for (kind, column) in [(NoiseKind::Normal, "normal"), (NoiseKind::Triangular, "triangular")] {
             let z = kind.quantile(q);
-            let error = row.error(column, z) / row.get(column);
-            assert!(error <= 1e-15, "{kind:?} quantile({q}) = {z}: relative error {error:e}");
+            let relative_error = row.error(column, z) / row.get(column);
+            assert!(
+                relative_error <= 1e-15,
+                "{kind:?} quantile({q}) = {z}: relative error {relative_error:e}"
+            );
             assert_eq!(kind.quantile(-q), -z, "the distribution is symmetric");
         }
     }

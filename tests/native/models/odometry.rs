@@ -1,7 +1,7 @@
 //! The odometry model: decomposition, scoring, density and sampler, and the option for robots that reverse.
 
-use crate::common::density::Grid;
-use crate::common::{NOISE_KINDS, SAMPLES, derivative, seeded, uniform};
+use crate::common::density::PolarGrid;
+use crate::common::{NOISE_KINDS, SAMPLES, derivative_by_noise, seeded_rng, uniform};
 use motion::geom::se2::SE2;
 use motion::{
     MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot, Variance,
@@ -15,23 +15,23 @@ fn model(noise: NoiseKind) -> OdometryModel {
     OdometryModel { alphas: ALPHAS, noise }
 }
 
-fn delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
+fn odom_delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
     OdomDelta { rot1, trans, rot2 }
 }
 
-fn readings() -> [OdomDelta; 6] {
+fn odometry_readings() -> [OdomDelta; 6] {
     [
-        delta(0.3, 1.0, 0.2),
-        delta(-0.4, 0.8, 1.0),
-        delta(0.0, 1.5, 0.0),
-        delta(1.4, 0.6, -1.2),
-        delta(-0.9, 1.0, -0.7),
-        delta(2.2, 0.7, -2.0),
+        odom_delta(0.3, 1.0, 0.2),
+        odom_delta(-0.4, 0.8, 1.0),
+        odom_delta(0.0, 1.5, 0.0),
+        odom_delta(1.4, 0.6, -1.2),
+        odom_delta(-0.9, 1.0, -0.7),
+        odom_delta(2.2, 0.7, -2.0),
     ]
 }
 
 /// Returns the variances of Table 5.6. `effective_angle` is the angle from which the noise of a rotation is computed.
-fn variances(reading: &OdomDelta, effective_angle: impl Fn(f64) -> f64) -> [f64; 3] {
+fn table_variances(reading: &OdomDelta, effective_angle: impl Fn(f64) -> f64) -> [f64; 3] {
     let [a1, a2, a3, a4] = ALPHAS.0;
     let [r1, t, r2] =
         [effective_angle(reading.rot1).powi(2), reading.trans.powi(2), effective_angle(reading.rot2).powi(2)];
@@ -53,30 +53,30 @@ fn a_spin_on_the_spot_counts_as_the_second_rotation() {
     // A translation of a nanometre or more has a direction.
     let prev = SE2::identity();
     let reading_at = |distance: f64| OdomDelta::from_poses(&prev, &SE2::new(0.0, distance, 0.5));
-    assert_eq!(reading_at(1e-9f64.next_down()), delta(0.0, 0.0, 0.5));
-    assert_eq!(reading_at(1e-9), delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
-    let u = delta(0.0, 0.0, 0.8);
+    assert_eq!(reading_at(1e-9f64.next_down()), odom_delta(0.0, 0.0, 0.5));
+    assert_eq!(reading_at(1e-9), odom_delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
+    let u = odom_delta(0.0, 0.0, 0.8);
     assert_eq!(model(NoiseKind::Normal).pose_density(&u.apply(&prev), &u, &prev), None);
 }
 
-/// Table 5.5 takes its variances from the hypothesis, not from the reading.
+/// Table 5.5 computes its variances from the hypothetical motion, not from the reading.
 #[test]
 fn prob_is_the_score_of_table_5_5() {
-    let mut rng = seeded(92);
+    let mut rng = seeded_rng(92);
     let x = SE2::new(1.0, 2.0, -0.5);
     for kind in NOISE_KINDS {
-        for u in readings() {
+        for u in odometry_readings() {
             for _ in 0..200 {
-                let mut perturb = |value: f64| value + uniform(&mut rng, -0.4, 0.4);
-                let executed_legs = delta(perturb(u.rot1), perturb(u.trans), perturb(u.rot2));
-                let [r1, t, r2] = variances(&executed_legs, f64::abs);
-                let expected = kind.prob(u.rot1 - executed_legs.rot1, Variance(r1))
+                let mut perturbed = |value: f64| value + uniform(&mut rng, -0.4, 0.4);
+                let executed_legs = odom_delta(perturbed(u.rot1), perturbed(u.trans), perturbed(u.rot2));
+                let [r1, t, r2] = table_variances(&executed_legs, f64::abs);
+                let expected_score = kind.prob(u.rot1 - executed_legs.rot1, Variance(r1))
                     * kind.prob(u.trans - executed_legs.trans, Variance(t))
                     * kind.prob(u.rot2 - executed_legs.rot2, Variance(r2));
                 let score = model(kind).prob(&executed_legs.apply(&x), &u, &x);
                 assert!(
-                    (score - expected).abs() <= 1e-9 * (1.0 + expected),
-                    "{executed_legs:?} for {u:?}: {score}, not {expected}"
+                    (score - expected_score).abs() <= 1e-9 * (1.0 + expected_score),
+                    "{executed_legs:?} for {u:?}: {score}, not {expected_score}"
                 );
             }
         }
@@ -85,44 +85,47 @@ fn prob_is_the_score_of_table_5_5() {
 
 #[test]
 fn without_noise_samples_are_exact_and_there_is_no_density() {
-    let mut rng = seeded(93);
+    let mut rng = seeded_rng(93);
     let x = SE2::new(-1.0, 0.5, 2.0);
     for kind in NOISE_KINDS {
         let noise_free_model = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: kind };
-        for u in readings() {
-            let end = u.apply(&x);
-            assert_eq!(noise_free_model.sample(&u, &x, &mut rng), end);
-            assert_eq!(noise_free_model.prob(&end, &u, &x), 1.0);
-            assert_eq!(noise_free_model.prob(&end.boxplus(Vector3::new(1e-3, 0.0, 0.0)), &u, &x), 0.0);
-            assert_eq!(noise_free_model.pose_density(&end, &u, &x), None);
-            assert!(model(kind).pose_density(&end, &u, &x).is_some());
+        for u in odometry_readings() {
+            let noise_free_end = u.apply(&x);
+            assert_eq!(noise_free_model.sample(&u, &x, &mut rng), noise_free_end);
+            assert_eq!(noise_free_model.prob(&noise_free_end, &u, &x), 1.0);
+            assert_eq!(
+                noise_free_model.prob(&noise_free_end.boxplus(Vector3::new(1e-3, 0.0, 0.0)), &u, &x),
+                0.0
+            );
+            assert_eq!(noise_free_model.pose_density(&noise_free_end, &u, &x), None);
+            assert!(model(kind).pose_density(&noise_free_end, &u, &x).is_some());
             assert_eq!(model(kind).tangent_cov(&u), None, "noise of three legs is not one Gaussian in se(2)");
         }
-        let no_motion = delta(0.0, 0.0, 0.0);
+        let no_motion = odom_delta(0.0, 0.0, 0.0);
         assert_eq!(model(kind).sample(&no_motion, &x, &mut rng), x);
         assert_eq!(model(kind).prob(&x, &no_motion, &x), 1.0);
     }
 }
 
-/// The density of a pose is the density of the noises of its legs, with the variances of the reading, divided by the determinant, which is
-/// the translation.
+/// The density of a pose is the density of the noises of its legs, divided by the Jacobian determinant, which is the translation.
+/// Variances are those of the reading.
 #[test]
 fn the_pose_density_divides_by_the_jacobian() {
-    let mut rng = seeded(94);
+    let mut rng = seeded_rng(94);
     let x = SE2::new(1.0, -2.0, 0.3);
     for kind in NOISE_KINDS {
-        for u in readings() {
-            let variances = variances(&u, f64::abs);
+        for u in odometry_readings() {
+            let table_variances = table_variances(&u, f64::abs);
             for _ in 0..100 {
-                let noise = variances.map(|b2| uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
-                let executed_legs = delta(u.rot1 - noise[0], u.trans - noise[1], u.rot2 - noise[2]);
-                let [r1, t, r2] = [0, 1, 2].map(|leg| kind.prob(noise[leg], Variance(variances[leg])));
-                let expected = r1 * t * r2 / executed_legs.trans;
+                let noise = table_variances.map(|b2| uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
+                let executed_legs = odom_delta(u.rot1 - noise[0], u.trans - noise[1], u.rot2 - noise[2]);
+                let [r1, t, r2] = [0, 1, 2].map(|leg| kind.prob(noise[leg], Variance(table_variances[leg])));
+                let expected_density = r1 * t * r2 / executed_legs.trans;
                 let density = model(kind).pose_density(&executed_legs.apply(&x), &u, &x).unwrap();
                 // Other legs that lead to the same pose, in reverse or with full turns, add less than 1e-6 with this noise.
                 assert!(
-                    (density / expected - 1.0).abs() < 1e-6,
-                    "{u:?} at {executed_legs:?}: {density}, not {expected}"
+                    (density / expected_density - 1.0).abs() < 1e-6,
+                    "{u:?} at {executed_legs:?}: {density}, not {expected_density}"
                 );
             }
         }
@@ -131,21 +134,22 @@ fn the_pose_density_divides_by_the_jacobian() {
 
 /// Returns a box around the noise-free pose, which reaches twice as far as triangular noise. The kinks of the triangular density, at
 /// multiples of √6 deviations, lie on bounds of cells.
-fn box_around(u: &OdomDelta, x: &SE2, variances: [f64; 3]) -> Grid {
-    let [rot1, trans, rot2] = variances.map(|b2| 2.0 * (6.0 * b2).sqrt());
-    Grid::new(x, &u.apply(x), 1.0, [trans, rot1.min(PI / 2.0), rot2.min(PI)], [8; 3])
+fn box_around(u: &OdomDelta, x: &SE2, table_variances: [f64; 3]) -> PolarGrid {
+    let [rot1, trans, rot2] = table_variances.map(|b2| 2.0 * (6.0 * b2).sqrt());
+    PolarGrid::new(x, &u.apply(x), 1.0, [trans, rot1.min(PI / 2.0), rot2.min(PI)], [8; 3])
 }
 
-/// The noise is as large as the motion: reversed translations and whole turns are part of the density.
+/// The noise is as large as the motion, so that reversed translations and whole turns are part of the density.
 #[test]
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(0.4, 0.4, -2.2);
-    for (kind, tolerance, u) in
-        [(NoiseKind::Normal, 1e-6, readings()[5]), (NoiseKind::Triangular, 1e-3, delta(0.7, 0.8, -0.4))]
-    {
+    for (kind, tolerance, u) in [
+        (NoiseKind::Normal, 1e-6, odometry_readings()[5]),
+        (NoiseKind::Triangular, 1e-3, odom_delta(0.7, 0.8, -0.4)),
+    ] {
         let model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise: kind };
         let radius = u.trans + 7.0 * (1.1 * u.trans.powi(2) + 0.4 * (u.rot1.powi(2) + u.rot2.powi(2))).sqrt();
-        let integral = Grid::around_start(&x, 1.0, radius, [14, 8, 8])
+        let integral = PolarGrid::around_start(&x, 1.0, radius, [14, 8, 8])
             .integral(|pose| model.pose_density(pose, &u, &x).unwrap());
         assert!((integral - 1.0).abs() < tolerance, "{kind:?} {u:?}: {integral}");
     }
@@ -154,14 +158,17 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
-    for (seed, u) in (100..).zip([readings()[0], readings()[3]]) {
+    for (seed, u) in (100..).zip([odometry_readings()[0], odometry_readings()[3]]) {
         for kind in NOISE_KINDS {
             let model = model(kind);
-            let mut rng = seeded(seed);
+            let mut rng = seeded_rng(seed);
             let poses: Vec<SE2> = (0..SAMPLES).map(|_| model.sample(&u, &x, &mut rng)).collect();
-            let (value, limit) = box_around(&u, &x, variances(&u, f64::abs))
+            let (chi_square, chi_square_limit) = box_around(&u, &x, table_variances(&u, f64::abs))
                 .chi_square(&poses, |pose| model.pose_density(pose, &u, &x).unwrap());
-            assert!(value < limit, "{kind:?} {u:?}: χ² = {value}, limit {limit}");
+            assert!(
+                chi_square < chi_square_limit,
+                "{kind:?} {u:?}: χ² = {chi_square}, limit {chi_square_limit}"
+            );
         }
     }
 }
@@ -170,14 +177,14 @@ fn sampler_and_density_agree() {
 fn cartesian_cov_is_the_linearized_motion() {
     let x = SE2::new(4.0, 1.0, -1.2);
     let model = model(NoiseKind::Normal);
-    for u in readings() {
-        let jacobian = derivative([0.0; 3], |unit| model.apply_noise(&u, &x, unit));
+    for u in odometry_readings() {
+        let jacobian = derivative_by_noise([0.0; 3], |unit| model.apply_noise(&u, &x, unit));
         let cov = model.cartesian_cov(&u, &x);
         assert!((cov - jacobian * jacobian.transpose()).amax() < 1e-8, "{u:?}\n{cov}");
     }
 }
 
-/// Half a metre backwards is rot1 ≈ π, rot2 ≈ −π. Table 5.6 adds the noise of two half turns, and the option adds none.
+/// Half a metre backwards is rot1 ≈ π, rot2 ≈ −π. Table 5.6 adds the noise of two half turns, and `ReverseAware` adds none.
 #[test]
 fn reverse_aware_noise_excludes_half_turns() {
     let x = SE2::new(1.0, 1.0, 0.5);
@@ -186,21 +193,27 @@ fn reverse_aware_noise_excludes_half_turns() {
     let effective_angle = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
     for kind in NOISE_KINDS {
         let (unaware_model, aware_model) = (model(kind), ReverseAware(model(kind)));
-        let mut rng = seeded(110);
+        let mut rng = seeded_rng(110);
         let cloud: Vec<SE2> =
             (0..SAMPLES).map(|_| aware_model.sample(&backward_reading, &x, &mut rng)).collect();
-        let (value, limit) = box_around(&backward_reading, &x, variances(&backward_reading, effective_angle))
-            .chi_square(&cloud, |pose| aware_model.pose_density(pose, &backward_reading, &x).unwrap());
-        assert!(value < limit, "{kind:?}: χ² = {value}, limit {limit}");
+        let (chi_square, chi_square_limit) =
+            box_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle))
+                .chi_square(&cloud, |pose| aware_model.pose_density(pose, &backward_reading, &x).unwrap());
+        assert!(chi_square < chi_square_limit, "{kind:?}: χ² = {chi_square}, limit {chi_square_limit}");
 
-        // `prob` computes the variances from the hypothetical legs, for this model too.
-        let executed_legs =
-            delta(backward_reading.rot1 + 0.02, backward_reading.trans - 0.05, backward_reading.rot2 - 0.03);
-        let [r1, t, r2] = variances(&OdomDelta::from_poses(&x, &executed_legs.apply(&x)), effective_angle);
-        let expected =
+        // As in Table 5.5, `prob` computes the variances from the hypothetical legs.
+        let executed_legs = odom_delta(
+            backward_reading.rot1 + 0.02,
+            backward_reading.trans - 0.05,
+            backward_reading.rot2 - 0.03,
+        );
+        let [r1, t, r2] =
+            table_variances(&OdomDelta::from_poses(&x, &executed_legs.apply(&x)), effective_angle);
+        let expected_score =
             kind.prob(0.02, Variance(r1)) * kind.prob(0.05, Variance(t)) * kind.prob(0.03, Variance(r2));
         assert!(
-            (aware_model.prob(&executed_legs.apply(&x), &backward_reading, &x) / expected - 1.0).abs() < 1e-9
+            (aware_model.prob(&executed_legs.apply(&x), &backward_reading, &x) / expected_score - 1.0).abs()
+                < 1e-9
         );
         assert!(
             aware_model.prob(&backward_reading.apply(&x), &backward_reading, &x)

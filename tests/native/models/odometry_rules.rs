@@ -1,7 +1,7 @@
-//! The rules by which localizers compute variances from an odometry reading, compared with cases computed by hand. Their exact standard
-//! deviations are compared with quadrature and samples.
+//! The rules by which localizers compute variances from an odometry reading, compared with cases computed by hand. The exact variances of
+//! outcomes are compared with quadrature and samples.
 
-use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, SAMPLES, seeded};
+use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, SAMPLES, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::models::{LegVariances, MAX_SPIN_DISTANCE, OdometryRule, RuleAlphas};
 use motion::noise::centred_uniform;
@@ -14,11 +14,11 @@ use OdometryRule::{Beluga, Nav2, Omni, Table};
 /// α's that differ from each other, so that a test fails if two are exchanged.
 const ALPHAS: RuleAlphas = [0.1, 0.2, 0.3, 0.4, 0.5];
 
-fn delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
+fn odom_delta(rot1: f64, trans: f64, rot2: f64) -> OdomDelta {
     OdomDelta { rot1, trans, rot2 }
 }
 
-fn variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
+fn leg_variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
     let LegVariances { rot1, trans, rot2, strafe } = rule.variances(&reading, &ALPHAS);
     [rot1, trans, rot2, strafe].map(|variance| variance.0)
 }
@@ -27,19 +27,19 @@ fn variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
 #[test]
 fn the_variances_of_each_rule_match_its_source() {
     // The robot turns by 0.5, drives 2 m and turns back by 1. No angle is nearer to π than to 0, and the total turn is −0.5.
-    let bend_reading = delta(0.5, 2.0, -1.0);
+    let bend_reading = odom_delta(0.5, 2.0, -1.0);
     // 0.1·0.25 + 0.2·4, 0.3·4 + 0.4·(0.25 + 1), 0.1·1 + 0.2·4.
     let bend_variances = [0.825, 1.7, 0.9, 0.0];
     // 0.3·4 + 0.4·0.25, 0.1·0.25 + 0.2·4, 0.5·4 + 0.4·0.25.
     let omni_bend_variances = [0.0, 1.3, 0.825, 2.1];
-    // The robot backs up by 1 m: both rotations are π − 3 without their half turns, and the total turn is 0.
-    let backward_reading = delta(3.0, 1.0, -3.0);
+    // The robot backs up by 1 m. Both rotations are π − 3 without their half turns, and the total turn is 0.
+    let backward_reading = odom_delta(3.0, 1.0, -3.0);
     let table_reverse_variances = [1.1, 7.5, 1.1, 0.0];
     let nav2_reverse_variances = [0.202004848, 0.316038784, 0.202004848, 0.0];
     // A turn on the spot by more than a quarter turn.
-    let spin_reading = delta(0.0, 0.0, 2.2);
+    let spin_reading = odom_delta(0.0, 0.0, 2.2);
     // The encoders jitter by half a centimetre, to the left and backwards, with a turn of 0.01 rad.
-    let jitter_reading = delta(2.0, 0.005, -1.99);
+    let jitter_reading = odom_delta(2.0, 0.005, -1.99);
     let cases = [
         (Table, bend_reading, bend_variances),
         (Nav2, bend_reading, bend_variances),
@@ -61,7 +61,7 @@ fn the_variances_of_each_rule_match_its_source() {
         (Omni, jitter_reading, [0.0, 0.0000475, 0.000015, 0.0000525]),
     ];
     for (rule, reading, expected) in cases {
-        for (computed, expected) in variances(rule, reading).into_iter().zip(expected) {
+        for (computed, expected) in leg_variances(rule, reading).into_iter().zip(expected) {
             assert!(
                 (computed - expected).abs() < 2e-9,
                 "{rule:?} of {reading:?}: {computed}, not {expected}"
@@ -72,31 +72,34 @@ fn the_variances_of_each_rule_match_its_source() {
 
 #[test]
 fn nav2_and_beluga_differ_at_exactly_a_centimetre_only() {
-    let reading = |trans| delta(1.0, trans, -0.4);
+    let reading_with_trans = |trans| odom_delta(1.0, trans, -0.4);
     for (trans, nav2_rot1, beluga_rot1) in [
         (MAX_SPIN_DISTANCE.next_down(), 0.0, 0.0),
         (MAX_SPIN_DISTANCE, 1.0, 0.0),
         (MAX_SPIN_DISTANCE.next_up(), 1.0, 1.0),
     ] {
-        let rot1_of = |rule: OdometryRule| rule.legs(&reading(trans)).rot1;
+        let rot1_of = |rule: OdometryRule| rule.legs(&reading_with_trans(trans)).rot1;
         assert_eq!([rot1_of(Nav2), rot1_of(Beluga)], [nav2_rot1, beluga_rot1], "{trans}");
         for rule in OdometryRule::ALL {
-            let OdomDelta { rot1, rot2, .. } = rule.legs(&reading(trans));
+            let OdomDelta { rot1, rot2, .. } = rule.legs(&reading_with_trans(trans));
             assert!((rot1 + rot2 - 0.6).abs() < 1e-15, "{rule:?} loses a turn");
         }
     }
 }
 
-/// The closed forms of E[sin² ε] are compared with quadrature where that is accurate, and with their limit for larger noise.
+/// The closed forms of E[sin² ε] are compared with quadrature where it is accurate, and with their limit for larger noise.
 #[test]
 fn the_mean_squared_sine_is_that_of_the_noise() {
     for kind in NOISE_KINDS {
         for exponent in -60..=4 {
-            let b = 10f64.powf(f64::from(exponent) / 10.0);
+            let std = 10f64.powf(f64::from(exponent) / 10.0);
             let expected: f64 =
-                nodes(kind).iter().map(|node| node.weight * (b * node.value).sin().powi(2)).sum();
-            let computed = kind.mean_squared_sine(Variance(b * b));
-            assert!((computed / expected - 1.0).abs() < 1e-10, "{kind:?} at {b}: {computed}, not {expected}");
+                nodes(kind).iter().map(|node| node.weight * (std * node.value).sin().powi(2)).sum();
+            let computed = kind.mean_squared_sine(Variance(std * std));
+            assert!(
+                (computed / expected - 1.0).abs() < 1e-10,
+                "{kind:?} at {std}: {computed}, not {expected}"
+            );
         }
         assert_eq!(kind.mean_squared_sine(Variance(0.0)), 0.0);
         assert!((kind.mean_squared_sine(Variance(1e12)) - 0.5).abs() < 1e-6);
@@ -106,37 +109,43 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
 /// The mean square of n outcomes with kurtosis κ has the relative standard error √((κ − 1)/n). κ is estimated from the outcomes.
 #[test]
 fn exact_variances_match_samples() {
-    let readings = [delta(0.7, 1.5, 0.5), delta(3.0, 1.0, -3.0), delta(0.2, 0.3, FRAC_PI_2)];
+    let readings = [odom_delta(0.7, 1.5, 0.5), odom_delta(3.0, 1.0, -3.0), odom_delta(0.2, 0.3, FRAC_PI_2)];
     for (kind, rule) in NOISE_KINDS.into_iter().flat_map(|kind| OdometryRule::ALL.map(|rule| (kind, rule))) {
         for reading in readings {
-            let (legs, variances) = (rule.legs(&reading), rule.variances(&reading, &[0.05; 5]));
-            let mut rng = seeded(192);
-            let mut draw = || kind.quantile(centred_uniform(&mut rng));
-            let start = SE2::new(0.4, -0.2, 1.0);
-            let bearing = start.theta() + legs.rot1;
-            let rho: f64 = -0.6;
+            let (legs, leg_variances) = (rule.legs(&reading), rule.variances(&reading, &[0.05; 5]));
+            let mut rng = seeded_rng(192);
+            let mut draw_unit_noise = || kind.quantile(centred_uniform(&mut rng));
+            let start_pose = SE2::new(0.4, -0.2, 1.0);
+            let bearing = start_pose.theta() + legs.rot1;
+            let correlation: f64 = -0.6;
             let outcomes: Vec<[f64; 2]> = (0..SAMPLES)
                 .map(|_| {
-                    let [a, b, c] = [draw(), draw(), draw()];
-                    let executed_motion =
-                        variances.executed_motion(&legs, [a, b, rho * a + (1.0 - rho * rho).sqrt() * c]);
-                    let [_, _, driven, _] = executed_motion.poses(&start);
-                    let (dx, dy) = (driven.x() - start.x(), driven.y() - start.y());
+                    let [a, b, c] = [draw_unit_noise(), draw_unit_noise(), draw_unit_noise()];
+                    let executed_motion = leg_variances.executed_motion(
+                        &legs,
+                        [a, b, correlation * a + (1.0 - correlation * correlation).sqrt() * c],
+                    );
+                    let [_, _, drive_end, _] = executed_motion.poses(&start_pose);
+                    let (dx, dy) = (drive_end.x() - start_pose.x(), drive_end.y() - start_pose.y());
                     let turn_error =
                         executed_motion.legs.rot1 + executed_motion.legs.rot2 - legs.rot1 - legs.rot2;
                     [dy * bearing.cos() - dx * bearing.sin(), turn_error]
                 })
                 .collect();
-            let exact = [variances.cross_track_variance(legs.trans, kind), variances.heading_variance(rho)];
-            for (k, exact) in exact.into_iter().enumerate() {
-                let mean = |power| {
+            let exact_variances = [
+                leg_variances.cross_track_variance(legs.trans, kind),
+                leg_variances.heading_variance(correlation),
+            ];
+            for (k, exact_variances) in exact_variances.into_iter().enumerate() {
+                let mean_power = |power| {
                     outcomes.iter().map(|outcome| outcome[k].powi(power)).sum::<f64>() / SAMPLES as f64
                 };
-                let (m2, m4) = (mean(2), mean(4));
-                let error = ((m4 - m2 * m2) / SAMPLES as f64).sqrt();
+                let (mean_square, mean_fourth_power) = (mean_power(2), mean_power(4));
+                let standard_error =
+                    ((mean_fourth_power - mean_square * mean_square) / SAMPLES as f64).sqrt();
                 assert!(
-                    (m2 - exact).abs() < MAX_STANDARD_ERRORS * error,
-                    "{kind:?} {rule:?} {reading:?} {k}: {m2} ± {error}, exactly {exact}"
+                    (mean_square - exact_variances).abs() < MAX_STANDARD_ERRORS * standard_error,
+                    "{kind:?} {rule:?} {reading:?} {k}: {mean_square} ± {standard_error}, exactly {exact_variances}"
                 );
             }
         }

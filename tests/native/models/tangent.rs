@@ -1,7 +1,8 @@
 //! Gaussian noise in exponential coordinates: density, sampler, and covariances propagated along a path.
 
 use crate::common::{
-    MAX_KOLMOGOROV_SMIRNOV, SAMPLES, Table, chi_square_limit, kolmogorov_smirnov, seeded, uniform, unit_cdf,
+    MAX_KOLMOGOROV_SMIRNOV, SAMPLES, Table, chi_square_limit, kolmogorov_smirnov, seeded_rng, uniform,
+    unit_cdf,
 };
 use motion::geom::se2::SE2;
 use motion::{
@@ -12,11 +13,11 @@ use std::f64::consts::PI;
 
 const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
-/// Command of one of twenty steps that are compounded.
-const STEP: VelocityCmd = VelocityCmd { dt: 0.2, ..U };
+/// Command of one step. Tests compound twenty steps.
+const STEP_COMMAND: VelocityCmd = VelocityCmd { dt: 0.2, ..U };
 const FULL_RANK_ALPHAS: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]);
 
-fn model_of(alphas: VelocityAlphas) -> VelocityModel {
+fn velocity_model(alphas: VelocityAlphas) -> VelocityModel {
     VelocityModel { alphas, noise: NoiseKind::Normal }
 }
 
@@ -37,154 +38,181 @@ fn start_poses() -> [SE2; 2] {
 
 #[test]
 fn log_prob_is_a_gaussian_in_exponential_coordinates() {
-    let mut rng = seeded(120);
+    let mut rng = seeded_rng(120);
     for x in start_poses() {
         let model = TangentNoiseModel::new(full_cov()).unwrap();
         for _ in 0..500 {
-            let w = Vector3::from_fn(|_, _| uniform(&mut rng, -1.0, 1.0));
-            let next = x.boxplus(Vector3::new(1.0, 0.0, 0.5) + w);
-            let (value, expected) = (model.log_prob(&next, &U, &x), log_gaussian_density(&w, &full_cov()));
-            assert!((value - expected).abs() < 1e-8, "{value}, not {expected}");
+            let deviation = Vector3::from_fn(|_, _| uniform(&mut rng, -1.0, 1.0));
+            let next = x.boxplus(Vector3::new(1.0, 0.0, 0.5) + deviation);
+            let (log_prob, expected) =
+                (model.log_prob(&next, &U, &x), log_gaussian_density(&deviation, &full_cov()));
+            assert!((log_prob - expected).abs() < 1e-8, "{log_prob}, not {expected}");
         }
     }
     // Wheels have no lateral noise. The density is then concentrated on a thin sheet.
-    let model =
-        TangentNoiseModel::from_velocity(&model_of(VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0])), &U);
+    let model = TangentNoiseModel::from_velocity(
+        &velocity_model(VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
+        &U,
+    );
     let model = model.unwrap();
-    let log_prob_at =
-        |w: Vector3<f64>| model.log_prob(&SE2::exp(&(Vector3::new(1.0, 0.0, 0.5) + w)), &U, &SE2::identity());
+    let log_prob_at = |deviation: Vector3<f64>| {
+        model.log_prob(&SE2::exp(&(Vector3::new(1.0, 0.0, 0.5) + deviation)), &U, &SE2::identity())
+    };
     let peak = log_prob_at(Vector3::zeros());
     assert!((log_prob_at(Vector3::new(0.1, 0.0, 0.1)) - peak + 0.5 * 2.0 * 0.01 / 0.025).abs() < 1e-6);
     assert!(log_prob_at(Vector3::new(0.0, 1e-3, 0.0)) < peak - 1e5);
 }
 
-/// Without noise of speed, of turn or of both, the density has a width of a micrometre or a microradian instead of 0. Residuals
-/// are rounded to 1e-16, a ten-billionth of that, and the relative change of the other variances is 4e-11.
+/// Without noise of speed or turn, the density has a width of a micrometre or a microradian instead of 0.
 #[test]
 fn without_noise_in_the_arc_the_density_is_finite() {
-    for [along, turn] in [[0.0, 0.025], [0.025, 0.0], [0.0, 0.0]] {
-        let alphas = VelocityAlphas([0.8 * along, 0.8 * along, 0.8 * turn, 0.8 * turn, 0.01, 0.01]);
-        let model = TangentNoiseModel::from_velocity(&model_of(alphas), &U).unwrap();
-        let value = model.log_prob(&SE2::exp(&TangentNoiseModel::twist(&U)), &U, &SE2::identity());
-        let variances = Vector3::new(along.max(1e-12), turn.max(1e-12), 0.0125);
+    for [along_variance, turn_variance] in [[0.0, 0.025], [0.025, 0.0], [0.0, 0.0]] {
+        let alphas = VelocityAlphas([
+            0.8 * along_variance,
+            0.8 * along_variance,
+            0.8 * turn_variance,
+            0.8 * turn_variance,
+            0.01,
+            0.01,
+        ]);
+        let model = TangentNoiseModel::from_velocity(&velocity_model(alphas), &U).unwrap();
+        let log_prob = model.log_prob(&SE2::exp(&TangentNoiseModel::twist(&U)), &U, &SE2::identity());
+        let variances = Vector3::new(along_variance.max(1e-12), turn_variance.max(1e-12), 0.0125);
         // The volume factors of chart and arc cancel, except for one factor of 2.
-        let expected =
+        let expected_log_prob =
             log_gaussian_density(&Vector3::zeros(), &Matrix3::from_diagonal(&variances)) + 2f64.ln();
-        assert!((value - expected).abs() < 1e-9, "{alphas:?}: {value}, not {expected}");
+        assert!(
+            (log_prob - expected_log_prob).abs() < 1e-9,
+            "{alphas:?}: {log_prob}, not {expected_log_prob}"
+        );
     }
 }
 
-/// A density over ξ is a density over poses times dx dy dθ / dξ = sinc²(ξ_ω/2), with the turn ξ_ω.
+/// A density over ξ is the density over poses times dx dy dθ / dξ = sinc²(ξ_ω/2), where ξ_ω is the turn.
 #[test]
 fn the_tangent_form_has_the_density_of_the_velocity_model() {
-    let mut rng = seeded(121);
+    let mut rng = seeded_rng(121);
     let alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
     for x in start_poses() {
         for (v, omega) in [(1.0, 0.5), (1.0, -0.5), (-1.0, 0.5), (-0.8, -1.0)] {
             let u = VelocityCmd { v, omega, dt: 1.2 };
-            let model = TangentNoiseModel::from_velocity(&model_of(alphas), &u).unwrap();
+            let model = TangentNoiseModel::from_velocity(&velocity_model(alphas), &u).unwrap();
             for _ in 0..200 {
                 let unit_noise = [(); 3].map(|()| uniform(&mut rng, -2.0, 2.0));
-                let next = model_of(alphas).apply_noise(&u, &x, unit_noise);
+                let next = velocity_model(alphas).apply_noise(&u, &x, unit_noise);
                 let half_turn = 0.5 * next.boxminus(&x).z;
                 let log_volume = 2.0 * (half_turn.sin() / half_turn).ln();
-                let expected = model_of(alphas).pose_density(&next, &u, &x).unwrap().ln() + log_volume;
-                let value = model.log_prob(&next, &u, &x);
-                assert!((value - expected).abs() < 1e-6, "{u:?} at {next:?}: {value}, not {expected}");
+                let expected_log_prob =
+                    velocity_model(alphas).pose_density(&next, &u, &x).unwrap().ln() + log_volume;
+                let log_prob = model.log_prob(&next, &u, &x);
+                assert!(
+                    (log_prob - expected_log_prob).abs() < 1e-6,
+                    "{u:?} at {next:?}: {log_prob}, not {expected_log_prob}"
+                );
             }
         }
     }
 }
 
-/// ξ − τ times the inverse of the covariance's root is standard normal. A Kolmogorov–Smirnov test checks each component, and all three
-/// together are checked by χ² over octants and shells.
+/// The whitened ξ − τ is standard normal. A Kolmogorov–Smirnov test checks each component, and a χ² test over octants and shells checks all
+/// three together.
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(1.0, 2.0, -0.7);
     let model = TangentNoiseModel::new(full_cov()).unwrap();
-    let mut rng = seeded(122);
-    let root_inverse = full_cov().cholesky().unwrap().l().try_inverse().unwrap();
+    let mut rng = seeded_rng(122);
+    let inverse_cov_root = full_cov().cholesky().unwrap().l().try_inverse().unwrap();
     let tau = Vector3::new(1.0, 0.0, 0.5);
-    let whitened: Vec<Vector3<f64>> =
-        (0..SAMPLES).map(|_| root_inverse * (model.sample(&U, &x, &mut rng).boxminus(&x) - tau)).collect();
+    let whitened_samples: Vec<Vector3<f64>> = (0..SAMPLES)
+        .map(|_| inverse_cov_root * (model.sample(&U, &x, &mut rng).boxminus(&x) - tau))
+        .collect();
     for axis in 0..3 {
-        let component = whitened.iter().map(|w| w[axis]).collect();
-        let distance = kolmogorov_smirnov(component, |z| unit_cdf(NoiseKind::Normal, z));
-        assert!(distance < MAX_KOLMOGOROV_SMIRNOV, "axis {axis}: √n·D = {distance}");
+        let component = whitened_samples.iter().map(|w| w[axis]).collect();
+        let ks_statistic = kolmogorov_smirnov(component, |z| unit_cdf(NoiseKind::Normal, z));
+        assert!(ks_statistic < MAX_KOLMOGOROV_SMIRNOV, "axis {axis}: √n·D = {ks_statistic}");
     }
     // Quartiles of χ² with three degrees of freedom.
     const QUARTILES: [f64; 3] = [1.212_532_903_045_966, 2.365_973_884_375_339, 4.108_344_935_632_316];
-    let mut counts = [0.0; 32];
-    for w in &whitened {
+    let mut sample_counts = [0.0; 32];
+    for w in &whitened_samples {
         let octant = (0..3).map(|axis| usize::from(w[axis] > 0.0) << axis).sum::<usize>();
-        counts[4 * octant + QUARTILES.iter().filter(|cut| w.norm_squared() > **cut).count()] += 1.0;
+        sample_counts
+            [4 * octant + QUARTILES.iter().filter(|quartile| w.norm_squared() > **quartile).count()] += 1.0;
     }
-    let expected = SAMPLES as f64 / 32.0;
-    let value: f64 = counts.iter().map(|count| (count - expected).powi(2) / expected).sum();
-    assert!(value < chi_square_limit(32), "χ² = {value}");
+    let expected_count = SAMPLES as f64 / 32.0;
+    let chi_square: f64 =
+        sample_counts.iter().map(|count| (count - expected_count).powi(2) / expected_count).sum();
+    assert!(chi_square < chi_square_limit(32), "χ² = {chi_square}");
 }
 
-/// The expected covariance is A Σ Aᵀ + R, with A as the inverse of the adjoint matrix of exp τ.
+/// The expected covariance is A Σ Aᵀ + R, where A is the inverse of the adjoint of exp τ.
 #[test]
 fn compound_is_the_chapters_recursion() {
-    let mut rng = seeded(124);
+    let mut rng = seeded_rng(124);
     for r in [full_cov(), Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025))] {
         let model = TangentNoiseModel::new(r).unwrap();
         for _ in 0..100 {
-            let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
-            let tau = Vector3::new(draw(2.0), draw(2.0), draw(3.0));
-            let root = Matrix3::from_fn(|_, _| draw(1.0));
-            let sigma = root * root.transpose();
-            let a = SE2::exp(&tau).adjoint().try_inverse().unwrap();
-            let expected = a * sigma * a.transpose() + r;
-            let result = model.compound(&sigma, &tau);
-            assert!((result - expected).amax() < 1e-12, "{result}{expected}");
-            assert_eq!(model.propagate(&sigma, &tau, Compounding::Chapter), result);
+            let mut draw_within = |limit: f64| uniform(&mut rng, -limit, limit);
+            let tau = Vector3::new(draw_within(2.0), draw_within(2.0), draw_within(3.0));
+            let sigma_root = Matrix3::from_fn(|_, _| draw_within(1.0));
+            let sigma = sigma_root * sigma_root.transpose();
+            let inverse_adjoint = SE2::exp(&tau).adjoint().try_inverse().unwrap();
+            let expected_cov = inverse_adjoint * sigma * inverse_adjoint.transpose() + r;
+            let compounded = model.compound(&sigma, &tau);
+            assert!((compounded - expected_cov).amax() < 1e-12, "{compounded}{expected_cov}");
+            assert_eq!(model.propagate(&sigma, &tau, Compounding::Chapter), compounded);
         }
     }
-    // γ̂'s variance is part of the chapter's R.
-    let model = TangentNoiseModel::from_velocity(&model_of(FULL_RANK_ALPHAS), &U).unwrap();
-    let expected = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.03125));
-    assert!((model.compound(&Matrix3::zeros(), &Vector3::zeros()) - expected).amax() < 1e-16);
+    // The chapter's R contains the variance of γ̂.
+    let model = TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &U).unwrap();
+    let expected_cov = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.03125));
+    assert!((model.compound(&Matrix3::zeros(), &Vector3::zeros()) - expected_cov).amax() < 1e-16);
 }
 
 /// A step from an exact pose transforms noise inside the arc to J_r R J_rᵀ. Noise of γ̂, which turns the robot after the arc, stays as it is.
 #[test]
 fn first_order_transforms_the_noise_inside_the_arc_only() {
     let tau = TangentNoiseModel::twist(&U);
-    let jacobian = SE2::right_jacobian(&tau);
+    let right_jacobian = SE2::right_jacobian(&tau);
     let arc_cov = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025));
     let turn_cov = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 0.00625));
-    let one_step =
+    let cov_after_one_step =
         |model: &TangentNoiseModel| model.propagate(&Matrix3::zeros(), &tau, Compounding::FirstOrder);
-    let separate_turn_model = TangentNoiseModel::from_velocity(&model_of(FULL_RANK_ALPHAS), &U).unwrap();
+    let separate_turn_model =
+        TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &U).unwrap();
     assert!(
-        (one_step(&separate_turn_model) - (jacobian * arc_cov * jacobian.transpose() + turn_cov)).amax()
+        (cov_after_one_step(&separate_turn_model)
+            - (right_jacobian * arc_cov * right_jacobian.transpose() + turn_cov))
+            .amax()
             < 1e-15
     );
     let merged_turn_model = TangentNoiseModel::new(arc_cov + turn_cov).unwrap();
     assert!(
-        (one_step(&merged_turn_model) - jacobian * (arc_cov + turn_cov) * jacobian.transpose()).amax()
+        (cov_after_one_step(&merged_turn_model)
+            - right_jacobian * (arc_cov + turn_cov) * right_jacobian.transpose())
+        .amax()
             < 1e-15
     );
-    assert!((one_step(&separate_turn_model) - one_step(&merged_turn_model)).amax() > 1e-4);
+    assert!(
+        (cov_after_one_step(&separate_turn_model) - cov_after_one_step(&merged_turn_model)).amax() > 1e-4
+    );
 }
 
-fn after_twenty_steps(model: &TangentNoiseModel, order: Compounding) -> Matrix3<f64> {
-    let tau = TangentNoiseModel::twist(&STEP);
+fn cov_after_twenty_steps(model: &TangentNoiseModel, order: Compounding) -> Matrix3<f64> {
+    let tau = TangentNoiseModel::twist(&STEP_COMMAND);
     (0..20).fold(Matrix3::zeros(), |sigma, _| model.propagate(&sigma, &tau, order))
 }
 
 #[test]
 fn twenty_steps_match_the_references() {
-    let model = TangentNoiseModel::from_velocity(&model_of(FULL_RANK_ALPHAS), &STEP).unwrap();
+    let model = TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &STEP_COMMAND).unwrap();
     let table = Table::parse(include_str!("../../reference/compounding.csv"));
     for (row, order) in
         table.rows().zip([Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder])
     {
         let [aa, ab, aw, bb, bw, ww] = row.all(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
-        let expected = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
-        let sigma = after_twenty_steps(&model, order);
-        assert!((sigma - expected).amax() < 1e-14, "{}: {sigma}{expected}", row.text("order"));
+        let expected_cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
+        let sigma = cov_after_twenty_steps(&model, order);
+        assert!((sigma - expected_cov).amax() < 1e-14, "{}: {sigma}{expected_cov}", row.text("order"));
     }
 }

@@ -1,7 +1,7 @@
 //! The velocity model: scoring, density and sampler.
 
-use crate::common::density::Grid;
-use crate::common::{NOISE_KINDS, SAMPLES, derivative, seeded, uniform};
+use crate::common::density::PolarGrid;
+use crate::common::{NOISE_KINDS, SAMPLES, derivative_by_noise, seeded_rng, uniform};
 use motion::geom::se2::SE2;
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::Vector3;
@@ -10,26 +10,27 @@ use std::f64::consts::{PI, TAU};
 const WITHOUT_LAST_TURN: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]);
 const WITH_LAST_TURN: VelocityAlphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
 
-fn model(alphas: VelocityAlphas, noise: NoiseKind) -> VelocityModel {
+fn velocity_model(alphas: VelocityAlphas, noise: NoiseKind) -> VelocityModel {
     VelocityModel { alphas, noise }
 }
 
-fn command(v: f64, omega: f64, dt: f64) -> VelocityCmd {
+fn velocity_command(v: f64, omega: f64, dt: f64) -> VelocityCmd {
     VelocityCmd { v, omega, dt }
 }
 
 fn noise_free_end(u: &VelocityCmd, x: &SE2) -> SE2 {
-    model(WITHOUT_LAST_TURN, NoiseKind::Normal).apply_noise(u, x, [0.0; 3])
+    velocity_model(WITHOUT_LAST_TURN, NoiseKind::Normal).apply_noise(u, x, [0.0; 3])
 }
 
 /// Returns commands with all signs of v and ω, straight ones, and spins on the spot.
 fn commands() -> Vec<VelocityCmd> {
     let signs = [(1.0, 0.5), (1.0, -0.5), (-1.0, 0.5), (-1.0, -0.5)];
-    let mut command_list: Vec<_> = signs.map(|(v, omega)| command(v, omega, 1.0)).to_vec();
-    command_list.extend(signs.map(|(v, omega)| command(0.3 * v, 4.0 * omega, 0.8)));
-    command_list
-        .extend([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(v, omega)| command(v, omega, 1.3)));
-    command_list
+    let mut all_commands: Vec<_> = signs.map(|(v, omega)| velocity_command(v, omega, 1.0)).to_vec();
+    all_commands.extend(signs.map(|(v, omega)| velocity_command(0.3 * v, 4.0 * omega, 0.8)));
+    all_commands.extend(
+        [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(v, omega)| velocity_command(v, omega, 1.3)),
+    );
+    all_commands
 }
 
 fn start_poses() -> [SE2; 3] {
@@ -38,20 +39,24 @@ fn start_poses() -> [SE2; 3] {
 
 #[test]
 fn prob_falls_off_as_the_noise_does() {
-    // With an error of one standard deviation in one control, a Gaussian falls to exp(−1/2), a triangular density to 1 − 1/√6.
-    for (kind, ratio) in
+    // At one standard deviation a Gaussian falls to exp(−1/2), and a triangular density to 1 − 1/√6.
+    for (kind, expected_ratio) in
         [(NoiseKind::Normal, (-0.5f64).exp()), (NoiseKind::Triangular, 1.0 - 1.0 / 6f64.sqrt())]
     {
-        let model = model(WITH_LAST_TURN, kind);
+        let velocity_model = velocity_model(WITH_LAST_TURN, kind);
         for u in commands().into_iter().filter(|u| u.v != 0.0) {
             for x in start_poses() {
-                let peak = model.prob(&noise_free_end(&u, &x), &u, &x);
+                let peak = velocity_model.prob(&noise_free_end(&u, &x), &u, &x);
                 for control in 0..3 {
                     for sign in [1.0, -1.0] {
                         let mut unit_noise = [0.0; 3];
                         unit_noise[control] = sign;
-                        let score = model.prob(&model.apply_noise(&u, &x, unit_noise), &u, &x);
-                        assert!((score / peak - ratio).abs() < 1e-9, "{kind:?} {u:?} noise {unit_noise:?}");
+                        let score =
+                            velocity_model.prob(&velocity_model.apply_noise(&u, &x, unit_noise), &u, &x);
+                        assert!(
+                            (score / peak - expected_ratio).abs() < 1e-9,
+                            "{kind:?} {u:?} noise {unit_noise:?}"
+                        );
                     }
                 }
             }
@@ -61,30 +66,33 @@ fn prob_falls_off_as_the_noise_does() {
 
 #[test]
 fn without_noise_samples_are_exact_and_there_is_no_density() {
-    let mut rng = seeded(53);
+    let mut rng = seeded_rng(53);
     for kind in NOISE_KINDS {
-        let noise_free_model = model(VelocityAlphas([0.0; 6]), kind);
+        let noise_free_model = velocity_model(VelocityAlphas([0.0; 6]), kind);
         for u in commands() {
             for x in start_poses() {
-                let end = noise_free_end(&u, &x);
-                assert_eq!(noise_free_model.sample(&u, &x, &mut rng), end);
-                assert_eq!(noise_free_model.prob(&end, &u, &x), 1.0);
-                assert_eq!(noise_free_model.prob(&end.boxplus(Vector3::new(0.0, 0.0, 1e-3)), &u, &x), 0.0);
-                assert_eq!(noise_free_model.pose_density(&end, &u, &x), None);
+                let end_pose = noise_free_end(&u, &x);
+                assert_eq!(noise_free_model.sample(&u, &x, &mut rng), end_pose);
+                assert_eq!(noise_free_model.prob(&end_pose, &u, &x), 1.0);
                 assert_eq!(
-                    model(WITHOUT_LAST_TURN, kind).pose_density(&end, &u, &x),
+                    noise_free_model.prob(&end_pose.boxplus(Vector3::new(0.0, 0.0, 1e-3)), &u, &x),
+                    0.0
+                );
+                assert_eq!(noise_free_model.pose_density(&end_pose, &u, &x), None);
+                assert_eq!(
+                    velocity_model(WITHOUT_LAST_TURN, kind).pose_density(&end_pose, &u, &x),
                     None,
                     "γ̂ has no variance"
                 );
-                assert!(model(WITH_LAST_TURN, kind).pose_density(&end, &u, &x).is_some());
+                assert!(velocity_model(WITH_LAST_TURN, kind).pose_density(&end_pose, &u, &x).is_some());
             }
         }
         // Noise is proportional to motion. A parked robot has none.
-        let parked_command = command(0.0, 0.0, 1.0);
+        let parked_command = velocity_command(0.0, 0.0, 1.0);
         for x in start_poses() {
-            assert_eq!(model(WITH_LAST_TURN, kind).sample(&parked_command, &x, &mut rng), x);
-            assert_eq!(model(WITH_LAST_TURN, kind).prob(&x, &parked_command, &x), 1.0);
-            assert_eq!(model(WITH_LAST_TURN, kind).pose_density(&x, &parked_command, &x), None);
+            assert_eq!(velocity_model(WITH_LAST_TURN, kind).sample(&parked_command, &x, &mut rng), x);
+            assert_eq!(velocity_model(WITH_LAST_TURN, kind).prob(&x, &parked_command, &x), 1.0);
+            assert_eq!(velocity_model(WITH_LAST_TURN, kind).pose_density(&x, &parked_command, &x), None);
         }
     }
 }
@@ -92,20 +100,20 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
 /// If γ̂ has no variance, it must be 0 up to rounding. Its rounding is proportional to the distance from the origin divided by |v|Δt².
 #[test]
 fn samples_far_from_the_origin_have_a_positive_score() {
-    let mut rng = seeded(56);
+    let mut rng = seeded_rng(56);
     for (distance, u) in [
-        (1000.0, command(1.0, 0.5, 0.01)),
-        (100.0, command(-0.05, 0.05, 0.01)),
-        (10.0, command(0.01, 0.0, 0.02)),
+        (1000.0, velocity_command(1.0, 0.5, 0.01)),
+        (100.0, velocity_command(-0.05, 0.05, 0.01)),
+        (10.0, velocity_command(0.01, 0.0, 0.02)),
     ] {
         for alphas in [WITHOUT_LAST_TURN, VelocityAlphas([0.0; 6])] {
             for _ in 0..1000 {
-                let mut draw = |limit: f64| uniform(&mut rng, -limit, limit);
-                let x = SE2::new(draw(distance), draw(distance), draw(PI));
-                let unit_noise = [draw(2.0), draw(2.0), 0.0];
-                let end = model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit_noise);
+                let mut draw_within = |limit: f64| uniform(&mut rng, -limit, limit);
+                let x = SE2::new(draw_within(distance), draw_within(distance), draw_within(PI));
+                let unit_noise = [draw_within(2.0), draw_within(2.0), 0.0];
+                let end = velocity_model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit_noise);
                 assert!(
-                    model(alphas, NoiseKind::Normal).prob(&end, &u, &x) > 0.0,
+                    velocity_model(alphas, NoiseKind::Normal).prob(&end, &u, &x) > 0.0,
                     "{u:?} from {x:?} to {end:?}"
                 );
             }
@@ -114,10 +122,10 @@ fn samples_far_from_the_origin_have_a_positive_score() {
 }
 
 /// Returns a box around the noise-free pose, which reaches twice as far as triangular noise. The kinks of the triangular density, at
-/// multiples of √6 deviations, lie on bounds of cells. A turn changes the bearing by half of it.
-fn box_around(model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> Grid {
-    let [v, omega, gamma] = model.variances(u).map(|b2| 2.0 * (6.0 * b2.0).sqrt() * u.dt);
-    Grid::new(x, &noise_free_end(u, x), 2.0, [v, 0.5 * omega, gamma], [8; 3])
+/// multiples of √6 deviations, lie on bounds of cells. A turn changes the bearing by half the turn.
+fn box_around(velocity_model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> PolarGrid {
+    let [v, omega, gamma] = velocity_model.variances(u).map(|b2| 2.0 * (6.0 * b2.0).sqrt() * u.dt);
+    PolarGrid::new(x, &noise_free_end(u, x), 2.0, [v, 0.5 * omega, gamma], [8; 3])
 }
 
 /// With noise as large as the motion, robots also drive backwards and turn by more than a circle. The v̂ of a spin has either sign.
@@ -128,62 +136,66 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
     for (kind, tolerance, v, omega) in
         [(NoiseKind::Normal, 1e-5, 0.6, 0.9), (NoiseKind::Triangular, 2e-3, 0.0, 1.2)]
     {
-        let u = command(v, omega, 1.5);
-        let model = model(large_alphas, kind);
+        let u = velocity_command(v, omega, 1.5);
+        let velocity_model = velocity_model(large_alphas, kind);
         // No robot is further away than the length of its arc, and none drives seven standard deviations more than commanded.
-        let radius = (v.abs() + 7.0 * model.variances(&u)[0].0.sqrt()) * u.dt;
-        let integral = |cells| {
-            Grid::around_start(&x, 2.0, radius, [cells; 3])
-                .integral(|pose| model.pose_density(pose, &u, &x).unwrap())
+        let radius = (v.abs() + 7.0 * velocity_model.variances(&u)[0].0.sqrt()) * u.dt;
+        let integral_with_cells = |cells| {
+            PolarGrid::around_start(&x, 2.0, radius, [cells; 3])
+                .integral(|pose| velocity_model.pose_density(pose, &u, &x).unwrap())
         };
         // Arcs of a full turn end near the start. The integrand has a corner there, and the error is proportional to the width
         // of a cell. Extrapolation from two numbers of cells removes that error.
-        let extrapolated = 2.0 * integral(12) - integral(6);
-        assert!((extrapolated - 1.0).abs() < tolerance, "{kind:?} {u:?}: {extrapolated}");
+        let extrapolated_integral = 2.0 * integral_with_cells(12) - integral_with_cells(6);
+        assert!((extrapolated_integral - 1.0).abs() < tolerance, "{kind:?} {u:?}: {extrapolated_integral}");
     }
 }
 
-/// The last turn γ̂ does not move the robot. Its noise, also beyond a full turn, does not change the density of positions. The sum over equally
-/// spaced headings is exact except for harmonics, which are below 1e-12 from a deviation of 0.1 on.
+/// The last turn γ̂ does not move the robot. Its noise therefore does not change the density of positions, even beyond a full turn. From a
+/// standard deviation of 0.1 on, the sum over equally spaced headings is accurate to 1e-12.
 #[test]
 fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
     const HEADING_COUNT: u32 = 128;
     let x = SE2::new(1.0, -1.0, -2.0);
-    let u = command(1.0, 0.5, 1.0);
+    let u = velocity_command(1.0, 0.5, 1.0);
     for (a, b) in [(1.0, 0.2), (0.8, 0.1)] {
         let position = x * SE2::new(a, b, 0.0);
-        let density = |deviation: f64| -> f64 {
-            let alpha5 = deviation * deviation;
-            let model = model(VelocityAlphas([0.05, 0.05, 0.05, 0.09, alpha5, 0.0]), NoiseKind::Normal);
+        let density_of_position = |std: f64| -> f64 {
+            let alpha5 = std * std;
+            let velocity_model =
+                velocity_model(VelocityAlphas([0.05, 0.05, 0.05, 0.09, alpha5, 0.0]), NoiseKind::Normal);
             let spacing = TAU / f64::from(HEADING_COUNT);
             let poses =
                 (0..HEADING_COUNT).map(|i| SE2::new(position.x(), position.y(), spacing * f64::from(i)));
-            poses.map(|pose| model.pose_density(&pose, &u, &x).unwrap()).sum::<f64>() * spacing
+            poses.map(|pose| velocity_model.pose_density(&pose, &u, &x).unwrap()).sum::<f64>() * spacing
         };
-        let expected = density(0.1);
+        let expected = density_of_position(0.1);
         assert!(expected > 0.01);
-        for deviation in [0.5, 3.0, 8.99, 9.01, 30.0, 1000.0] {
-            let computed = density(deviation);
-            assert!((computed / expected - 1.0).abs() < 1e-11, "{deviation}: {computed}, not {expected}");
+        for std in [0.5, 3.0, 8.99, 9.01, 30.0, 1000.0] {
+            let computed = density_of_position(std);
+            assert!((computed / expected - 1.0).abs() < 1e-11, "{std}: {computed}, not {expected}");
         }
     }
 }
 
-/// χ² over a grid of poses: sampler and density are the same distribution, also where the turn exceeds half a circle.
+/// A χ² test over a grid of poses shows that sampler and density are the same distribution, even where the turn exceeds half a circle.
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
     let small_alphas = VelocityAlphas(WITH_LAST_TURN.0.map(|alpha| 0.1 * alpha));
     let cases = [(WITH_LAST_TURN, -1.0, 0.5), (small_alphas, 0.9, 3.6)];
     for (seed, (alphas, v, omega)) in (60..).zip(cases) {
-        let u = command(v, omega, 1.0);
+        let u = velocity_command(v, omega, 1.0);
         for kind in NOISE_KINDS {
-            let model = model(alphas, kind);
-            let mut rng = seeded(seed);
-            let poses: Vec<SE2> = (0..SAMPLES).map(|_| model.sample(&u, &x, &mut rng)).collect();
-            let (value, limit) = box_around(&model, &u, &x)
-                .chi_square(&poses, |pose| model.pose_density(pose, &u, &x).unwrap());
-            assert!(value < limit, "{kind:?} {u:?}: χ² = {value}, limit {limit}");
+            let velocity_model = velocity_model(alphas, kind);
+            let mut rng = seeded_rng(seed);
+            let poses: Vec<SE2> = (0..SAMPLES).map(|_| velocity_model.sample(&u, &x, &mut rng)).collect();
+            let (chi_square, chi_square_limit) = box_around(&velocity_model, &u, &x)
+                .chi_square(&poses, |pose| velocity_model.pose_density(pose, &u, &x).unwrap());
+            assert!(
+                chi_square < chi_square_limit,
+                "{kind:?} {u:?}: χ² = {chi_square}, limit {chi_square_limit}"
+            );
         }
     }
 }
@@ -191,13 +203,14 @@ fn sampler_and_density_agree() {
 /// The chapter says that the normalized scoring function of Table 5.1 differs from the density by a few percent.
 #[test]
 fn the_tables_prob_differs_from_the_density_by_a_few_percent() {
-    let (u, x) = (command(1.0, 0.5, 1.0), SE2::identity());
-    let model = model(WITH_LAST_TURN, NoiseKind::Normal);
-    let grid = box_around(&model, &u, &x);
-    let density = grid.cell_masses(|pose| model.pose_density(pose, &u, &x).unwrap());
-    let scores = grid.cell_masses(|pose| model.prob(pose, &u, &x));
-    let total: f64 = scores.iter().sum();
-    let total_variation: f64 = density.iter().zip(&scores).map(|(d, s)| 0.5 * (d - s / total).abs()).sum();
+    let (u, x) = (velocity_command(1.0, 0.5, 1.0), SE2::identity());
+    let velocity_model = velocity_model(WITH_LAST_TURN, NoiseKind::Normal);
+    let polar_grid = box_around(&velocity_model, &u, &x);
+    let density_masses = polar_grid.cell_masses(|pose| velocity_model.pose_density(pose, &u, &x).unwrap());
+    let score_masses = polar_grid.cell_masses(|pose| velocity_model.prob(pose, &u, &x));
+    let total_score: f64 = score_masses.iter().sum();
+    let total_variation: f64 =
+        density_masses.iter().zip(&score_masses).map(|(d, s)| 0.5 * (d - s / total_score).abs()).sum();
     assert!((0.02..0.15).contains(&total_variation), "total variation {total_variation}");
 }
 
@@ -206,11 +219,13 @@ fn cartesian_cov_is_the_linearized_arc() {
     for u in commands() {
         for x in start_poses() {
             for alphas in [WITHOUT_LAST_TURN, WITH_LAST_TURN] {
-                let model = model(alphas, NoiseKind::Normal);
-                let jacobian = derivative([0.0; 3], |unit_noise| model.apply_noise(&u, &x, unit_noise));
-                let expected = jacobian * jacobian.transpose();
-                let cov = model.cartesian_cov(&u, &x);
-                assert!((cov - expected).amax() < 1e-8, "{u:?} from {x:?}\n{cov}{expected}");
+                let velocity_model = velocity_model(alphas, NoiseKind::Normal);
+                let jacobian = derivative_by_noise([0.0; 3], |unit_noise| {
+                    velocity_model.apply_noise(&u, &x, unit_noise)
+                });
+                let expected_cov = jacobian * jacobian.transpose();
+                let cov = velocity_model.cartesian_cov(&u, &x);
+                assert!((cov - expected_cov).amax() < 1e-8, "{u:?} from {x:?}\n{cov}{expected_cov}");
             }
         }
     }

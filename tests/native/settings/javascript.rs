@@ -1,5 +1,5 @@
-//! `www/settings.js`, from which scripts know the settings before the core is loaded, is generated from the declarations in the core.
-//! Messages about refused settings write numbers as JavaScript does.
+//! Generator of `www/settings.js`, in which scripts find the settings before the core is loaded. Messages about refused settings write
+//! numbers as JavaScript does.
 
 use motion::map::{MAX_BYTES, MAX_PIXELS};
 use motion::sim::picture::RAMP_STEPS;
@@ -9,7 +9,7 @@ use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometr
 use std::fmt::Write;
 use std::ops::{ControlFlow, RangeInclusive};
 
-const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/www/settings.js");
+const SETTINGS_JS_PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/www/settings.js");
 
 #[test]
 fn numbers_in_messages_are_formatted_as_in_javascript() {
@@ -37,26 +37,28 @@ fn numbers_in_messages_are_formatted_as_in_javascript() {
 
 #[test]
 fn settings_js_equals_the_declarations_in_the_core() {
-    let expected = settings_js();
+    let expected_text = settings_js();
     if std::env::var_os("UPDATE_SETTINGS").is_some() {
-        std::fs::write(PATH, &expected).expect("www/settings.js can be written");
+        std::fs::write(SETTINGS_JS_PATH, &expected_text).expect("www/settings.js can be written");
     }
-    let existing_text = std::fs::read_to_string(PATH).unwrap_or_default();
-    let line = existing_text
+    let existing_text = std::fs::read_to_string(SETTINGS_JS_PATH).unwrap_or_default();
+    let first_different_line = existing_text
         .lines()
-        .zip(expected.lines())
-        .position(|(existing_text, expected)| existing_text != expected);
+        .zip(expected_text.lines())
+        .position(|(existing_text, expected_text)| existing_text != expected_text);
     assert!(
-        existing_text == expected,
+        existing_text == expected_text,
         "www/settings.js is stale, at line {}: `UPDATE_SETTINGS=1 cargo test --test native settings` writes it anew",
-        line.unwrap_or_else(|| existing_text.lines().count().min(expected.lines().count())) + 1,
+        first_different_line
+            .unwrap_or_else(|| existing_text.lines().count().min(expected_text.lines().count()))
+            + 1,
     );
 }
 
 fn settings_js() -> String {
     let banana::Settings { velocity_alphas, odometry_alphas, .. } = banana::Settings::default();
     format!(
-        "{FILE_HEAD}
+        "{SETTINGS_JS_HEAD}
 /** @type {{Record<string, Declaration[]>}} settings of each widget, by its tag, in the order in which they are declared */
 export const settings = {{
   'banana-machine': [
@@ -126,7 +128,7 @@ export const verdict = {{ endFree: {END_FREE_BIT}, pathFree: {PATH_FREE_BIT}, ac
     )
 }
 
-const FILE_HEAD: &str = "\
+const SETTINGS_JS_HEAD: &str = "\
 // Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test native settings`: not to be edited.
 
 /**
@@ -162,16 +164,17 @@ fn object_lines(objects: impl IntoIterator<Item = String>) -> String {
 /// Returns a line for each setting, and for each number of a group or list. `number_sentences` describe the numbers of a list.
 fn declaration_lines(mut defaults: impl DeclaredSettings, number_sentences: &[&str]) -> String {
     let mut objects = Vec::new();
-    let shared_keys = shared_fields(&mut defaults);
+    let shared_keys = shared_field_keys(&mut defaults);
     let _ = defaults.visit_settings(&mut |declaration, setting| {
-        describe_setting(declaration, setting, number_sentences, &shared_keys, &mut objects);
+        append_setting(declaration, setting, number_sentences, &shared_keys, &mut objects);
         ControlFlow::Continue(())
     });
     object_lines(objects)
 }
 
-/// Returns the keys of fields that more than one group has, as two poses do. Their attributes consist of the group's name and the key.
-fn shared_fields(defaults: &mut impl DeclaredSettings) -> Vec<&'static str> {
+/// Returns the keys of fields that belong to more than one group, such as two poses. Their attributes consist of the group's name and the
+/// key.
+fn shared_field_keys(defaults: &mut impl DeclaredSettings) -> Vec<&'static str> {
     let (mut seen_keys, mut shared_keys) = (Vec::new(), Vec::new());
     let _ = defaults.visit_settings(&mut |_, setting| {
         if let Setting::Group(group) = setting {
@@ -186,7 +189,7 @@ fn shared_fields(defaults: &mut impl DeclaredSettings) -> Vec<&'static str> {
 }
 
 /// Appends the JavaScript object that describes a setting. A setting with several numbers has another object for each of them.
-fn describe_setting(
+fn append_setting(
     declaration: &Declaration,
     setting: Setting,
     number_sentences: &[&str],
@@ -196,73 +199,76 @@ fn describe_setting(
     let Declaration { key, of, sentence, unit } = *declaration;
     let of = of.map(|target| format!("of: '{target}', ")).unwrap_or_default();
     let unit = if unit.is_empty() { String::new() } else { format!("unit: '{unit}', ") };
-    let mut add = |text: String| objects.push(format!("key: '{key}', {of}{text}, sentence: '{sentence}'"));
+    let mut append = |text: String| objects.push(format!("key: '{key}', {of}{text}, sentence: '{sentence}'"));
     match setting {
         Setting::Number(value, allowed) => {
-            add(format!("type: 'number', {unit}{}, default: {value}", range(&allowed)));
+            append(format!("type: 'number', {unit}{}, default: {value}", range_entries(&allowed)));
         }
         Setting::Integer(value, allowed) => {
-            add(format!("type: 'whole', {unit}{}, default: {}", range(&allowed), value.get()));
+            append(format!("type: 'whole', {unit}{}, default: {}", range_entries(&allowed), value.get()));
         }
         Setting::OptionalInteger(value, allowed) => {
             let value = value.map_or("null".to_owned(), |value| value.to_string());
-            add(format!("type: 'whole', nullable: true, {unit}{}, default: {value}", range(&allowed)));
+            append(format!(
+                "type: 'whole', nullable: true, {unit}{}, default: {value}",
+                range_entries(&allowed)
+            ));
         }
-        Setting::Boolean(value) => add(format!("type: 'boolean', default: {value}")),
+        Setting::Boolean(value) => append(format!("type: 'boolean', default: {value}")),
         Setting::Keyword(word) => {
-            add(format!("type: 'word', words: {}, default: '{}'", word_list(word.all()), word.get()));
+            append(format!("type: 'word', words: {}, default: '{}'", js_array(word.all()), word.get()));
         }
         Setting::Level(level, allowed) => {
             let value = level.get().map_or("null".to_owned(), |level| level.to_string());
             let weights = level.weights();
-            add(format!(
+            append(format!(
                 "weights: {weights:?}, type: 'number', nullable: true, {unit}{}, default: {value}",
-                range(&allowed)
+                range_entries(&allowed)
             ));
         }
         Setting::Numbers(values, allowed) => {
-            add(format!("type: 'numbers', {}, default: {values:?}", range(&allowed)));
+            append(format!("type: 'numbers', {}, default: {values:?}", range_entries(&allowed)));
             for (index, (value, sentence)) in values.iter().zip(number_sentences).enumerate() {
-                // Models with fewer α's lack the numbers after the first ones. Those are null.
+                // The last numbers are null in models with fewer α's.
                 let nullable = if sentence == &number_sentences[0] { "" } else { "nullable: true, " };
                 objects.push(format!(
                     "key: 'alpha{}', in: '{key}', index: {index}, type: 'number', {nullable}{}, default: {value}, \
                      sentence: '{sentence}'",
                     index + 1,
-                    range(&allowed),
+                    range_entries(&allowed),
                 ));
             }
         }
         Setting::Group(group) => {
             let keys = group.fields().iter().map(|field| field.declaration.key).collect();
-            add(format!("type: 'group', fields: {}", word_list(keys)));
+            append(format!("type: 'group', fields: {}", js_array(keys)));
             for (i, field) in group.fields().iter().enumerate() {
                 let value = *group.number(i);
-                let Declaration { key: part, sentence, unit, .. } = field.declaration;
-                let name = if shared_keys.contains(&part) {
-                    let (initial, remaining_key) = part.split_at(1);
+                let Declaration { key: field_key, sentence, unit, .. } = field.declaration;
+                let key_entries = if shared_keys.contains(&field_key) {
+                    let (initial, remaining_key) = field_key.split_at(1);
                     format!(
-                        "key: '{key}{}{remaining_key}', in: '{key}', field: '{part}'",
+                        "key: '{key}{}{remaining_key}', in: '{key}', field: '{field_key}'",
                         initial.to_uppercase()
                     )
                 } else {
-                    format!("key: '{part}', in: '{key}'")
+                    format!("key: '{field_key}', in: '{key}'")
                 };
                 objects.push(format!(
-                    "{name}, type: 'number', unit: '{unit}', {}, default: {value}, \
+                    "{key_entries}, type: 'number', unit: '{unit}', {}, default: {value}, \
                      sentence: '{sentence}'",
-                    range(&field.allowed),
+                    range_entries(&field.allowed),
                 ));
             }
         }
     }
 }
 
-fn range<T: std::fmt::Display>(allowed: &RangeInclusive<T>) -> String {
+fn range_entries<T: std::fmt::Display>(allowed: &RangeInclusive<T>) -> String {
     format!("min: {}, max: {}", allowed.start(), allowed.end())
 }
 
-fn word_list(words: Vec<&str>) -> String {
+fn js_array(words: Vec<&str>) -> String {
     format!("['{}']", words.join("', '"))
 }
 

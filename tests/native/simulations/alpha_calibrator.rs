@@ -1,7 +1,7 @@
 //! The Alpha Calibrator's simulation. The result for the simulated log is compared with the simulated α's and errors. Panels and legs
 //! are compared with an independent computation.
 
-use crate::common::seeded;
+use crate::common::seeded_rng;
 use motion::calibrate::{Calibration, Leg, SystematicError, Trajectory, Verdict};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
@@ -135,7 +135,7 @@ fn the_error_bars_of_panels_hold_the_fitted_lines() {
 #[test]
 fn turns_that_the_robot_did_not_make_are_in_no_panel() {
     let mut simulation = simulation(Settings::default());
-    let mut rng = seeded(1);
+    let mut rng = seeded_rng(1);
     let mut pose = SE2::identity();
     let odometry: Vec<(f64, SE2)> = (0..3000)
         .map(|row| {

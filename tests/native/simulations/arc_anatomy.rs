@@ -1,6 +1,6 @@
 //! Arc Anatomy: the inversion of an arc, compared with the printed table, with the driven motion and with differences.
 
-use crate::common::{NOISE_KINDS, seeded, uniform};
+use crate::common::{NOISE_KINDS, seeded_rng, uniform};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, PRESETS, Settings, Stats};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -27,7 +27,7 @@ fn poses(settings: &Settings) -> (SE2, SE2) {
 
 /// Returns an infinite stream of settings, each with two random poses some metres apart and a random command.
 fn random_settings(seed: u64) -> impl Iterator<Item = Settings> {
-    let mut rng = seeded(seed);
+    let mut rng = seeded_rng(seed);
     std::iter::repeat_with(move || {
         let mut uniform_up_to = |reach: f64| uniform(&mut rng, -reach, reach);
         let start = [uniform_up_to(3.0), uniform_up_to(3.0), uniform_up_to(PI)];

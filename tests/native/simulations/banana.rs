@@ -1,6 +1,6 @@
 //! The Banana Machine: common random numbers, settings and reported values.
 
-use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, pose_distance, preset, seeded};
+use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, pose_distance, preset, seeded_rng};
 use motion::geom::lanes::ACCURACY;
 use motion::geom::se2::SE2;
 use motion::sim::View;
@@ -55,7 +55,7 @@ fn the_cloud_equals_samples_of_the_model() {
     {
         let settings = Settings { noise, command, samples: 500, seed: 2005, ..preset("gentle") };
         let assert_same = |settings: Settings, draw: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
-            let mut rng = seeded(2005);
+            let mut rng = seeded_rng(2005);
             for pose in simulation(settings).poses() {
                 assert!(pose_distance(&pose, &draw(&mut rng)) < POSE_ACCURACY, "{settings:?}");
             }

@@ -1,6 +1,6 @@
 //! The simulation of Dead Reckoning: rollouts are compared with poses of the models, and statistics with simple sums.
 
-use crate::common::seeded;
+use crate::common::seeded_rng;
 use motion::geom::se2::SE2;
 use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, PRESETS, RECURSIONS, Settings};
 use motion::{Compounding, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -53,7 +53,7 @@ fn lanes_agree_with_poses_composed_one_by_one() {
         let simulation = simulation(settings);
         let (u, model) = (settings.command, settings.model());
         // Robot 513 is the second robot of the third block of 256. Each block has its own stream of random numbers.
-        let mut block_rng = seeded(settings.seed);
+        let mut block_rng = seeded_rng(settings.seed);
         block_rng.jump();
         block_rng.jump();
         let mut pose = SE2::identity();

@@ -1,6 +1,6 @@
 //! The simulation of the Odometry Decomposer: common random numbers, poses of the legs, drifting frame and curve.
 
-use crate::common::{NOISE_KINDS, pose_distance, seeded};
+use crate::common::{NOISE_KINDS, pose_distance, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::sim::odometry_decomposer::{CurvePoint, OdometryDecomposer, OdometryPose, PRESETS, Settings};
@@ -24,7 +24,7 @@ fn the_outcomes_equal_samples_of_the_model() {
         let simulation = simulation(settings);
         let [a1, a2, a3, a4, _] = settings.alphas;
         let model = OdometryModel { alphas: OdomAlphas([a1, a2, a3, a4]), noise };
-        let mut rng = seeded(settings.seed);
+        let mut rng = seeded_rng(settings.seed);
         assert_eq!(simulation.poses().len(), 1001);
         for pose in simulation.poses() {
             let expected_pose = model.sample(&simulation.reading(), &settings.from.into(), &mut rng);

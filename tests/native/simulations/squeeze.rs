@@ -1,6 +1,6 @@
 //! The simulation of Map Squeeze: common random numbers, draw budget, tally and its interval.
 
-use crate::common::seeded;
+use crate::common::seeded_rng;
 use crate::map::conditioned::{SAMPLERS, STRAIGHT_COMMAND, too_small_room};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
@@ -191,7 +191,7 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
         let cost = simulation.sampling_trial(sampler, 500).expect("it fits");
         let plan = FloorPlan::apartment();
         let conditioned = MapConditioned { model, plan: &plan, clearance: 0.13, sampler };
-        let mut rng = seeded(7);
+        let mut rng = seeded_rng(7);
         let mut expected = (0, 0);
         for _ in 0..500 {
             let sample = conditioned.sample(&STRAIGHT_COMMAND, &start, &mut rng).expect("it fits");

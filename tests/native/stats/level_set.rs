@@ -1,6 +1,6 @@
 //! Contour lines of known fields, and those of the maps of Arc Anatomy.
 
-use crate::common::{seeded, uniform};
+use crate::common::{seeded_rng, uniform};
 use motion::geom::se2::SE2;
 use motion::sim::arc_anatomy::{ArcAnatomy, CONTOUR_LEVELS, Settings, Surface, SurfaceKind};
 use motion::stats::level_set;
@@ -26,7 +26,7 @@ fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
 /// most a cell apart.
 #[test]
 fn contours_of_noise_contain_every_crossing() {
-    let mut rng = seeded(21);
+    let mut rng = seeded_rng(21);
     let (columns, rows) = (23, 17);
     let values: Vec<f64> = (0..columns * rows).map(|_| uniform(&mut rng, -1.0, 1.0)).collect();
     let mut crossings = 0;

@@ -1,6 +1,6 @@
 //! Moments, skews and contours of clouds, and exact moments of models.
 
-use crate::common::{MAX_STANDARD_ERRORS, Table, seeded, uniform};
+use crate::common::{MAX_STANDARD_ERRORS, Table, seeded_rng, uniform};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::stats::{
@@ -26,7 +26,7 @@ fn the_exponential_contour_covers_two_deviations() {
     let start = SE2::new(2.0, -1.0, 0.8);
     let alphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]);
     let model = VelocityModel { alphas, noise: NoiseKind::Normal };
-    let mut rng = seeded(134);
+    let mut rng = seeded_rng(134);
     let poses: Vec<SE2> = (0..200_000).map(|_| model.sample(&U, &start, &mut rng)).collect();
     let fraction_inside = |moments: &ExponentialMoments| {
         let contour = ExponentialContour::new(moments, &start);
@@ -145,7 +145,7 @@ fn exact_moments_match_the_references() {
 #[test]
 fn degenerate_clouds_give_nan() {
     let poses_on_line = |heading: f64| {
-        let mut rng = seeded(145);
+        let mut rng = seeded_rng(145);
         (0..100)
             .map(|_| {
                 let s = uniform(&mut rng, -1.0, 1.0);
@@ -213,7 +213,7 @@ fn a_width_of_the_size_of_rounding_counts_as_zero() {
 fn a_width_of_the_size_of_position_rounding_counts_as_zero() {
     const TINY_WIDTH: f64 = 1e-10;
     let skew = |[x, y]: [f64; 2]| {
-        let mut rng = seeded(146);
+        let mut rng = seeded_rng(146);
         let mut offset = || uniform(&mut rng, -TINY_WIDTH, TINY_WIDTH);
         let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + offset(), y + offset(), 0.3)).collect();
         cross_track_skew(&poses)

@@ -13,37 +13,44 @@ fn simulation(settings: Settings) -> AlphaCalibrator {
     AlphaCalibrator::new(settings).expect("allowed")
 }
 
-/// Returns true for each α, and then for each systematic error, whose interval holds the value of the simulation.
-fn intervals_contain_truth(simulation: &AlphaCalibrator) -> [bool; 10] {
+/// Returns for the four α's and the six systematic errors whether their intervals contain the true values.
+fn do_intervals_contain_truth(simulation: &AlphaCalibrator) -> [bool; 10] {
     let calibration = simulation.calibration();
-    let truth = simulation.truth().expect("a simulated log");
-    let [ahead, left] = truth.lever_arm;
-    let errors = [truth.clock_offset, truth.mount_yaw, ahead, left, truth.distance_scale, truth.turn_scale];
+    let true_parameters = simulation.truth().expect("a simulated log");
+    let [lever_ahead, lever_left] = true_parameters.lever_arm;
+    let true_errors = [
+        true_parameters.clock_offset,
+        true_parameters.mount_yaw,
+        lever_ahead,
+        lever_left,
+        true_parameters.distance_scale,
+        true_parameters.turn_scale,
+    ];
     std::array::from_fn(|i| {
-        let (value, interval) = match i {
-            0..4 => (truth.alphas[i], calibration.intervals[i]),
-            _ => (errors[i - 4], calibration.interval_of(SystematicError::ALL[i - 4])),
+        let (true_value, interval) = match i {
+            0..4 => (true_parameters.alphas[i], calibration.intervals[i]),
+            _ => (true_errors[i - 4], calibration.interval_of(SystematicError::ALL[i - 4])),
         };
         let [low, high] = interval.expect("the log turns and drives");
-        (low..=high).contains(&value)
+        (low..=high).contains(&true_value)
     })
 }
 
 #[test]
 fn the_initial_intervals_contain_the_true_values() {
     let simulation = simulation(Settings::default());
-    assert_eq!(intervals_contain_truth(&simulation), [true; 10]);
+    assert_eq!(do_intervals_contain_truth(&simulation), [true; 10]);
     assert_eq!(simulation.calibration().diagnostics.verdict, Verdict::Consistent);
 }
 
-/// With a duration, the settings of distance and angle have no effect.
+/// If a duration is set, the settings of distance and angle have no effect.
 #[test]
 fn legs_end_after_a_duration_where_one_is_set() {
     let settings = Settings { duration: 0.8, ..Settings::default() };
     let mut simulation = simulation(settings);
     assert!(simulation.legs().len() > 100, "{}", simulation.legs().len());
-    for Leg { times: [from, to], .. } in simulation.legs() {
-        assert!((to - from - 0.8).abs() < 0.06, "{from} {to}");
+    for Leg { times: [start_time, end_time], .. } in simulation.legs() {
+        assert!((end_time - start_time - 0.8).abs() < 0.06, "{start_time} {end_time}");
     }
     let legs_before = simulation.legs().to_vec();
     simulation.configure(Settings { distance: 3.0, angle: 2.0, ..settings }).expect("allowed");
@@ -52,30 +59,30 @@ fn legs_end_after_a_duration_where_one_is_set() {
     assert!(simulation.legs().len() < legs_before.len() / 2);
 }
 
-/// A standard deviation of 0 is estimated from the log; any other is used as stated.
+/// A standard deviation set to 0 is estimated from the log. Any other is used as stated.
 #[test]
 fn the_reference_noise_is_estimated_unless_it_is_stated() {
-    let reference_noise = |position_std: f64, yaw_std: f64| {
+    let stds_and_is_stated = |position_std: f64, yaw_std: f64| {
         let simulation = simulation(Settings { position_std, yaw_std, ..Settings::default() });
         simulation.calibration().reference_noise.map(|std| (std.value, std.interval[0] == std.interval[1]))
     };
-    let [position, yaw] = reference_noise(0.0, 0.003);
-    assert_eq!((position.1, yaw.1), (false, true));
-    assert!((yaw.0 - 0.003).abs() < 1e-12, "{yaw:?}");
-    let [position, yaw] = reference_noise(0.004, 0.0);
-    assert_eq!((position.1, yaw.1), (true, false));
-    assert!((position.0 - 0.004).abs() < 1e-12, "{position:?}");
+    let [position_std, yaw_std] = stds_and_is_stated(0.0, 0.003);
+    assert_eq!((position_std.1, yaw_std.1), (false, true));
+    assert!((yaw_std.0 - 0.003).abs() < 1e-12, "{yaw_std:?}");
+    let [position_std, yaw_std] = stds_and_is_stated(0.004, 0.0);
+    assert_eq!((position_std.1, yaw_std.1), (true, false));
+    assert!((position_std.0 - 0.004).abs() < 1e-12, "{position_std:?}");
 }
 
-/// Panels are compared with means of squared innovations, less the variance due to the other α and the reference, in bins made here.
+/// Panels are compared with means of squared innovations, from which the variance due to the other α and the reference is subtracted.
 #[test]
 fn panels_are_means_of_squared_innovations() {
     let simulation = simulation(Settings::default());
     let Calibration { alphas, intervals, observations, leg_fits, .. } = simulation.calibration();
-    let [rot1, trans, rot2] = simulation.panels(Regressor::Turn);
-    assert_eq!([rot1.alpha, trans.alpha, rot2.alpha], [0, 3, 0]);
+    let [rot1_panel, trans_panel, rot2_panel] = simulation.panels(Regressor::Turn);
+    assert_eq!([rot1_panel.alpha, trans_panel.alpha, rot2_panel.alpha], [0, 3, 0]);
     assert_eq!(simulation.panels(Regressor::Distance).map(|panel| panel.alpha), [1, 2, 1]);
-    assert_eq!((trans.slope, trans.interval), (alphas[3], intervals[3]));
+    assert_eq!((trans_panel.slope, trans_panel.interval), (alphas[3], intervals[3]));
     let slope = alphas[3].expect("the log turns");
     // By the rule of Table 5.6 the variance of `trans` is α₃·trans² + α₄·(rot1² + rot2²).
     let mut points: Vec<[f64; 2]> = observations
@@ -84,34 +91,41 @@ fn panels_are_means_of_squared_innovations() {
         .filter(|(_, fit)| !fit.is_outlier)
         .map(|(observation, fit)| {
             let [rot1, _, rot2] = observation.reading;
-            let turns = rot1 * rot1 + rot2 * rot2;
+            let squared_turns = rot1 * rot1 + rot2 * rot2;
             let [variance, innovation] = [fit.stds[1].powi(2), fit.standardized[1] * fit.stds[1]];
-            [turns, innovation * innovation - (variance - slope * turns)]
+            [squared_turns, innovation * innovation - (variance - slope * squared_turns)]
         })
         .collect();
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let bin_size = points.len().div_ceil(8);
-    // A bin of legs ends after all legs that turned exactly as much as its last one.
-    let bin_end = |i: usize| {
+    // Legs that turned by equal amounts are in the same bin.
+    let bin_end_index = |i: usize| {
         points.partition_point(|point| point[0] <= points[(i * bin_size).min(points.len()) - 1][0])
     };
     for i in 0..8 {
-        let bin = &points[if i == 0 { 0 } else { bin_end(i) }..bin_end(i + 1)];
+        let bin = &points[if i == 0 { 0 } else { bin_end_index(i) }..bin_end_index(i + 1)];
         let mean = |axis: usize| bin.iter().map(|point| point[axis]).sum::<f64>() / bin.len() as f64;
-        assert!((trans.x[i] - mean(0)).abs() < 1e-12 && (trans.y[i] - mean(1)).abs() < 1e-12, "bin {i}");
+        assert!(
+            (trans_panel.x[i] - mean(0)).abs() < 1e-12 && (trans_panel.y[i] - mean(1)).abs() < 1e-12,
+            "bin {i}"
+        );
     }
-    assert_eq!(trans.x.len(), 8);
-    // The model is true. The bins therefore differ from the line by their error bars only.
-    let term = |i: usize| ((trans.y[i] - slope * trans.x[i]) / trans.error[i]).powi(2);
-    assert!((0..8).map(term).sum::<f64>() < 26.1, "χ² of 8 exceeds that once in a thousand logs");
+    assert_eq!(trans_panel.x.len(), 8);
+    // Because the model is true, the bins differ from the line by their errors only.
+    let chi_square_term =
+        |i: usize| ((trans_panel.y[i] - slope * trans_panel.x[i]) / trans_panel.error[i]).powi(2);
+    assert!(
+        (0..8).map(chi_square_term).sum::<f64>() < 26.1,
+        "χ² of 8 bins exceeds 26.1 in one of a thousand logs"
+    );
 }
 
-/// If the model is true, no more bins are off by over two and three error bars than with normal errors. That holds also for
-/// bins where one leg with a large turn dominates. Error bars from the scatter of the squares alone would miss 1.7 % of bins at three.
+/// If the model is true, no more bins are off by over two or three error bars than with normal errors. This includes bins
+/// where one leg with a large turn dominates.
 #[test]
 #[ignore = "nightly: 40 calibrations"]
 fn the_error_bars_of_panels_hold_the_fitted_lines() {
-    let [mut bins, mut over2, mut over3] = [0; 3];
+    let [mut bin_count, mut count_over_2, mut count_over_3] = [0; 3];
     for seed in 0..40 {
         let simulation = simulation(Settings { seed, ..Settings::default() });
         for panel in [Regressor::Distance, Regressor::Turn]
@@ -120,15 +134,18 @@ fn the_error_bars_of_panels_hold_the_fitted_lines() {
         {
             let slope = panel.slope.expect("the log turns and drives");
             for ((x, y), error) in panel.x.iter().zip(&panel.y).zip(&panel.error) {
-                let deviation = ((y - slope * x) / error).abs();
-                bins += 1;
-                over2 += usize::from(deviation > 2.0);
-                over3 += usize::from(deviation > 3.0);
+                let standard_errors = ((y - slope * x) / error).abs();
+                bin_count += 1;
+                count_over_2 += usize::from(standard_errors > 2.0);
+                count_over_3 += usize::from(standard_errors > 3.0);
             }
         }
     }
-    let fraction = |count: usize| count as f64 / bins as f64;
-    assert!(fraction(over2) < 0.0455 && fraction(over3) < 0.0027, "{over2} and {over3} of {bins}");
+    let fraction = |count: usize| count as f64 / bin_count as f64;
+    assert!(
+        fraction(count_over_2) < 0.0455 && fraction(count_over_3) < 0.0027,
+        "{count_over_2} and {count_over_3} of {bin_count}"
+    );
 }
 
 /// A turn on the spot may end a tenth of a millimetre behind its start. Table 5.6 then counts it as two half turns.
@@ -139,19 +156,20 @@ fn turns_that_the_robot_did_not_make_are_in_no_panel() {
     let mut pose = SE2::identity();
     let odometry: Vec<(f64, SE2)> = (0..3000)
         .map(|row| {
-            let [forward, turn] = [[-1e-5, 0.03], [0.03, 0.01], [0.03, 0.0]][row / 30 % 3];
-            pose = pose.boxplus(Vector3::new(forward, 0.0, turn));
+            let [forward_step, turn_step] = [[-1e-5, 0.03], [0.03, 0.01], [0.03, 0.0]][row / 30 % 3];
+            pose = pose.boxplus(Vector3::new(forward_step, 0.0, turn_step));
             (0.1 * row as f64, pose)
         })
         .collect();
     let reference = odometry.iter().map(|(time, pose)| {
-        let error = |_| NoiseKind::Normal.sample(Variance(1e-6), &mut rng);
-        (*time, pose.boxplus([0; 3].map(error).into()))
+        let draw_error = |_| NoiseKind::Normal.sample(Variance(1e-6), &mut rng);
+        (*time, pose.boxplus([0; 3].map(draw_error).into()))
     });
     let reference = Trajectory::new(reference.collect::<Vec<_>>()).expect("times rise");
     simulation.set_log(vec![Log { odometry: Trajectory::new(odometry).expect("times rise"), reference }]);
-    let readings = simulation.calibration().observations.iter().map(|observation| observation.reading[0]);
-    assert!(readings.filter(|rot1| rot1.abs() > 3.0).count() > 50);
+    let rot1_readings =
+        simulation.calibration().observations.iter().map(|observation| observation.reading[0]);
+    assert!(rot1_readings.filter(|rot1| rot1.abs() > 3.0).count() > 50);
     for panel in simulation.panels(Regressor::Turn) {
         assert!(panel.x.iter().all(|turn_square| *turn_square < 1.0), "{:?}", panel.x);
     }
@@ -161,40 +179,43 @@ fn turns_that_the_robot_did_not_make_are_in_no_panel() {
 fn a_leg_is_shown_in_the_frame_of_its_start() {
     let simulation = simulation(Settings { inflation: 4.0, ..Settings::default() });
     let calibration = simulation.calibration();
-    let index = 100;
-    let view = simulation.leg(index).expect("a leg");
-    let [from, to] = calibration.legs[index].reference.map(|pose| pose * calibration.corrected.base());
-    let motion = from.inverse() * to;
-    assert_eq!(view.ended, [motion.x(), motion.y(), motion.theta()]);
-    let [rot1, trans, rot2] = calibration.observations[index].reading;
+    let leg_index = 100;
+    let leg_view = simulation.leg(leg_index).expect("a leg");
+    let [start_pose, end_pose] =
+        calibration.legs[leg_index].reference.map(|pose| pose * calibration.corrected.base());
+    let motion = start_pose.inverse() * end_pose;
+    assert_eq!(leg_view.ended, [motion.x(), motion.y(), motion.theta()]);
+    let [rot1, trans, rot2] = calibration.observations[leg_index].reading;
     let odometry_end = OdomDelta { rot1, trans, rot2 }.apply(&SE2::identity());
     assert!(
-        view.read
+        leg_view
+            .read
             .iter()
             .zip([odometry_end.x(), odometry_end.y(), odometry_end.theta()])
-            .all(|(is, has)| (is - has).abs() < 1e-12)
+            .all(|(computed, expected)| (computed - expected).abs() < 1e-12)
     );
-    // Outcomes are drawn by the rule, with an inflation of four: variances times four.
+    // Outcomes are drawn by the rule, with variances that are inflated by four.
     let mut alphas = [0.0; 5];
     alphas.iter_mut().zip(&calibration.alphas).for_each(|(alpha, fitted)| *alpha = fitted.expect("known"));
     let variances =
         OdometryRule::Table.variances(&OdomDelta { rot1, trans, rot2 }, &alphas.map(|alpha| 4.0 * alpha));
-    let count = view.outcomes.len() as f64;
+    let outcome_count = leg_view.outcomes.len() as f64;
     let variance = |quantity: &dyn Fn(&[f64; 3]) -> f64| {
-        let mean = view.outcomes.iter().map(quantity).sum::<f64>() / count;
-        view.outcomes.iter().map(|outcome| (quantity(outcome) - mean).powi(2)).sum::<f64>() / count
+        let mean = leg_view.outcomes.iter().map(quantity).sum::<f64>() / outcome_count;
+        leg_view.outcomes.iter().map(|outcome| (quantity(outcome) - mean).powi(2)).sum::<f64>()
+            / outcome_count
     };
     let drive_variance = variance(&|[x, y, _]| libm::hypot(*x, *y));
     assert!(
-        (drive_variance / variances.trans.0 - 1.0).abs() < 4.0 * (2.0 / count).sqrt(),
+        (drive_variance / variances.trans.0 - 1.0).abs() < 4.0 * (2.0 / outcome_count).sqrt(),
         "{drive_variance}, {}",
         variances.trans.0
     );
     let turn_variance = variance(&|[_, _, theta]| *theta);
-    let expected = variances.rot1.0 + variances.rot2.0;
+    let expected_turn_variance = variances.rot1.0 + variances.rot2.0;
     assert!(
-        (turn_variance / expected - 1.0).abs() < 4.0 * (2.0 / count).sqrt(),
-        "{turn_variance}, {expected}"
+        (turn_variance / expected_turn_variance - 1.0).abs() < 4.0 * (2.0 / outcome_count).sqrt(),
+        "{turn_variance}, {expected_turn_variance}"
     );
     assert!(simulation.leg(calibration.legs.len()).is_none());
 }
@@ -203,13 +224,15 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
 fn the_nearest_leg_passes_through_the_point() {
     let simulation = simulation(Settings::default());
     let calibration = simulation.calibration();
-    let [from, to] = calibration.legs[7].reference.map(|pose| pose * calibration.corrected.base());
-    let midpoint = [0.5 * (from.x() + to.x()), 0.5 * (from.y() + to.y())];
-    let nearest = simulation.nearest(midpoint, 1e-9).expect("it leads through there");
-    let [from, to] = calibration.legs[nearest].reference.map(|pose| pose * calibration.corrected.base());
+    let [start_pose, end_pose] =
+        calibration.legs[7].reference.map(|pose| pose * calibration.corrected.base());
+    let midpoint = [0.5 * (start_pose.x() + end_pose.x()), 0.5 * (start_pose.y() + end_pose.y())];
+    let nearest_index = simulation.nearest(midpoint, 1e-9).expect("it leads through there");
+    let nearest_poses =
+        calibration.legs[nearest_index].reference.map(|pose| pose * calibration.corrected.base());
     let distance = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
-    let [from, to] = [from, to].map(|pose| [pose.x(), pose.y()]);
-    assert!(distance(from, midpoint) + distance(midpoint, to) - distance(from, to) < 1e-9);
+    let [start, end] = nearest_poses.map(|pose| [pose.x(), pose.y()]);
+    assert!(distance(start, midpoint) + distance(midpoint, end) - distance(start, end) < 1e-9);
     assert_eq!(simulation.nearest([1e6, 0.0], 1.0), None);
     assert_eq!(simulation.nearest(midpoint, 0.0), None);
 }
@@ -218,18 +241,18 @@ fn the_nearest_leg_passes_through_the_point() {
 fn changing_the_model_or_the_rule_adjusts_the_other() {
     use motion::sim::settings::Rules;
     let settings_after = |change: fn(&mut Settings), named: &str| {
-        let results_before = Settings::default();
-        let mut settings = results_before;
+        let settings_before = Settings::default();
+        let mut settings = settings_before;
         change(&mut settings);
-        settings.adjust(&results_before, &[named]);
+        settings.adjust(&settings_before, &[named]);
         settings
     };
     assert_eq!(settings_after(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
     assert_eq!(settings_after(|s| s.rule = OdometryRule::Omni, "rule").model, Model::Omnidirectional);
     assert_eq!(settings_after(|s| s.rule = OdometryRule::Nav2, "rule").model, Model::Odometry);
     let omni_odometry = Settings { model: Model::Odometry, rule: OdometryRule::Omni, ..Settings::default() };
-    let refusal = AlphaCalibrator::new(omni_odometry).expect_err("they do not").to_string();
-    assert_eq!(refusal, "rule is omni; allowed is thrun, nav2 or beluga");
+    let error_message = AlphaCalibrator::new(omni_odometry).expect_err("they exclude each other").to_string();
+    assert_eq!(error_message, "rule is omni; allowed is thrun, nav2 or beluga");
 }
 
 #[test]
@@ -237,24 +260,24 @@ fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
     let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
     let simulation = simulation(settings);
     let mut restored_simulation = AlphaCalibrator::restore(settings, &simulation.save()).expect("a fit");
-    // Residuals that a leg does not show are NaN, which equals nothing.
-    let results = |fit: &AlphaCalibrator| {
+    // Missing residuals are NaN, which does not equal itself. Results are therefore compared as text.
+    let results_of = |fit: &AlphaCalibrator| {
         let panels = [Regressor::Turn, Regressor::Distance].map(|regressor| fit.panels(regressor));
         format!("{:?} {panels:?} {:?} {:?}", fit.calibration(), fit.leg(5), fit.nearest([0.5, 1.0], 3.0))
     };
-    let results_before = results(&simulation);
+    let results_before = results_of(&simulation);
     assert!(
-        results(&restored_simulation) == results_before
+        results_of(&restored_simulation) == results_before
             && restored_simulation.truth().is_none()
             && !restored_simulation.is_pending()
     );
     // A new inflation changes only predictions. Another rule needs the log.
     restored_simulation.configure(Settings { inflation: 2.0, ..settings }).expect("allowed");
-    assert!(!restored_simulation.is_pending() && results(&restored_simulation) != results_before);
+    assert!(!restored_simulation.is_pending() && results_of(&restored_simulation) != results_before);
     restored_simulation.configure(Settings::default()).expect("allowed");
     assert!(
         restored_simulation.is_pending()
-            && results(&restored_simulation) == results_before
+            && results_of(&restored_simulation) == results_before
             && *restored_simulation.fitted_settings() == settings
     );
     assert_eq!(AlphaCalibrator::restore(settings, &[1, 2]).unwrap_err(), RestoreError::Bytes);
@@ -263,9 +286,9 @@ fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
 #[test]
 fn a_log_without_legs_gives_an_empty_calibration() {
     let mut simulation = simulation(Settings::default());
-    let poses =
+    let standing_trajectory =
         |count: usize| Trajectory::new((0..count).map(|i| (i as f64, SE2::identity()))).expect("times rise");
-    simulation.set_log(vec![Log { odometry: poses(10), reference: poses(10) }]);
+    simulation.set_log(vec![Log { odometry: standing_trajectory(10), reference: standing_trajectory(10) }]);
     assert!(simulation.truth().is_none());
     let Calibration { alphas, legs, diagnostics, recommended, .. } = simulation.calibration();
     assert!(legs.is_empty() && alphas.iter().all(Option::is_none) && recommended.is_none());

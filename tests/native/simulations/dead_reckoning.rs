@@ -1,4 +1,4 @@
-//! The simulation of Dead Reckoning: rollouts are compared with poses of the models, and statistics with simple sums.
+//! The simulation of Dead Reckoning. Rollouts are compared with poses of the models, and statistics with simple sums.
 
 use crate::common::seeded_rng;
 use motion::geom::se2::SE2;
@@ -6,19 +6,19 @@ use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, PRESETS, RECURSIONS, 
 use motion::{Compounding, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{Matrix3, Vector3};
 
-/// Returns a simulation. If the path has fewer steps than the selected one, the last step is selected.
+/// Returns a simulation. If the selected step is beyond the end of the path, the last step is selected instead.
 pub fn simulation(settings: Settings) -> DeadReckoning {
     let step = settings.step.min(settings.steps);
     DeadReckoning::new(Settings { step, ..settings }).expect("valid settings")
 }
 
-/// Returns the settings with which the widget opens, with fewer robots.
+/// Returns the default settings with another number of robots.
 fn settings_with_robots(samples: usize) -> Settings {
     Settings { samples, ..Settings::default() }
 }
 
-/// Returns settings where approximations fail: sharp turns, reverse, large noise, headings beyond half a turn.
-fn difficult_settings() -> Vec<Settings> {
+/// Returns settings where approximations fail, such as sharp turns, reverse, large noise, and headings beyond half a turn.
+fn challenging_settings() -> Vec<Settings> {
     let with_command = |v: f64, omega: f64, dt: f64, alphas| Settings {
         command: VelocityCmd { v, omega, dt },
         alphas,
@@ -39,8 +39,8 @@ fn difficult_settings() -> Vec<Settings> {
     ]
 }
 
-/// Asserts that two poses are equal up to rounding at the scale of the path.
-fn assert_same([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
+/// Asserts that two poses are equal up to rounding, which is proportional to `scale`.
+fn assert_same_pose([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
     let difference = SE2::new(x, y, theta).boxminus(expected);
     assert!(difference.amax() < 1e-13 * scale, "({x}, {y}, {theta}), not {expected:?}: {difference}");
 }
@@ -49,7 +49,7 @@ fn assert_same([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
 #[test]
 fn lanes_agree_with_poses_composed_one_by_one() {
     use motion::noise::centred_uniform;
-    for settings in difficult_settings() {
+    for settings in challenging_settings() {
         let simulation = simulation(settings);
         let (u, model) = (settings.command, settings.model());
         // Robot 513 is the second robot of the third block of 256. Each block has its own stream of random numbers.
@@ -57,18 +57,19 @@ fn lanes_agree_with_poses_composed_one_by_one() {
         block_rng.jump();
         block_rng.jump();
         let mut pose = SE2::identity();
-        let poses = simulation.rollout(513).expect("a robot");
+        let rollout_poses = simulation.rollout(513).expect("a robot");
         let mut path_size = 1.0;
-        for rollout_pose in poses {
-            let uniforms: Vec<[f64; 3]> =
+        for rollout_pose in rollout_poses {
+            let uniform_draws: Vec<[f64; 3]> =
                 (0..256).map(|_| std::array::from_fn(|_| centred_uniform(&mut block_rng))).collect();
-            let unit_noise = uniforms[1].map(|q| NoiseKind::Normal.quantile(q));
-            let previous = pose;
+            let unit_noise = uniform_draws[1].map(|q| NoiseKind::Normal.quantile(q));
+            let previous_pose = pose;
             pose = model.apply_noise(&u, &pose, unit_noise);
             // The rounding of a path grows with its length and its turn.
-            path_size += (pose.x() - previous.x()).hypot(pose.y() - previous.y()) + (u.omega * u.dt).abs();
-            let turn = model.variances(&u)[1].0.sqrt() * u.dt * unit_noise[1].abs();
-            assert_same(rollout_pose, &pose, path_size * (1.0 + turn) * 4.0);
+            path_size +=
+                (pose.x() - previous_pose.x()).hypot(pose.y() - previous_pose.y()) + (u.omega * u.dt).abs();
+            let turn_noise = model.variances(&u)[1].0.sqrt() * u.dt * unit_noise[1].abs();
+            assert_same_pose(rollout_pose, &pose, path_size * (1.0 + turn_noise) * 4.0);
         }
     }
 }
@@ -76,32 +77,45 @@ fn lanes_agree_with_poses_composed_one_by_one() {
 /// The expected means, covariances and relative errors are sums over the paths of all robots.
 #[test]
 fn moments_are_those_of_the_cloud() {
-    for (i, settings) in difficult_settings().into_iter().enumerate() {
+    for (i, settings) in challenging_settings().into_iter().enumerate() {
         let simulation = simulation(settings);
         let n = settings.samples as f64;
         let paths: Vec<_> =
             (0..settings.samples).map(|index| simulation.rollout(index).expect("a robot")).collect();
         for k in [0, settings.steps as usize / 2, settings.steps as usize - 1] {
-            let nominal = simulation.nominal_poses()[k];
-            let xi: Vec<Vector3<f64>> = paths
+            let nominal_pose = simulation.nominal_poses()[k];
+            let twists: Vec<Vector3<f64>> = paths
                 .iter()
-                .map(|path| SE2::new(path[k][0], path[k][1], path[k][2]).boxminus(&nominal))
+                .map(|path| SE2::new(path[k][0], path[k][1], path[k][2]).boxminus(&nominal_pose))
                 .collect();
-            let mean = xi.iter().sum::<Vector3<f64>>() / n;
-            let cov =
-                xi.iter().map(|xi| (xi - mean) * (xi - mean).transpose()).sum::<Matrix3<f64>>() / (n - 1.0);
+            let expected_mean = twists.iter().sum::<Vector3<f64>>() / n;
+            let expected_cov = twists
+                .iter()
+                .map(|twist| (twist - expected_mean) * (twist - expected_mean).transpose())
+                .sum::<Matrix3<f64>>()
+                / (n - 1.0);
             let measured = simulation.measured_moments()[k];
-            let scale = 1e-11 * (1.0 + cov.amax());
-            assert!((measured.mean - mean).amax() < scale, "{i}, {k}: {} {mean}", measured.mean);
-            assert!((measured.cov - cov).amax() < scale, "{i}, {k}: {} {cov}", measured.cov);
+            let tolerance = 1e-11 * (1.0 + expected_cov.amax());
+            assert!(
+                (measured.mean - expected_mean).amax() < tolerance,
+                "{i}, {k}: {} {expected_mean}",
+                measured.mean
+            );
+            assert!(
+                (measured.cov - expected_cov).amax() < tolerance,
+                "{i}, {k}: {} {expected_cov}",
+                measured.cov
+            );
             for axis in 0..3 {
-                let moment = |p: i32| xi.iter().map(|xi| (xi[axis] - mean[axis]).powi(p)).sum::<f64>() / n;
-                let expected = ((moment(4) / moment(2).powi(2) - 1.0) / n).sqrt();
+                let central_moment = |p: i32| {
+                    twists.iter().map(|twist| (twist[axis] - expected_mean[axis]).powi(p)).sum::<f64>() / n
+                };
+                let expected_std_error = ((central_moment(4) / central_moment(2).powi(2) - 1.0) / n).sqrt();
                 let relative_std_error = measured.relative_error[axis];
-                if moment(2) > 1e-20 {
+                if central_moment(2) > 1e-20 {
                     assert!(
-                        (relative_std_error / expected - 1.0).abs() < 1e-6,
-                        "{i}, {k}, {axis}: {relative_std_error}, not {expected}"
+                        (relative_std_error / expected_std_error - 1.0).abs() < 1e-6,
+                        "{i}, {k}, {axis}: {relative_std_error}, not {expected_std_error}"
                     );
                 }
             }
@@ -109,7 +123,8 @@ fn moments_are_those_of_the_cloud() {
     }
 }
 
-/// A ratio is the predicted variance over the measured one. Steps with a miss (a ratio off by more than 5 %) are counted from 1.
+/// A ratio is the predicted variance divided by the measured variance. A step misses if its ratio is off by more than 5 %. Steps are
+/// counted from 1.
 #[test]
 fn ratios_and_misses_are_counted() {
     let simulation = simulation(Settings::default());
@@ -122,21 +137,27 @@ fn ratios_and_misses_are_counted() {
                     predicted[(axis, axis)] / simulation.measured_moments()[k].cov[(axis, axis)]
                 })
                 .collect();
-            assert!(comparison.ratios.iter().zip(&ratios).all(|(row, ratio)| row[axis] == *ratio));
-            let steps: Vec<u32> = (1..=20).filter(|k| (ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
+            assert!(
+                comparison.ratios.iter().zip(&ratios).all(|(ratio_row, ratio)| ratio_row[axis] == *ratio)
+            );
+            let missed_steps: Vec<u32> =
+                (1..=20).filter(|k| (ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
             assert!(misses.decidable);
-            assert_eq!((misses.first, misses.last), (steps.first().copied(), steps.last().copied()));
+            assert_eq!(
+                (misses.first, misses.last),
+                (missed_steps.first().copied(), missed_steps.last().copied())
+            );
             assert_eq!(misses.end, ratios[19] - 1.0);
         }
     }
 }
 
-/// Returns, for each component, whether misses of the chapter's recursion can be established.
+/// Returns for each component whether there are enough robots to decide if the chapter's recursion misses.
 fn are_misses_decidable(settings: Settings) -> [bool; 3] {
     simulation(settings).comparison(Compounding::Chapter).misses.map(|misses| misses.decidable)
 }
 
-/// Misses of the chapter's recursion are reported only if the robots have a spread and are enough to measure it.
+/// Misses of the chapter's recursion are reported only if there are enough robots to measure their variance, which must not be 0.
 #[test]
 fn misses_are_reported_with_enough_robots_only() {
     assert_eq!(are_misses_decidable(Settings::default()), [true; 3]);
@@ -159,27 +180,31 @@ fn misses_are_reported_with_enough_robots_only() {
 /// A component without variance has no relative error, however small the numbers are.
 #[test]
 fn a_zero_variance_has_no_relative_error() {
-    let errors = |settings| simulation(settings).measured_moments()[1].relative_error;
+    let relative_errors_of = |settings| simulation(settings).measured_moments()[1].relative_error;
     for samples in [1, 2] {
         assert!(
-            errors(Settings { alphas: [0.0; 6], ..settings_with_robots(samples) })
+            relative_errors_of(Settings { alphas: [0.0; 6], ..settings_with_robots(samples) })
                 .iter()
                 .all(|error| error.is_nan())
         );
     }
-    assert!(errors(settings_with_robots(1)).iter().all(|error| error.is_nan()));
-    // Two robots always have a kurtosis of 1, from which the error would be 0.
-    assert!(errors(settings_with_robots(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt()));
+    assert!(relative_errors_of(settings_with_robots(1)).iter().all(|error| error.is_nan()));
+    // Two robots always have a kurtosis of 1. The formula would therefore give an error of 0.
+    assert!(
+        relative_errors_of(settings_with_robots(2))
+            .iter()
+            .all(|error| error.is_finite() && *error >= 2f64.sqrt())
+    );
     // Robots that only turn have no variance along the track.
     let on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
-    let [along, _, heading] = errors(Settings {
+    let [along, _, heading] = relative_errors_of(Settings {
         command: on_the_spot,
         alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0],
         ..settings_with_robots(300)
     })
     .into();
     assert!(along.is_nan() && heading.is_finite(), "{along} {heading}");
-    // The squares of such small variances underflow.
+    // The squares of such small variances underflow to 0.
     let slow_drive =
         Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..settings_with_robots(300) };
     assert_eq!(are_misses_decidable(slow_drive), [false; 3]);
@@ -190,22 +215,25 @@ fn a_zero_variance_has_no_relative_error() {
 fn a_fourth_order_without_a_covariance_has_no_ratio() {
     let settings = Settings { alphas: [0.02, 0.02, 60.0, 60.0, 5.0, 5.0], ..settings_with_robots(1000) };
     let simulation = simulation(settings);
-    let covs = simulation.predicted_covariances(Compounding::FourthOrder);
-    let end = covs.iter().position(Option::is_none).expect("some step without");
-    assert!(covs[end..].iter().all(Option::is_none));
+    let predicted_covs = simulation.predicted_covariances(Compounding::FourthOrder);
+    let first_undefined = predicted_covs.iter().position(Option::is_none).expect("some step without");
+    assert!(predicted_covs[first_undefined..].iter().all(Option::is_none));
     assert!(
-        simulation.comparison(Compounding::FourthOrder).ratios[end..].iter().all(|ratio| ratio.x.is_nan())
+        simulation.comparison(Compounding::FourthOrder).ratios[first_undefined..]
+            .iter()
+            .all(|ratio| ratio.x.is_nan())
     );
     assert!(simulation.predicted_covariances(Compounding::FirstOrder).iter().all(Option::is_some));
-    let settings = Settings { step: end as u32 + 1, compounding: Compounding::FourthOrder, ..settings };
+    let settings =
+        Settings { step: first_undefined as u32 + 1, compounding: Compounding::FourthOrder, ..settings };
     let outlines =
         DeadReckoning::new(settings).expect("valid settings").outlines(settings.step).expect("a step");
     assert!(outlines.ellipse.is_empty() && outlines.exponential.is_empty() && outlines.predicted.is_empty());
     assert!(!outlines.measured.is_empty());
 }
 
-/// Equal seeds give equal random numbers. A smaller cloud is the first part of a larger one, and a shorter path that of a longer one.
-/// Other α's scale the noise.
+/// Equal seeds give equal random numbers. A smaller cloud or a shorter path is the first part of a larger cloud or a longer path. Other α's
+/// scale the noise.
 #[test]
 fn a_seed_gives_the_same_draws() {
     let large_cloud = simulation(settings_with_robots(1500));
@@ -219,13 +247,13 @@ fn a_seed_gives_the_same_draws() {
         assert_eq!(short_path.rollout(index).as_deref(), Some(&path[..7]));
         // With twice the noise, the executed velocities of the first step differ from the command by twice as much.
         let u = Settings::default().command;
-        let noise = |path: &[[f64; 3]]| {
+        let first_step_noise = |path: &[[f64; 3]]| {
             let [x, y, theta] = path[0];
             let inversion = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
             Vector3::new(inversion.v_hat - u.v, inversion.omega_hat - u.omega, inversion.gamma_hat)
         };
-        let double_noise = noise(&noisy_cloud.rollout(index).expect("a robot"));
-        assert!((double_noise - noise(&path) * 2.0).amax() < 1e-12, "{double_noise}");
+        let double_noise = first_step_noise(&noisy_cloud.rollout(index).expect("a robot"));
+        assert!((double_noise - first_step_noise(&path) * 2.0).amax() < 1e-12, "{double_noise}");
     }
     assert_ne!(
         large_cloud.rollout(0),
@@ -234,26 +262,30 @@ fn a_seed_gives_the_same_draws() {
     assert_eq!(large_cloud.rollout(1500), None);
 }
 
-/// Each step has a share of the variance of the whole path. The shares add up to that variance for any number of steps.
+/// The variance of the whole path is divided equally among its steps. For any number of steps, their variances add up to the same total.
 #[test]
 fn noise_of_the_whole_path_is_divided_among_its_steps() {
     let whole_command = VelocityCmd { v: 1.0, omega: 0.5, dt: 4.0 };
-    let expected =
+    let expected_variances =
         VelocityModel { alphas: VelocityAlphas(Settings::default().alphas), noise: NoiseKind::Normal }
             .variances(&whole_command)
             .map(|variance| variance.0 * whole_command.dt * whole_command.dt);
     for steps in [1, 20, 200] {
         let command = VelocityCmd { dt: whole_command.dt / f64::from(steps), ..whole_command };
         let settings = Settings { command, steps, step: 1, per: NoisePer::Path, ..settings_with_robots(1) };
-        let noise = settings.model().variances(&command).map(|variance| variance.0 * command.dt * command.dt);
+        let step_variances =
+            settings.model().variances(&command).map(|variance| variance.0 * command.dt * command.dt);
         for i in 0..3 {
-            assert!((noise[i] * f64::from(steps) / expected[i] - 1.0).abs() < 1e-12, "{steps}, {i}");
+            assert!(
+                (step_variances[i] * f64::from(steps) / expected_variances[i] - 1.0).abs() < 1e-12,
+                "{steps}, {i}"
+            );
         }
-        // The heading's variance adds up.
+        // The heading variances of the steps add up.
         let covariance = simulation(settings).predicted_covariances(Compounding::FirstOrder)
             [steps as usize - 1]
             .expect("a covariance");
-        assert!((covariance[(2, 2)] / (expected[1] + expected[2]) - 1.0).abs() < 1e-12);
+        assert!((covariance[(2, 2)] / (expected_variances[1] + expected_variances[2]) - 1.0).abs() < 1e-12);
     }
 }
 
@@ -267,34 +299,33 @@ fn the_level_of_heading_noise_is_that_of_four_alphas() {
     );
 }
 
-/// Points of the outlines of both Gaussians are two standard deviations from the commanded pose.
 #[test]
 fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
     let settings = Settings { step: 20, compounding: Compounding::FirstOrder, ..settings_with_robots(300) };
     let simulation = simulation(settings);
     let covariance = simulation.predicted_covariances(Compounding::FirstOrder)[19].expect("a covariance");
-    let nominal = simulation.nominal_poses()[19];
+    let nominal_pose = simulation.nominal_poses()[19];
     let outlines = simulation.outlines(20).expect("a step");
     assert_eq!([simulation.outlines(0), simulation.outlines(21)], [None, None]);
-    let information = covariance.fixed_view::<2, 2>(0, 0).into_owned().try_inverse().expect("full rank");
+    let inverse_cov = covariance.fixed_view::<2, 2>(0, 0).into_owned().try_inverse().expect("full rank");
     for [x, y] in &outlines.ellipse {
-        let relative_pose = nominal.inverse() * SE2::new(*x, *y, 0.0);
+        let relative_pose = nominal_pose.inverse() * SE2::new(*x, *y, 0.0);
         let position = nalgebra::Vector2::new(relative_pose.x(), relative_pose.y());
-        assert!(((position.transpose() * information * position)[0] - 4.0).abs() < 1e-9);
+        assert!(((position.transpose() * inverse_cov * position)[0] - 4.0).abs() < 1e-9);
     }
     for [a, l] in &outlines.predicted {
         let position = nalgebra::Vector2::new(*a, *l);
-        assert!(((position.transpose() * information * position)[0] - 4.0).abs() < 1e-9);
+        assert!(((position.transpose() * inverse_cov * position)[0] - 4.0).abs() < 1e-9);
     }
-    // In the first step the lateral variance is 0. The predicted outline is a line.
-    let first =
+    // In the first step the predicted lateral variance is 0, so that the outline is a line.
+    let first_outlines =
         DeadReckoning::new(settings_with_robots(300)).expect("valid settings").outlines(1).expect("a step");
-    assert!(first.predicted.iter().all(|[_, lateral]| *lateral == 0.0));
+    assert!(first_outlines.predicted.iter().all(|[_, lateral]| *lateral == 0.0));
 }
 
 #[test]
 fn the_commanded_path_leads_through_its_poses() {
-    for settings in difficult_settings() {
+    for settings in challenging_settings() {
         let simulation = simulation(settings);
         let path = simulation.commanded_path();
         let chords_per_step = (path.len() - 1) / settings.steps as usize;
@@ -303,25 +334,25 @@ fn the_commanded_path_leads_through_its_poses() {
         let mut pose = SE2::identity();
         for k in 1..=settings.steps as usize {
             pose = pose.boxplus(twist);
-            let nominal = simulation.nominal_poses()[k - 1];
-            assert!(nominal.boxminus(&pose).amax() < 1e-11, "{nominal:?}, not {pose:?}");
-            assert_eq!(path[k * chords_per_step], [nominal.x(), nominal.y()]);
+            let nominal_pose = simulation.nominal_poses()[k - 1];
+            assert!(nominal_pose.boxminus(&pose).amax() < 1e-11, "{nominal_pose:?}, not {pose:?}");
+            assert_eq!(path[k * chords_per_step], [nominal_pose.x(), nominal_pose.y()]);
         }
     }
 }
 
-/// Duration at which the variances along and across a straight drive are equal (exercise 2). At small noise the formula is compared with
-/// bisection of the exact variances.
+/// At the crossing time the variances along and across a straight drive are equal (exercise 2). The formula is compared with a bisection of
+/// the exact variances at small noise.
 #[test]
 fn variances_of_a_straight_drive_cross_where_the_formula_says() {
-    for (v, [along, turn]) in [(1.0, [1e-6, 1e-6]), (-0.5, [2e-6, 1e-6]), (1.4, [1e-6, 7e-6])] {
+    for (v, [along_alpha, turn_alpha]) in [(1.0, [1e-6, 1e-6]), (-0.5, [2e-6, 1e-6]), (1.4, [1e-6, 7e-6])] {
         let command = VelocityCmd { v, omega: 0.3, dt: 0.2 };
-        let alphas = [along, 1e-6, turn, 1e-6, 0.0, 0.0];
+        let alphas = [along_alpha, 1e-6, turn_alpha, 1e-6, 0.0, 0.0];
         let simulation = simulation(Settings { command, alphas, ..settings_with_robots(1) });
         let growth = simulation.straight_growth();
-        let crossing = growth.crossing.expect("a crossing");
+        let crossing_time = growth.crossing.expect("a crossing");
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
-        let exact_ratio = |dt: f64| {
+        let exact_variance_ratio = |dt: f64| {
             let cov =
                 motion::stats::ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt }).cov;
             cov[(1, 1)] / cov[(0, 0)]
@@ -329,16 +360,21 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         let (mut low, mut high) = (1e-3, 1e3);
         for _ in 0..100 {
             let middle = f64::sqrt(low * high);
-            if exact_ratio(middle) < 1.0 { low = middle } else { high = middle }
+            if exact_variance_ratio(middle) < 1.0 { low = middle } else { high = middle }
         }
         // The formula is exact to first order in the noise. Its relative error is a few times the variances, 1e-6.
-        assert!((crossing / low - 1.0).abs() < 1e-4, "{crossing}, found {low}");
-        // Exact variances equal the first-order ones while headings are small: for three seconds they stay within 0.01 rad.
-        for (first_order, exact_values) in
+        assert!((crossing_time / low - 1.0).abs() < 1e-4, "{crossing_time}, found {low}");
+        // Exact variances equal first-order variances while headings are small, here for three seconds.
+        for (first_order, exact_variances) in
             [(&growth.along_first_order, &growth.along), (&growth.across_first_order, &growth.across)]
         {
-            for ((line, exact), dt) in first_order.iter().zip(exact_values).zip(&growth.durations) {
-                assert!(*dt > 3.0 || (exact / line - 1.0).abs() < 2e-3, "{exact} {line}");
+            for ((first_order_variance, exact_variance), dt) in
+                first_order.iter().zip(exact_variances).zip(&growth.durations)
+            {
+                assert!(
+                    *dt > 3.0 || (exact_variance / first_order_variance - 1.0).abs() < 2e-3,
+                    "{exact_variance} {first_order_variance}"
+                );
             }
         }
     }

@@ -1,4 +1,4 @@
-//! The morph from the floor to exponential coordinates.
+//! The morph of a cloud from positions on the floor to exponential coordinates.
 
 use crate::common::{preset, winds_around};
 use crate::simulations::banana::simulation;
@@ -10,19 +10,19 @@ use motion::sim::banana::{ModelKind, OUTLINE_SEGMENTS, Settings};
 use motion::stats::ExponentialContour;
 use nalgebra::Vector3;
 
-const MORPHS: [f64; 5] = [0.0, 0.2, 0.5, 0.9, 1.0];
+const MORPH_FRACTIONS: [f64; 5] = [0.0, 0.2, 0.5, 0.9, 1.0];
 
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Returns the position at which a body with constant velocity in its own frame ends, by steps of the midpoint rule.
-fn integrated_twist([vx, vy, omega]: [f64; 3]) -> [f64; 2] {
-    const STEPS: usize = 2000;
-    let step = 1.0 / STEPS as f64;
-    (0..STEPS).map(|i| omega * step * (i as f64 + 0.5)).fold([0.0; 2], |[x, y], heading: f64| {
+/// Returns the final position of a body with a constant twist, by steps of the midpoint rule.
+fn end_of_constant_twist([vx, vy, omega]: [f64; 3]) -> [f64; 2] {
+    const STEP_COUNT: usize = 2000;
+    let time_step = 1.0 / STEP_COUNT as f64;
+    (0..STEP_COUNT).map(|i| omega * time_step * (i as f64 + 0.5)).fold([0.0; 2], |[x, y], heading: f64| {
         let (sin, cos) = heading.sin_cos();
-        [x + step * (vx * cos - vy * sin), y + step * (vx * sin + vy * cos)]
+        [x + time_step * (vx * cos - vy * sin), y + time_step * (vx * sin + vy * cos)]
     })
 }
 
@@ -37,7 +37,7 @@ fn nearest_finds_robots_at_their_morphed_positions() {
     ] {
         let simulation = simulation(Settings { samples: 103, ..settings });
         for (index, (pose, twist)) in simulation.poses().zip(simulation.twists()).enumerate() {
-            for morph in MORPHS {
+            for morph in MORPH_FRACTIONS {
                 let position = unbend(&twist, morph);
                 assert_eq!(
                     simulation.nearest(View::from_morph(morph), position, [1e-10; 2]),
@@ -45,7 +45,7 @@ fn nearest_finds_robots_at_their_morphed_positions() {
                     "{morph}"
                 );
                 let bend_factor = 1.0 - morph;
-                let [x, y] = integrated_twist([twist.x, bend_factor * twist.y, bend_factor * twist.z]);
+                let [x, y] = end_of_constant_twist([twist.x, bend_factor * twist.y, bend_factor * twist.z]);
                 assert!(distance(position, [x, y + morph * twist.z]) < 1e-5, "{morph}: {twist}");
             }
             assert!(distance(unbend(&twist, 0.0), [pose.x(), pose.y()]) < 1e-12);
@@ -56,19 +56,19 @@ fn nearest_finds_robots_at_their_morphed_positions() {
 
 #[test]
 fn robots_move_smoothly() {
-    const STEP: f64 = 1e-3;
+    const MORPH_STEP: f64 = 1e-3;
     let simulation = simulation(Settings { samples: 200, ..preset("banana") });
     for twist in simulation.twists() {
-        let speed = twist.y.abs() + twist.z.abs() * (1.0 + twist.x.abs() + twist.y.abs());
-        for morph in (0..1000).map(|i| f64::from(i) * STEP) {
-            let displacement = distance(unbend(&twist, morph), unbend(&twist, morph + STEP));
-            assert!(displacement <= STEP * speed * (1.0 + 1e-9), "{twist} at {morph}");
+        let max_speed = twist.y.abs() + twist.z.abs() * (1.0 + twist.x.abs() + twist.y.abs());
+        for morph in (0..1000).map(|i| f64::from(i) * MORPH_STEP) {
+            let displacement = distance(unbend(&twist, morph), unbend(&twist, morph + MORPH_STEP));
+            assert!(displacement <= MORPH_STEP * max_speed * (1.0 + 1e-9), "{twist} at {morph}");
         }
     }
 }
 
-/// Without the last turn γ̂ the morph is one-to-one, so that the same robots stay inside an outline. Exceptions are robots between an
-/// outline's curve and the chords with which it is drawn.
+/// Without the last turn γ̂ the morph is one-to-one, so that the same robots stay inside an outline. Exceptions are robots between the curve
+/// of an outline and the chords with which it is drawn.
 #[test]
 fn the_same_robots_stay_inside_an_outline() {
     let alphas = [0.002, 0.002, 0.1, 0.1, 0.0, 0.0];
@@ -77,7 +77,7 @@ fn the_same_robots_stay_inside_an_outline() {
         let simulation =
             simulation(Settings { command, velocity_alphas: alphas, samples: 5000, ..preset("banana") });
         let contour = ExponentialContour::new(&simulation.stats().exponential, &SE2::identity());
-        let inside = |morph: f64| {
+        let are_robots_inside = |morph: f64| {
             let ellipse = unbend_line(&simulation.contours().ellipse, omega * 2.0, morph);
             let outline = contour.morphed_boundary(OUTLINE_SEGMENTS, morph);
             [ellipse, outline].map(|outline| {
@@ -87,18 +87,21 @@ fn the_same_robots_stay_inside_an_outline() {
                     .collect::<Vec<_>>()
             })
         };
-        let inside_on_floor = inside(0.0);
-        for morph in MORPHS {
-            for (robot_inside, floor) in inside(morph).iter().zip(&inside_on_floor) {
-                let changed_count =
-                    robot_inside.iter().zip(floor).filter(|(inside, floor)| inside != floor).count();
+        let are_inside_on_floor = are_robots_inside(0.0);
+        for morph in MORPH_FRACTIONS {
+            for (are_inside, are_inside_at_0) in are_robots_inside(morph).iter().zip(&are_inside_on_floor) {
+                let changed_count = are_inside
+                    .iter()
+                    .zip(are_inside_at_0)
+                    .filter(|(is_inside, is_inside_at_0)| is_inside != is_inside_at_0)
+                    .count();
                 assert!(changed_count <= 10, "{changed_count} robots at {morph}");
             }
         }
     }
 }
 
-/// At both ends of the morph, the outline of the Gaussian in exponential coordinates equals that of the view, also with a last turn γ̂.
+/// At both ends of the morph, the outline of the Gaussian in exponential coordinates equals the outline of that view, even with a last turn γ̂.
 #[test]
 fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
     let simulation = simulation(Settings { samples: 5000, ..preset("hard") });
@@ -113,24 +116,24 @@ fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
 /// A line that does not surround the start stays connected. A line around the start would be torn, and is omitted.
 #[test]
 fn a_morphed_line_stays_connected_or_is_omitted() {
-    let circle_around = |x: f64| -> Vec<[f64; 2]> {
+    let circle_at = |x: f64| -> Vec<[f64; 2]> {
         let angles = (0..=128).map(|i| std::f64::consts::TAU * f64::from(i) / 128.0);
         angles.map(|angle| [x + 0.5 * angle.cos(), 0.5 * angle.sin()]).collect()
     };
-    for morph in MORPHS {
-        assert!(unbend_line(&circle_around(0.1), 0.3, morph).is_empty());
-        let unbent_line = unbend_line(&circle_around(0.7), 0.3, morph);
-        assert_eq!(unbent_line.len(), 129);
-        assert!(unbent_line.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.4), "{morph}");
+    for morph in MORPH_FRACTIONS {
+        assert!(unbend_line(&circle_at(0.1), 0.3, morph).is_empty());
+        let morphed_line = unbend_line(&circle_at(0.7), 0.3, morph);
+        assert_eq!(morphed_line.len(), 129);
+        assert!(morphed_line.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.4), "{morph}");
     }
-    for (point, unbent) in circle_around(0.7).iter().zip(unbend_line(&circle_around(0.7), 0.3, 0.0)) {
-        assert!(distance(*point, unbent) < 1e-12);
+    for (point, morphed_point) in circle_at(0.7).iter().zip(unbend_line(&circle_at(0.7), 0.3, 0.0)) {
+        assert!(distance(*point, morphed_point) < 1e-12);
     }
 }
 
 #[test]
 fn find_arc_inverts_the_morph() {
-    for morph in MORPHS {
+    for morph in MORPH_FRACTIONS {
         for [length, turn] in [[1.0, 0.5], [2.0, -1.0], [1.4, 1.7], [0.3, 0.0]] {
             let position = unbend(&Vector3::new(length, 0.0, turn), morph);
             let arc = find_arc(position, [length + 0.1, turn - 0.1], morph).expect("an arc");

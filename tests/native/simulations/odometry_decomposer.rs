@@ -1,4 +1,4 @@
-//! The simulation of the Odometry Decomposer: common random numbers, poses of the legs, drifting frame and curve.
+//! The simulation of the Odometry Decomposer: common random numbers, poses of the legs, drift of the odometry frame, and deviation curve.
 
 use crate::common::{NOISE_KINDS, pose_distance, seeded_rng};
 use motion::geom::se2::SE2;
@@ -33,24 +33,27 @@ fn the_outcomes_equal_samples_of_the_model() {
     }
 }
 
-/// With only α₃, the lengths of the drives differ by constant random numbers times √α₃.
+/// If only α₃ is above 0, the drives differ in length by fixed random numbers times √α₃.
 #[test]
 fn changed_settings_move_the_same_outcomes() {
     let with_alpha3_only =
         |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..settings_of_preset("drive-turn") };
     let mut simulation = simulation(with_alpha3_only(0.01));
-    let excess_lengths = |simulation: &OdometryDecomposer| -> Vec<f64> {
+    let excess_lengths_of = |simulation: &OdometryDecomposer| -> Vec<f64> {
         simulation.poses().iter().map(|pose| pose.x() - 1.5).collect()
     };
-    let lengths_before = excess_lengths(&simulation);
+    let lengths_before = excess_lengths_of(&simulation);
     simulation.configure(with_alpha3_only(0.04)).expect("a valid setting");
-    for (lengths_before, after) in lengths_before.iter().zip(excess_lengths(&simulation)) {
-        assert!((2.0 * lengths_before - after).abs() < 1e-14);
+    for (length_before, length_after) in lengths_before.iter().zip(excess_lengths_of(&simulation)) {
+        assert!((2.0 * length_before - length_after).abs() < 1e-14);
     }
     // A larger cloud begins with the smaller one.
-    let more_samples = Settings { samples: 900, ..with_alpha3_only(0.01) };
-    simulation.configure_first(more_samples, 700).expect("a valid setting");
-    assert_eq!((simulation.poses().len(), &excess_lengths(&simulation)[..500]), (700, &lengths_before[..]));
+    let settings_with_more_samples = Settings { samples: 900, ..with_alpha3_only(0.01) };
+    simulation.configure_first(settings_with_more_samples, 700).expect("a valid setting");
+    assert_eq!(
+        (simulation.poses().len(), &excess_lengths_of(&simulation)[..500]),
+        (700, &lengths_before[..])
+    );
     assert_eq!(simulation.add_samples(usize::MAX), 900);
 }
 
@@ -59,26 +62,31 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
     for preset in PRESETS {
         for rule in OdometryRule::ALL {
             let simulation = simulation(Settings { rule, ..settings_of_preset(preset.name) });
-            let [start, after_rot1, after_drive, end] = simulation.leg_poses();
+            let [start_pose, pose_after_rot1, pose_after_drive, final_pose] = simulation.leg_poses();
             let legs = simulation.legs();
-            assert_eq!(start, preset.from.into());
-            assert_eq!((after_rot1.x(), after_rot1.y()), (start.x(), start.y()));
+            assert_eq!(start_pose, preset.from.into());
+            assert_eq!((pose_after_rot1.x(), pose_after_rot1.y()), (start_pose.x(), start_pose.y()));
             assert!(
-                ((after_drive.x() - start.x()).hypot(after_drive.y() - start.y()) - legs.trans).abs() < 1e-15
+                ((pose_after_drive.x() - start_pose.x()).hypot(pose_after_drive.y() - start_pose.y())
+                    - legs.trans)
+                    .abs()
+                    < 1e-15
             );
             assert_eq!(
-                [after_drive.x(), after_drive.y(), after_drive.theta()],
-                [end.x(), end.y(), after_rot1.theta()]
+                [pose_after_drive.x(), pose_after_drive.y(), pose_after_drive.theta()],
+                [final_pose.x(), final_pose.y(), pose_after_rot1.theta()]
             );
-            assert!(pose_distance(&end, &preset.to.into()) < 0.01, "{} by {rule:?}", preset.name);
-            let robot_at = |phase| {
+            assert!(pose_distance(&final_pose, &preset.to.into()) < 0.01, "{} by {rule:?}", preset.name);
+            let robot_pose_at = |phase| {
                 let settings = Settings { phase, ..*simulation.settings() };
                 OdometryDecomposer::new(settings).expect("a valid setting").robot_pose()
             };
-            for (phase, pose) in [(0.0, start), (1.0, after_rot1), (2.0, after_drive), (3.0, end)] {
-                assert!(pose_distance(&robot_at(phase), &pose) < 1e-15, "{phase}");
+            for (phase, pose) in
+                [(0.0, start_pose), (1.0, pose_after_rot1), (2.0, pose_after_drive), (3.0, final_pose)]
+            {
+                assert!(pose_distance(&robot_pose_at(phase), &pose) < 1e-15, "{phase}");
             }
-            assert!((robot_at(1.5).x() - 0.5 * (start.x() + end.x())).abs() < 1e-15);
+            assert!((robot_pose_at(1.5).x() - 0.5 * (start_pose.x() + final_pose.x())).abs() < 1e-15);
         }
     }
     // Without noise the leg poses of every outcome equal those of the reading.
@@ -91,43 +99,54 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
     }
 }
 
-/// The prediction depends only on the relative motion. A drift of the odometry's frame does not change it.
+/// The prediction depends only on the relative motion. A drift of the odometry frame does not change it.
 #[test]
 fn the_prediction_does_not_depend_on_the_drift() {
-    let with_drift = |drift| simulation(Settings { drift, ..Settings::default() });
-    let (without_drift, with_long_drift) = (with_drift(0.0), with_drift(300.0));
-    assert_eq!(without_drift.poses(), with_long_drift.poses());
-    assert_eq!(without_drift.rule_noises(), with_long_drift.rule_noises());
-    let [fixed, drifted] = [&without_drift, &with_long_drift].map(OdometryDecomposer::drifted_odometry);
-    assert_eq!(fixed.frame, SE2::identity());
-    // The poses in the frame of the odometry are metres away, and the legs are the same.
-    assert!((drifted.to.x() - fixed.to.x()).hypot(drifted.to.y() - fixed.to.y()) > 2.0);
-    let differences = [
-        drifted.legs.rot1 - fixed.legs.rot1,
-        drifted.legs.trans - fixed.legs.trans,
-        drifted.legs.rot2 - fixed.legs.rot2,
+    let simulation_with_drift = |drift| simulation(Settings { drift, ..Settings::default() });
+    let (simulation_without_drift, simulation_with_long_drift) =
+        (simulation_with_drift(0.0), simulation_with_drift(300.0));
+    assert_eq!(simulation_without_drift.poses(), simulation_with_long_drift.poses());
+    assert_eq!(simulation_without_drift.rule_noises(), simulation_with_long_drift.rule_noises());
+    let [fixed_odometry, drifted_odometry] =
+        [&simulation_without_drift, &simulation_with_long_drift].map(OdometryDecomposer::drifted_odometry);
+    assert_eq!(fixed_odometry.frame, SE2::identity());
+    // The poses have moved by metres, and the legs are the same.
+    assert!(
+        (drifted_odometry.to.x() - fixed_odometry.to.x())
+            .hypot(drifted_odometry.to.y() - fixed_odometry.to.y())
+            > 2.0
+    );
+    let leg_differences = [
+        drifted_odometry.legs.rot1 - fixed_odometry.legs.rot1,
+        drifted_odometry.legs.trans - fixed_odometry.legs.trans,
+        drifted_odometry.legs.rot2 - fixed_odometry.legs.rot2,
     ];
-    assert!(differences.iter().all(|difference| difference.abs() < 1e-14), "{differences:?}");
+    assert!(leg_differences.iter().all(|difference| difference.abs() < 1e-14), "{leg_differences:?}");
 }
 
-/// The curve contains the values of the readouts. With a large noise of the rotation, the linear estimate `lever` is too large: it exceeds
-/// the length of the drive, which no robot can.
+/// With a large noise of the rotation, the linear estimate `lever` exceeds the length of the drive, which is impossible for robots.
 #[test]
 fn the_curve_contains_the_values_of_the_readouts() {
     for rule in OdometryRule::ALL {
         let simulation = simulation(Settings { rule, ..Settings::default() });
         let stats = simulation.stats();
-        let trans = simulation.legs().trans;
-        let points = simulation.deviation_curve(2.0 * trans, 3);
-        assert_eq!(points.iter().map(|point| point.trans).collect::<Vec<_>>(), [0.0, trans, 2.0 * trans]);
-        let CurvePoint { cross_track, lever, along, .. } = points[1];
+        let drive_distance = simulation.legs().trans;
+        let curve_points = simulation.deviation_curve(2.0 * drive_distance, 3);
+        assert_eq!(
+            curve_points.iter().map(|point| point.trans).collect::<Vec<_>>(),
+            [0.0, drive_distance, 2.0 * drive_distance]
+        );
+        let CurvePoint { cross_track, lever, along, .. } = curve_points[1];
         assert_eq!((cross_track, lever), (stats.exact_cross_track, stats.lever));
-        let of_rule =
+        let rule_noise =
             simulation.rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules");
-        assert_eq!((of_rule.deviations[1], of_rule.cross_track), (along, cross_track));
+        assert_eq!((rule_noise.deviations[1], rule_noise.cross_track), (along, cross_track));
         assert_eq!(simulation.deviation_curve(1.0, 1).len(), 1);
     }
-    let large_noise = simulation(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
-    let long_drive = large_noise.deviation_curve(10.0, 2)[1];
-    assert!(long_drive.cross_track < long_drive.trans && long_drive.lever > 10.0 * long_drive.trans);
+    let noisy_simulation = simulation(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
+    let long_drive_point = noisy_simulation.deviation_curve(10.0, 2)[1];
+    assert!(
+        long_drive_point.cross_track < long_drive_point.trans
+            && long_drive_point.lever > 10.0 * long_drive_point.trans
+    );
 }

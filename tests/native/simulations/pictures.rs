@@ -1,4 +1,4 @@
-//! Densities as images: every pixel has the colour of the samples in its cell.
+//! Density images, in which every pixel has the colour of the samples in its cell.
 
 use crate::common::preset;
 use motion::sim::View;
@@ -7,18 +7,18 @@ use motion::sim::picture::{RAMP_STEPS, Ramp};
 use motion::sim::squeeze::{self, MapSqueeze, OUTCOME_KIND_COUNT, PRESETS};
 use motion::sim::views::Grid;
 
-/// Returns grids over the middle of a cloud, so that samples are outside on every side. Painting skips sixteen empty cells at once, so that
-/// one grid is 16 cells wide, one 17, and the others have different widths.
-fn grids(min: [f64; 2], max: [f64; 2]) -> [Grid; 4] {
+/// Returns grids over the middle of a cloud, so that samples are outside on every side. Painting skips sixteen empty cells at once. One grid
+/// is therefore 16 cells wide, one 17, and the others have different widths.
+fn grids_over(min: [f64; 2], max: [f64; 2]) -> [Grid; 4] {
     [(16, 9), (17, 1), (53, 40), (3, 2)].map(|(columns, rows)| Grid { min, max, columns, rows })
 }
 
-/// Returns a ramp whose colours contain their step and the number of the ramp.
-fn ramp(ramp_number: u8) -> Ramp {
+/// Returns a colour ramp whose colours contain their step and the number of the ramp.
+fn numbered_ramp(ramp_number: u8) -> Ramp {
     std::array::from_fn(|step| [step as u8, ramp_number, 7, 255])
 }
 
-/// Returns the index of the cell of a point, row by row from the top, by the definition of a grid.
+/// Returns the index of the cell that contains a point, row by row from the top.
 fn cell_index(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
     let Grid { min, max, columns, rows } = *grid;
     let column = ((x - min[0]) / (max[0] - min[0]) * columns as f64).floor();
@@ -38,62 +38,70 @@ fn pixels_show_the_density_of_the_cloud() {
     let mut simulation = BananaMachine::new(settings).expect("a valid setting");
     let positions: Vec<[f64; 2]> = simulation.poses().map(|pose| [pose.x(), pose.y()]).collect();
     let twists: Vec<[f64; 2]> = simulation.twists().map(|twist| [twist.x, twist.z]).collect();
-    let to_case = |view, points| move |grid| (view, points, grid);
-    let plane_cases = grids([0.75, -0.2], [1.2, 0.4]).map(to_case(View::Plane, &positions));
-    let twist_cases = grids([0.75, 0.1], [1.2, 0.7]).map(to_case(View::Twist, &twists));
+    let case_of = |view, points| move |grid| (view, points, grid);
+    let plane_cases = grids_over([0.75, -0.2], [1.2, 0.4]).map(case_of(View::Plane, &positions));
+    let twist_cases = grids_over([0.75, 0.1], [1.2, 0.7]).map(case_of(View::Twist, &twists));
     for (view, points, grid) in plane_cases.into_iter().chain(twist_cases) {
-        let mut counts = vec![0u32; grid.columns * grid.rows];
+        let mut cell_counts = vec![0u32; grid.columns * grid.rows];
         points
             .iter()
             .filter_map(|point| cell_index(&grid, *point))
-            .for_each(|cell_index| counts[cell_index] += 1);
-        let max_count = *counts.iter().max().expect("there are cells");
-        assert!((1..3000).contains(&counts.iter().sum::<u32>()), "some are outside");
-        // Painted twice, because nothing of an image may remain in the next one.
-        for time in ["first", "second"] {
-            let pixels = simulation.paint(view, &grid, &ramp(3));
-            assert_eq!(pixels.len(), counts.len());
-            for (i, (pixel, count)) in pixels.iter().zip(&counts).enumerate() {
-                let expected = if *count == 0 { [0; 4] } else { [ramp_step(*count, max_count), 3, 7, 255] };
-                assert_eq!(*pixel, expected, "{time}, cell {i} of {grid:?}");
+            .for_each(|cell_index| cell_counts[cell_index] += 1);
+        let max_count = *cell_counts.iter().max().expect("there are cells");
+        assert!((1..3000).contains(&cell_counts.iter().sum::<u32>()), "some are outside");
+        // The picture is painted twice, because no pixel may remain from the first time.
+        for attempt in ["first", "second"] {
+            let pixels = simulation.paint(view, &grid, &numbered_ramp(3));
+            assert_eq!(pixels.len(), cell_counts.len());
+            for (i, (pixel, count)) in pixels.iter().zip(&cell_counts).enumerate() {
+                let expected_pixel =
+                    if *count == 0 { [0; 4] } else { [ramp_step(*count, max_count), 3, 7, 255] };
+                assert_eq!(*pixel, expected_pixel, "{attempt}, cell {i} of {grid:?}");
             }
-            assert_eq!(simulation.density(view, &grid), counts, "{time}");
+            assert_eq!(simulation.density(view, &grid), cell_counts, "{attempt}");
         }
     }
 }
 
 #[test]
 fn cells_have_the_colour_of_their_most_frequent_outcome() {
-    // The robot faces a wall. The sampler tests only end poses, so that many attempts that end behind the wall are accepted.
+    // The robot faces a wall. The sampler tests only end poses, and therefore accepts many attempts that end behind the wall.
     let (_, start) = PRESETS[1];
     let settings = squeeze::Settings { start, samples: 3000, ..squeeze::Settings::default() };
     let mut simulation = MapSqueeze::new(settings).expect("a valid setting");
-    let mut painted_cells = [0; OUTCOME_KIND_COUNT];
-    for grid in grids([2.9, 3.4], [3.7, 4.9]) {
-        let mut counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
+    let mut painted_cell_counts = [0; OUTCOME_KIND_COUNT];
+    for grid in grids_over([2.9, 3.4], [3.7, 4.9]) {
+        let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
         for attempt in simulation.attempts() {
             if let Some(cell_index) = cell_index(&grid, [attempt.pose.x(), attempt.pose.y()]) {
-                counts[cell_index][attempt.outcome_kind() as usize] += 1;
+                cell_counts[cell_index][attempt.outcome_kind() as usize] += 1;
             }
         }
-        let totals: Vec<u32> = counts.iter().map(|kinds| kinds.iter().sum()).collect();
-        let max_count = *totals.iter().max().expect("there are cells");
-        assert!((1..3000).contains(&totals.iter().sum::<u32>()), "some are outside");
+        let cell_totals: Vec<u32> =
+            cell_counts.iter().map(|counts_by_kind| counts_by_kind.iter().sum()).collect();
+        let max_count = *cell_totals.iter().max().expect("there are cells");
+        assert!((1..3000).contains(&cell_totals.iter().sum::<u32>()), "some are outside");
         for _ in 0..2 {
-            let ramps = std::array::from_fn(|kind| ramp(kind as u8));
+            let ramps = std::array::from_fn(|kind| numbered_ramp(kind as u8));
             let pixels = simulation.paint(&grid, &ramps);
-            assert_eq!(pixels.len(), totals.len());
-            for ((pixel, kinds), total) in pixels.iter().zip(&counts).zip(&totals) {
+            assert_eq!(pixels.len(), cell_totals.len());
+            for ((pixel, counts_by_kind), total) in pixels.iter().zip(&cell_counts).zip(&cell_totals) {
                 if *total == 0 {
                     assert_eq!(*pixel, [0; 4]);
                     continue;
                 }
                 let [shade, kind, ..] = *pixel;
-                assert_eq!(*pixel, [ramp_step(*total, max_count), kind, 7, 255], "{kinds:?}");
-                assert!(kinds.iter().all(|count| *count <= kinds[usize::from(kind)]), "{shade}: {kinds:?}");
-                painted_cells[usize::from(kind)] += 1;
+                assert_eq!(*pixel, [ramp_step(*total, max_count), kind, 7, 255], "{counts_by_kind:?}");
+                assert!(
+                    counts_by_kind.iter().all(|count| *count <= counts_by_kind[usize::from(kind)]),
+                    "{shade}: {counts_by_kind:?}"
+                );
+                painted_cell_counts[usize::from(kind)] += 1;
             }
         }
     }
-    assert!(painted_cells.iter().all(|cells| *cells > 0), "all kinds are seen: {painted_cells:?}");
+    assert!(
+        painted_cell_counts.iter().all(|cells| *cells > 0),
+        "all kinds are seen: {painted_cell_counts:?}"
+    );
 }

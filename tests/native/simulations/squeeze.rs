@@ -17,7 +17,7 @@ fn poses(simulation: &MapSqueeze) -> Vec<SE2> {
 }
 
 /// Returns all results of a simulation as text.
-fn results(simulation: &MapSqueeze) -> String {
+fn results_as_text(simulation: &MapSqueeze) -> String {
     let (settings, tally) = (simulation.settings(), simulation.tally());
     format!(
         "{settings:?} {:?} {tally:?} {} {:?}",
@@ -27,48 +27,61 @@ fn results(simulation: &MapSqueeze) -> String {
     )
 }
 
-/// The sampler, conditioning and the map change which attempts are accepted, and no random number.
+/// The sampler, conditioning and the map decide which attempts are accepted. They do not change the random numbers.
 #[test]
 fn changed_samplers_and_maps_move_no_sample() {
     let settings = Settings { samples: 3000, ..Settings::default() };
     let mut simulation = simulation(settings);
-    let (old_results, cloud) = (results(&simulation), poses(&simulation));
-    let verdicts = |simulation: &MapSqueeze| -> Vec<[bool; 2]> {
+    let (results_before, poses_before) = (results_as_text(&simulation), poses(&simulation));
+    let verdicts_of = |simulation: &MapSqueeze| -> Vec<[bool; 2]> {
         simulation
             .attempts()
             .iter()
             .map(|Attempt { end_free, path_free, .. }| [*end_free, *path_free])
             .collect()
     };
-    let outcomes = verdicts(&simulation);
-    let are_accepted = |simulation: &MapSqueeze| -> Vec<bool> {
+    let verdicts_before = verdicts_of(&simulation);
+    let are_attempts_accepted = |simulation: &MapSqueeze| -> Vec<bool> {
         simulation.attempts().iter().map(|attempt| attempt.accepted).collect()
     };
-    assert!(are_accepted(&simulation).iter().zip(&outcomes).all(|(accepted, [end, _])| accepted == end));
+    assert!(
+        are_attempts_accepted(&simulation)
+            .iter()
+            .zip(&verdicts_before)
+            .all(|(is_accepted, [is_end_free, _])| is_accepted == is_end_free)
+    );
     simulation.configure(Settings { sampler: Sampler::WholeArc, ..settings }).expect("valid");
-    assert!(are_accepted(&simulation).iter().zip(&outcomes).all(|(accepted, [_, path])| accepted == path));
-    assert_eq!((poses(&simulation), verdicts(&simulation)), (cloud.clone(), outcomes.clone()));
+    assert!(
+        are_attempts_accepted(&simulation)
+            .iter()
+            .zip(&verdicts_before)
+            .all(|(is_accepted, [_, is_path_free])| is_accepted == is_path_free)
+    );
+    assert_eq!(
+        (poses(&simulation), verdicts_of(&simulation)),
+        (poses_before.clone(), verdicts_before.clone())
+    );
     assert_eq!(simulation.tally().through_wall, 0);
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         simulation.configure(Settings { conditioned: false, sampler, ..settings }).expect("valid");
         assert!(
-            (poses(&simulation), verdicts(&simulation)) == (cloud.clone(), outcomes.clone()),
+            (poses(&simulation), verdicts_of(&simulation)) == (poses_before.clone(), verdicts_before.clone()),
             "{sampler:?}"
         );
         assert_eq!(simulation.tally().accepted, 3000, "no attempt is rejected");
         assert_eq!((simulation.tally().draws, simulation.tally().wall_tests), (3000, 0));
     }
     simulation.set_plan(too_small_room());
-    assert_eq!(poses(&simulation), cloud);
+    assert_eq!(poses(&simulation), poses_before);
     assert_eq!(simulation.tally().through_wall, 3000);
     simulation.set_plan(FloorPlan::apartment());
     simulation.configure(settings).expect("valid");
-    assert_eq!(results(&simulation), old_results, "and back again to the bit");
+    assert_eq!(results_as_text(&simulation), results_before, "and back again to the bit");
     simulation.configure(Settings { seed: 8, ..settings }).expect("valid");
-    assert!(poses(&simulation).iter().zip(&cloud).all(|(a, b)| a != b), "a new seed changes it");
+    assert!(poses(&simulation).iter().zip(&poses_before).all(|(a, b)| a != b), "a new seed changes it");
 }
 
-/// A rejected part is drawn again, which moves the parts after it. Without a rejection conditioning moves no sample.
+/// A rejected part is drawn again, which moves the parts after it. Without a rejection, conditioning moves no sample.
 #[test]
 fn only_rejected_parts_move_samples() {
     let settings = Settings { sampler: Sampler::SubStepped(4), samples: 500, ..Settings::default() };
@@ -83,10 +96,10 @@ fn only_rejected_parts_move_samples() {
     assert_eq!((tally.accepted, tally.draws, tally.wall_tests), (500, 2000, 0));
     simulation.configure(settings).expect("valid");
     let moved_count = poses(&simulation).iter().zip(&poses_in_open_field).filter(|(a, b)| a != b).count();
-    let rejected_draws = simulation.tally().draws - 2000;
+    let rejected_count = simulation.tally().draws - 2000;
     assert!(
-        moved_count > 0 && moved_count <= rejected_draws,
-        "{moved_count} moved by {rejected_draws} rejections"
+        moved_count > 0 && moved_count <= rejected_count,
+        "{moved_count} moved by {rejected_count} rejections"
     );
 }
 
@@ -95,21 +108,24 @@ fn the_arcs_of_an_attempt_end_at_its_pose() {
     for sampler in SAMPLERS {
         let simulation = simulation(Settings { sampler, samples: 2000, ..Settings::default() });
         let (tally, attempts) = (simulation.tally(), simulation.attempts());
-        let parts = if let Sampler::SubStepped(parts) = sampler { parts } else { 1 };
-        assert!(tally.draws >= attempts.len() * parts as usize);
-        let rate = tally.acceptance_rate(parts);
-        assert!((rate - (tally.accepted * parts as usize) as f64 / tally.draws as f64).abs() < 1e-15);
-        assert!(tally.wall_tests > 0 && rate > 0.4 && rate < 1.0, "{tally:?}");
+        let part_count = if let Sampler::SubStepped(part_count) = sampler { part_count } else { 1 };
+        assert!(tally.draws >= attempts.len() * part_count as usize);
+        let acceptance_rate = tally.acceptance_rate(part_count);
+        assert!(
+            (acceptance_rate - (tally.accepted * part_count as usize) as f64 / tally.draws as f64).abs()
+                < 1e-15
+        );
+        assert!(tally.wall_tests > 0 && acceptance_rate > 0.4 && acceptance_rate < 1.0, "{tally:?}");
         for (index, attempt) in attempts.iter().enumerate().step_by(17) {
             let arcs = simulation.arcs(index);
-            assert_eq!(arcs.len(), parts as usize);
-            let end = arcs[arcs.len() - 1].end();
-            assert!((end.x() - attempt.pose.x()).abs() + (end.y() - attempt.pose.y()).abs() < 1e-12);
+            assert_eq!(arcs.len(), part_count as usize);
+            let arc_end = arcs[arcs.len() - 1].end();
+            assert!((arc_end.x() - attempt.pose.x()).abs() + (arc_end.y() - attempt.pose.y()).abs() < 1e-12);
             let is_path_free = arcs.iter().all(|arc| simulation.plan().test_arc(arc, 0.13).free);
             assert_eq!(attempt.path_free, is_path_free);
             let are_joined = arcs.windows(2).all(|pair| {
-                let end = pair[0].end();
-                (end.x(), end.y()) == (pair[1].start.x(), pair[1].start.y())
+                let first_end = pair[0].end();
+                (first_end.x(), first_end.y()) == (pair[1].start.x(), pair[1].start.y())
             });
             assert!(are_joined && (arcs[0].start.x(), arcs[0].start.y()) == (2.05, 2.6));
         }
@@ -146,7 +162,8 @@ fn the_product_of_samples_and_parts_is_limited() {
     }
 }
 
-/// If no motion fits, the simulation stops after a bounded number of draws and reports it. It goes on once the settings let the robot move.
+/// If no motion fits, the simulation stops after a bounded number of draws and reports this. It continues once the settings let the robot
+/// move.
 #[test]
 fn the_simulation_stops_after_a_bounded_number_of_draws() {
     let settings =
@@ -185,27 +202,27 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
     let simulation = simulation(settings);
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let [x, y, theta] = settings.start;
-    let start = SE2::new(x, y, theta);
-    let before = results(&simulation);
+    let start_pose = SE2::new(x, y, theta);
+    let results_before = results_as_text(&simulation);
     for sampler in SAMPLERS {
         let cost = simulation.sampling_trial(sampler, 500).expect("it fits");
         let plan = FloorPlan::apartment();
         let conditioned = MapConditioned { model, plan: &plan, clearance: 0.13, sampler };
         let mut rng = seeded_rng(7);
-        let mut expected = (0, 0);
+        let mut expected_cost = (0, 0);
         for _ in 0..500 {
-            let sample = conditioned.sample(&STRAIGHT_COMMAND, &start, &mut rng).expect("it fits");
-            expected = (expected.0 + sample.cost.draws, expected.1 + sample.cost.wall_tests);
+            let sample = conditioned.sample(&STRAIGHT_COMMAND, &start_pose, &mut rng).expect("it fits");
+            expected_cost = (expected_cost.0 + sample.cost.draws, expected_cost.1 + sample.cost.wall_tests);
         }
-        assert_eq!((cost.draws, cost.wall_tests), expected);
+        assert_eq!((cost.draws, cost.wall_tests), expected_cost);
     }
-    assert_eq!(results(&simulation), before);
+    assert_eq!(results_as_text(&simulation), results_before);
 }
 
 // ------------------------------------------------------------------------------------------------ Wilson's interval
 
-/// Newcombe, "Two-sided confidence intervals for the single proportion", Statistics in Medicine 17 (1998), table I,
-/// method 3.
+/// The expected intervals are from Newcombe, "Two-sided confidence intervals for the single proportion", Statistics in
+/// Medicine 17 (1998), table I, method 3.
 #[test]
 fn the_interval_is_the_wilson_interval() {
     for (through_wall, accepted, low, high) in
@@ -213,8 +230,8 @@ fn the_interval_is_the_wilson_interval() {
     {
         let interval = Tally { accepted, through_wall, ..Tally::default() }.through_wall_interval();
         assert!((interval[0] - low).abs() < 5e-5 && (interval[1] - high).abs() < 5e-5, "{interval:?}");
-        let complement = Tally { accepted, through_wall: accepted - through_wall, ..Tally::default() };
-        let [rest_low, rest_high] = complement.through_wall_interval();
+        let complement_tally = Tally { accepted, through_wall: accepted - through_wall, ..Tally::default() };
+        let [rest_low, rest_high] = complement_tally.through_wall_interval();
         assert!(
             (rest_low + interval[1] - 1.0).abs() < 1e-15 && (rest_high + interval[0] - 1.0).abs() < 1e-15
         );

@@ -9,22 +9,22 @@ await zstd.isLoaded;
 
 /** @typedef {{ sec: number, nanosec: number }} Stamp */
 
-/** @param {number} t seconds */
+/** Returns a time of ROS 2. @param {number} t seconds */
 export const stampOf = (t) => ({ sec: Math.floor(t), nanosec: Math.round((t - Math.floor(t)) * 1e9) });
 
 const fieldsOf = (/** @type {string} */ type, /** @type {string[]} */ ...fieldNames) => fieldNames.map((name) => ({ type, name, isComplex: /[A-Z]/.test(type) }));
-const covariance = { type: 'float64', name: 'covariance', isArray: true, arrayLength: 36 };
+const covarianceField = { type: 'float64', name: 'covariance', isArray: true, arrayLength: 36 };
 
 /** Definitions of the messages, with all their fields. @type {Record<string, any[]>} */
-const DEFINITIONS = {
+const MESSAGE_DEFINITIONS = {
   Header: [{ type: 'time', name: 'stamp' }, ...fieldsOf('string', 'frame_id')],
   Vector3: fieldsOf('float64', 'x', 'y', 'z'),
   Quaternion: fieldsOf('float64', 'x', 'y', 'z', 'w'),
   Pose: [...fieldsOf('Vector3', 'position'), ...fieldsOf('Quaternion', 'orientation')],
   'geometry_msgs/msg/Pose': [...fieldsOf('Vector3', 'position'), ...fieldsOf('Quaternion', 'orientation')],
-  PoseWithCovariance: [...fieldsOf('Pose', 'pose'), covariance],
+  PoseWithCovariance: [...fieldsOf('Pose', 'pose'), covarianceField],
   Twist: fieldsOf('Vector3', 'linear', 'angular'),
-  TwistWithCovariance: [...fieldsOf('Twist', 'twist'), covariance],
+  TwistWithCovariance: [...fieldsOf('Twist', 'twist'), covarianceField],
   'nav_msgs/msg/Odometry': [...fieldsOf('Header', 'header'), ...fieldsOf('string', 'child_frame_id'), ...fieldsOf('PoseWithCovariance', 'pose'), ...fieldsOf('TwistWithCovariance', 'twist')],
   'geometry_msgs/msg/PoseStamped': [...fieldsOf('Header', 'header'), ...fieldsOf('Pose', 'pose')],
   'geometry_msgs/msg/Twist': fieldsOf('Vector3', 'linear', 'angular'),
@@ -35,41 +35,41 @@ const DEFINITIONS = {
   'std_msgs/msg/String': fieldsOf('string', 'data'),
 };
 
-/** @param {number} x @param {number} y @param {number} theta @param {number} [scale] of the quaternion */
+/** Returns the message of a pose. @param {number} x @param {number} y @param {number} theta @param {number} [scale] norm of the quaternion */
 export const poseOf = (x, y, theta, scale = 1) => ({
   position: { x, y, z: 0.1 },
   orientation: { x: 0, y: 0, z: scale * Math.sin(theta / 2), w: scale * Math.cos(theta / 2) },
 });
 
-/** @param {number} t @param {number} x @param {number} y @param {number} theta @param {number} [scale] */
-export const odometryMessage = (t, x, y, theta, scale) => ({
+/** Returns a message of odometry. @param {number} t @param {number} x @param {number} y @param {number} theta @param {number} [scale] */
+export const odometryMessageOf = (t, x, y, theta, scale) => ({
   header: { stamp: stampOf(t), frame_id: 'odom' },
   child_frame_id: 'base_link',
   pose: { pose: poseOf(x, y, theta, scale), covariance: new Float64Array(36) },
   twist: { twist: twistOf(0, 0), covariance: new Float64Array(36) },
 });
 
-/** @param {number} v @param {number} omega */
+/** Returns the message of a command. @param {number} v @param {number} omega */
 export const twistOf = (v, omega) => ({ linear: { x: v, y: 0, z: 0 }, angular: { x: 0, y: 0, z: omega } });
 
-/** @param {number} t @param {string} parent @param {string} child @param {number} x @param {number} y @param {number} theta */
-export const transformMessage = (t, parent, child, x, y, theta) => {
+/** Returns the message of a transform. @param {number} t @param {string} parent @param {string} child @param {number} x @param {number} y @param {number} theta */
+export const transformMessageOf = (t, parent, child, x, y, theta) => {
   const { position, orientation } = poseOf(x, y, theta);
   return { header: { stamp: stampOf(t), frame_id: parent }, child_frame_id: child, transform: { translation: position, rotation: orientation } };
 };
 
-/** LZ4 frame with one block that is not compressed. @param {Uint8Array} bytes */
-const lz4Frame = (bytes) => {
-  const size = Buffer.alloc(4);
-  size.writeUInt32LE(0x80000000 + bytes.length);
-  return Buffer.concat([Buffer.from('04224d184070df', 'hex'), size, bytes, Buffer.alloc(4)]);
+/** Returns an LZ4 frame with one block that is not compressed. @param {Uint8Array} bytes */
+const lz4FrameOf = (bytes) => {
+  const blockSize = Buffer.alloc(4);
+  blockSize.writeUInt32LE(0x80000000 + bytes.length);
+  return Buffer.concat([Buffer.from('04224d184070df', 'hex'), blockSize, bytes, Buffer.alloc(4)]);
 };
 
 /** @type {Record<string, ((bytes: Uint8Array) => { compression: string, compressedData: Uint8Array }) | undefined>} */
-const COMPRESSION = {
+const COMPRESSORS = {
   none: undefined,
   zstd: (bytes) => ({ compression: 'zstd', compressedData: new Uint8Array(zstd.compress(Buffer.from(bytes))) }),
-  lz4: (bytes) => ({ compression: 'lz4', compressedData: lz4Frame(bytes) }),
+  lz4: (bytes) => ({ compression: 'lz4', compressedData: lz4FrameOf(bytes) }),
   odd: (bytes) => ({ compression: 'snappy', compressedData: bytes }),
 };
 
@@ -85,7 +85,7 @@ const COMPRESSION = {
  * @param {Iterable<Message>} messages
  * @param {object} [options]
  * @param {'none' | 'zstd' | 'lz4' | 'odd'} [options.compression]
- * @param {boolean} [options.index] whether the recording has an index, and by default chunks
+ * @param {boolean} [options.index] true if the recording has an index, and by default chunks
  * @param {boolean} [options.chunks]
  * @param {number} [options.chunkSize] bytes
  * @param {string} [options.encoding] of messages
@@ -94,35 +94,35 @@ const COMPRESSION = {
 export async function recordingOf(messages, { compression = 'none', index = true, chunks = index, chunkSize = 4096, encoding = 'cdr' } = {}) {
   /** @type {Uint8Array[]} */
   const writtenChunks = [];
-  let size = 0n;
+  let writtenBytes = 0n;
   const writable = {
-    position: () => size,
+    position: () => writtenBytes,
     write: async (/** @type {Uint8Array} */ bytes) => {
       writtenChunks.push(bytes.slice());
-      size += BigInt(bytes.length);
+      writtenBytes += BigInt(bytes.length);
     },
   };
   const writer = new McapWriter({
     writable, useChunks: chunks, useChunkIndex: index, useMessageIndex: index, useStatistics: index, useSummaryOffsets: index,
-    repeatChannels: index, repeatSchemas: index, chunkSize, compressChunk: COMPRESSION[compression],
+    repeatChannels: index, repeatSchemas: index, chunkSize, compressChunk: COMPRESSORS[compression],
   });
   await writer.start({ profile: 'ros2', library: 'test' });
   /** @type {Map<string, { id: number, writer: MessageWriter }>} */
   const channels = new Map();
-  let sequence = 0;
+  let sequenceNumber = 0;
   for (const { topic, type, schema = type, message, t, node = '' } of messages) {
     const key = [topic, type, node].join(' ');
     let channel = channels.get(key);
     if (!channel) {
       const schemaId = await writer.registerSchema({ name: schema, encoding: 'ros2msg', data: Buffer.from(`# ${schema}`) });
       const id = await writer.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map(node ? [['callerid', node]] : []) });
-      const definedTypes = Object.entries(DEFINITIONS).map(([name, definitions]) => ({ name, definitions }));
-      const ownType = definedTypes.find(({ name }) => name === type);
-      channel = { id, writer: new MessageWriter(ownType ? [ownType, ...definedTypes] : definedTypes) };
+      const typeDefinitions = Object.entries(MESSAGE_DEFINITIONS).map(([name, definitions]) => ({ name, definitions }));
+      const messageDefinition = typeDefinitions.find(({ name }) => name === type);
+      channel = { id, writer: new MessageWriter(messageDefinition ? [messageDefinition, ...typeDefinitions] : typeDefinitions) };
       channels.set(key, channel);
     }
     const logTime = BigInt(Math.round(t * 1e3)) * 1_000_000n;
-    await writer.addMessage({ channelId: channel.id, sequence: sequence++, logTime, publishTime: logTime, data: channel.writer.writeMessage(message) });
+    await writer.addMessage({ channelId: channel.id, sequence: sequenceNumber++, logTime, publishTime: logTime, data: channel.writer.writeMessage(message) });
   }
   await writer.end();
   return Buffer.concat(writtenChunks);

@@ -11,14 +11,14 @@ import { crc32, deflateSync } from 'node:zlib';
  * @property {(column: number, row: number, channel: number) => number} sample value from 0 to 255; channel 0 is the grey, 1 the opacity
  */
 
-export const SIGNATURE = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
+export const PNG_SIGNATURE = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
 
-/** @param {Image} image */
-export function pngOf({ width, height, opacity = false, sample }) {
+/** Returns a PNG file. @param {Image} image */
+export function pngOf({ width, height, opacity = false, sample: sampleAt }) {
   const channels = opacity ? [0, 1] : [0];
   const columns = Array.from({ length: width }, (_, column) => column);
-  const rows = Array.from({ length: height }, (_, row) => [0, ...columns.flatMap((column) => channels.map((channel) => sample(column, row, channel)))]);
-  return Buffer.concat([SIGNATURE, headerChunk({ width, height, opacity }), pngChunk('IDAT', deflateSync(Buffer.from(rows.flat()))), pngChunk('IEND', [])]);
+  const scanlines = Array.from({ length: height }, (_, row) => [0, ...columns.flatMap((column) => channels.map((channel) => sampleAt(column, row, channel)))]);
+  return Buffer.concat([PNG_SIGNATURE, headerChunk({ width, height, opacity }), pngChunk('IDAT', deflateSync(Buffer.from(scanlines.flat()))), pngChunk('IEND', [])]);
 }
 
 /** Returns the chunk with the size and the kind of the image. @param {Omit<Image, 'sample'>} image */

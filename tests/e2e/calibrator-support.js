@@ -5,7 +5,7 @@
  */
 
 import { readFileSync } from 'node:fs';
-import { odometryMessage, poseOf, recordingOf, stampOf } from '../mcap.js';
+import { odometryMessageOf, poseOf, recordingOf, stampOf } from '../mcap.js';
 import { mount, untilSettled } from './support.js';
 
 /**
@@ -58,6 +58,6 @@ export async function exampleRecordingWith(topics) {
   const referenceMessages = topics.flatMap((topic) => exampleRowsOf('reference').map(([t, x, y, yaw]) => ({
     topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
   })));
-  const odometryMessages = exampleRowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessage(t, x, y, yaw) }));
+  const odometryMessages = exampleRowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessageOf(t, x, y, yaw) }));
   return recordingOf([...odometryMessages, ...referenceMessages].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
 }

@@ -14,7 +14,7 @@ import { settings } from '../../www/settings.js';
 import { LogError } from '../../www/logs/log-error.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { applyMap, cellsOf, mapData } from '../../www/widgets/map-squeeze/maps/data.ts';
-import { odometryMessage, poseOf, recordingOf, stampOf, transformMessage, twistOf } from '../mcap.js';
+import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 import { readLog } from '../node/log-support.js';
 import { fileWith, refusalMessageOf } from '../node/map-support.js';
 
@@ -104,10 +104,10 @@ async function recordings() {
     const [t, stamp] = [1 + i / 8, stampOf(1 + i / 8)];
     const TF = 'tf2_msgs/msg/TFMessage';
     return [
-      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessage(t, i, 0, 0) },
+      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessageOf(t, i, 0, 0) },
       { topic: '/pose', type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp, frame_id: 'map' }, pose: poseOf(i, 0, 0) } },
       { topic: '/cmd_vel', type: 'geometry_msgs/msg/TwistStamped', t, message: { header: { stamp, frame_id: '' }, twist: twistOf(1, 0) } },
-      { topic: '/tf', type: TF, t, message: { transforms: [transformMessage(t, 'map', 'odom', i, 0, 0), transformMessage(t, 'odom', 'base', i, 0, 0)] } },
+      { topic: '/tf', type: TF, t, message: { transforms: [transformMessageOf(t, 'map', 'odom', i, 0, 0), transformMessageOf(t, 'odom', 'base', i, 0, 0)] } },
     ];
   }).flat();
   const forms = /** @type {const} */ ([{ chunkSize: 4096 }, { compression: 'zstd' }, { compression: 'lz4' }, { index: false }, { index: false, chunks: true, compression: 'lz4' }]);

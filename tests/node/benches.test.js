@@ -18,6 +18,6 @@ test('comparison finds a core with another skew', async () => {
       return { ...stats, crossTrackSkew: stats.crossTrackSkew * 1.1 };
     }
   }
-  const messages = differencesFromCore(/** @type {any} */ ({ BananaMachine: SimulationWithOtherSkew }), 2000);
-  assert.deepEqual([...new Set(messages.map((text) => text.split(':')[0]))], ['crossTrackSkew']);
+  const differenceTexts = differencesFromCore(/** @type {any} */ ({ BananaMachine: SimulationWithOtherSkew }), 2000);
+  assert.deepEqual([...new Set(differenceTexts.map((text) => text.split(':')[0]))], ['crossTrackSkew']);
 });

@@ -12,12 +12,12 @@ import { settings } from '../../www/settings.js';
 
 test('a leg has the class of its p-value, by as many noises as it shows', () => {
   const residuals = Float64Array.of(0, 0, 0, 0, 0, NaN, 0, NaN, NaN);
-  const classes = (/** @type {number[]} */ ...squared) => [...legClassesOf({ count: 3, squared: Float64Array.from(squared), residuals })];
+  const classesOf = (/** @type {number[]} */ ...squared) => [...legClassesOf({ count: 3, squared: Float64Array.from(squared), residuals })];
   // Quantiles of χ² with 3, 2 and 1 degrees of freedom, from tables.
-  assert.deepEqual(classes(2.36, 1.38, 0.45), [0, 0, 0]);
-  assert.deepEqual(classes(7.81, 5.99, 3.84), [1, 1, 1]);
-  assert.deepEqual(classes(16.2, 13.8, 10.8), [2, 2, 2]);
-  assert.deepEqual(classes(16.3, 13.9, 10.9), [3, 3, 3]);
+  assert.deepEqual(classesOf(2.36, 1.38, 0.45), [0, 0, 0]);
+  assert.deepEqual(classesOf(7.81, 5.99, 3.84), [1, 1, 1]);
+  assert.deepEqual(classesOf(16.2, 13.8, 10.8), [2, 2, 2]);
+  assert.deepEqual(classesOf(16.3, 13.9, 10.9), [3, 3, 3]);
 });
 
 test('a number in the format of files is printed as on screen', () => {
@@ -25,14 +25,14 @@ test('a number in the format of files is printed as on screen', () => {
 });
 
 test('numbers in files have the digits that the interval makes meaningful, and tiny ones an exponent', () => {
-  for (const [value, interval, text, range] of /** @type {[number, [number, number], string, string][]} */ ([
+  for (const [value, interval, estimateText, rangeText] of /** @type {[number, [number, number], string, string][]} */ ([
     [0.0123, [0.01, 0.015], '0.0123', '0.0100 to 0.0150'],
     [2.34e-13, [1.8e-13, 2.9e-13], '2.3e-13', '1.8e-13 to 2.9e-13'],
     [3e-8, [0, 1.6e-7], '3.0e-8', '0 to 1.6e-7'],
     [1e-7, [0, 0.0016], '0.0000', '0.0000 to 0.0016'],
     [0.5, [0.5 - 1e-9, 0.5 + 1e-9], '0.5000000000', '0.4999999990 to 0.5000000010'],
   ])) {
-    assert.deepEqual([formatEstimate(value, interval), ends(interval)], [text, range]);
+    assert.deepEqual([formatEstimate(value, interval), ends(interval)], [estimateText, rangeText]);
   }
   assert.deepEqual([formatNumber(1e-7), formatNumber(-2.5e-9), formatNumber(0.25)], ['1.0e-7', '-2.5e-9', '0.25']);
   assert.deepEqual([ends([0, Infinity]), ends([-Infinity, Infinity]), ends(null)], ['', '', '']);
@@ -43,7 +43,7 @@ test('an α that rounds to 0 is an upper bound, and not 0', () => {
 });
 
 /** Returns the result of a calibration of two α's. @param {object} [changedFields] replaces fields @returns {any} */
-const calibrationOf = (changedFields) => ({
+const calibrationWith = (changedFields) => ({
   alphas: [0.03, 0.008],
   intervals: [[0.024, 0.036], [0.007, 0.0091]],
   recommended: { inflation: 2 },
@@ -56,12 +56,12 @@ const calibrationOf = (changedFields) => ({
 });
 
 /** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [other] options */
-const linesOf = (changedFields, other) =>
-  nav2Lines({ calibration: calibrationOf(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...other }, en.nav2)
+const nav2LinesOf = (changedFields, other) =>
+  nav2Lines({ calibration: calibrationWith(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...other }, en.nav2)
     .map((line) => line.trim());
 
 test('lines for Nav2 have the recommended α’s, and the fitted ones in comments', () => {
-  assert.deepEqual(linesOf(), [
+  assert.deepEqual(nav2LinesOf(), [
     'amcl:', 'ros__parameters:',
     '# 9 legs of 0.25 m or 0.2 rad of a.csv and b.csv, 2026-01-02',
     '# recommended = fitted × 2: the fit covers 92.3 % of 78 held-out windows of 1 m',
@@ -74,25 +74,25 @@ test('lines for Nav2 have the recommended α’s, and the fitted ones in comment
 });
 
 test('lines for Nav2 have no α that means nothing, and none at all where none is recommended', () => {
-  assert.deepEqual([linesOf({ recommended: null }), correctionAdvice(calibrationOf({ recommended: null }), en.nav2)], [[], []]);
-  assert.deepEqual(linesOf({}, { model: 'velocity' }), []);
+  assert.deepEqual([nav2LinesOf({ recommended: null }), correctionAdvice(calibrationWith({ recommended: null }), en.nav2)], [[], []]);
+  assert.deepEqual(nav2LinesOf({}, { model: 'velocity' }), []);
   const alphas = [null, 1e-7, 103, 1e-8];
   const intervals = [null, [0, 0.0016], [50, 200], null];
-  assert.deepEqual(linesOf({ alphas, intervals }).filter((line) => /alpha[1-4]/.test(line)), [
+  assert.deepEqual(nav2LinesOf({ alphas, intervals }).filter((line) => /alpha[1-4]/.test(line)), [
     `# alpha1: ${en.nav2.notIdentifiable}`, `# alpha2: ${en.nav2.zero('0.0032')}`, `# alpha3: 206, ${en.nav2.tooLarge}`, 'alpha4: 2.0e-8  # fitted 1.0e-8',
   ]);
 });
 
 test('lines for Nav2 warn of failed checks, of another rule, and of a localizer as reference', () => {
-  const { diagnostics } = calibrationOf();
-  const checks = ['tails-normal', 'outliers-few'].map((name) => ({ name, passed: false, message: 'Drive on.' }));
-  assert.ok(linesOf({ diagnostics: { ...diagnostics, checks } }).includes('# Caution, these checks failed: tails-normal, outliers-few'));
+  const { diagnostics } = calibrationWith();
+  const failedChecks = ['tails-normal', 'outliers-few'].map((name) => ({ name, passed: false, message: 'Drive on.' }));
+  assert.ok(nav2LinesOf({ diagnostics: { ...diagnostics, checks: failedChecks } }).includes('# Caution, these checks failed: tails-normal, outliers-few'));
   for (const [warning, options] of /** @type {[string, object][]} */ ([
     [en.nav2.otherRule, { rule: 'thrun' }],
     [en.nav2.localizer, { warnings: ['localizer'] }],
   ])) {
-    assert.ok(linesOf({}, options).includes(`# ${warning}`));
-    assert.ok(!linesOf().includes(`# ${warning}`));
+    assert.ok(nav2LinesOf({}, options).includes(`# ${warning}`));
+    assert.ok(!nav2LinesOf().includes(`# ${warning}`));
   }
 });
 
@@ -104,8 +104,8 @@ test('legs of the simulated log are those that the settings open with', () => {
 });
 
 test('the picture of the path has room for the odometry, as far as the reference keeps half of it', () => {
-  const cornersWith = (/** @type {number[]} */ ...odometry) => viewCornersOf([0, 0, 0, 10, 4, 0], odometry);
-  assert.deepEqual(cornersWith(), [0, 0, 10, 4]);
-  assert.deepEqual(cornersWith(5, -2, 12, 3), [0, -2, 12, 4]);
-  assert.deepEqual(cornersWith(-40, -50, 60, 70), [-5, -5, 15, 9]);
+  const viewCornersWith = (/** @type {number[]} */ ...odometry) => viewCornersOf([0, 0, 0, 10, 4, 0], odometry);
+  assert.deepEqual(viewCornersWith(), [0, 0, 10, 4]);
+  assert.deepEqual(viewCornersWith(5, -2, 12, 3), [0, -2, 12, 4]);
+  assert.deepEqual(viewCornersWith(-40, -50, 60, 70), [-5, -5, 15, 9]);
 });

@@ -17,25 +17,25 @@ import { warningsOf } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { useLanguageOf } from '../../www/messages/registry.ts';
 import { judgementOf } from '../../www/widgets/alpha-calibrator/words.ts';
-import { odometryMessage, poseOf, recordingOf, stampOf, transformMessage, twistOf } from '../mcap.js';
+import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 
 const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
 const examplePath = (/** @type {string} */ name) => fileURLToPath(new URL(`../../examples/calibration/${name}.csv`, import.meta.url));
 const LOG_ARGS = ['--odometry', examplePath('odometry'), '--reference', examplePath('reference')];
 
 /** @type {string} */
-let folder;
-before(() => (folder = mkdtempSync(join(tmpdir(), 'motion-cli-'))));
-after(() => rmSync(folder, { recursive: true, force: true }));
+let temporaryFolder;
+before(() => (temporaryFolder = mkdtempSync(join(tmpdir(), 'motion-cli-'))));
+after(() => rmSync(temporaryFolder, { recursive: true, force: true }));
 
 /** Writes a file in the temporary folder, and returns its path. @param {string} name @param {string | Uint8Array} contents */
 function writeInFolder(name, contents) {
-  const path = join(folder, name);
+  const path = join(temporaryFolder, name);
   writeFileSync(path, contents);
   return path;
 }
 
-/** Runs the command in this process. @param {string[]} args @param {() => Promise<any>} [core] */
+/** Runs the command in this process, and returns its exit code and its output. @param {string[]} args @param {() => Promise<any>} [core] */
 async function outputOf(args, core = load) {
   let [out, err] = ['', ''];
   const code = await run(['calibrate', ...args], { load: core, print: (text) => (out += text), complain: (text) => (err += text), now: new Date('2026-01-02T03:04:05Z') });
@@ -54,8 +54,8 @@ async function coreOptionsOf(args) {
 useLanguageOf(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }) }));
 
 test('options reach the core', async () => {
-  const { odometry, reference, ...fit } = await coreOptionsOf(LOG_ARGS);
-  assert.deepEqual(fit, { legs: { distance: 0.25, angle: 0.2 } });
+  const { odometry, reference, ...fitOptions } = await coreOptionsOf(LOG_ARGS);
+  assert.deepEqual(fitOptions, { legs: { distance: 0.25, angle: 0.2 } });
   for (const log of [...odometry, ...reference]) assert.deepEqual(Object.keys(log), ['t', 'x', 'y', 'theta', 'breaks']);
   const optionsText = '--model omnidirectional --rule omni --update-min-d 0.5 --update-min-a 0.3 --outliers keep --reference-position-std 0.001 --reference-yaw-std 2e-3';
   const coreOptions = await coreOptionsOf([...LOG_ARGS, ...optionsText.split(' ')]);
@@ -66,13 +66,13 @@ test('options reach the core', async () => {
 
 test('files without an option are recordings, paired where each is one table', async () => {
   const [odometryPath, referencePath] = [examplePath('odometry'), examplePath('reference')];
-  const laterCopyOf = (/** @type {string} */ name, /** @type {string} */ from) => writeInFolder(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
-  const expectedCall = await coreOptionsOf(LOG_ARGS);
-  assert.deepEqual(await coreOptionsOf([referencePath, odometryPath]), expectedCall);
-  assert.deepEqual(await coreOptionsOf([referencePath, '--recording', odometryPath]), expectedCall);
-  const [odometry2, truth2] = [laterCopyOf('odom2.csv', odometryPath), laterCopyOf('truth2.csv', referencePath)];
-  const { odometry: drives, reference: measured } = await coreOptionsOf([truth2, odometryPath, '--odometry', odometry2, '--reference', referencePath]);
-  for (const logs of [drives, measured]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.floor(t[0] / 1000)), [0, 1]);
+  const writeLaterCopy = (/** @type {string} */ name, /** @type {string} */ from) => writeInFolder(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
+  const expectedOptions = await coreOptionsOf(LOG_ARGS);
+  assert.deepEqual(await coreOptionsOf([referencePath, odometryPath]), expectedOptions);
+  assert.deepEqual(await coreOptionsOf([referencePath, '--recording', odometryPath]), expectedOptions);
+  const [laterOdometryPath, laterReferencePath] = [writeLaterCopy('odom2.csv', odometryPath), writeLaterCopy('truth2.csv', referencePath)];
+  const { odometry: odometryLogs, reference: referenceLogs } = await coreOptionsOf([laterReferencePath, odometryPath, '--odometry', laterOdometryPath, '--reference', referencePath]);
+  for (const logs of [odometryLogs, referenceLogs]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.floor(t[0] / 1000)), [0, 1]);
 });
 
 test('systematic errors are corrected or left in by name, all of them or single ones', async () => {
@@ -86,40 +86,40 @@ test('systematic errors are corrected or left in by name, all of them or single 
 test('a recording has both logs, by topics and frames that are clear or named', async () => {
   const messages = Array.from({ length: 40 }, (_, i) => {
     const t = 100 + i / 20;
-    const pose = { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(1.01 * i, 2, 0) };
+    const poseStamped = { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(1.01 * i, 2, 0) };
     return [
-      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessage(t, i, 1, 0) },
-      { topic: '/mocap', type: 'geometry_msgs/msg/PoseStamped', t, message: pose },
-      { topic: '/other', type: 'geometry_msgs/msg/PoseStamped', t, message: pose },
-      { topic: '/third', type: 'geometry_msgs/msg/PoseStamped', t, message: pose },
+      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessageOf(t, i, 1, 0) },
+      { topic: '/mocap', type: 'geometry_msgs/msg/PoseStamped', t, message: poseStamped },
+      { topic: '/other', type: 'geometry_msgs/msg/PoseStamped', t, message: poseStamped },
+      { topic: '/third', type: 'geometry_msgs/msg/PoseStamped', t, message: poseStamped },
       { topic: '/cmd_vel', type: 'geometry_msgs/msg/Twist', t, message: twistOf(1, 2) },
-      { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessage(t, 'odom', 'base_link', i, 1, 0), transformMessage(t, 'map', 'base_link', 1.01 * i, 2, 0)] } },
+      { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessageOf(t, 'odom', 'base_link', i, 1, 0), transformMessageOf(t, 'map', 'base_link', 1.01 * i, 2, 0)] } },
     ];
   }).flat();
-  const recordingOptions = async (/** @type {string} */ name, /** @type {string[]} */ ...topics) =>
+  const writeRecordingArgs = async (/** @type {string} */ name, /** @type {string[]} */ ...topics) =>
     ['--recording', writeInFolder(name, await recordingOf(messages.filter(({ topic }) => topics.includes(topic)), { compression: 'zstd' }))];
-  const numbersOf = async (/** @type {string[]} */ ...args) => {
+  const fourthRowValuesOf = async (/** @type {string[]} */ ...args) => {
     const coreOptions = await coreOptionsOf(args);
     return [coreOptions.odometry[0].y?.[3], coreOptions.odometry[0].omega?.[3], coreOptions.reference[0].y[3]];
   };
-  const allTopicsArgs = await recordingOptions('run.mcap', '/odom', '/mocap', '/other', '/cmd_vel');
-  assert.deepEqual(await numbersOf(...allTopicsArgs), [1, undefined, 2]);
-  assert.deepEqual(await numbersOf(...allTopicsArgs, '--odometry-topic', '/mocap', '--reference-topic', '/odom'), [2, undefined, 1]);
-  assert.deepEqual(await numbersOf(...allTopicsArgs, '--model', 'velocity'), [undefined, 2, 2]);
-  const framesArgs = await recordingOptions('tf.mcap', '/tf');
-  assert.deepEqual(await numbersOf(...framesArgs, '--odometry-frames', 'odom,base_link', '--reference-frames', 'map,base_link'), [1, undefined, 2]);
-  for (const [args, sentence] of /** @type {const} */ ([
+  const allTopicsArgs = await writeRecordingArgs('run.mcap', '/odom', '/mocap', '/other', '/cmd_vel');
+  assert.deepEqual(await fourthRowValuesOf(...allTopicsArgs), [1, undefined, 2]);
+  assert.deepEqual(await fourthRowValuesOf(...allTopicsArgs, '--odometry-topic', '/mocap', '--reference-topic', '/odom'), [2, undefined, 1]);
+  assert.deepEqual(await fourthRowValuesOf(...allTopicsArgs, '--model', 'velocity'), [undefined, 2, 2]);
+  const framesArgs = await writeRecordingArgs('tf.mcap', '/tf');
+  assert.deepEqual(await fourthRowValuesOf(...framesArgs, '--odometry-frames', 'odom,base_link', '--reference-frames', 'map,base_link'), [1, undefined, 2]);
+  for (const [args, expectedError] of /** @type {const} */ ([
     [
-      await recordingOptions('unclear.mcap', '/odom', '/other', '/third'),
+      await writeRecordingArgs('unclear.mcap', '/odom', '/other', '/third'),
       'unclear.mcap: it is not clear what the reference is: /odom (Odometry), /other (PoseStamped), /third (PoseStamped). Choose with --reference-topic, as in --reference-topic /other.\n',
     ],
-    [await recordingOptions('alone.mcap', '/odom'), 'alone.mcap: it has the odometry only, /odom (Odometry); give the reference too. Name both, with --odometry FILE and --reference FILE.\n'],
-  ])) assert.equal((await outputOf(args)).err, sentence);
+    [await writeRecordingArgs('alone.mcap', '/odom'), 'alone.mcap: it has the odometry only, /odom (Odometry); give the reference too. Name both, with --odometry FILE and --reference FILE.\n'],
+  ])) assert.equal((await outputOf(args)).err, expectedError);
 });
 
 test('bad input has the exit code 2 and a sentence', async () => {
-  const straightLog = writeInFolder('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
-  for (const [args, start] of /** @type {[string[], string][]} */ ([
+  const straightLogPath = writeInFolder('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
+  for (const [args, errorStart] of /** @type {[string[], string][]} */ ([
     [[examplePath('odometry')], 'odometry.csv: it has the odometry only, t, x, y, yaw; give the reference too. Name both, '],
     [['a.csv', 'b.csv', '--time-unit', 'ms,s'], '--time-unit ms,s has two units; give the files with --odometry and --reference.'],
     [['a.csv', 'b.csv', '--reference-columns', 't,x,y,yaw'], '--reference-columns needs --reference FILE.'],
@@ -160,29 +160,29 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [[...LOG_ARGS, '--reference-frames', 'map,base_link'], 'reference.csv: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
     [[...LOG_ARGS, '--odometry-topic', '/odom'], 'odometry.csv, topic /odom: it is a table, and no group of its columns has this name; it has t, x, y, yaw.'],
     [[LOG_ARGS[1], LOG_ARGS[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
-    [[...LOG_ARGS.slice(0, 2), '--reference', join(folder, 'no.csv')], `${join(folder, 'no.csv')}: there is no such file or folder.`],
-    [[...LOG_ARGS, '--plot', join(folder, 'no', 'plot.svg')], '--plot '],
+    [[...LOG_ARGS.slice(0, 2), '--reference', join(temporaryFolder, 'no.csv')], `${join(temporaryFolder, 'no.csv')}: there is no such file or folder.`],
+    [[...LOG_ARGS, '--plot', join(temporaryFolder, 'no', 'plot.svg')], '--plot '],
     // Errors of the core name options and files.
     [[...LOG_ARGS, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
     [[...LOG_ARGS, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
-    [[...LOG_ARGS.slice(0, 2), '--reference', straightLog], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
+    [[...LOG_ARGS.slice(0, 2), '--reference', straightLogPath], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
   ])) {
     const { code, out, err } = await outputOf(args);
     assert.deepEqual([code, out.replaceAll(/^(Odometry|Reference): .*\n( {2}.*\n)*/gm, '')], [2, ''], err);
-    assert.ok(err.startsWith(start) && err.endsWith('\n'), err);
+    assert.ok(err.startsWith(errorStart) && err.endsWith('\n'), err);
   }
 });
 
 test('a shell gets help and errors, and may close the pipe', () => {
-  const shell = (/** @type {string[]} */ ...args) => spawnSync(process.execPath, [CLI, ...args], { encoding: 'utf8' });
-  for (const help of [shell(), shell('calibrate', '--help')]) assert.deepEqual([help.status, help.stdout, help.stderr], [0, HELP, '']);
-  const refusal = shell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
+  const runInShell = (/** @type {string[]} */ ...args) => spawnSync(process.execPath, [CLI, ...args], { encoding: 'utf8' });
+  for (const helpOutput of [runInShell(), runInShell('calibrate', '--help')]) assert.deepEqual([helpOutput.status, helpOutput.stdout, helpOutput.stderr], [0, HELP, '']);
+  const refusal = runInShell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
   assert.deepEqual([refusal.status, refusal.stdout, refusal.stderr], [2, '', 'no.csv: there is no such file or folder.\n']);
-  assert.match(shell('my/bag').stderr, /^the command must be calibrate or inspect \(got “my\/bag”\), as in npx motion-widgets inspect my\/bag; --help has examples\.$/m);
+  assert.match(runInShell('my/bag').stderr, /^the command must be calibrate or inspect \(got “my\/bag”\), as in npx motion-widgets inspect my\/bag; --help has examples\.$/m);
   const outputOfClosedPipe = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...LOG_ARGS, '--json'], { encoding: 'utf8' });
   assert.deepEqual([outputOfClosedPipe.stdout, outputOfClosedPipe.stderr], ['{', '']);
-  const ofPipedLog = spawnSync('sh', ['-c', 'cat "$2" | "$0" "$1" inspect /dev/stdin', process.execPath, CLI, examplePath('odometry')], { encoding: 'utf8' });
-  assert.match(ofPipedLog.stdout, /^stdin: table\n.*\n.* 4494 /);
+  const outputOfPipedLog = spawnSync('sh', ['-c', 'cat "$2" | "$0" "$1" inspect /dev/stdin', process.execPath, CLI, examplePath('odometry')], { encoding: 'utf8' });
+  assert.match(outputOfPipedLog.stdout, /^stdin: table\n.*\n.* 4494 /);
 });
 
 test('a recording of the example has the truth in its intervals, and its JSON the keys of doc/calibration.md', async () => {
@@ -191,72 +191,72 @@ test('a recording of the example has the truth in its intervals, and its JSON th
   for (const [topic, name, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
     for (const row of readFileSync(examplePath(name), 'utf8').trim().split('\n').slice(1)) {
       const [t, x, y, theta] = row.split(',').map(Number);
-      const message = topic === '/odom' ? odometryMessage(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
+      const message = topic === '/odom' ? odometryMessageOf(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
       messages.push({ topic, type, t, message });
     }
   }
-  const path = writeInFolder('example.mcap', await recordingOf(messages.sort((a, b) => a.t - b.t), { compression: 'zstd', chunkSize: 100_000 }));
-  const { status, stdout, stderr } = spawnSync(process.execPath, [CLI, 'calibrate', '--recording', path, '--json'], { encoding: 'utf8' });
+  const recordingPath = writeInFolder('example.mcap', await recordingOf(messages.sort((a, b) => a.t - b.t), { compression: 'zstd', chunkSize: 100_000 }));
+  const { status, stdout, stderr } = spawnSync(process.execPath, [CLI, 'calibrate', '--recording', recordingPath, '--json'], { encoding: 'utf8' });
   assert.equal(status, 0, stderr);
   const result = JSON.parse(stdout);
   const assertInside = (/** @type {number} */ value, /** @type {[number, number]} */ [low, high]) => assert.ok(low <= value && value <= high, `${value}: ${low} to ${high}`);
   for (const [i, alpha] of TRUE_MODEL.alphas.entries()) assertInside(alpha, result.intervals[i]);
   for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) assertInside(TRUE_MODEL[name], result.systematicErrors[name].interval);
   assert.deepEqual([result.diagnostics.verdict, result.start, result.date.length], ['consistent', 9, 10]);
-  const [, section] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
-  assert.deepEqual(Object.keys(result).filter((key) => !section.includes(`\`${key}\``)), []);
+  const [, jsonSection] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
+  assert.deepEqual(Object.keys(result).filter((key) => !jsonSection.includes(`\`${key}\``)), []);
 });
 
 test('the report names the noise that is stated, and the outliers', async () => {
   const { code, out } = await outputOf([...LOG_ARGS, '--rule', 'nav2', '--reference-yaw-std', '0']);
   assert.equal(code, 0);
-  for (const line of [/^reference yaw σ +0 rad +as stated$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s after the start$/m]) assert.match(out, line);
+  for (const linePattern of [/^reference yaw σ +0 rad +as stated$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s after the start$/m]) assert.match(out, linePattern);
 });
 
 test('doc/calibration.md shows the report of the example', async () => {
-  const [, report] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\s*```\n/s) ?? [];
+  const [, documentedReport] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\s*```\n/s) ?? [];
   const { out } = await outputOf(LOG_ARGS);
-  assert.equal(report.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), out.trimEnd());
+  assert.equal(documentedReport.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), out.trimEnd());
 });
 
 test('units are stated for both logs, or for each', async () => {
   const [header, ...rows] = readFileSync(examplePath('odometry'), 'utf8').trim().split('\n');
-  const scaledBy = (/** @type {number} */ scale) => writeInFolder(`scaled-${scale}.csv`, [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [scale, scale, scale, 180 / Math.PI][i]).join(','))].join('\n'));
-  const scaledLog = scaledBy(1000);
-  const units = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
-  const [fromSi, fromStatedUnits] = [await coreOptionsOf(LOG_ARGS), await coreOptionsOf(['--odometry', scaledLog, ...LOG_ARGS.slice(2), ...units])];
-  assert.deepEqual(fromStatedUnits.reference, fromSi.reference);
-  for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(fromStatedUnits.odometry[0][name][999] - fromSi.odometry[0][name][999]) < 1e-9, name);
-  const refusal = await outputOf(['--odometry', scaledBy(1), ...LOG_ARGS.slice(2), '--angle-unit', 'rad']);
+  const writeScaledLog = (/** @type {number} */ scale) => writeInFolder(`scaled-${scale}.csv`, [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [scale, scale, scale, 180 / Math.PI][i]).join(','))].join('\n'));
+  const scaledPath = writeScaledLog(1000);
+  const unitArgs = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
+  const [siOptions, statedUnitOptions] = [await coreOptionsOf(LOG_ARGS), await coreOptionsOf(['--odometry', scaledPath, ...LOG_ARGS.slice(2), ...unitArgs])];
+  assert.deepEqual(statedUnitOptions.reference, siOptions.reference);
+  for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(statedUnitOptions.odometry[0][name][999] - siOptions.odometry[0][name][999]) < 1e-9, name);
+  const refusal = await outputOf(['--odometry', writeScaledLog(1), ...LOG_ARGS.slice(2), '--angle-unit', 'rad']);
   assert.match(refusal.err, /^scaled-1\.csv: its headings are in degrees and were read as radians; .* Choose with --angle-unit, as in --angle-unit deg; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\./);
 });
 
 test('a folder gives its logs, and other files are skipped', async () => {
-  const path = join(folder, 'drive');
-  mkdirSync(path);
-  for (const [name, from] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(path, name), readFileSync(examplePath(from)));
-  writeFileSync(join(path, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
-  writeFileSync(join(path, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
-  let inspectedText = '';
-  await run(['inspect', path], { load, print: (text) => (inspectedText += text), complain: () => {} });
-  assert.match(inspectedText, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
-  const { code, out, err } = await outputOf(['metadata.yaml', 'odom.csv'].map((name) => join(path, name)));
+  const driveFolder = join(temporaryFolder, 'drive');
+  mkdirSync(driveFolder);
+  for (const [name, exampleName] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(driveFolder, name), readFileSync(examplePath(exampleName)));
+  writeFileSync(join(driveFolder, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
+  writeFileSync(join(driveFolder, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
+  let inspectionText = '';
+  await run(['inspect', driveFolder], { load, print: (text) => (inspectionText += text), complain: () => {} });
+  assert.match(inspectionText, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
+  const { code, out, err } = await outputOf(['metadata.yaml', 'odom.csv'].map((name) => join(driveFolder, name)));
   assert.deepEqual([code, out.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
   assert.match(err, /^skipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
 });
 
 test('a journal beside a recording is named, unless it is empty', async () => {
-  for (const [bytes, message] of [['', ''], ['377f0682', 'skipped: odometry.db3-wal: it is a journal']]) {
-    writeInFolder('odometry.db3-wal', Buffer.from(bytes, 'hex'));
+  for (const [journalHex, expectedMessage] of [['', ''], ['377f0682', 'skipped: odometry.db3-wal: it is a journal']]) {
+    writeInFolder('odometry.db3-wal', Buffer.from(journalHex, 'hex'));
     const { code, err } = await outputOf(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePath('odometry'))), ...LOG_ARGS.slice(2)]);
-    assert.deepEqual([code, err.split(' with')[0]], [0, message]);
+    assert.deepEqual([code, err.split(' with')[0]], [0, expectedMessage]);
   }
   // All messages are in the journal.
   const databasePath = writeInFolder('run.db3', 'SQLite format 3\0');
   writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
-  for (const jsonFlag of [[], ['--json']]) {
+  for (const jsonArgs of [[], ['--json']]) {
     let [out, err] = ['', ''];
-    const code = await run(['inspect', databasePath, ...jsonFlag], { load, print: (text) => (out += text), complain: (text) => (err += text) });
+    const code = await run(['inspect', databasePath, ...jsonArgs], { load, print: (text) => (out += text), complain: (text) => (err += text) });
     assert.deepEqual([code, out], [2, '']);
     assert.match(err, /^run\.db3-wal: it is a journal with messages that its \.db3 file lacks; /m);
   }
@@ -283,27 +283,27 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
 });
 
 test('--plot writes a panel for each drive, with both paths aligned, and the ends of legs at the times of the reference', async () => {
-  const path = join(folder, 'plot.svg');
-  assert.equal((await outputOf([...LOG_ARGS, '--plot', path])).code, 0);
-  assert.match(readFileSync(path, 'utf8'), /^<svg xmlns=/);
-  /** Returns a drive of ten seconds along x. The odometry has it along y, and half a second earlier. @returns {any} */
-  const drive = (/** @type {number} */ start) => {
+  const plotPath = join(temporaryFolder, 'plot.svg');
+  assert.equal((await outputOf([...LOG_ARGS, '--plot', plotPath])).code, 0);
+  assert.match(readFileSync(plotPath, 'utf8'), /^<svg xmlns=/);
+  /** Returns a drive of ten seconds along x. In the odometry it leads along y, and begins half a second earlier. @returns {any} */
+  const driveStartingAt = (/** @type {number} */ start) => {
     const positions = Float64Array.from({ length: 101 }, (_, i) => i / 10);
     const log = (/** @type {string} */ role, /** @type {number} */ delay, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${role}${start}.csv`, data: { t: positions.map((t) => start + t + delay), x, y, theta: positions, breaks: [] } });
     return { odometry: log('odom', 0, positions.map(() => 7), positions), reference: log('truth', 0.5, positions, positions.map(() => 2)) };
   };
   const legs = { count: 3, times: [1, 3, 4, 6, 21, 23], outliers: [0, 1, 0] };
-  const svg = drivesSvg([drive(0), drive(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
+  const svg = drivesSvg([driveStartingAt(0), driveStartingAt(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
   const [, ...panels] = svg.split('<title>');
   assert.deepEqual(panels.map((panel) => panel.split('<')[0]), ['odom0.csv and truth0.csv: 2 legs, 1 outlier', 'odom20.csv and truth20.csv: 1 legs, 0 outliers']);
   for (const panel of panels) {
-    for (const part of [/>x \(m\)</, />y \(m\)</, />odometry, aligned</]) assert.match(panel, part);
+    for (const labelPattern of [/>x \(m\)</, />y \(m\)</, />odometry, aligned</]) assert.match(panel, labelPattern);
     // The pixels of two axis marks are compared with those of the ends of paths.
-    const [left, right] = ['0', '10'].map((mark) => Number(RegExp(`d="M([\\d.]+) [^>]*><text [^>]*>${mark}<`).exec(panel)?.[1]));
-    const paths = Array.from(panel.matchAll(/d="M([\d.]+) [^"]*L([\d.]+) [^"]*" stroke="([^"]*)" stroke-width="1.5"/g), ([, from, to, color]) => ({ ends: [Number(from), Number(to)], color }));
-    assert.deepEqual(paths.map(({ ends }) => ends), [[left, right], [left, right]]);
-    assert.notEqual(paths[0].color, paths[1].color);
-    assert.ok(Math.abs(Number(/d="M([\d.]+) [\d.]+h0/.exec(panel)?.[1]) - (left + 0.3 * (right - left))) < 0.1);
+    const [axisLeft, axisRight] = ['0', '10'].map((mark) => Number(RegExp(`d="M([\\d.]+) [^>]*><text [^>]*>${mark}<`).exec(panel)?.[1]));
+    const drawnPaths = Array.from(panel.matchAll(/d="M([\d.]+) [^"]*L([\d.]+) [^"]*" stroke="([^"]*)" stroke-width="1.5"/g), ([, from, to, color]) => ({ ends: [Number(from), Number(to)], color }));
+    assert.deepEqual(drawnPaths.map(({ ends }) => ends), [[axisLeft, axisRight], [axisLeft, axisRight]]);
+    assert.notEqual(drawnPaths[0].color, drawnPaths[1].color);
+    assert.ok(Math.abs(Number(/d="M([\d.]+) [\d.]+h0/.exec(panel)?.[1]) - (axisLeft + 0.3 * (axisRight - axisLeft))) < 0.1);
   }
 });
 
@@ -317,26 +317,26 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   const inspectionOf = async (/** @type {string[]} */ args, expected = 0) => {
     let out = '';
     assert.equal(await run(['inspect', ...args], { load, print: (text) => (out += text), complain: assert.fail }), expected);
-    return out.replaceAll(folder, 'DIR');
+    return out.replaceAll(temporaryFolder, 'DIR');
   };
   const messages = Array.from({ length: 40 }, (_, i) => {
     const t = 100 + i / 20;
     const header = { stamp: stampOf(t), frame_id: 'map' };
     return [
-      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessage(t, i, 1, 0) },
+      { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessageOf(t, i, 1, 0) },
       { topic: '/vicon/robot 1', type: 'geometry_msgs/msg/PoseStamped', t, message: { header, pose: poseOf(i, 2, 0) } },
       { topic: '/chatter', type: 'std_msgs/msg/String', t, message: { data: '' } },
       { topic: '/lost', type: 'geometry_msgs/msg/PoseStamped', t, message: { header, pose: poseOf(NaN, 2, 0) } },
-      { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessage(t, 'map', 'base_link', i, 2, 0)] } },
+      { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessageOf(t, 'map', 'base_link', i, 2, 0)] } },
     ];
   }).flat();
-  const inspectedRecording = await inspectionOf([writeInFolder('run.mcap', await recordingOf(messages, { compression: 'zstd' }))]);
-  for (const line of [
+  const recordingInspection = await inspectionOf([writeInFolder('run.mcap', await recordingOf(messages, { compression: 'zstd' }))]);
+  for (const linePattern of [
     /^run\.mcap: MCAP recording$/m, /^ {2}\/chatter +std_msgs\/msg\/String +40$/m, /^ {2}\/odom +nav_msgs\/msg\/Odometry +40 +20\.0 Hz +odometry$/m,
     /^ {2}\/vicon\/robot 1 +geometry_msgs\/msg\/PoseStamped +40 +20\.0 Hz +reference$/m,
     /^ {2}\/tf \(map → base_link\) +tf2_msgs\/msg\/TFMessage +40 +20\.0 Hz +reference \(a localizer\)$/m, /^ {2}\/tf \(map → base_link\): 40 of 40 rows, 1\.9 s at 20\.0 Hz, 39\.0 m driven$/m, /^run\.mcap, topic \/lost: 0 of 40 rows can be used/m,
     /^ {2}npx motion-widgets calibrate DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
-  ]) assert.match(inspectedRecording, line);
+  ]) assert.match(recordingInspection, linePattern);
   for (const [role, otherRole] of [['odometry', 'reference'], ['reference', 'odometry']]) {
     assert.match(await inspectionOf([examplePath(role)]), new RegExp(`; give the ${otherRole} too\\.\\n\\n {2}npx motion-widgets calibrate --${role} \\S+ --${otherRole} FILE --rule nav2$`, 'm'));
   }
@@ -344,26 +344,26 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   const orderWarning = 'b.csv is taken as the odometry and a.csv as the reference, by their order: neither name says which is which.\n';
   assert.ok((await inspectionOf([a, b])).endsWith(`\n${orderWarning}\n  npx motion-widgets calibrate --odometry DIR/b.csv --reference DIR/a.csv --rule nav2\n`));
   assert.equal((await outputOf([a, b, '--json'])).err, orderWarning);
-  const inMillimetres = writeInFolder('mm.csv', readFileSync(examplePath('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
-  assert.match(await inspectionOf([inMillimetres], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
+  const millimetrePath = writeInFolder('mm.csv', readFileSync(examplePath('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
+  assert.match(await inspectionOf([millimetrePath], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
   assert.match(await inspectionOf([a, b, writeInFolder('empty_table.csv', 't,x,y,yaw\n')]), /^Give two files without empty_table\.csv:\n\n {2}npx motion-widgets calibrate --odometry FILE --reference FILE --rule nav2$/m);
-  const alternatingTable = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
-  assert.equal((await inspectionOf([alternatingTable], 2)).match(/give the log of one robot/g)?.length, 1);
-  assert.match(await inspectionOf([inMillimetres, '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry DIR\/mm\.csv --reference FILE --length-unit mm --rule nav2$/m);
-  const positionsOnly = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
-  const { recordings: [{ series }], ...contents } = JSON.parse(await inspectionOf([positionsOnly, '--json'], 2));
+  const alternatingPath = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
+  assert.equal((await inspectionOf([alternatingPath], 2)).match(/give the log of one robot/g)?.length, 1);
+  assert.match(await inspectionOf([millimetrePath, '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry DIR\/mm\.csv --reference FILE --length-unit mm --rule nav2$/m);
+  const positionsPath = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
+  const { recordings: [{ series }], ...inspection } = JSON.parse(await inspectionOf([positionsPath, '--json'], 2));
   assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
-  assert.deepEqual([contents.missing.split(';')[0], contents.command], ['positions.csv: gt_ (gt_x, gt_y) are positions without a heading', undefined]);
+  assert.deepEqual([inspection.missing.split(';')[0], inspection.command], ['positions.csv: gt_ (gt_x, gt_y) are positions without a heading', undefined]);
 });
 
 test('an unusable log has a sentence and no lines for Nav2', async () => {
   const reversedPath = writeReversedReference();
   const { code, out } = await outputOf([...LOG_ARGS.slice(0, 3), reversedPath]);
   assert.equal(code, 3);
-  for (const line of [
+  for (const linePattern of [
     /^Unusable: no α’s are recommended from this log\. The reference does not follow the odometry: /m, /^reference-matches +\S+ +0\.0005 to 0\.7 +FAILED$/m,
     /^alpha1 .* – +rotation noise/m, /^No lines for nav2_params\.yaml: the log is unusable\.$/m,
-  ]) assert.match(out, line);
+  ]) assert.match(out, linePattern);
   assert.doesNotMatch(out, /amcl:|not identifiable: /);
 });
 
@@ -373,8 +373,8 @@ test('the report, the lines for Nav2 and the figure’s verdict agree whether th
     const [{ out }, { out: json }] = [await outputOf(args), await outputOf([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(json);
     const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
-    const isNoted = [new RegExp(`^Consistent: .*\\n${en.nav2.localizer}\\n`, 'm').test(out), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
-    assert.deepEqual(isNoted, [isLocalizer, isLocalizer, isLocalizer], name);
+    const areNoted = [new RegExp(`^Consistent: .*\\n${en.nav2.localizer}\\n`, 'm').test(out), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
+    assert.deepEqual(areNoted, [isLocalizer, isLocalizer, isLocalizer], name);
   }
 });
 
@@ -383,34 +383,34 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
   const reportWith = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
-  const checks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
-  const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks } });
+  const failedChecks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
+  const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: failedChecks } });
   assert.match(reportOfFailure, /^\nQuestionable: one check failed \(enough-legs\)\. .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);
   const roundedChecks = [{ name: 'window-2m-covered', value: 0.8636, expected: [0.8641, 1], passed: false, message: '' }];
   assert.match(reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +0\.8636 +0\.8641 to 1 +FAILED$/m);
   assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nUnusable: .* It does not identify any α\.\n\n/);
-  const boundedInflation = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
-  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: boundedInflation } }), /^\nUnusable: .* Find the cause\.\n/);
-  const twoOutliers = { count: 3, times: [12, 13, 14, 15, 1005, 1006], outliers: [1, 0, 1] };
-  assert.match(reportWith({ legs: twoOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
+  const inflationChecks = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
+  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: inflationChecks } }), /^\nUnusable: .* Find the cause\.\n/);
+  const legsWithOutliers = { count: 3, times: [12, 13, 14, 15, 1005, 1006], outliers: [1, 0, 1] };
+  assert.match(reportWith({ legs: legsWithOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
   assert.match(reportWith({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 of a standing robot$/m);
   assert.match(reportWith({ persistence: { ...persistence, length: 0.987 } }), /^correlation of neighbouring legs .*errors persist over 0\.99 m$/m);
   assert.match(reportWith({ systematicErrors: { ...systematicErrors, turnScale: { value: 0.9, interval: [0.88, 0.92], constant: false, corrected: false } } }), /^turn scale .*not corrected, not a constant$/m);
   assert.match(reportWith({ systematicErrors: { ...systematicErrors, mountYaw: { value: null, interval: null, constant: true, corrected: false } } }), /^mount yaw +not identifiable$/m);
-  const notIdentified = { alphas: [0.1, null, 0.1, null], notIdentifiable: [null, 'collinear', null, 'collinear'] };
-  const reportOfMissing = reportWith(notIdentified);
-  assert.match(reportOfMissing, /^\nConsistent: all checks passed, but alpha2 and alpha4 cannot be identified\. Use .*\nalpha2 and alpha4 not identifiable: rotation and translation are collinear in this log; add /);
-  assert.match(reportOfMissing, /^alpha2 +not identifiable /m);
-  const { rating, finding } = judgementOf(/** @type {any} */ ({ stats: { ...calibration, ...notIdentified }, legs: calibration.legs, fitted: systematicErrors }), []);
+  const unidentifiedAlphas = { alphas: [0.1, null, 0.1, null], notIdentifiable: [null, 'collinear', null, 'collinear'] };
+  const reportOfUnidentified = reportWith(unidentifiedAlphas);
+  assert.match(reportOfUnidentified, /^\nConsistent: all checks passed, but alpha2 and alpha4 cannot be identified\. Use .*\nalpha2 and alpha4 not identifiable: rotation and translation are collinear in this log; add /);
+  assert.match(reportOfUnidentified, /^alpha2 +not identifiable /m);
+  const { rating, finding } = judgementOf(/** @type {any} */ ({ stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fitted: systematicErrors }), []);
   assert.deepEqual([rating, finding], ['questionable', 'Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations.']);
-  assert.match(reportWith({ ...notIdentified, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^alpha2 not identifiable: .*; add ~50 legs in tight bends$/m);
+  assert.match(reportWith({ ...unidentifiedAlphas, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^alpha2 not identifiable: .*; add ~50 legs in tight bends$/m);
   assert.match(reportWith({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^alpha1 +≤ 0\.0012 +0\.0000 to 0\.0012 +≤ 0\.0015 /m);
   assert.match(reportWith({}, { model: 'velocity' }), /^No lines for nav2_params\.yaml: Nav2 has no velocity model\.$/m);
-  for (const reason of calibrationWords()) assert.ok(reason in en.alphas.lacking, reason);
+  for (const reason of readDeclaredReasons()) assert.ok(reason in en.alphas.lacking, reason);
 });
 
-/** Reasons for which an α is not identifiable, as the core declares them. */
-function calibrationWords() {
-  const [, declaredWords] = readFileSync(new URL('../../dist/simulations.d.ts', import.meta.url), 'utf8').match(/notIdentifiable: \('(.*)' \| null\)\[\];/) ?? [];
-  return declaredWords.split("' | '");
+/** Returns the reasons for which an α is not identifiable, as the core declares them. */
+function readDeclaredReasons() {
+  const [, reasonList] = readFileSync(new URL('../../dist/simulations.d.ts', import.meta.url), 'utf8').match(/notIdentifiable: \('(.*)' \| null\)\[\];/) ?? [];
+  return reasonList.split("' | '");
 }

@@ -10,31 +10,31 @@ import { freshModule, assertNear } from './support.js';
 
 test('importing and loading touch neither the DOM nor the network, and load gives one module', async () => {
   /** @type {string[]} */
-  const accessedNames = [];
-  const browserNames = ['document', 'window', 'customElements', 'fetch', 'XMLHttpRequest', 'WebSocket'];
-  const descriptorsBefore = browserNames.map((name) => Object.getOwnPropertyDescriptor(globalThis, name));
-  for (const name of browserNames) {
-    Object.defineProperty(globalThis, name, { configurable: true, get: () => void accessedNames.push(name) });
+  const accessedGlobals = [];
+  const browserGlobals = ['document', 'window', 'customElements', 'fetch', 'XMLHttpRequest', 'WebSocket'];
+  const descriptorsBefore = browserGlobals.map((name) => Object.getOwnPropertyDescriptor(globalThis, name));
+  for (const name of browserGlobals) {
+    Object.defineProperty(globalThis, name, { configurable: true, get: () => void accessedGlobals.push(name) });
   }
   try {
     const core = await freshModule();
-    assert.deepEqual(accessedNames, []);
+    assert.deepEqual(accessedGlobals, []);
     const motion = await core.load();
     assert.equal(await core.load(), motion);
   } finally {
-    browserNames.forEach((name, i) => {
+    browserGlobals.forEach((name, i) => {
       const descriptor = descriptorsBefore[i];
       if (descriptor) Object.defineProperty(globalThis, name, descriptor);
       else Reflect.deleteProperty(globalThis, name);
     });
   }
-  assert.deepEqual(accessedNames, []);
+  assert.deepEqual(accessedGlobals, []);
 });
 
 test('load takes bytes, a compiled module, or an address, and fails with a sentence', async () => {
-  const address = new URL('../../build/motion.wasm', import.meta.url);
-  const bytes = await readFile(address);
-  for (const source of [undefined, bytes, new Uint8Array(bytes).buffer, await WebAssembly.compile(bytes), address, address.href]) {
+  const moduleAddress = new URL('../../build/motion.wasm', import.meta.url);
+  const moduleBytes = await readFile(moduleAddress);
+  for (const source of [undefined, moduleBytes, new Uint8Array(moduleBytes).buffer, await WebAssembly.compile(moduleBytes), moduleAddress, moduleAddress.href]) {
     const motion = await (await freshModule()).load(source);
     const simulation = new motion.BananaMachine({ samples: 5 });
     assert.equal(simulation.stats.n, 5);
@@ -48,13 +48,13 @@ test('load takes bytes, a compiled module, or an address, and fails with a sente
 
 test('a page finds every name of the contract', async () => {
   const motion = await (await freshModule()).load();
-  const simulations = ['AlphaCalibrator', 'ArcAnatomy', 'BananaMachine', 'DeadReckoning', 'MapSqueeze', 'OdometryDecomposer'];
-  const models = ['OdometryModel', 'VelocityModel'];
-  const functions = ['calibrate', 'commandReaching', 'decompose', 'invertArc', 'propagate', 'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine'];
-  assert.deepEqual(Object.keys(motion).sort(), [...simulations, ...models, ...functions, 'se2'].sort());
-  for (const [names, members] of [[simulations, ['configure', 'config', 'stats']], [models, ['prob', 'poseDensity', 'sample']]]) {
-    for (const name of names) {
-      for (const member of [...members, 'free', Symbol.dispose]) assert.ok(member in motion[name].prototype, `${name}: ${String(member)}`);
+  const simulationNames = ['AlphaCalibrator', 'ArcAnatomy', 'BananaMachine', 'DeadReckoning', 'MapSqueeze', 'OdometryDecomposer'];
+  const modelNames = ['OdometryModel', 'VelocityModel'];
+  const functionNames = ['calibrate', 'commandReaching', 'decompose', 'invertArc', 'propagate', 'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine'];
+  assert.deepEqual(Object.keys(motion).sort(), [...simulationNames, ...modelNames, ...functionNames, 'se2'].sort());
+  for (const [classNames, memberNames] of [[simulationNames, ['configure', 'config', 'stats']], [modelNames, ['prob', 'poseDensity', 'sample']]]) {
+    for (const name of classNames) {
+      for (const memberName of [...memberNames, 'free', Symbol.dispose]) assert.ok(memberName in motion[name].prototype, `${name}: ${String(memberName)}`);
     }
   }
   const se2 = ['adjoint', 'boxminus', 'boxplus', 'compose', 'exp', 'inverse', 'log', 'rightJacobian'];
@@ -63,11 +63,11 @@ test('a page finds every name of the contract', async () => {
 
 test('a simulation opens with the settings that www/settings.js declares', async () => {
   const motion = await (await freshModule()).load();
-  for (const [tag, declared] of Object.entries(settings)) {
+  for (const [tag, declaredSettings] of Object.entries(settings)) {
     const SimulationClass = motion[tag.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase())];
-    const fields = (/** @type {string} */ group) => declared.filter((setting) => setting.in === group).map(({ key, field = key, default: value }) => [field, value]);
-    const ownSettings = declared.filter((setting) => !setting.in && !setting.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fields(key)) : value]);
-    assert.deepEqual(new SimulationClass().config, Object.fromEntries(ownSettings), tag);
+    const fieldsOf = (/** @type {string} */ group) => declaredSettings.filter((setting) => setting.in === group).map(({ key, field = key, default: value }) => [field, value]);
+    const topLevelSettings = declaredSettings.filter((setting) => !setting.in && !setting.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fieldsOf(key)) : value]);
+    assert.deepEqual(new SimulationClass().config, Object.fromEntries(topLevelSettings), tag);
   }
 });
 
@@ -86,8 +86,8 @@ test('a simulation computes, refuses by class and message, and is freed', async 
 test('calibrate takes all coordinates that readers of logs take, and no larger ones', async () => {
   const { calibrate } = await (await freshModule()).load();
   const reference = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] };
-  const odometry = (/** @type {number} */ x) => ({ ...reference, x: [0, x] });
-  assert.throws(() => calibrate({ odometry: odometry(MAX_VALUE), reference }), { message: /^the log has \d legs/ });
-  const refusal = { message: /^odometry\.x\[1\] is 2000000000; allowed / };
-  assert.throws(() => calibrate({ odometry: odometry(2 * MAX_VALUE), reference }), refusal);
+  const odometryEndingAt = (/** @type {number} */ x) => ({ ...reference, x: [0, x] });
+  assert.throws(() => calibrate({ odometry: odometryEndingAt(MAX_VALUE), reference }), { message: /^the log has \d legs/ });
+  const expectedError = { message: /^odometry\.x\[1\] is 2000000000; allowed / };
+  assert.throws(() => calibrate({ odometry: odometryEndingAt(2 * MAX_VALUE), reference }), expectedError);
 });

@@ -7,10 +7,10 @@ import { presets, settings } from '../../www/settings.js';
 import { differences, digest, widgets } from '../digest/digest.js';
 import { freshModule } from './support.js';
 
-const textOf = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
+const readText = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
 
 /** @type {import('../digest/digest.js').Configurations} */
-const configurationList = JSON.parse(textOf('tests/digest/configurations.json'));
+const configurationList = JSON.parse(readText('tests/digest/configurations.json'));
 const motion = await (await freshModule()).load();
 
 /** Exports without a seed, and models that draw as in Rust. They are covered by tests/web and tests/native. */
@@ -23,7 +23,7 @@ const simulationClasses = new Map(
     .map(([name, exported]) => [name.replace(/\B[A-Z]/g, '-$&').toLowerCase(), exported]),
 );
 
-const goldenDigest = textOf('tests/digest/golden.txt');
+const goldenDigest = readText('tests/digest/golden.txt');
 
 test('a seed gives the bits that it gave', async () => {
   const computedDigest = await digest(motion, configurationList);
@@ -32,26 +32,26 @@ test('a seed gives the bits that it gave', async () => {
 });
 
 test('every widget and every class of the core has configurations, and every function is asked', () => {
-  const listedTags = [...textOf('www/widgets/index.ts').matchAll(/^import '\.\/([\w-]+)\//gm)].map(([, tag]) => tag);
+  const listedTags = [...readText('www/widgets/index.ts').matchAll(/^import '\.\/([\w-]+)\//gm)].map(([, tag]) => tag);
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), listedTags.sort(), 'www/widgets/index.ts');
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...simulationClasses.keys()].sort(), 'core.js');
   assert.deepEqual(Object.keys(widgets).sort(), listedTags, 'digest.js');
-  const functions = Object.keys(motion).filter((name) => !('free' in (motion[name].prototype ?? {})) && !TESTED_ELSEWHERE.has(name) && !EXCLUDED_EXPORTS.has(name));
-  for (const name of functions) assert.match(textOf('tests/digest/digest.js'), new RegExp(`\\b${name}\\(`));
-  const count = Object.values(configurationList.widgets).reduce((sum, { configurations }) => sum + Object.keys(configurations).length, 0);
+  const functionNames = Object.keys(motion).filter((name) => !('free' in (motion[name].prototype ?? {})) && !MEMBERS_TESTED_ELSEWHERE.has(name) && !EXCLUDED_EXPORTS.has(name));
+  for (const name of functionNames) assert.match(readText('tests/digest/digest.js'), new RegExp(`\\b${name}\\(`));
+  const configurationCount = Object.values(configurationList.widgets).reduce((sum, { configurations }) => sum + Object.keys(configurations).length, 0);
   // golden.txt has no lines of removed configurations.
-  assert.equal(count, textOf('tests/digest/golden.txt').match(/^.+$/gm)?.length);
+  assert.equal(configurationCount, readText('tests/digest/golden.txt').match(/^.+$/gm)?.length);
 });
 
 for (const [tag, { configurations }] of Object.entries(configurationList.widgets)) {
-  const valuesOf = (/** @type {string} */ key) => new Set(Object.values(configurations).map((configuration) => JSON.stringify(configuration.settings[key])));
+  const coveredValuesOf = (/** @type {string} */ key) => new Set(Object.values(configurations).map((configuration) => JSON.stringify(configuration.settings[key])));
 
   test(`configurations of ${tag} take every setting, every word and every preset`, () => {
     for (const { key, type, words, nullable, default: opening, in: group } of settings[tag]) {
       if (group) continue;
-      const coveredValues = valuesOf(key);
+      const coveredValues = coveredValuesOf(key);
       const allowedValues = type === 'boolean' ? [true, false] : (words ?? []);
-      for (const value of allowedValues) assert.ok(coveredValues.has(JSON.stringify(value)) || value === opening, `${key}: ${value}`);
+      for (const allowedValue of allowedValues) assert.ok(coveredValues.has(JSON.stringify(allowedValue)) || allowedValue === opening, `${key}: ${allowedValue}`);
       const otherValues = [...coveredValues].filter((value) => value !== undefined && value !== JSON.stringify(opening));
       assert.ok(otherValues.length > 0, `${key} is never set`);
       if (nullable && opening !== null && type !== 'number') assert.ok(coveredValues.has('null'), `${key}: null`);
@@ -63,15 +63,15 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
 
   test(`all that a simulation of ${tag} tells is in its digest`, () => {
     const functionText = widgets[tag].toString();
-    const members = Object.getOwnPropertyNames(simulationClasses.get(tag).prototype);
-    const missingNames = members.filter((name) => !TESTED_ELSEWHERE.has(name) && !new RegExp(`\\b${name}\\b`).test(functionText));
+    const memberNames = Object.getOwnPropertyNames(simulationClasses.get(tag).prototype);
+    const missingNames = memberNames.filter((name) => !MEMBERS_TESTED_ELSEWHERE.has(name) && !new RegExp(`\\b${name}\\b`).test(functionText));
     assert.deepEqual(missingNames, [], `ask for them in digest.js and in tests/digest/`);
   });
 }
 
 test('every map is used, and what differs is named', () => {
-  const usedMaps = new Set(Object.values(configurationList.widgets['map-squeeze'].configurations).map(({ map }) => map));
-  for (const map of Object.keys(configurationList.maps)) assert.ok(usedMaps.has(map), map);
+  const usedMapNames = new Set(Object.values(configurationList.widgets['map-squeeze'].configurations).map(({ map }) => map));
+  for (const map of Object.keys(configurationList.maps)) assert.ok(usedMapNames.has(map), map);
   assert.deepEqual(differences('a/b poses:1 table:2\na/c poses:3\n', 'a/b poses:1 table:9\na/d poses:3\n'), [
     'a/b: table',
     'a/c is gone',
@@ -80,7 +80,7 @@ test('every map is used, and what differs is named', () => {
 });
 
 /** Members that the digest does not contain. They are tested in tests/native/simulations: banana, morph, squeeze and alpha_calibrator. */
-const TESTED_ELSEWHERE = new Set([
+const MEMBERS_TESTED_ELSEWHERE = new Set([
   'constructor', 'free', '__destroy_into_raw', 'config', 'fittedConfig', 'isPending', 'save', 'read', 'firstPoses', 'firstTwists', 'configure', 'configureFirst', 'addSamples', 'block', 'alphasOfModels',
   'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine', 'gaps',
 ]);

@@ -10,7 +10,7 @@ import { LEG_LIMIT, TRUE_MODEL } from '../../scripts/example-log.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { presets } from '../../www/settings.js';
 
-const textOf = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
+const readText = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
 
 /** Files and names of constants, with the sentence of the document that contains the value. @type {[string, string, RegExp][]} */
 const DOCUMENTED_LIMITS = [
@@ -22,43 +22,43 @@ const DOCUMENTED_LIMITS = [
 ];
 
 test('doc/model.md and doc/statistics.md have the limits of the pages', () => {
-  const documents = `${textOf('doc/model.md')}${textOf('doc/statistics.md')}`.replace(/\s+/g, ' ');
-  for (const [file, name, sentence] of DOCUMENTED_LIMITS) {
-    const [, limit] = textOf(file).match(new RegExp(`const ${name} = ([\\d._]+);`)) ?? [];
-    assert.ok(limit, `${name} of ${file}`);
-    assert.equal(documents.match(sentence)?.[1], limit, `${name} of ${file}`);
+  const documentTexts = `${readText('doc/model.md')}${readText('doc/statistics.md')}`.replace(/\s+/g, ' ');
+  for (const [file, constantName, pattern] of DOCUMENTED_LIMITS) {
+    const [, limitText] = readText(file).match(new RegExp(`const ${constantName} = ([\\d._]+);`)) ?? [];
+    assert.ok(limitText, `${constantName} of ${file}`);
+    assert.equal(documentTexts.match(pattern)?.[1], limitText, `${constantName} of ${file}`);
   }
 });
 
 test('README.md has the presets of each figure', () => {
-  const readme = textOf('README.md').replace(/\s+/g, ' ');
-  for (const [tag, all] of Object.entries(presets)) {
-    if (all.length > 0) assert.ok(readme.includes(`\`${tag}\` ${all.map(({ name }) => name).join(', ')}`), tag);
+  const readme = readText('README.md').replace(/\s+/g, ' ');
+  for (const [tag, presetsOfTag] of Object.entries(presets)) {
+    if (presetsOfTag.length > 0) assert.ok(readme.includes(`\`${tag}\` ${presetsOfTag.map(({ name }) => name).join(', ')}`), tag);
   }
 });
 
 test('README of the example log has its true parameters', () => {
-  const readme = textOf('examples/calibration/README.md');
+  const readme = readText('examples/calibration/README.md');
   const { alphas, mountYaw, clockOffset, distanceScale } = TRUE_MODEL;
-  for (const statement of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEG_LIMIT.distance} m`, `${LEG_LIMIT.angle} rad`]) {
-    assert.ok(readme.includes(statement), statement);
+  for (const expectedText of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEG_LIMIT.distance} m`, `${LEG_LIMIT.angle} rad`]) {
+    assert.ok(readme.includes(expectedText), expectedText);
   }
 });
 
 test('doc/reliability.md names files and commands that are there', () => {
-  const document = textOf('doc/reliability.md');
-  const { scripts } = JSON.parse(textOf('package.json'));
-  const commands = [...document.matchAll(/`npm run ([\w:]+)/g)].map(([, name]) => name);
-  assert.ok(commands.length >= 4, commands.join(', '));
-  for (const name of commands) assert.ok(Object.hasOwn(scripts, name), name);
-  const files = [...document.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, path]) => path);
-  assert.ok(files.length > 15, files.join(', '));
-  for (const path of files) assert.ok(existsSync(new URL(`../../${path}`, import.meta.url)), path);
+  const document = readText('doc/reliability.md');
+  const { scripts } = JSON.parse(readText('package.json'));
+  const commandNames = [...document.matchAll(/`npm run ([\w:]+)/g)].map(([, name]) => name);
+  assert.ok(commandNames.length >= 4, commandNames.join(', '));
+  for (const name of commandNames) assert.ok(Object.hasOwn(scripts, name), name);
+  const documentedPaths = [...document.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, path]) => path);
+  assert.ok(documentedPaths.length > 15, documentedPaths.join(', '));
+  for (const path of documentedPaths) assert.ok(existsSync(new URL(`../../${path}`, import.meta.url)), path);
 });
 
 /** Text of each document without its listings. */
-const DOCUMENTS = new Map(['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))]
-  .map((path) => [path, textOf(path).replaceAll(/^```.*?^```/gms, '')]));
+const TEXT_BY_DOCUMENT = new Map(['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))]
+  .map((path) => [path, readText(path).replaceAll(/^```.*?^```/gms, '')]));
 
 /** Returns the anchors of headings, as GitHub makes them. */
 const anchorsOf = (/** @type {string} */ text, level = '#+') =>
@@ -69,23 +69,23 @@ const linksOf = (/** @type {string} */ text) =>
   [...text.matchAll(/\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)/g)].map(([, path, anchor]) => ({ path, anchor }));
 
 test('links of the documents lead to files and headings that exist', () => {
-  for (const [document, text] of DOCUMENTS) {
+  for (const [document, text] of TEXT_BY_DOCUMENT) {
     for (const { path, anchor } of linksOf(text)) {
-      const target = path === '' ? document : join(dirname(document), path);
-      assert.ok(existsSync(join(ROOT, target)), `${document}: ${path}`);
-      if (anchor !== '') assert.ok(anchorsOf(DOCUMENTS.get(target) ?? '').includes(anchor), `${document}: ${path}#${anchor}`);
+      const targetPath = path === '' ? document : join(dirname(document), path);
+      assert.ok(existsSync(join(ROOT, targetPath)), `${document}: ${path}`);
+      if (anchor !== '') assert.ok(anchorsOf(TEXT_BY_DOCUMENT.get(targetPath) ?? '').includes(anchor), `${document}: ${path}#${anchor}`);
     }
   }
 });
 
 test('documents are short, and long ones have a table of contents', () => {
-  const linkedDocuments = linksOf(DOCUMENTS.get('doc/README.md') ?? '').map(({ path }) => join('doc', path));
-  for (const [document, text] of DOCUMENTS) {
-    const lines = textOf(document).trimEnd().split('\n').length;
-    assert.ok(lines <= (document === 'README.md' ? 150 : 350), `${document} has ${lines} lines`);
+  const linkedDocuments = linksOf(TEXT_BY_DOCUMENT.get('doc/README.md') ?? '').map(({ path }) => join('doc', path));
+  for (const [document, text] of TEXT_BY_DOCUMENT) {
+    const lineCount = readText(document).trimEnd().split('\n').length;
+    assert.ok(lineCount <= (document === 'README.md' ? 150 : 350), `${document} has ${lineCount} lines`);
     if (document.startsWith('doc/') && document !== 'doc/README.md') assert.ok(linkedDocuments.includes(document), `${document} is not in doc/README.md`);
-    const headings = anchorsOf(text, '##');
-    const linked = linksOf(text).filter(({ path }) => path === '').map(({ anchor }) => anchor);
-    if (headings.length > 6) assert.deepEqual(headings.filter((heading) => !linked.includes(heading)), [], `contents of ${document}`);
+    const headingAnchors = anchorsOf(text, '##');
+    const linkedAnchors = linksOf(text).filter(({ path }) => path === '').map(({ anchor }) => anchor);
+    if (headingAnchors.length > 6) assert.deepEqual(headingAnchors.filter((heading) => !linkedAnchors.includes(heading)), [], `contents of ${document}`);
   }
 });

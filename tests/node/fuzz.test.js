@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { Buffer } from 'node:buffer';
 import { existsSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { setImmediate as turn } from 'node:timers/promises';
+import { setImmediate as yieldToEventLoop } from 'node:timers/promises';
 import { mutantOf } from '../fuzz/mutate.js';
 import { targets } from '../fuzz/targets.js';
 import { randomGenerator } from '../random.js';
@@ -20,8 +20,8 @@ const [MAX_SECONDS, MAX_BYTES] = [1, 256 * 2 ** 20];
 /** Number of inputs after which the test yields to the event loop, so that decompressed data can be released. */
 const INPUTS_PER_TURN = 100;
 
-/** Inputs of a target that fuzzing found: hexadecimal, one a line. @param {string} target */
-function foundInputs(target) {
+/** Returns the inputs of a target that fuzzing found. The file has one input a line, in hexadecimal. @param {string} target */
+function readFoundInputs(target) {
   const file = new URL(`../fuzz/corpus/${target}.txt`, import.meta.url);
   const lines = existsSync(file) ? readFileSync(file, 'latin1').split('\n').slice(0, -1) : [];
   return lines.map((line) => Buffer.from(line, 'hex'));
@@ -30,26 +30,26 @@ function foundInputs(target) {
 for (const [name, { corpus, run }] of Object.entries(targets)) {
   test(`${name}: every input gives a result or a sentence`, async () => {
     const random = randomGenerator(SEED);
-    const allInputs = [...corpus, ...foundInputs(name)];
-    /** @param {Buffer<ArrayBuffer>} bytes */
-    const check = async (bytes) => {
-      const start = process.cpuUsage();
+    const allInputs = [...corpus, ...readFoundInputs(name)];
+    /** Runs a target on an input, and returns true if the input is accepted. @param {Buffer<ArrayBuffer>} bytes */
+    const checkInput = async (bytes) => {
+      const cpuBefore = process.cpuUsage();
       try {
         const isAccepted = await run(bytes);
-        const { user, system } = process.cpuUsage(start);
+        const { user, system } = process.cpuUsage(cpuBefore);
         assert.ok(user + system < 1e6 * MAX_SECONDS, `${user + system} µs`);
         return isAccepted;
       } catch (error) {
         throw new Error(`${name} fails on ${bytes.toString('hex')}`, { cause: error });
       }
     };
-    for (const bytes of allInputs) await check(Buffer.from(bytes));
+    for (const bytes of allInputs) await checkInput(Buffer.from(bytes));
     const memoryBefore = process.resourceUsage().maxRSS;
     let acceptedCount = 0;
     for (let i = 0; i < INPUT_COUNT; i++) {
       // Inputs that fuzzing found are mostly refused. Half of the mutations therefore start from valid inputs.
-      if (await check(mutantOf(random() < 0.5 ? corpus : allInputs, random))) acceptedCount += 1;
-      if (i % INPUTS_PER_TURN === 0) await turn();
+      if (await checkInput(mutantOf(random() < 0.5 ? corpus : allInputs, random))) acceptedCount += 1;
+      if (i % INPUTS_PER_TURN === 0) await yieldToEventLoop();
     }
     assert.ok(acceptedCount > 0 && acceptedCount < INPUT_COUNT, `${acceptedCount} of ${INPUT_COUNT} are accepted`);
     const memoryGrowth = 1024 * (process.resourceUsage().maxRSS - memoryBefore);

@@ -48,8 +48,8 @@ test('no import runs in a circle', () => {
 test('no import runs up, and none from one widget to another', () => {
   const layerOf = (/** @type {string} */ path) => LAYERS.findIndex((layer) => path.startsWith(`${layer}/`));
   for (const [importer, imported] of imports) {
-    const [from, to] = [layerOf(importer), layerOf(imported)];
-    if (from >= 0 && to >= 0) assert.ok(from <= to, `${importer} imports ${imported}`);
+    const [importerLayer, importedLayer] = [layerOf(importer), layerOf(imported)];
+    if (importerLayer >= 0 && importedLayer >= 0) assert.ok(importerLayer <= importedLayer, `${importer} imports ${imported}`);
     const [widget, otherWidget] = [importer, imported].map((path) => path.match(/^www\/widgets\/([^/]+)\//)?.[1]);
     if (widget && otherWidget) assert.ok(widget === otherWidget || otherWidget === 'shared', `${importer} imports ${imported}`);
   }

@@ -12,7 +12,7 @@ import { refusalErrorOf, refusalSentenceOf } from './log-support.js';
 
 /** @import { Recording } from '../../www/logs/log.ts' */
 
-const TYPE_AND_KIND = /** @type {const} */ ({
+const SERIES_TYPE_AND_KIND = /** @type {const} */ ({
   odometry: ['nav_msgs/msg/Odometry', 'poses'], pose: ['geometry_msgs/msg/PoseStamped', 'poses'], point: ['geometry_msgs/msg/PointStamped', 'positions'],
   twist: ['geometry_msgs/msg/Twist', 'commands'], tf: ['tf2_msgs/msg/TFMessage', 'transforms'], text: ['std_msgs/msg/String', null], columns: ['t, x, y, yaw', 'poses'],
 });
@@ -20,30 +20,30 @@ const TYPE_AND_KIND = /** @type {const} */ ({
 /**
  * Returns a recording with series that are never read.
  *
- * @param {Record<string, keyof typeof TYPE_AND_KIND>} series types by name
+ * @param {Record<string, keyof typeof SERIES_TYPE_AND_KIND>} series types by name
  * @param {Partial<Recording>} [more]
  * @param {string[]} [frames] of transforms, as "odom base_link"
  * @returns {Recording}
  */
-const recordingOf = (series, more, frames = []) => ({
+const recordingWith = (series, more, frames = []) => ({
   name: 'run.mcap',
   format: 'mcap',
   series: Object.entries(series).map(([name, of]) => {
-    const [type, kind] = TYPE_AND_KIND[of];
+    const [type, kind] = SERIES_TYPE_AND_KIND[of];
     return { name, type, kind, count: 9, ...(kind === 'transforms' && { frames: frames.map((pair) => ({ parent: pair.split(' ')[0], child: pair.split(' ')[1] })) }) };
   }),
   read: () => Promise.reject(new Error('not read')),
   ...more,
 });
 
-/** @param {{ series: string, frames?: { parent: string, child: string } }} choice */
-const choiceText = ({ series, frames }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
+/** Returns a choice of a series, with its frames, as text. @param {{ series: string, frames?: { parent: string, child: string } }} choice */
+const choiceTextOf = ({ series, frames }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
 
-/** Plans drives. A refusal rejects the promise. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').UserChoices} [wishes] */
-const plannedDrives = async (recordings, wishes) => planDrives(recordings, wishes);
+/** Plans drives. A refusal rejects the promise. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
+const planDrivesAsync = async (recordings, userChoices) => planDrives(recordings, userChoices);
 
-/** Cases with one answer: the series of a recording, the expected odometry and reference, the frames in /tf, the user's options. @type {[Parameters<typeof recordingOf>[0], string, string, string[]?, any?][]} */
-const CLEAR_CASES = [
+/** Cases with one answer: the series of a recording, the expected odometry and reference, the frames in /tf, the user's options. @type {[Parameters<typeof recordingWith>[0], string, string, string[]?, any?][]} */
+const CLEAR_ROLE_CASES = [
   [{ '/odom': 'odometry', '/vrpn_client_node/robot/pose': 'pose', '/amcl_pose': 'pose', '/cmd_vel': 'twist' }, '/odom', '/vrpn_client_node/robot/pose'],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose', '/cmd_vel': 'twist' }, '/cmd_vel', '/vicon/robot', [], { kind: 'commands' }],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose' }, '/odom', '/vicon/robot', [], { kind: 'commands' }],
@@ -58,25 +58,25 @@ const CLEAR_CASES = [
 ];
 
 test('odometry and reference are guessed by types, names and frames', () => {
-  for (const [series, odometry, reference, frames, wishes] of CLEAR_CASES) {
-    const [drive] = planDrives([recordingOf(series, {}, frames)], wishes).drives;
-    assert.deepEqual([choiceText(drive.odometry.choice), choiceText(drive.reference.choice)], [odometry, reference]);
+  for (const [series, odometry, reference, frames, userChoices] of CLEAR_ROLE_CASES) {
+    const [drive] = planDrives([recordingWith(series, {}, frames)], userChoices).drives;
+    assert.deepEqual([choiceTextOf(drive.odometry.choice), choiceTextOf(drive.reference.choice)], [odometry, reference]);
   }
 });
 
 test('groups of columns are guessed as topics are, and may be named without a separator', () => {
-  const poseTable = /** @type {const} */ ({ name: 'run.csv', format: 'csv' });
-  for (const [series, odometry, reference, wishes] of /** @type {[Parameters<typeof recordingOf>[0], string, string, any?][]} */ ([
+  const csvFields = /** @type {const} */ ({ name: 'run.csv', format: 'csv' });
+  for (const [series, odometry, reference, userChoices] of /** @type {[Parameters<typeof recordingWith>[0], string, string, any?][]} */ ([
     [{ odom_: 'columns', gt_: 'columns' }, 'odom_', 'gt_'], [{ '': 'columns', gt_: 'columns' }, '', 'gt_'], [{ '': 'columns', _true: 'columns' }, '', '_true'], [{ '/truth': 'columns', '/odom': 'columns' }, '/odom', '/truth'],
     [{ a_: 'columns', b_: 'columns' }, 'b_', 'a_', { odometry: { series: 'b' } }],
   ])) {
-    const [drive] = planDrives([recordingOf(series, poseTable)], wishes).drives;
+    const [drive] = planDrives([recordingWith(series, csvFields)], userChoices).drives;
     assert.deepEqual([drive.odometry.choice.series, drive.reference.choice.series], [odometry, reference]);
   }
 });
 
 test('a question is asked where a role is not clear', async () => {
-  for (const [series, sentence, what, role, choices, frames, wishes] of /** @type {[Parameters<typeof recordingOf>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
+  for (const [series, expectedSentence, what, role, choices, frames, userChoices] of /** @type {[Parameters<typeof recordingWith>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
     [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/cmd_vel': 'twist' }, 'by its names and types it has no reference, but /odom (Odometry), ', 'series', 'reference', []],
@@ -95,137 +95,137 @@ test('a question is asked where a role is not clear', async () => {
     [{ '/odom': 'odometry', '/mocap': 'pose' }, '/odom is the odometry itself; ', 'series', 'reference', ['/mocap'], [], { reference: { series: '/odom' } }],
     [{ '/tf': 'tf' }, 'odom → base is the odometry itself; ', 'series', 'reference', [], ['odom base', 'mocap robot'], { reference: { frames: { parent: 'odom', child: 'base' } } }],
   ])) {
-    const { message, ask } = await refusalErrorOf(plannedDrives([recordingOf(series, {}, frames)], wishes));
-    assert.ok(message.startsWith('run.mcap') && message.includes(`: ${sentence}`), message);
+    const { message, ask } = await refusalErrorOf(planDrivesAsync([recordingWith(series, {}, frames)], userChoices));
+    assert.ok(message.startsWith('run.mcap') && message.includes(`: ${expectedSentence}`), message);
     assert.deepEqual([ask?.what, ask?.role], [what, role], message);
     if (choices) assert.deepEqual(ask?.choices, choices);
   }
 });
 
 test('several recordings are drives of their own, or give one log each', async () => {
-  const recordingWithBothLogs = recordingOf({ '/odom': 'odometry', '/mocap': 'pose' });
+  const recordingWithBothLogs = recordingWith({ '/odom': 'odometry', '/mocap': 'pose' });
   assert.equal(planDrives([recordingWithBothLogs, recordingWithBothLogs]).drives.length, 2);
-  const { unpaired } = planDrives([recordingOf({ '/mocap': 'pose' }), recordingOf({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
+  const { unpaired } = planDrives([recordingWith({ '/mocap': 'pose' }), recordingWith({ '/odom': 'odometry', '/cmd_vel': 'twist' })]);
   assert.deepEqual([unpaired.odometry[0].choice.series, unpaired.reference[0].choice.series], ['/odom', '/mocap']);
-  const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([recordingWithBothLogs, recordingOf({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
+  const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([recordingWithBothLogs, recordingWith({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
   assert.deepEqual([drives.length, unpairedOdometry.choice.series], [0, '/odom']);
   // A recording that has neither odometry nor a reference is left out, unless the user chose it as one of the two.
-  const cameraRecording = recordingOf({ '/image': 'text' }, { name: 'camera.mcap' });
+  const cameraRecording = recordingWith({ '/image': 'text' }, { name: 'camera.mcap' });
   const { drives: [drive], unused } = planDrives([cameraRecording, recordingWithBothLogs]);
   assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [recordingWithBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
-  assert.match(await refusalSentenceOf(plannedDrives([recordingWithBothLogs, cameraRecording], { roles: new Map([[cameraRecording, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
-  const unpairedNames = async (/** @type {string[]} */ ...names) => {
-    const plan = planDrives(names.map((name) => recordingOf({ '': 'columns' }, { name, format: 'csv' })));
-    return [plan.unpaired.odometry, plan.unpaired.reference].map((parts) => parts.map(({ recording: { name } }) => name));
+  assert.match(await refusalSentenceOf(planDrivesAsync([recordingWithBothLogs, cameraRecording], { roles: new Map([[cameraRecording, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
+  const unpairedNamesOf = async (/** @type {string[]} */ ...names) => {
+    const drivePlan = planDrives(names.map((name) => recordingWith({ '': 'columns' }, { name, format: 'csv' })));
+    return [drivePlan.unpaired.odometry, drivePlan.unpaired.reference].map((parts) => parts.map(({ recording: { name } }) => name));
   };
-  assert.deepEqual(await unpairedNames('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
-  assert.deepEqual(await unpairedNames('a.csv', 'b.csv'), [['a.csv'], ['b.csv']]);
-  assert.deepEqual(await unpairedNames('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
-  assert.match(await refusalSentenceOf(unpairedNames('a.csv', 'b.csv', 'c.csv', 'd.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
-  assert.match(await refusalSentenceOf(unpairedNames('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: the odometry is in odom1\.csv, odom2\.csv, and the reference in truth\.csv; /);
+  assert.deepEqual(await unpairedNamesOf('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
+  assert.deepEqual(await unpairedNamesOf('a.csv', 'b.csv'), [['a.csv'], ['b.csv']]);
+  assert.deepEqual(await unpairedNamesOf('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
+  assert.match(await refusalSentenceOf(unpairedNamesOf('a.csv', 'b.csv', 'c.csv', 'd.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
+  assert.match(await refusalSentenceOf(unpairedNamesOf('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: the odometry is in odom1\.csv, odom2\.csv, and the reference in truth\.csv; /);
   // A log may be ambiguous in one role only.
-  const twoBodyRecording = recordingOf({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
-  const odometryTable = recordingOf({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
-  const { ask } = await refusalErrorOf(plannedDrives([odometryTable, twoBodyRecording]));
+  const twoBodyRecording = recordingWith({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
+  const odometryTable = recordingWith({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
+  const { ask } = await refusalErrorOf(planDrivesAsync([odometryTable, twoBodyRecording]));
   assert.deepEqual([ask?.what, ask?.role, ask?.choices], ['series', 'reference', ['Robot', 'Cart']]);
   assert.equal(planDrives([odometryTable, twoBodyRecording], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
-  const ambiguousRecording = recordingOf({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
-  assert.match(await refusalSentenceOf(plannedDrives([ambiguousRecording, ambiguousRecording])), /^run\.mcap: it is not clear what the reference is: /);
+  const ambiguousRecording = recordingWith({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
+  assert.match(await refusalSentenceOf(planDrivesAsync([ambiguousRecording, ambiguousRecording])), /^run\.mcap: it is not clear what the reference is: /);
 });
 
-/** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').UserChoices} [wishes] */
-const drivesOf = async (files, wishes) => readDrives(planDrives(await openRecordings(Object.entries(files).map(([name, text]) => new File([text], name))), wishes));
+/** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
+const drivesOf = async (files, userChoices) => readDrives(planDrives(await openRecordings(Object.entries(files).map(([name, text]) => new File([text], name))), userChoices));
 
-/** Table of poses. @param {number} count @param {(i: number) => number[]} row */
-const poseTable = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count }, (_, i) => row(i).join(','))].join('\n');
+/** Returns a table of poses. @param {number} count @param {(i: number) => number[]} row */
+const poseTableOf = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count }, (_, i) => row(i).join(','))].join('\n');
 
-/** Poses along x at 20 Hz. @param {(i: number) => number} x @param {number} [start] */
-const straightTable = (x, start = 0) => poseTable(400, (i) => [start + i / 20, x(i), 0, 0]);
+/** Returns a table of poses along x at 20 Hz. @param {(i: number) => number} x @param {number} [start] */
+const straightTableOf = (x, start = 0) => poseTableOf(400, (i) => [start + i / 20, x(i), 0, 0]);
 
 test('logs of several drives are paired by their times, their names, or their order', async () => {
-  const pairedNames = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, straightTable((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
-  assert.deepEqual(await pairedNames({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
-  assert.deepEqual(await pairedNames({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth2.csv': 0, 'truth1.csv': 0 }), [['odom1.csv', 'truth1.csv'], ['odom2.csv', 'truth2.csv']]);
-  assert.deepEqual(await pairedNames({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
+  const pairedNamesOf = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, straightTableOf((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
+  assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
+  assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth2.csv': 0, 'truth1.csv': 0 }), [['odom1.csv', 'truth1.csv'], ['odom2.csv', 'truth2.csv']]);
+  assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
 });
 
 test('two logs get one start, and none in common is noted', async () => {
-  const odometryText = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0';
-  const [overlapping] = await drivesOf({ 'odom.csv': odometryText, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });
-  assert.equal(overlapping.odometry.start, 1_700_000_000);
-  assert.deepEqual([[...overlapping.odometry.data.t], [...overlapping.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
-  const [disjoint] = await drivesOf({ 'odom.csv': odometryText, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
-  assert.deepEqual([disjoint.odometry.start, [...disjoint.odometry.data.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
-  assert.match(summarySentences(disjoint.reference, english.found).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
-  assert.equal(summarySentences(disjoint.reference, german.found).length, summarySentences(overlapping.reference, german.found).length + 1);
+  const odometryTable = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0';
+  const [overlappingDrive] = await drivesOf({ 'odom.csv': odometryTable, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });
+  assert.equal(overlappingDrive.odometry.start, 1_700_000_000);
+  assert.deepEqual([[...overlappingDrive.odometry.data.t], [...overlappingDrive.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
+  const [disjointDrive] = await drivesOf({ 'odom.csv': odometryTable, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
+  assert.deepEqual([disjointDrive.odometry.start, [...disjointDrive.odometry.data.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
+  assert.match(summarySentences(disjointDrive.reference, english.found).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
+  assert.equal(summarySentences(disjointDrive.reference, german.found).length, summarySentences(overlappingDrive.reference, german.found).length + 1);
 });
 
 test('names of a localizer, and swapped ones, are noted', async () => {
-  const noteNames = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
-    const recordings = await openRecordings([odometry, reference].map((name, k) => new File([straightTable((i) => (i * (k + 1)) / 100)], name)));
+  const noteNamesOf = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
+    const recordings = await openRecordings([odometry, reference].map((name, k) => new File([straightTableOf((i) => (i * (k + 1)) / 100)], name)));
     const [drive] = await readDrives(planDrives(recordings, { roles: new Map([[recordings[0], 'odometry'], [recordings[1], 'reference']]) }));
     return drive.reference.summary.notes.map(({ name }) => name);
   };
-  assert.deepEqual(await noteNames('truth.csv', 'wheels.csv'), ['swapped']);
-  assert.deepEqual(await noteNames('odom.csv', 'amcl_pose.csv'), ['localizer']);
-  const [{ odometry, reference }] = await drivesOf({ 'odom.csv': straightTable((i) => i / 90), 'truth.csv': straightTable((i) => i / 80) });
+  assert.deepEqual(await noteNamesOf('truth.csv', 'wheels.csv'), ['swapped']);
+  assert.deepEqual(await noteNamesOf('odom.csv', 'amcl_pose.csv'), ['localizer']);
+  const [{ odometry, reference }] = await drivesOf({ 'odom.csv': straightTableOf((i) => i / 90), 'truth.csv': straightTableOf((i) => i / 80) });
   const notesWithFrame = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
   assert.deepEqual([notesWithFrame('mocap'), notesWithFrame('map')], [[], [{ name: 'localizer', values: [] }]]);
-  for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await noteNames(one, other), [], one);
+  for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await noteNamesOf(one, other), [], one);
 });
 
 test('one path given as both logs is refused, in another frame and in other files too', async () => {
-  const curveRow = (/** @type {number} */ i, dx = 0, turn = 0) => {
+  const curveRowAt = (/** @type {number} */ i, dx = 0, turn = 0) => {
     const [x, y] = [Math.sin(i / 50), 1 - Math.cos(i / 50)];
     return [i / 20, dx + x * Math.cos(turn) - y * Math.sin(turn), x * Math.sin(turn) + y * Math.cos(turn), i / 50 + turn];
   };
-  const refusalText = await refusalSentenceOf(drivesOf({ 'odom.csv': poseTable(400, (i) => curveRow(i)), 'truth.csv': poseTable(400, (i) => curveRow(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
+  const refusalText = await refusalSentenceOf(drivesOf({ 'odom.csv': poseTableOf(400, (i) => curveRowAt(i)), 'truth.csv': poseTableOf(400, (i) => curveRowAt(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
   assert.equal(refusalText, 'truth.csv: it has the same motion as odom.csv; give two independent measurements of one drive.');
-  const spiralRow = (/** @type {number} */ i, scale = 1) => [i / 20, scale * i * 0.08 * Math.cos(i / 50), scale * i * 0.08 * Math.sin(i / 50), 0];
-  const roundedFiles = (/** @type {number} */ digits, scale = 1, size = 1) => ({ 'odom.csv': poseTable(400, (i) => spiralRow(i, size)), 'truth.csv': poseTable(400, (i) => spiralRow(i, size * scale).map((value) => Number(value.toFixed(digits)))) });
-  for (const digits of [2, 3, 4]) assert.equal(await refusalSentenceOf(drivesOf(roundedFiles(digits))), refusalText);
-  // Not refused: paths that differ by more than the rounding, unrounded paths, and short ones.
-  for (const [digits, scale, size] of [[2, 1.001], [9, 1.0001], [2, 1, 0.1]]) assert.equal((await drivesOf(roundedFiles(digits, scale, size))).length, 1);
-  const commands = ['t,x,y,yaw,v,omega', ...Array.from({ length: 99 }, (_, i) => `${i / 20},${i / 40},0,0,0.5,0`)].join('\n');
-  const [one, other] = await openRecordings([new File([commands], 'log.csv'), new File([commands], 'log.csv')]);
+  const spiralRowAt = (/** @type {number} */ i, scale = 1) => [i / 20, scale * i * 0.08 * Math.cos(i / 50), scale * i * 0.08 * Math.sin(i / 50), 0];
+  const filesWithRounding = (/** @type {number} */ decimals, scale = 1, size = 1) => ({ 'odom.csv': poseTableOf(400, (i) => spiralRowAt(i, size)), 'truth.csv': poseTableOf(400, (i) => spiralRowAt(i, size * scale).map((value) => Number(value.toFixed(decimals)))) });
+  for (const decimals of [2, 3, 4]) assert.equal(await refusalSentenceOf(drivesOf(filesWithRounding(decimals))), refusalText);
+  // Paths that differ by more than the rounding, unrounded paths and short ones are not refused.
+  for (const [decimals, scale, size] of [[2, 1.001], [9, 1.0001], [2, 1, 0.1]]) assert.equal((await drivesOf(filesWithRounding(decimals, scale, size))).length, 1);
+  const commandTable = ['t,x,y,yaw,v,omega', ...Array.from({ length: 99 }, (_, i) => `${i / 20},${i / 40},0,0,0.5,0`)].join('\n');
+  const [one, other] = await openRecordings([new File([commandTable], 'log.csv'), new File([commandTable], 'log.csv')]);
   assert.match(await refusalSentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /^log\.csv: it is given twice;/);
   assert.equal(
-    await refusalSentenceOf(drivesOf({ 'odom1.csv': poseTable(400, (i) => curveRow(i)), 'odom2.csv': poseTable(400, (i) => curveRow(i)), 'truth1.csv': straightTable((i) => i / 90), 'truth2.csv': straightTable((i) => i / 80) })),
+    await refusalSentenceOf(drivesOf({ 'odom1.csv': poseTableOf(400, (i) => curveRowAt(i)), 'odom2.csv': poseTableOf(400, (i) => curveRowAt(i)), 'truth1.csv': straightTableOf((i) => i / 90), 'truth2.csv': straightTableOf((i) => i / 80) })),
     'odom2.csv: it is the drive of odom1.csv; give each drive once.',
   );
   // Differences of a millimetre make two paths different.
-  assert.equal((await drivesOf({ 'odom.csv': poseTable(400, (i) => curveRow(i)), 'truth.csv': poseTable(400, (i) => curveRow(i).with(1, curveRow(i)[1] + (i % 7) / 1000)) })).length, 1);
+  assert.equal((await drivesOf({ 'odom.csv': poseTableOf(400, (i) => curveRowAt(i)), 'truth.csv': poseTableOf(400, (i) => curveRowAt(i).with(1, curveRowAt(i)[1] + (i % 7) / 1000)) })).length, 1);
 });
 
 test('a frozen reference is left out while the odometry moves on, and kept while it stands', async () => {
-  const odometryX = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
-  const odometry = straightTable(odometryX);
-  const referenceX = (/** @type {number} */ i) => 1.01 * odometryX(i);
-  const referenceOf = async (/** @type {string} */ reference, odometryTable = odometry) => (await drivesOf({ 'odom.csv': odometryTable, 'truth.csv': reference }))[0].reference;
-  assert.deepEqual([(await referenceOf(straightTable(referenceX))).summary.dropped, (await referenceOf(straightTable(referenceX))).summary.used], [{}, 400]);
-  const frozenTable = straightTable((i) => referenceX(i >= 200 && i < 300 ? 200 : i));
-  const { data, summary } = await referenceOf(frozenTable);
+  const odometryXAt = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
+  const movingOdometryTable = straightTableOf(odometryXAt);
+  const referenceXAt = (/** @type {number} */ i) => 1.01 * odometryXAt(i);
+  const readReference = async (/** @type {string} */ reference, odometryTable = movingOdometryTable) => (await drivesOf({ 'odom.csv': odometryTable, 'truth.csv': reference }))[0].reference;
+  assert.deepEqual([(await readReference(straightTableOf(referenceXAt))).summary.dropped, (await readReference(straightTableOf(referenceXAt))).summary.used], [{}, 400]);
+  const frozenTable = straightTableOf((i) => referenceXAt(i >= 200 && i < 300 ? 200 : i));
+  const { data, summary } = await readReference(frozenTable);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [301, [201], 301, { held: { count: 99, first: 0 } }]);
-  assert.equal(await refusalSentenceOf(referenceOf(straightTable(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
+  assert.equal(await refusalSentenceOf(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // A pause of two seconds, or one in which the odometry moves by five centimetres, does not count as lost.
-  const droppedDuring = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
+  const droppedCountDuring = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
     const xOf = (/** @type {number} */ i) => (speed * i) / 20;
-    return (await referenceOf(straightTable((i) => 1.01 * xOf(i >= 200 && i <= 200 + 20 * seconds ? 200 : i)), straightTable(xOf))).summary.dropped.held?.count;
+    return (await readReference(straightTableOf((i) => 1.01 * xOf(i >= 200 && i <= 200 + 20 * seconds ? 200 : i)), straightTableOf(xOf))).summary.dropped.held?.count;
   };
-  assert.deepEqual([await droppedDuring(2, 0.4), await droppedDuring(2.2, 0.4), await droppedDuring(7, 0.0095), await droppedDuring(7, 0.0105)], [undefined, 44, undefined, 140]);
+  assert.deepEqual([await droppedCountDuring(2, 0.4), await droppedCountDuring(2.2, 0.4), await droppedCountDuring(7, 0.0095), await droppedCountDuring(7, 0.0105)], [undefined, 44, undefined, 140]);
   // Speeds of a log of commands also show that the robot moves.
-  const commands = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
-  assert.equal((await referenceOf(frozenTable, commands)).summary.dropped.held?.count, 99);
+  const commandTable = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
+  assert.equal((await readReference(frozenTable, commandTable)).summary.dropped.held?.count, 99);
 });
 
 test('a log that does not follow the other one names the correction that makes it follow', async () => {
   const headings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
-  const path = [[0, 0]];
-  for (const [i, heading] of headings.entries()) path.push([path[i][0] + Math.cos(heading) / 40, path[i][1] + Math.sin(heading) / 40]);
-  const tableOf = (/** @type {(row: number[]) => number[]} */ change) => poseTable(1200, (i) => change([i / 20, ...path[i], headings[i]]).map((value) => Number(value.toFixed(6))));
-  const distortedRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
+  const pathPoints = [[0, 0]];
+  for (const [i, heading] of headings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(heading) / 40, pathPoints[i][1] + Math.sin(heading) / 40]);
+  const tableWithChange = (/** @type {(row: number[]) => number[]} */ change) => poseTableOf(1200, (i) => change([i / 20, ...pathPoints[i], headings[i]]).map((value) => Number(value.toFixed(6))));
+  const distortRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
   const radPerDegree = Math.PI / 180;
-  for (const [change, sentence, what] of /** @type {[(row: number[]) => number[], RegExp, string?][]} */ ([
+  for (const [changeRow, expectedMessage, what] of /** @type {[(row: number[]) => number[], RegExp, string?][]} */ ([
     [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored relative to its heading and to /],
     [([t, x, y, yaw]) => [t, -x, y, yaw], /its x axis is mirrored /],
     // A compass heading is clockwise from north.
@@ -235,20 +235,20 @@ test('a log that does not follow the other one names the correction that makes i
     [([t, x, y, yaw]) => [t, x, y, yaw * radPerDegree], /its headings are in radians and were read as degrees;/, 'angleUnit'],
     [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /: multiplied by 0\.098, its lengths match those of odom\.csv;/, 'lengthUnit'],
   ])) {
-    const refusal = await refusalErrorOf(drivesOf({ 'odom.csv': tableOf((row) => row), 'truth.csv': tableOf((row) => change(distortedRow(row))) }));
-    assert.match(refusal.message, sentence);
-    assert.match(refusal.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
-    assert.equal(refusal.ask?.what, what);
+    const refusalError = await refusalErrorOf(drivesOf({ 'odom.csv': tableWithChange((row) => row), 'truth.csv': tableWithChange((row) => changeRow(distortRow(row))) }));
+    assert.match(refusalError.message, expectedMessage);
+    assert.match(refusalError.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
+    assert.equal(refusalError.ask?.what, what);
   }
   // A reference that is mounted backwards is not taken for a mirrored axis, even if the robot hardly turns.
-  const backwardMounted = await drivesOf({ 'odom.csv': poseTable(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTable(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
-  assert.equal(backwardMounted.length, 1);
-  assert.match(await refusalSentenceOf(drivesOf({ 'odom.csv': tableOf(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': tableOf(distortedRow) })), /^odom\.csv: its y axis is mirrored/);
+  const drivesOfBackwardReference = await drivesOf({ 'odom.csv': poseTableOf(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTableOf(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
+  assert.equal(drivesOfBackwardReference.length, 1);
+  assert.match(await refusalSentenceOf(drivesOf({ 'odom.csv': tableWithChange(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': tableWithChange(distortRow) })), /^odom\.csv: its y axis is mirrored/);
 });
 
 test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {
-  const rows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
-  const [{ reference }] = await drivesOf({ 'odom.csv': straightTable((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...rows].join('\n') });
+  const tableRows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
+  const [{ reference }] = await drivesOf({ 'odom.csv': straightTableOf((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...tableRows].join('\n') });
   assert.equal(reference.summary.distance.toFixed(1), '2.0');
   assert.deepEqual(summarySentences(reference, english.found), [
     '199 of 200 rows, 12.9 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m, yaw in degrees (by name)',

@@ -11,58 +11,58 @@ import { unlz4 } from '../../www/logs/formats/lz4.ts';
 import type { LogChoice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
-import { odometryMessage, recordingOf, transformMessage, type Message } from '../mcap.js';
+import { odometryMessageOf, recordingOf, transformMessageOf, type Message } from '../mcap.js';
 import { refusalErrorOf, refusalSentenceOf } from './log-support.js';
 
 /** Compressed files by name. */
-const FILES: Record<string, string> = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
+const COMPRESSED_FILES: Record<string, string> = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
 
-const bytesOf = (name: string) => gunzipSync(Buffer.from(FILES[name], 'base64'));
+const bytesOf = (name: string) => gunzipSync(Buffer.from(COMPRESSED_FILES[name], 'base64'));
 
 const fileOf = (bytes: Uint8Array | string, name: string, path?: string): Source => Object.assign(new File([bytes as BlobPart], name), path ? { path } : {});
 
 /** Returns the files of a rosbag2 folder. In recordings.json the folder's name is the prefix of their names. */
-const folderOf = (name: string): Source[] =>
-  Object.keys(FILES).filter((fileList) => fileList.startsWith(`${name}-metadata`) || fileList.startsWith(`${name}-${name}.`)).map((fileList) => {
-    const nameInFolder = fileList.slice(name.length + 1);
-    return fileOf(bytesOf(fileList), nameInFolder, `${name}/${nameInFolder}`);
+const filesOfFolder = (name: string): Source[] =>
+  Object.keys(COMPRESSED_FILES).filter((fileName) => fileName.startsWith(`${name}-metadata`) || fileName.startsWith(`${name}-${name}.`)).map((fileName) => {
+    const nameInFolder = fileName.slice(name.length + 1);
+    return fileOf(bytesOf(fileName), nameInFolder, `${name}/${nameInFolder}`);
   });
 
-async function open(...sources: Source[]): Promise<Recording> {
+async function openRecording(...sources: Source[]): Promise<Recording> {
   const recordings = await openRecordings(sources);
   assert.equal(recordings.length, 1);
   return recordings[0];
 }
 
-const summaryText = (log: Log) => summarySentences(log, english.found).join('. ');
+const summaryTextOf = (log: Log) => summarySentences(log, english.found).join('. ');
 
 /** Odometry and reference of the drive, from its tables. */
-const tables = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => fileOf(bytesOf(name), name)))).map((table) => table.read([{ series: '' }]));
-const [[odometryLog], [referenceLog]] = await Promise.all(tables);
+const tableLogPromises = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => fileOf(bytesOf(name), name)))).map((table) => table.read([{ series: '' }]));
+const [[odometryLog], [referenceLog]] = await Promise.all(tableLogPromises);
 const BOTH_CHOICES: LogChoice[] = [{ series: '/odom' }, { series: '/truth' }];
 
-const fileList = (name: string) => [fileOf(bytesOf(name), name)];
+const fileListOf = (name: string) => [fileOf(bytesOf(name), name)];
 
 /** Metadata of a recording in two files. */
 const SPLIT_METADATA = 'rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: [split0.mcap, split1.mcap]\n';
-const splitFiles = (...parts: number[]) => [
+const filesOfSplitRecording = (...parts: number[]) => [
   ...parts.map((part) => fileOf(bytesOf(`split${part}-split${part}.mcap`), `split${part}.mcap`, `drive/split${part}.mcap`)),
   fileOf(SPLIT_METADATA, 'metadata.yaml', 'drive/metadata.yaml'),
 ];
 
-const RECORDINGS: Record<string, Source[]> = {
-  'none.bag': fileList('none.bag'), 'bz2.bag': fileList('bz2.bag'), 'lz4.bag': fileList('lz4.bag'),
-  'none.mcap': fileList('none.mcap'), 'lz4.mcap': fileList('lz4.mcap'), 'zstd.mcap': fileList('zstd.mcap'), 'unindexed.mcap': fileList('unindexed.mcap'),
-  'unchunked.mcap': fileList('unchunked.mcap'), 'ros1-support.mcap': fileList('ros1-support.mcap'), 'ros2-support.mcap': fileList('ros2-support.mcap'),
-  'a compressed database alone': fileList('sqlite-file-sqlite-file.db3.zstd'),
-  sqlite: folderOf('sqlite'), 'sqlite-messages': folderOf('sqlite-messages'), 'sqlite-file': folderOf('sqlite-file'),
-  'mcap-messages': folderOf('mcap-messages'), 'mcap-file': folderOf('mcap-file'),
-  'split files': splitFiles(0, 1), 'split files in another order': splitFiles(1, 0),
+const SOURCES_BY_RECORDING: Record<string, Source[]> = {
+  'none.bag': fileListOf('none.bag'), 'bz2.bag': fileListOf('bz2.bag'), 'lz4.bag': fileListOf('lz4.bag'),
+  'none.mcap': fileListOf('none.mcap'), 'lz4.mcap': fileListOf('lz4.mcap'), 'zstd.mcap': fileListOf('zstd.mcap'), 'unindexed.mcap': fileListOf('unindexed.mcap'),
+  'unchunked.mcap': fileListOf('unchunked.mcap'), 'ros1-support.mcap': fileListOf('ros1-support.mcap'), 'ros2-support.mcap': fileListOf('ros2-support.mcap'),
+  'a compressed database alone': fileListOf('sqlite-file-sqlite-file.db3.zstd'),
+  sqlite: filesOfFolder('sqlite'), 'sqlite-messages': filesOfFolder('sqlite-messages'), 'sqlite-file': filesOfFolder('sqlite-file'),
+  'mcap-messages': filesOfFolder('mcap-messages'), 'mcap-file': filesOfFolder('mcap-file'),
+  'split files': filesOfSplitRecording(0, 1), 'split files in another order': filesOfSplitRecording(1, 0),
 };
 
-for (const [name, sources] of Object.entries(RECORDINGS)) {
+for (const [name, sources] of Object.entries(SOURCES_BY_RECORDING)) {
   test(`${name} has the rows of the tables to the last bit`, async () => {
-    const recording = await open(...sources);
+    const recording = await openRecording(...sources);
     assert.deepEqual(recording.series.map(({ name: topic, kind, count }) => [topic, kind, count]), [['/odom', 'poses', 100], ['/truth', 'poses', 100]]);
     const logs = await recording.read(BOTH_CHOICES);
     for (const [i, table] of [odometryLog, referenceLog].entries()) {
@@ -73,121 +73,121 @@ for (const [name, sources] of Object.entries(RECORDINGS)) {
 }
 
 /** Returns the rows of the drive that a log has, and compares their poses. Headings may differ by the error. */
-function rowsOf({ start, data }: Log, error = 0): number[] {
-  const [readMessages, all] = [data, odometryLog.data] as Poses[];
-  const rows = Array.from(readMessages.t, (t) => Math.round(20 * (start - odometryLog.start + t - all.t[0])));
-  for (const field of ['x', 'y'] as const) assert.deepEqual([...readMessages[field]], rows.map((row) => all[field][row]));
-  for (const [i, row] of rows.entries()) assert.ok(Math.abs(readMessages.theta[i] - all.theta[row]) <= error, `${readMessages.theta[i]}, not ${all.theta[row]}`);
-  return rows;
+function rowIndicesOf({ start, data }: Log, error = 0): number[] {
+  const [poses, allPoses] = [data, odometryLog.data] as Poses[];
+  const rowIndices = Array.from(poses.t, (t) => Math.round(20 * (start - odometryLog.start + t - allPoses.t[0])));
+  for (const coordinate of ['x', 'y'] as const) assert.deepEqual([...poses[coordinate]], rowIndices.map((row) => allPoses[coordinate][row]));
+  for (const [i, row] of rowIndices.entries()) assert.ok(Math.abs(poses.theta[i] - allPoses.theta[row]) <= error, `${poses.theta[i]}, not ${allPoses.theta[row]}`);
+  return rowIndices;
 }
 
-const range = (from: number, to: number) => Array.from({ length: to - from }, (_, i) => from + i);
+const integersFrom = (start: number, end: number) => Array.from({ length: end - start }, (_, i) => start + i);
 
 for (const name of ['types.bag', 'types.mcap']) {
   test(`${name}: poses and commands of all types`, async () => {
-    const recording = await open(fileOf(bytesOf(name), name));
+    const recording = await openRecording(fileOf(bytesOf(name), name));
     const frames = { parent: 'odom', child: 'base_link' };
     const poses = await recording.read([...['/fused', '/vicon', '/pose2d'].map((series) => ({ series })), { series: '/tf', frames }]);
-    // Pose2D has a heading. Those of quaternions are rounded to steps of 1e-12.
-    for (const log of poses) assert.deepEqual(rowsOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), range(0, 40), log.name);
+    // Headings that are computed from quaternions are rounded to steps of 1e-12. Pose2D has its heading as it is.
+    for (const log of poses) assert.deepEqual(rowIndicesOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), integersFrom(0, 40), log.name);
     // The commands have the same formulas as in tests/reference/logs/generate.py.
     const roundCommand = (value: number) => Math.round(4096 * value) / 4096;
-    const commands = [range(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), range(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
+    const commands = [integersFrom(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), integersFrom(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
     const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
     for (const { data, name: topic } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], commands, topic);
     assert.equal(logs[0].summary.clock, 'log time');
-    // Joints only turn. A base that is fixed to the moving frame is a candidate too.
-    const { frames: ends } = recording.series.find(({ name: topic }) => topic === '/tf') as Recording['series'][number];
-    assert.deepEqual(ends?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);
+    // Joints only turn, and are no candidates. A base that is fixed to the moving frame is one too.
+    const { frames: framePairs } = recording.series.find(({ name: topic }) => topic === '/tf') as Recording['series'][number];
+    assert.deepEqual(framePairs?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);
   });
 }
 
 test('files that are missing are noted, and the rest is read', async () => {
-  const [odometry] = await (await open(...splitFiles(1))).read(BOTH_CHOICES);
-  assert.deepEqual(rowsOf(odometry), range(50, 100));
-  assert.match(summaryText(odometry), /the files split0\.mcap of the recording are missing/);
-  assert.match(await refusalSentenceOf(openRecordings(splitFiles())), /^drive\/metadata\.yaml: it describes a recording in split0\.mcap, split1\.mcap; give that file too/);
+  const [odometry] = await (await openRecording(...filesOfSplitRecording(1))).read(BOTH_CHOICES);
+  assert.deepEqual(rowIndicesOf(odometry), integersFrom(50, 100));
+  assert.match(summaryTextOf(odometry), /the files split0\.mcap of the recording are missing/);
+  assert.match(await refusalSentenceOf(openRecordings(filesOfSplitRecording())), /^drive\/metadata\.yaml: it describes a recording in split0\.mcap, split1\.mcap; give that file too/);
   assert.match(await refusalSentenceOf(openRecordings([fileOf(SPLIT_METADATA, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
 });
 
 /** Reads the odometry of a file. */
-const odometryOf = async (bytes: Uint8Array, name: string) => (await (await open(fileOf(bytes, name))).read([{ series: '/odom' }]))[0];
+const readOdometry = async (bytes: Uint8Array, name: string) => (await (await openRecording(fileOf(bytes, name))).read([{ series: '/odom' }]))[0];
 
 /** Reads the odometry of a file in which some bytes are overwritten. */
-const odometryOfDamaged = (name: string, at: number) => odometryOf(bytesOf(name).fill(0xff, at, at + 40), name);
+const readDamagedOdometry = (name: string, at: number) => readOdometry(bytesOf(name).fill(0xff, at, at + 40), name);
 
 const positionsOf = (bytes: Buffer, text: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(text, 'g')), ({ index }) => index);
 
 /** Returns a function that finds a position inside each chunk of a file: 60 bytes after a text in the header of the chunk. */
-const positionsInChunks = (field: string) => (bytes: Buffer) => positionsOf(bytes, field).map((at) => at + 60);
+const findPositionsInChunks = (field: string) => (bytes: Buffer) => positionsOf(bytes, field).map((at) => at + 60);
 
-/** Positions in the blocks that have messages of the odometry. In an MCAP file, the name of the compression is in chunk indexes too. */
-const BLOCK_POSITIONS: Record<string, (bytes: Buffer) => number[]> = {
-  'bz2.bag': positionsInChunks('compression='), 'lz4.bag': positionsInChunks('compression='), 'zstd.mcap': positionsInChunks('zstd'), 'lz4.mcap': positionsInChunks('lz4'),
+/** Functions that find positions in the blocks with messages of the odometry. In an MCAP file, chunk indexes name the compression too. */
+const BLOCK_FINDERS: Record<string, (bytes: Buffer) => number[]> = {
+  'bz2.bag': findPositionsInChunks('compression='), 'lz4.bag': findPositionsInChunks('compression='), 'zstd.mcap': findPositionsInChunks('zstd'), 'lz4.mcap': findPositionsInChunks('lz4'),
   'sqlite-sqlite.db3': (bytes) => [...new Set(positionsOf(bytes, 'base_link').map((at) => at - (at % 4096)))],
 };
 
-for (const [name, blockPositions] of Object.entries(BLOCK_POSITIONS)) {
+for (const [name, findBlocks] of Object.entries(BLOCK_FINDERS)) {
   test(`${name}: a damaged block loses its own rows, and a file that breaks off those from there on`, async () => {
     const rowsSoFar: number[] = [];
-    for (const at of blockPositions(bytesOf(name))) {
-      const log = await odometryOfDamaged(name, at);
-      const rows = rowsOf(log);
-      const lostRows = range(0, 100).filter((row) => !rows.includes(row));
-      if (lostRows.length > 0) assert.match(summaryText(log), /1 damaged block skipped \(.+\)$/);
-      const truncatedLog = odometryOf(bytesOf(name).subarray(0, at), name);
-      if (rowsSoFar.length === 0) await refusalErrorOf(truncatedLog);
+    for (const at of findBlocks(bytesOf(name))) {
+      const log = await readDamagedOdometry(name, at);
+      const rows = rowIndicesOf(log);
+      const lostRows = integersFrom(0, 100).filter((row) => !rows.includes(row));
+      if (lostRows.length > 0) assert.match(summaryTextOf(log), /1 damaged block skipped \(.+\)$/);
+      const truncatedLogPromise = readOdometry(bytesOf(name).subarray(0, at), name);
+      if (rowsSoFar.length === 0) await refusalErrorOf(truncatedLogPromise);
       else {
-        assert.deepEqual(rowsOf(await truncatedLog), rowsSoFar);
-        if (lostRows.length > 0) assert.match(summaryText(await truncatedLog), /gaps: none\. notes: the file is incomplete: it ends in the middle of a row or record$/);
+        assert.deepEqual(rowIndicesOf(await truncatedLogPromise), rowsSoFar);
+        if (lostRows.length > 0) assert.match(summaryTextOf(await truncatedLogPromise), /gaps: none\. notes: the file is incomplete: it ends in the middle of a row or record$/);
       }
       assert.ok(lostRows.length < 50);
       rowsSoFar.push(...lostRows);
     }
-    assert.deepEqual(rowsSoFar, range(0, 100));
+    assert.deepEqual(rowsSoFar, integersFrom(0, 100));
   });
 }
 
 test('a database whose transaction was never finished has the messages of all its pages', async () => {
   const bytes = bytesOf('sqlite-sqlite.db3');
-  const rootPage = range(0, bytes.length / 4096).map((page) => 4096 * page).find((at) => bytes[at] === 5) ?? 0;
+  const rootPage = integersFrom(0, bytes.length / 4096).map((page) => 4096 * page).find((at) => bytes[at] === 5) ?? 0;
   // The number of pages and the root of the messages are those before the transaction: an empty page.
   bytes.writeUInt32BE(8, 28);
   bytes.fill(0, rootPage, rootPage + 5)[rootPage] = 13;
-  const log = await odometryOf(bytes, 'run.db3');
-  assert.deepEqual(rowsOf(log), range(0, 100));
-  assert.match(summaryText(log), /gaps: none\. notes: the file is incomplete: it ends in the middle of a row or record$/);
+  const log = await readOdometry(bytes, 'run.db3');
+  assert.deepEqual(rowIndicesOf(log), integersFrom(0, 100));
+  assert.match(summaryTextOf(log), /gaps: none\. notes: the file is incomplete: it ends in the middle of a row or record$/);
 });
 
 test('a damaged message is dropped, and a file of damaged headers or compression is refused', async () => {
   const name = 'mcap-messages-mcap-messages.mcap';
   // The file has frames of Zstandard, which contain messages of the odometry and the reference in turns.
-  const log = await odometryOfDamaged(name, positionsOf(bytesOf(name), '\\(\xb5/\xfd')[6] + 20);
-  assert.deepEqual([rowsOf(log), log.summary.dropped], [[...range(0, 3), ...range(4, 100)], { damaged: { count: 1, first: 4 } }]);
+  const log = await readDamagedOdometry(name, positionsOf(bytesOf(name), '\\(\xb5/\xfd')[6] + 20);
+  assert.deepEqual([rowIndicesOf(log), log.summary.dropped], [[...integersFrom(0, 3), ...integersFrom(4, 100)], { damaged: { count: 1, first: 4 } }]);
   const withoutTopics = Buffer.from(bytesOf('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
-  assert.match(await refusalSentenceOf(odometryOf(withoutTopics, 'none.bag')), /none of its messages can be read \(a record has no field topic\); expected/);
-  assert.match(await refusalSentenceOf(odometryOfDamaged('sqlite-file-sqlite-file.db3.zstd', 4000)), /none of its messages can be read \(.+\); expected/);
+  assert.match(await refusalSentenceOf(readOdometry(withoutTopics, 'none.bag')), /none of its messages can be read \(a record has no field topic\); expected/);
+  assert.match(await refusalSentenceOf(readDamagedOdometry('sqlite-file-sqlite-file.db3.zstd', 4000)), /none of its messages can be read \(.+\); expected/);
 });
 
 test('LZ4 frames of another size are refused, and any damage to one with checksums', async () => {
   const bytes = bytesOf('lz4.mcap');
   // The header of the first chunk contains the size of its records, a checksum, the compression, and the size of the frame.
-  const at = bytes.indexOf('lz4');
-  const [size, length] = [at - 16, at + 3].map((from) => Number(bytes.readBigUInt64LE(from)));
-  const frame = bytes.subarray(at + 11, at + 11 + length);
-  const chunkRecords = await unlz4(frame, size);
-  for (const wrongByteCount of [size - 1, size + 1]) await assert.rejects(unlz4(frame, wrongByteCount), RangeError);
+  const namePosition = bytes.indexOf('lz4');
+  const [contentSize, frameSize] = [namePosition - 16, namePosition + 3].map((from) => Number(bytes.readBigUInt64LE(from)));
+  const frame = bytes.subarray(namePosition + 11, namePosition + 11 + frameSize);
+  const chunkRecords = await unlz4(frame, contentSize);
+  for (const wrongSize of [contentSize - 1, contentSize + 1]) await assert.rejects(unlz4(frame, wrongSize), RangeError);
   // Checksums are added for the only block and for the contents.
   const { h32Raw } = await xxhash();
-  const checksum = (part: Uint8Array) => Buffer.from(Uint32Array.of(h32Raw(part)).buffer);
-  const from = frame[4] & 0x08 ? 15 : 7;
-  const frameWithChecksums = Buffer.concat([frame.subarray(0, -4), checksum(frame.subarray(from + 4, -4)), frame.subarray(-4), checksum(chunkRecords)]);
+  const checksumOf = (part: Uint8Array) => Buffer.from(Uint32Array.of(h32Raw(part)).buffer);
+  const blockStart = frame[4] & 0x08 ? 15 : 7;
+  const frameWithChecksums = Buffer.concat([frame.subarray(0, -4), checksumOf(frame.subarray(blockStart + 4, -4)), frame.subarray(-4), checksumOf(chunkRecords)]);
   frameWithChecksums[4] |= 0x14;
-  assert.deepEqual(await unlz4(frameWithChecksums, size), chunkRecords);
-  for (let i = from + 4; i < frameWithChecksums.length; i++) {
+  assert.deepEqual(await unlz4(frameWithChecksums, contentSize), chunkRecords);
+  for (let i = blockStart + 4; i < frameWithChecksums.length; i++) {
     const damagedFrame = Buffer.from(frameWithChecksums);
     damagedFrame[i] ^= 17;
-    await assert.rejects(unlz4(damagedFrame, size), RangeError);
+    await assert.rejects(unlz4(damagedFrame, contentSize), RangeError);
   }
 });
 
@@ -196,64 +196,64 @@ test('formats that are not read are refused with the cure, by their contents', a
     ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['sqlitePart', '\x18\xe2\x2d\0'], ['sqlitePart', '\xd9\xd5\x05\xf9'], ['zip', 'PK\x03\x04'],
     ['gzip', '\x1f\x8b\x08'], ['bzip2', 'BZh9'], ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
   ];
-  for (const [format, start] of magicBytes) assert.equal(await refusalSentenceOf(openRecordings([fileOf(Buffer.from(start, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
+  for (const [format, magicText] of magicBytes) assert.equal(await refusalSentenceOf(openRecordings([fileOf(Buffer.from(magicText, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
   assert.deepEqual(new Set(magicBytes.map(([format]) => format)), new Set(Object.keys(UNSUPPORTED_FORMATS)));
 });
 
 test('a recording without one whole message is incomplete, and the tool that repairs it is named', async () => {
   for (const [name, tool] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover | sqlite3 NEW.db3']]) {
     for (const size of [20, 200]) {
-      const sentence = await refusalSentenceOf(openRecordings([fileOf(bytesOf(name).slice(0, size), name)]));
-      assert.ok(sentence.startsWith(`${name}: it is incomplete`) && sentence.includes(`“${tool}”`), sentence);
+      const message = await refusalSentenceOf(openRecordings([fileOf(bytesOf(name).slice(0, size), name)]));
+      assert.ok(message.startsWith(`${name}: it is incomplete`) && message.includes(`“${tool}”`), message);
     }
   }
 });
 
 test('files that are no recording are refused', async () => {
-  const database = Uint8Array.from({ length: 4096 }, (_, i) => 'SQLite format 3\0\x10'.charCodeAt(i) || 0);
-  assert.match(await refusalSentenceOf(openRecordings([fileOf(database, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
-  assert.match(await refusalSentenceOf(openRecordings([fileOf('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...splitFiles()])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
+  const emptyDatabase = Uint8Array.from({ length: 4096 }, (_, i) => 'SQLite format 3\0\x10'.charCodeAt(i) || 0);
+  assert.match(await refusalSentenceOf(openRecordings([fileOf(emptyDatabase, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
+  assert.match(await refusalSentenceOf(openRecordings([fileOf('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...filesOfSplitRecording()])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
   const largeFile = { name: 'run.db3', size: 2 ** 30 + 1, slice: () => new Blob(['\x28\xb5\x2f\xfd'].map((text) => Buffer.from(text, 'latin1'))) };
   assert.match(await refusalSentenceOf(openRecordings([largeFile])), /^run\.db3: it has more than 1073741824 bytes when it is decompressed; decompress it with “zstd -d”/);
-  const smallRecording = await open(...fileList('small.db3'));
-  assert.match(await refusalSentenceOf(smallRecording.read([{ series: '/pose' }])), /^small\.db3, topic \/pose: it has fewer than 2 messages;/);
+  const shortRecording = await openRecording(...fileListOf('small.db3'));
+  assert.match(await refusalSentenceOf(shortRecording.read([{ series: '/pose' }])), /^small\.db3, topic \/pose: it has fewer than 2 messages;/);
 });
 
-const TF = 'tf2_msgs/msg/TFMessage';
-const at = (i: number) => 1_700_000_000 + i / 20;
-const tfMessage = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF, t: at(i), message: { transforms } });
-const count = 40;
-const mapSteps = <T>(make: (i: number) => T): T[] => Array.from({ length: count }, (_, i) => make(i));
-const readMessages = async (messages: Message[], ...choices: LogChoice[]) => (await open(fileOf(await recordingOf(messages), 'run.mcap'))).read(choices);
+const TF_TYPE = 'tf2_msgs/msg/TFMessage';
+const timeAt = (i: number) => 1_700_000_000 + i / 20;
+const tfMessageAt = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF_TYPE, t: timeAt(i), message: { transforms } });
+const stepCount = 40;
+const mapSteps = <T>(make: (i: number) => T): T[] => Array.from({ length: stepCount }, (_, i) => make(i));
+const readLogsOf = async (messages: Message[], ...choices: LogChoice[]) => (await openRecording(fileOf(await recordingOf(messages), 'run.mcap'))).read(choices);
 const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
-const movingTransform = (i: number) => transformMessage(at(i), 'odom', 'base_footprint', i / 50, 0, 0);
+const movingTransformAt = (i: number) => transformMessageOf(timeAt(i), 'odom', 'base_footprint', i / 50, 0, 0);
 
 test('a transform that never changes is no log', async () => {
-  const messages = mapSteps((i) => tfMessage(i, transformMessage(at(i), 'odom', 'base_link', 1, 2, 0), transformMessage(at(i), 'map', 'robot', i / 50, 0, 0)));
-  assert.equal(await refusalSentenceOf(readMessages(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
+  const messages = mapSteps((i) => tfMessageAt(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0), transformMessageOf(timeAt(i), 'map', 'robot', i / 50, 0, 0)));
+  assert.equal(await refusalSentenceOf(readLogsOf(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
 });
 
 test('a constant transform that is published more often than the moving one adds no rows', async () => {
-  const messages = mapSteps((i) => [tfMessage(i, movingTransform(i)), ...[0.3, 0.6].map((part) => tfMessage(i + part, transformMessage(at(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
-  const [{ data }] = await readMessages(messages, BASE_CHOICE);
-  assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(count).keys()]);
+  const messages = mapSteps((i) => [tfMessageAt(i, movingTransformAt(i)), ...[0.3, 0.6].map((part) => tfMessageAt(i + part, transformMessageOf(timeAt(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
+  const [{ data }] = await readLogsOf(messages, BASE_CHOICE);
+  assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(stepCount).keys()]);
   assert.deepEqual([...(data as Poses).x], mapSteps((i) => i / 50 + 0.5));
 });
 
-/** Messages of nodes that publish one topic after the other. @param nodes a letter each */
-const alternatingMessages = (nodes: string): Message[] => [...nodes].flatMap((node, turn) => mapSteps((i) => {
-  const t = at(count * turn + i);
-  return { topic: '/odom', type: 'nav_msgs/msg/Odometry', node, t, message: odometryMessage(t, i / 50, 0, 0) };
+/** Returns messages of nodes that publish one topic in turns. @param nodes a letter each */
+const messagesOfNodes = (nodes: string): Message[] => [...nodes].flatMap((node, turn) => mapSteps((i) => {
+  const t = timeAt(stepCount * turn + i);
+  return { topic: '/odom', type: 'nav_msgs/msg/Odometry', node, t, message: odometryMessageOf(t, i / 50, 0, 0) };
 }));
 
 test('nodes that publish a topic in turns are refused, and one that is started again is not', async () => {
-  const nodes = await open(...fileList('nodes.bag'));
-  assert.match(await refusalSentenceOf(nodes.read(BOTH_CHOICES)), /^nodes\.bag, topic \/odom: several nodes publish it in turns \(\/base, \/simulator\);/);
-  assert.equal((await readMessages(alternatingMessages('abab'), { series: '/odom' }))[0].data.t.length, 4 * count);
-  assert.match(await refusalSentenceOf(readMessages(alternatingMessages('ababa'), { series: '/odom' })), /in turns \(a, b\);/);
+  const nodesRecording = await openRecording(...fileListOf('nodes.bag'));
+  assert.match(await refusalSentenceOf(nodesRecording.read(BOTH_CHOICES)), /^nodes\.bag, topic \/odom: several nodes publish it in turns \(\/base, \/simulator\);/);
+  assert.equal((await readLogsOf(messagesOfNodes('abab'), { series: '/odom' }))[0].data.t.length, 4 * stepCount);
+  assert.match(await refusalSentenceOf(readLogsOf(messagesOfNodes('ababa'), { series: '/odom' })), /in turns \(a, b\);/);
 });
 
 test('a topic of two types is refused', async () => {
-  const messages = alternatingMessages('ab').map((message) => (message.node === 'b' ? { ...message, schema: 'geometry_msgs/msg/PoseStamped' } : message));
-  assert.match(await refusalSentenceOf(readMessages(messages, { series: '/odom' })), /^run\.mcap, topic \/odom: its messages have the types nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped;/);
+  const messages = messagesOfNodes('ab').map((message) => (message.node === 'b' ? { ...message, schema: 'geometry_msgs/msg/PoseStamped' } : message));
+  assert.match(await refusalSentenceOf(readLogsOf(messages, { series: '/odom' })), /^run\.mcap, topic \/odom: its messages have the types nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped;/);
 });

@@ -7,7 +7,7 @@ import { english } from '../../www/logs/en.ts';
 import { readAhead, stampAt } from '../../www/logs/formats/container.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
-import { odometryMessage, poseOf, recordingOf, stampOf, transformMessage, twistOf } from '../mcap.js';
+import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 import { randomGenerator } from '../random.js';
 import { readLog, refusalSentenceOf } from './log-support.js';
 
@@ -16,11 +16,11 @@ import { readLog, refusalSentenceOf } from './log-support.js';
 const START_TIME = 1000;
 const MESSAGE_COUNT = 120;
 const timeOf = (/** @type {number} */ i) => START_TIME + i / 20;
-const TF = 'tf2_msgs/msg/TFMessage';
-const ODOMETRY = 'nav_msgs/msg/Odometry';
+const TF_TYPE = 'tf2_msgs/msg/TFMessage';
+const ODOMETRY_TYPE = 'nav_msgs/msg/Odometry';
 
-/** @returns {Message[]} messages about a drive along an arc */
-function driveMessages() {
+/** Returns the messages of a drive along an arc. @returns {Message[]} */
+function createDriveMessages() {
   /** @type {Message[]} */
   const messages = [];
   for (let i = 0; i < MESSAGE_COUNT; i++) {
@@ -28,10 +28,10 @@ function driveMessages() {
     const [t, recordTime] = [timeOf(i), timeOf(i) + 0.01];
     const [x, y, theta] = [i / 100, i / 200, i / 50];
     const add = (/** @type {string} */ topic, /** @type {string} */ type, /** @type {any} */ message) => messages.push({ topic, type, t: recordTime, message });
-    if (i === MESSAGE_COUNT - 1) add('/tf_static', TF, { transforms: [transformMessage(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
-    if (i % 5 === 0) add('/tf', TF, { transforms: [transformMessage(t + 1, 'map', 'odom', 1, 2, Math.PI / 2)] });
-    add('/tf', TF, { transforms: [transformMessage(t, 'odom', 'base_footprint', x, y, theta), transformMessage(t, 'base_link', 'wheel', 0, 0, 9 * theta)] });
-    add('/odom', ODOMETRY, odometryMessage(t, x, y, theta));
+    if (i === MESSAGE_COUNT - 1) add('/tf_static', TF_TYPE, { transforms: [transformMessageOf(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
+    if (i % 5 === 0) add('/tf', TF_TYPE, { transforms: [transformMessageOf(t + 1, 'map', 'odom', 1, 2, Math.PI / 2)] });
+    add('/tf', TF_TYPE, { transforms: [transformMessageOf(t, 'odom', 'base_footprint', x, y, theta), transformMessageOf(t, 'base_link', 'wheel', 0, 0, 9 * theta)] });
+    add('/odom', ODOMETRY_TYPE, odometryMessageOf(t, x, y, theta));
     add('/mocap/pose', 'geometry_msgs/msg/PoseStamped', { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) });
     add('/cmd_vel', 'geometry_msgs/msg/Twist', twistOf(0.5, x));
     add('/chatter', 'std_msgs/msg/String', { data: 'hello '.repeat(20) });
@@ -39,18 +39,18 @@ function driveMessages() {
   return messages;
 }
 
-/** Messages of odometry along x. @param {number} count @param {(i: number) => any} [message] */
-const odomMessages = (count, message = (i) => odometryMessage(timeOf(i), i, 0, 0)) => Array.from({ length: count }, (_, i) => ({ topic: '/odom', type: ODOMETRY, t: timeOf(i), message: message(i) }));
+/** Returns messages of odometry along x. @param {number} count @param {(i: number) => any} [message] */
+const createOdometryMessages = (count, message = (i) => odometryMessageOf(timeOf(i), i, 0, 0)) => Array.from({ length: count }, (_, i) => ({ topic: '/odom', type: ODOMETRY_TYPE, t: timeOf(i), message: message(i) }));
 
-const mcapFile = (/** @type {Uint8Array<ArrayBuffer>} */ bytes) => new File([bytes], 'run.mcap');
+const mcapFileOf = (/** @type {Uint8Array<ArrayBuffer>} */ bytes) => new File([bytes], 'run.mcap');
 
-const assertClose = (/** @type {ArrayLike<number>} */ values, /** @type {(i: number) => number} */ expected) => {
+const assertAllClose = (/** @type {ArrayLike<number>} */ values, /** @type {(i: number) => number} */ expected) => {
   for (let i = 0; i < values.length; i++) assert.ok(Math.abs(values[i] - expected(i)) < 1e-9, `${i}: ${values[i]}, not ${expected(i)}`);
 };
 
 test('topics are listed, and topics and chains of frames are read in one pass', async () => {
-  const source = mcapFile(await recordingOf(driveMessages()));
-  const [recording] = await openRecordings([source]);
+  const mcapFile = mcapFileOf(await recordingOf(createDriveMessages()));
+  const [recording] = await openRecordings([mcapFile]);
   assert.equal(recording.format, 'mcap');
   assert.deepEqual(
     recording.series.map(({ name, count, kind }) => [name, count, kind]),
@@ -59,63 +59,63 @@ test('topics are listed, and topics and chains of frames are read in one pass', 
       ['/tf', MESSAGE_COUNT + MESSAGE_COUNT / 5, 'transforms'], ['/tf_static', 1, 'transforms'],
     ],
   );
-  assert.equal(recording.series[3].type, ODOMETRY);
+  assert.equal(recording.series[3].type, ODOMETRY_TYPE);
 
   const logs = await recording.read([
     ...['/odom', '/cmd_vel'].map((series) => ({ series })),
     ...[['map', '/base_link'], ['odom', 'base_footprint']].map(([parent, child]) => ({ series: '/tf', frames: { parent, child } })),
   ]);
   for (const log of logs) assert.deepEqual([log.start, log.data.t.length, log.summary.notes], [START_TIME, MESSAGE_COUNT, []], log.name);
-  assert.deepEqual(await readLog(source, { series: '/odom' }), logs[0]);
+  assert.deepEqual(await readLog(mcapFile, { series: '/odom' }), logs[0]);
   const [odometryData, commandData, mapToBase, odomToFootprint] = logs.map(({ data }) => /** @type {any} */ (data));
-  assertClose(odometryData.t, (i) => i / 20);
+  assertAllClose(odometryData.t, (i) => i / 20);
   // Messages of a type without a stamp have the time of recording.
-  assertClose(commandData.t, (i) => i / 20 + 0.01);
+  assertAllClose(commandData.t, (i) => i / 20 + 0.01);
   // The chain has the drifting odom frame and a static transform, which is recorded last. base_link is half a metre ahead.
-  assertClose(mapToBase.t, (i) => i / 20);
-  assertClose(mapToBase.x, (i) => 1 - i / 200 - 0.5 * Math.sin(i / 50));
-  assertClose(mapToBase.y, (i) => 2 + i / 100 + 0.5 * Math.cos(i / 50));
-  assertClose(mapToBase.theta, (i) => { const theta = i / 50 + Math.PI / 2; return theta > Math.PI ? theta - 2 * Math.PI : theta; });
-  assertClose(odomToFootprint.x, (i) => i / 100);
+  assertAllClose(mapToBase.t, (i) => i / 20);
+  assertAllClose(mapToBase.x, (i) => 1 - i / 200 - 0.5 * Math.sin(i / 50));
+  assertAllClose(mapToBase.y, (i) => 2 + i / 100 + 0.5 * Math.cos(i / 50));
+  assertAllClose(mapToBase.theta, (i) => { const theta = i / 50 + Math.PI / 2; return theta > Math.PI ? theta - 2 * Math.PI : theta; });
+  assertAllClose(odomToFootprint.x, (i) => i / 100);
 });
 
 test('an incomplete index is not used', async () => {
-  const bytes = await recordingOf(driveMessages());
-  const logWithIndex = await readLog(mcapFile(bytes), { series: '/odom' });
+  const bytes = await recordingOf(createDriveMessages());
+  const logWithIndex = await readLog(mcapFileOf(bytes), { series: '/odom' });
   // The checksum of the summary is cleared, and an index of a chunk gets a code that readers skip.
   const footerStart = bytes.length - 28;
   bytes.writeUInt32LE(0, footerStart + 16);
-  const CHUNK_INDEX = 8;
-  let record = Number(bytes.readBigUInt64LE(footerStart));
-  while (bytes[record] !== CHUNK_INDEX) record += 9 + Number(bytes.readBigUInt64LE(record + 1));
-  bytes[record] = 0x80;
-  assert.deepEqual((await readLog(mcapFile(bytes), { series: '/odom' })).data, logWithIndex.data);
+  const CHUNK_INDEX_CODE = 8;
+  let recordPosition = Number(bytes.readBigUInt64LE(footerStart));
+  while (bytes[recordPosition] !== CHUNK_INDEX_CODE) recordPosition += 9 + Number(bytes.readBigUInt64LE(recordPosition + 1));
+  bytes[recordPosition] = 0x80;
+  assert.deepEqual((await readLog(mcapFileOf(bytes), { series: '/odom' })).data, logWithIndex.data);
 });
 
 test('stamps that begin at 0 are used; messages without stamps have the times of recording, which is reported', async () => {
-  const logWithStamps = async (/** @type {(i: number) => number} */ stamp) => {
-    const messages = odomMessages(100, (i) => odometryMessage(stamp(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
-    const log = await readLog(mcapFile(await recordingOf(messages)), { series: '/odom' });
+  const readLogWithStamps = async (/** @type {(i: number) => number} */ stamp) => {
+    const messages = createOdometryMessages(100, (i) => odometryMessageOf(stamp(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
+    const log = await readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' });
     return { ...log, sentences: summarySentences(log, english.found).join(' ') };
   };
-  const simulatedLog = await logWithStamps((i) => i / 10);
+  const simulatedLog = await readLogWithStamps((i) => i / 10);
   assert.deepEqual([simulatedLog.start, simulatedLog.summary.rows, simulatedLog.data.t[0], simulatedLog.data.t[99]], [0, 100, 0, 9.9]);
   // Most messages have no stamp.
-  const unstampedLog = await logWithStamps((i) => (i < 49 ? i : 0));
+  const unstampedLog = await readLogWithStamps((i) => (i < 49 ? i : 0));
   assert.deepEqual([unstampedLog.start, unstampedLog.data.t.length, unstampedLog.data.t[20]], [1_700_000_000, 100, 1]);
   assert.match(unstampedLog.sentences, /times: when messages were recorded/);
   assert.doesNotMatch(simulatedLog.sentences, /recorded/);
-  const withoutHeader = await recordingOf(odomMessages(100).map((message, i) => ({ ...message, type: 'geometry_msgs/msg/Pose', t: 1_700_000_000 + i / 20, message: poseOf(i, 0, 0) })));
-  assert.deepEqual((await readLog(mcapFile(withoutHeader), { series: '/odom' })).data, unstampedLog.data);
+  const recordingWithoutHeader = await recordingOf(createOdometryMessages(100).map((message, i) => ({ ...message, type: 'geometry_msgs/msg/Pose', t: 1_700_000_000 + i / 20, message: poseOf(i, 0, 0) })));
+  assert.deepEqual((await readLog(mcapFileOf(recordingWithoutHeader), { series: '/odom' })).data, unstampedLog.data);
   // A single missing stamp is far from all other times.
-  const logWithoutStamp = await logWithStamps((i) => (i === 50 ? 0 : 5 + i / 10));
-  assert.deepEqual([logWithoutStamp.data.t.length, logWithoutStamp.summary.dropped.stray?.count], [99, 1]);
-  assert.deepEqual((await logWithStamps((i) => 50 - i / 10)).data.t.length, 100);
+  const logWithOneMissingStamp = await readLogWithStamps((i) => (i === 50 ? 0 : 5 + i / 10));
+  assert.deepEqual([logWithOneMissingStamp.data.t.length, logWithOneMissingStamp.summary.dropped.stray?.count], [99, 1]);
+  assert.deepEqual((await readLogWithStamps((i) => 50 - i / 10)).data.t.length, 100);
 });
 
 test('unusable quaternions, numbers and times are left out', async () => {
-  const messages = odomMessages(20, (i) => odometryMessage(i === 8 ? timeOf(2) : timeOf(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
-  const { data, summary } = await readLog(mcapFile(await recordingOf(messages)), { series: '/odom' });
+  const messages = createOdometryMessages(20, (i) => odometryMessageOf(i === 8 ? timeOf(2) : timeOf(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
+  const { data, summary } = await readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' });
   assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8, 11].includes(i)));
   assert.deepEqual(summary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 1, first: 6 }, damaged: { count: 1, first: 12 }, duplicate: { count: 1, first: 9 } });
   assert.deepEqual([...data.breaks], [3, 4, 8]);
@@ -123,92 +123,92 @@ test('unusable quaternions, numbers and times are left out', async () => {
 
 test('messages that were written in any order are read in the order of their times', async () => {
   const random = randomGenerator(5);
-  const shuffledMessages = odomMessages(200).map((message) => ({ message, key: random() })).sort((one, other) => one.key - other.key).map(({ message }) => message);
+  const shuffledMessages = createOdometryMessages(200).map((message) => ({ message, key: random() })).sort((one, other) => one.key - other.key).map(({ message }) => message);
   // The messages are in one chunk, or in dozens of chunks that overlap in time.
   for (const chunkSize of [1e6, 4096]) {
-    const { data } = await readLog(mcapFile(await recordingOf(shuffledMessages, { chunkSize })), { series: '/odom' });
+    const { data } = await readLog(mcapFileOf(await recordingOf(shuffledMessages, { chunkSize })), { series: '/odom' });
     assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 200 }, (_, i) => i));
   }
 });
 
 test('topics and frames that cannot be read are refused', async () => {
-  const poses = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose, Pose2D or tf2_msgs/TFMessage';
-  const commands = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
-  const source = mcapFile(await recordingOf(driveMessages()));
-  for (const [choice, sentence] of /** @type {const} */ ([
-    [{ series: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poses}, or ${commands}.`],
-    [{ series: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poses}.`],
+  const poseTypes = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose, Pose2D or tf2_msgs/TFMessage';
+  const commandTypes = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
+  const mcapFile = mcapFileOf(await recordingOf(createDriveMessages()));
+  for (const [choice, expectedError] of /** @type {const} */ ([
+    [{ series: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poseTypes}, or ${commandTypes}.`],
+    [{ series: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poseTypes}.`],
     [{ series: '/odom', frames: { parent: 'map', child: 'odom' } }, 'run.mcap, topic /odom: its type is “nav_msgs/msg/Odometry”; expected is tf2_msgs/TFMessage, which has frames.'],
     [{ series: '/tf' }, 'run.mcap, topic /tf: give a parent and a child frame, connected by odom → base_link, map → base_link, odom → base_footprint, map → base_footprint.'],
     [{ series: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms lead along map → laser; expected are frames that are connected, of base_footprint → base_link, map → odom, odom → base_footprint, base_link → wheel.'],
-  ])) assert.equal(await refusalSentenceOf(readLog(source, choice)), sentence);
+  ])) assert.equal(await refusalSentenceOf(readLog(mcapFile, choice)), expectedError);
 });
 
 test('a transform that never changes holds from the beginning, and a moving one from its first message', async () => {
   const messagesWith = (/** @type {(i: number) => number} */ mountX) => Array.from({ length: 60 }, (_, i) => [
-    transformMessage(i / 10, 'world', 'marker', i / 20, 0, 0),
-    ...(i % 3 === 0 && i >= 30 ? [transformMessage(i / 10, 'marker', 'base', mountX(i), 0, 0)] : []),
-  ].map((transform) => ({ topic: '/tf', type: TF, t: i / 10, message: { transforms: [transform] } }))).flat();
-  const resultWith = async (/** @type {(i: number) => number} */ mountX) => {
-    const { start, data, summary } = await readLog(mcapFile(await recordingOf(messagesWith(mountX))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
+    transformMessageOf(i / 10, 'world', 'marker', i / 20, 0, 0),
+    ...(i % 3 === 0 && i >= 30 ? [transformMessageOf(i / 10, 'marker', 'base', mountX(i), 0, 0)] : []),
+  ].map((transform) => ({ topic: '/tf', type: TF_TYPE, t: i / 10, message: { transforms: [transform] } }))).flat();
+  const readWith = async (/** @type {(i: number) => number} */ mountX) => {
+    const { start, data, summary } = await readLog(mcapFileOf(await recordingOf(messagesWith(mountX))), { series: '/tf', frames: { parent: 'world', child: 'base' } });
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
   };
-  assert.deepEqual(await resultWith(() => 0.5), [60, 0, 0.5, 60]);
+  assert.deepEqual(await readWith(() => 0.5), [60, 0, 0.5, 60]);
   // A static transform that is published again with another value does not set the times of the poses.
-  const staticTransforms = [0, 3].map((t) => ({ topic: '/tf_static', type: TF, t, message: { transforms: [transformMessage(t, 'base', 'laser', t, 0, 0)] } }));
-  const recalibratedFile = mcapFile(await recordingOf([...messagesWith(() => 0.5), ...staticTransforms].sort((one, other) => one.t - other.t)));
+  const staticTransformMessages = [0, 3].map((t) => ({ topic: '/tf_static', type: TF_TYPE, t, message: { transforms: [transformMessageOf(t, 'base', 'laser', t, 0, 0)] } }));
+  const recalibratedFile = mcapFileOf(await recordingOf([...messagesWith(() => 0.5), ...staticTransformMessages].sort((one, other) => one.t - other.t)));
   const { data: { t } } = await readLog(recalibratedFile, { series: '/tf', frames: { parent: 'world', child: 'laser' } });
   assert.equal(t.length, 60);
   // The pose is known from 3 s on, at the times of the transform to the robot's own frame.
-  assert.deepEqual(await resultWith((i) => i / 100), [10, 3, 1.8, 10]);
+  assert.deepEqual(await readWith((i) => i / 100), [10, 3, 1.8, 10]);
 });
 
 test('positions without a heading are refused, by their type', async () => {
   const pointMessages = Array.from({ length: 20 }, (_, i) => ({
     topic: '/prism', type: 'geometry_msgs/msg/PointStamped', t: i / 10, message: { header: { stamp: stampOf(i / 10), frame_id: 'world' }, point: { x: i / 20, y: 0, z: 0 } },
   }));
-  const [recording] = await openRecordings([mcapFile(await recordingOf([...driveMessages().filter(({ topic }) => topic === '/odom'), ...pointMessages]))]);
-  const sentence = /^run\.mcap: \/prism \(PointStamped\) are positions without a heading; give a reference that measures the heading, /;
-  assert.match(await refusalSentenceOf((async () => planDrives([recording]))()), sentence);
+  const [recording] = await openRecordings([mcapFileOf(await recordingOf([...createDriveMessages().filter(({ topic }) => topic === '/odom'), ...pointMessages]))]);
+  const expectedError = /^run\.mcap: \/prism \(PointStamped\) are positions without a heading; give a reference that measures the heading, /;
+  assert.match(await refusalSentenceOf((async () => planDrives([recording]))()), expectedError);
   assert.match(await refusalSentenceOf(recording.read([{ series: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
 });
 
 test('other recordings are refused', async () => {
-  const refusal = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = driveMessages()) => refusalSentenceOf(readLog(mcapFile(await recordingOf(messages, options)), { series: '/odom' }));
-  assert.equal(await refusal({ compression: 'odd' }), 'run.mcap, topic /odom: none of its messages can be read (compression by snappy, not by zstd or lz4); expected is an undamaged recording.');
-  assert.equal(await refusal({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
-  const [encodedOtherwise] = await openRecordings([mcapFile(await recordingOf(odomMessages(3), { encoding: 'json' }))]);
-  assert.match(await refusalSentenceOf((async () => planDrives([encodedOtherwise]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);
-  assert.equal(await refusal({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
-  assert.equal(await refusal({}, driveMessages().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
+  const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = createDriveMessages()) => refusalSentenceOf(readLog(mcapFileOf(await recordingOf(messages, options)), { series: '/odom' }));
+  assert.equal(await refusalOf({ compression: 'odd' }), 'run.mcap, topic /odom: none of its messages can be read (compression by snappy, not by zstd or lz4); expected is an undamaged recording.');
+  assert.equal(await refusalOf({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
+  const [jsonRecording] = await openRecordings([mcapFileOf(await recordingOf(createOdometryMessages(3), { encoding: 'json' }))]);
+  assert.match(await refusalSentenceOf((async () => planDrives([jsonRecording]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);
+  assert.equal(await refusalOf({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
+  assert.equal(await refusalOf({}, createDriveMessages().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
   // These messages claim to be odometry, and are too short.
-  const shortMessages = odomMessages(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY }));
-  assert.match(await refusal({}, shortMessages), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
+  const shortMessages = createOdometryMessages(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY_TYPE }));
+  assert.match(await refusalOf({}, shortMessages), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
 });
 
 test('chunks with another checksum or size than they state are not read', async () => {
-  const reasonOf = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: none of its messages can be read \((.+)\); expected/.exec(await refusalSentenceOf(readLog(mcapFile(bytes), { series: '/odom' })))?.[1];
-  const damagedBytes = await recordingOf(odomMessages(20), { chunkSize: 1e6 });
+  const reasonOf = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: none of its messages can be read \((.+)\); expected/.exec(await refusalSentenceOf(readLog(mcapFileOf(bytes), { series: '/odom' })))?.[1];
+  const damagedBytes = await recordingOf(createOdometryMessages(20), { chunkSize: 1e6 });
   damagedBytes[damagedBytes.length >> 2] ^= 1;
   assert.equal(await reasonOf(damagedBytes), 'the checksum of a chunk is wrong');
 
-  const bytes = await recordingOf(odomMessages(20), { compression: 'zstd', index: false, chunks: true, chunkSize: 1e6 });
+  const bytes = await recordingOf(createOdometryMessages(20), { compression: 'zstd', index: false, chunks: true, chunkSize: 1e6 });
   // In a chunk record, the name of the compression follows the record's code and length, two times, size, checksum and the name's length.
-  const chunk = bytes.indexOf(Buffer.from('zstd')) - 4 - 4 - 8 - 16 - 9;
-  for (const [size, reason] of /** @type {const} */ ([
+  const chunkPosition = bytes.indexOf(Buffer.from('zstd')) - 4 - 4 - 8 - 16 - 9;
+  for (const [statedSize, expectedReason] of /** @type {const} */ ([
     [10n ** 12n, 'a chunk of 1000000000000 bytes'],
     [10n, 'a compressed block is not what was written'],
   ])) {
-    bytes.writeBigUInt64LE(size, chunk + 9 + 16);
-    assert.equal(await reasonOf(bytes), reason);
+    bytes.writeBigUInt64LE(statedSize, chunkPosition + 9 + 16);
+    assert.equal(await reasonOf(bytes), expectedReason);
   }
 });
 
 test('times of recording keep their nanoseconds, also those that a number rounds up to the next second', () => {
-  const bytes = new DataView(new ArrayBuffer(8));
+  const timeBytes = new DataView(new ArrayBuffer(8));
   for (const [seconds, nanoseconds] of [[0, 1], [1_718_000_000, 999_999_999], [1_718_000_001, 0]]) {
-    bytes.setBigUint64(0, BigInt(seconds) * 10n ** 9n + BigInt(nanoseconds), true);
-    assert.deepEqual(stampAt(bytes, 0), { seconds, nanoseconds });
+    timeBytes.setBigUint64(0, BigInt(seconds) * 10n ** 9n + BigInt(nanoseconds), true);
+    assert.deepEqual(stampAt(timeBytes, 0), { seconds, nanoseconds });
   }
 });
 
@@ -216,9 +216,9 @@ test('a file that is read in pieces has its bytes, one after the other, across p
   const random = randomGenerator(7);
   const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => random() * 256)));
   const readRange = readAhead(new File([bytes], 'run.mcap'));
-  for (let from = 0; from < bytes.length; ) {
-    const to = Math.min(bytes.length, from + Math.floor(random() ** 8 * 3e7));
-    assert.deepEqual([to, bytes.compare(await readRange(from, to), 0, to - from, from, to)], [to, 0]);
-    from = random() < 0.05 ? Math.min(bytes.length, to + 3e6) : to;
+  for (let start = 0; start < bytes.length; ) {
+    const end = Math.min(bytes.length, start + Math.floor(random() ** 8 * 3e7));
+    assert.deepEqual([end, bytes.compare(await readRange(start, end), 0, end - start, start, end)], [end, 0]);
+    start = random() < 0.05 ? Math.min(bytes.length, end + 3e6) : end;
   }
 });

@@ -8,7 +8,7 @@ import { warningsOf } from '../../www/logs/pairs.ts';
 import { Rows } from '../../www/logs/rows.ts';
 import { refusalErrorOf, refusalSentenceOf } from './log-support.js';
 
-/** @param {string | Uint8Array<ArrayBuffer>} text @param {import('../../www/logs/log.ts').OpenOptions} [options] @param {string} [series] */
+/** Reads one log of a table. @param {string | Uint8Array<ArrayBuffer>} text @param {import('../../www/logs/log.ts').OpenOptions} [options] @param {string} [series] */
 async function readTable(text, options, series = '') {
   const [recording] = await openRecordings([new File([text], 'run.csv')], options);
   const [log] = await recording.read([{ series }]);
@@ -16,13 +16,13 @@ async function readTable(text, options, series = '') {
 }
 
 /** Rows of a drive on a circle with a radius of 1 m, at 0.5 m/s, with 20 rows a second: time, x, y, heading. */
-const CIRCLE = Array.from({ length: 800 }, (_, i) => [i / 20, Math.sin(i / 40), -Math.cos(i / 40), Math.atan2(Math.sin(i / 40), Math.cos(i / 40))]);
+const CIRCLE_ROWS = Array.from({ length: 800 }, (_, i) => [i / 20, Math.sin(i / 40), -Math.cos(i / 40), Math.atan2(Math.sin(i / 40), Math.cos(i / 40))]);
 
-/** @param {(row: number[], i: number) => (string | number)[]} [cells] @param {string} [header] */
-const circleTable = (cells = (row) => row, header = 't,x,y,yaw') => [header, ...CIRCLE.map((row, i) => cells(row, i).join(','))].join('\n');
+/** Returns a table of the drive on the circle. @param {(row: number[], i: number) => (string | number)[]} [cells] of each row @param {string} [header] */
+const circleTableOf = (cells = (row) => row, header = 't,x,y,yaw') => [header, ...CIRCLE_ROWS.map((row, i) => cells(row, i).join(','))].join('\n');
 
-/** Table of a robot that drives straight on, at these times. @param {(number | string)[]} times */
-const straightTable = (times) => ['t,x,y,yaw', ...times.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
+/** Returns a table of a robot that drives straight on, with a row at each time. @param {(number | string)[]} times */
+const straightTableAt = (times) => ['t,x,y,yaw', ...times.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
 const timesFrom = (/** @type {number} */ count, from = 0) => Array.from({ length: count }, (_, i) => from + i / 10);
 
 test('nanoseconds of the present keep their digits, in every unit', async () => {
@@ -38,47 +38,47 @@ test('nanoseconds of the present keep their digits, in every unit', async () => 
 });
 
 test('numbers are the nearest doubles', async () => {
-  const values = ['0.1', '-12345.6789012345', '1e-7', '123456789.012345678', '3.141592653589793238462643', '-0', '.5', '7.', '+4.', '2.2250738585072014e-308'];
-  const { x } = (await readTable(['t,x,y,yaw', ...values.map((value, i) => `${i},${value},0,0`)].join('\n'), { lengthUnit: 'm' })).data;
-  assert.deepEqual([...x], values.map(Number));
+  const numberTexts = ['0.1', '-12345.6789012345', '1e-7', '123456789.012345678', '3.141592653589793238462643', '-0', '.5', '7.', '+4.', '2.2250738585072014e-308'];
+  const { x } = (await readTable(['t,x,y,yaw', ...numberTexts.map((value, i) => `${i},${value},0,0`)].join('\n'), { lengthUnit: 'm' })).data;
+  assert.deepEqual([...x], numberTexts.map(Number));
 });
 
 test('rows that cannot be used are dropped with the first line of each cause, and break the path', async () => {
-  const rows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...timesFrom(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
-  const { data, summary: { dropped, rows: count, notes } } = await readTable(`t,x,y,yaw\n${rows.join('\n')}`);
+  const tableRows = ['0,0,0,0', '1,nan,0,0', '2,,0,0', '3,0,0,0', '3,1,0,0', '4,0,0,0', '5,0,inf,0', 'NaN,0,0,0', '6,0,0,0', '7,0', ...timesFrom(90, 8).map((t) => `${t},0,0,0`), '17,0', '17.1,0,0.0.1,0', '18,0,0,0', '19,0'];
+  const { data, summary: { dropped, rows: count, notes } } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
   assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...timesFrom(90, 8), 18], [1, 3, 4, 94]]);
   assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 3, first: 11 }, text: { count: 1, first: 103 }, duplicate: { count: 1, first: 6 } });
-  assert.deepEqual([count, notes], [rows.length, [{ name: 'cutShort', values: [] }]]);
+  assert.deepEqual([count, notes], [tableRows.length, [{ name: 'cutShort', values: [] }]]);
 });
 
 test('late rows are sorted; a time far from all others is dropped', async () => {
   const times = timesFrom(50);
-  const shuffledTable = await readTable(straightTable([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
-  assert.deepEqual([[...shuffledTable.data.t], [...shuffledTable.data.breaks]], [times, []]);
-  assert.deepEqual([shuffledTable.data.x[20], shuffledTable.summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
-  const swappedTable = await readTable(straightTable([...timesFrom(50, 100), ...timesFrom(50)]));
-  assert.deepEqual([swappedTable.data.t.length, swappedTable.data.t[0], swappedTable.data.x[0]], [100, 0, 1]);
+  const shuffledLog = await readTable(straightTableAt([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
+  assert.deepEqual([[...shuffledLog.data.t], [...shuffledLog.data.breaks]], [times, []]);
+  assert.deepEqual([shuffledLog.data.x[20], shuffledLog.summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
+  const swappedLog = await readTable(straightTableAt([...timesFrom(50, 100), ...timesFrom(50)]));
+  assert.deepEqual([swappedLog.data.t.length, swappedLog.data.t[0], swappedLog.data.x[0]], [100, 0, 1]);
   for (const strayTime of [1e6, -1e6]) {
-    const { data, summary } = await readTable(straightTable(times.with(20, strayTime)));
+    const { data, summary } = await readTable(straightTableAt(times.with(20, strayTime)));
     assert.deepEqual([[...data.t], summary.dropped, [...data.breaks]], [times.toSpliced(20, 1), { stray: { count: 1, first: 22 } }, []]);
   }
 });
 
 test('a log that is out of order everywhere is sorted, and one of two clocks in turns is not taken for it', async () => {
-  const [header, ...rows] = circleTable().split('\n');
+  const [header, ...rows] = circleTableOf().split('\n');
   const rowOrder = rows.map((_, i) => (i * 301) % rows.length);
   for (const shuffleRange of [8, rows.length]) {
-    const shuffledTable = rows.map((_, i) => i).toSorted((one, other) => one + (rowOrder[one] % shuffleRange) - other - (rowOrder[other] % shuffleRange));
-    const { data, summary } = await readTable([header, ...shuffledTable.map((i) => rows[i])].join('\n'));
-    assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE.map(([, x]) => x), [], rows.length]);
+    const shuffledIndices = rows.map((_, i) => i).toSorted((one, other) => one + (rowOrder[one] % shuffleRange) - other - (rowOrder[other] % shuffleRange));
+    const { data, summary } = await readTable([header, ...shuffledIndices.map((i) => rows[i])].join('\n'));
+    assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rows.length]);
     assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rows.length / 8, JSON.stringify(summary.notes));
   }
-  const twoClockTable = rows.flatMap((row, i) => [row, [CIRCLE[i][0] + 5.02, ...CIRCLE[rows.length - 1 - i].slice(1)].join(',')]);
-  assert.match(await refusalSentenceOf(readTable([header, ...twoClockTable].join('\n'))), /^run\.csv: /);
+  const rowsOfTwoClocks = rows.flatMap((row, i) => [row, [CIRCLE_ROWS[i][0] + 5.02, ...CIRCLE_ROWS[rows.length - 1 - i].slice(1)].join(',')]);
+  assert.match(await refusalSentenceOf(readTable([header, ...rowsOfTwoClocks].join('\n'))), /^run\.csv: /);
 });
 
 test('a block of zeros in a table loses the row that it is in', async () => {
-  const [header, ...rows] = circleTable().split('\n');
+  const [header, ...rows] = circleTableOf().split('\n');
   for (const rowIndex of [100, 700]) {
     const { data, summary } = await readTable([header, ...rows.with(rowIndex, `${rows[rowIndex].slice(0, 9)}${'\0'.repeat(100_000)}${rows[rowIndex + 1].slice(5)}`)].join('\n'));
     assert.deepEqual([data.t.length, summary.dropped, [...data.breaks]], [rows.length - 1, { text: { count: 1, first: rowIndex + 2 } }, [rowIndex]]);
@@ -89,140 +89,140 @@ test('a block of zeros in a table loses the row that it is in', async () => {
 
 test('a clock that was set back leaves the larger part, and halves are refused', async () => {
   for (const setBackBy of [5, 4.96]) {
-    const { data, summary } = await readTable(straightTable([...timesFrom(200), ...timesFrom(100, 20 - setBackBy)]));
+    const { data, summary } = await readTable(straightTableAt([...timesFrom(200), ...timesFrom(100, 20 - setBackBy)]));
     assert.deepEqual([data.t.length, summary.dropped], [200, { setBack: { count: 100, first: 202 } }]);
   }
-  const laterTable = await readTable(straightTable([...timesFrom(60), ...timesFrom(140, 4.03)]));
-  assert.deepEqual([laterTable.data.t.length, laterTable.data.x[0], laterTable.summary.dropped.setBack], [140, 60 / 50, { count: 60, first: 2 }]);
-  assert.match(await refusalSentenceOf(readTable(straightTable([...timesFrom(100), ...timesFrom(100, 5)]))), /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
+  const laterLog = await readTable(straightTableAt([...timesFrom(60), ...timesFrom(140, 4.03)]));
+  assert.deepEqual([laterLog.data.t.length, laterLog.data.x[0], laterLog.summary.dropped.setBack], [140, 60 / 50, { count: 60, first: 2 }]);
+  assert.match(await refusalSentenceOf(readTable(straightTableAt([...timesFrom(100), ...timesFrom(100, 5)]))), /^run\.csv, line 102: times go back by 4\.90 s and repeat those before; split the file there/);
 });
 
 test('a clock that begins at 0 again goes on, also around a late row: each day or week, and where a counter overflows', async () => {
-  const readWithClock = (/** @type {string} */ header, /** @type {(seconds: number) => number | string} */ text) =>
-    readTable([`${header},x,y,yaw`, ...Array.from({ length: 200 }, (_, i) => (i === 99 || i === 100 ? 199 - i : i)).map((i) => `${text(i / 20 - 5)},${i / 50},0,0`)].join('\n'));
-  const clockTime = (/** @type {number} */ period, /** @type {number} */ unit) => (/** @type {number} */ t) => (t < 0 ? period : 0) + Number((unit * t).toFixed(2));
-  for (const [header, text] of /** @type {const} */ ([
+  const readWithClock = (/** @type {string} */ header, /** @type {(seconds: number) => number | string} */ timeText) =>
+    readTable([`${header},x,y,yaw`, ...Array.from({ length: 200 }, (_, i) => (i === 99 || i === 100 ? 199 - i : i)).map((i) => `${timeText(i / 20 - 5)},${i / 50},0,0`)].join('\n'));
+  const clockWithPeriod = (/** @type {number} */ period, /** @type {number} */ unit) => (/** @type {number} */ t) => (t < 0 ? period : 0) + Number((unit * t).toFixed(2));
+  for (const [header, timeText] of /** @type {const} */ ([
     ['t', (/** @type {number} */ t) => (t < 0 ? `23:59:${(60 + t).toFixed(2)}` : `00:00:0${t.toFixed(2)}`)],
-    ['t', clockTime(604_800, 1)], ['t', clockTime(2 ** 32, 1e6)], ['millis', clockTime(2 ** 32, 1e3)], ['msec', clockTime(2 ** 32, 1e3)], ['t_useconds', clockTime(2 ** 32, 1e6)],
+    ['t', clockWithPeriod(604_800, 1)], ['t', clockWithPeriod(2 ** 32, 1e6)], ['millis', clockWithPeriod(2 ** 32, 1e3)], ['msec', clockWithPeriod(2 ** 32, 1e3)], ['t_useconds', clockWithPeriod(2 ** 32, 1e6)],
   ])) {
-    const { data: { t }, summary: { notes, gaps } } = await readWithClock(header, text);
+    const { data: { t }, summary: { notes, gaps } } = await readWithClock(header, timeText);
     assert.deepEqual([t.length, Number((t[199] - t[0]).toFixed(6)), notes, gaps.count], [200, 9.95, [{ name: 'rollover', values: [101] }, { name: 'sorted', values: [1] }], 0]);
   }
   assert.equal((await readWithClock('t', (t) => t + (t < 0 ? 9 : 86_409))).summary.gaps.count, 1);
 });
 
 test('stamps of 0 drop their rows, and are no choice of the clock for the others', async () => {
-  const stamp = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 10)}${i % 10}00000000`);
-  const rows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 10},${stamp(i)},${i / 20},0,0`);
-  const { start, data, summary } = await readTable(['time,header.stamp,x,y,yaw', ...rows].join('\n'));
+  const stampAt = (/** @type {number} */ i) => (i < 2 || i === 30 ? 0 : `${1_718_000_000 + Math.floor(i / 10)}${i % 10}00000000`);
+  const tableRows = Array.from({ length: 60 }, (_, i) => `${1_718_000_007 + i / 10},${stampAt(i)},${i / 20},0,0`);
+  const { start, data, summary } = await readTable(['time,header.stamp,x,y,yaw', ...tableRows].join('\n'));
   assert.deepEqual([start, data.t.length, data.t[0], summary.clock, summary.units.time.unit], [1_718_000_000, 57, 0.2, 'header.stamp', 'ns']);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ noStamp: { count: 3, first: 2 } }, []]);
-  const frozenStampTable = await readTable(['time,header.stamp,x,y,yaw', ...rows.map((row) => row.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
-  assert.deepEqual([frozenStampTable.data.t.length, frozenStampTable.summary.clock, frozenStampTable.summary.columns?.t], [60, 'time', 'time']);
+  const frozenStampLog = await readTable(['time,header.stamp,x,y,yaw', ...tableRows.map((row) => row.replace(/,\d+/, ',1718000000000000000'))].join('\n'));
+  assert.deepEqual([frozenStampLog.data.t.length, frozenStampLog.summary.clock, frozenStampLog.summary.columns?.t], [60, 'time', 'time']);
 });
 
 test('poses that a table repeats at the rate of another log are taken once', async () => {
-  const { data, summary } = await readTable(circleTable((row, i) => [row[0], ...CIRCLE[i - (i % 5)].slice(1)]));
-  assert.deepEqual([data.t.length, data.t[1], data.x[1]], [160, 0.25, CIRCLE[5][1]]);
+  const { data, summary } = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[i - (i % 5)].slice(1)]));
+  assert.deepEqual([data.t.length, data.t[1], data.x[1]], [160, 0.25, CIRCLE_ROWS[5][1]]);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ repeated: { count: 640, first: 3 } }, []]);
 });
 
 test('pauses and jumps are found, and a heading that wraps is no jump', async () => {
   // Five median steps are not a pause, and eight times the usual speed is not a jump.
-  const delay = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
-  const offset = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
-  const rows = Array.from({ length: 400 }, (_, i) => [i / 20 + delay(i), i / 20 + offset(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
-  const { summary, data } = await readTable(`t,x,y,yaw\n${rows.join('\n')}`);
+  const delayAt = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
+  const offsetAt = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
+  const tableRows = Array.from({ length: 400 }, (_, i) => [i / 20 + delayAt(i), i / 20 + offsetAt(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
+  const { summary, data } = await readTable(`t,x,y,yaw\n${tableRows.join('\n')}`);
   assert.deepEqual(summary.gaps, { count: 2, longest: 3.05, first: 59 / 20 + 0.19 });
   assert.deepEqual([summary.jumps, [...data.breaks]], [{ count: 2, first: 13.4 }, [200, 300]]);
   assert.ok(summary.distance > 20 && summary.distance < 20.3, `${summary.distance}`);
-  assert.equal((await readTable(circleTable())).summary.jumps.count, 0);
+  assert.equal((await readTable(circleTableOf())).summary.jumps.count, 0);
 });
 
 test('a clock that was set forward is noted, and pauses are none', async () => {
-  const logOf = (/** @type {(t: number) => number} */ clockTime, /** @type {(i: number) => number[]} */ pose = (i) => CIRCLE[i].slice(1)) => readTable(['t,x,y,yaw', ...Array.from({ length: 780 }, (_, i) => [clockTime(i / 20), ...pose(i)])].join('\n'));
-  const set = (/** @type {number} */ t) => t + (t > 20 ? 0.75 : 0);
-  const [setLog, pausedLog, ...otherLogs] = await Promise.all([
-    logOf(set),
-    logOf(set, (i) => CIRCLE[i > 400 ? i + 15 : i].slice(1)),
+  const readLogWithClock = (/** @type {(t: number) => number} */ clockTime, /** @type {(i: number) => number[]} */ pose = (i) => CIRCLE_ROWS[i].slice(1)) => readTable(['t,x,y,yaw', ...Array.from({ length: 780 }, (_, i) => [clockTime(i / 20), ...pose(i)])].join('\n'));
+  const setForward = (/** @type {number} */ t) => t + (t > 20 ? 0.75 : 0);
+  const [setForwardLog, pausedLog, ...otherLogs] = await Promise.all([
+    readLogWithClock(setForward),
+    readLogWithClock(setForward, (i) => CIRCLE_ROWS[i > 400 ? i + 15 : i].slice(1)),
     // A node that publishes only while the robot moves, delayed messages, and a robot that brakes or turns in the gap.
-    logOf((t) => t + 5 * Math.floor(t / 15)),
-    logOf((t) => (t > 20 && t < 20.8 ? 20.8 - (20.8 - t) / 50 : t)),
-    logOf(set, (i) => [0.2 * Math.sign(i - 400.5) * (Math.hypot(1, (i - 400.5) / 8) - 1), 0, 0]),
-    logOf(set, (i) => [Math.min(i - 400, 0) / 40, Math.max(i - 401, 0) / 40, 0]),
+    readLogWithClock((t) => t + 5 * Math.floor(t / 15)),
+    readLogWithClock((t) => (t > 20 && t < 20.8 ? 20.8 - (20.8 - t) / 50 : t)),
+    readLogWithClock(setForward, (i) => [0.2 * Math.sign(i - 400.5) * (Math.hypot(1, (i - 400.5) / 8) - 1), 0, 0]),
+    readLogWithClock(setForward, (i) => [Math.min(i - 400, 0) / 40, Math.max(i - 401, 0) / 40, 0]),
   ]);
-  assert.deepEqual([setLog, pausedLog, ...otherLogs].map(({ summary }) => summary.notes), [[{ name: 'clockSet', values: [20, 0.8000000000000007] }], [], [], [], [], []]);
-  assert.deepEqual([[pausedLog, setLog, setLog, setLog], [setLog, setLog, pausedLog, pausedLog]].map(warningsOf), [['clockSet'], []]);
+  assert.deepEqual([setForwardLog, pausedLog, ...otherLogs].map(({ summary }) => summary.notes), [[{ name: 'clockSet', values: [20, 0.8000000000000007] }], [], [], [], [], []]);
+  assert.deepEqual([[pausedLog, setForwardLog, setForwardLog, setForwardLog], [setForwardLog, setForwardLog, pausedLog, pausedLog]].map(warningsOf), [['clockSet'], []]);
 });
 
-/** Turns on the spot at 9 m/s. @param {number[]} row */
-const spinRow = ([t]) => [t, 5 * (t - Math.sin(t / 2) * 2), 0, Math.sin(t) * Math.cos(t / 2) ** 8];
+/** Returns a row of a robot that turns and moves slowly. In metres it would drive at 9 m/s; the lengths are centimetres. @param {number[]} row */
+const spinRowOf = ([t]) => [t, 5 * (t - Math.sin(t / 2) * 2), 0, Math.sin(t) * Math.cos(t / 2) ** 8];
 
 test('ordinary logs are neither of two paths nor in another unit', async () => {
   const wrapAngle = (/** @type {number} */ angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
-  const cartAngle = (/** @type {number} */ i) => (60 * Math.floor(i / 100) + Math.min(60, i % 100)) / 80;
+  const cartAngleAt = (/** @type {number} */ i) => (60 * Math.floor(i / 100) + Math.min(60, i % 100)) / 80;
   for (const table of [
     // Few rows a round, vibrations, a single pose elsewhere, a car, a fast cart whose heading is noisy at rest, and a name with a unit.
-    circleTable((_, i) => [2 * i, Math.sin(i), -Math.cos(i), wrapAngle(i)]),
-    circleTable(([t, , , yaw], i) => [t, (i % 2) / 25, 0, yaw]),
-    circleTable(([t], i) => (i < 10 ? [t, i === 4 ? 5 : 0, 0, 0] : [])),
-    circleTable(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0]),
-    circleTable(([t], i) => [t, 20 * Math.sin(cartAngle(i)), -20 * Math.cos(cartAngle(i)), wrapAngle(cartAngle(i) + 0.03 * Math.sin(i * i))]),
-    circleTable(spinRow, 't,x_m,y_m,yaw'),
+    circleTableOf((_, i) => [2 * i, Math.sin(i), -Math.cos(i), wrapAngle(i)]),
+    circleTableOf(([t, , , yaw], i) => [t, (i % 2) / 25, 0, yaw]),
+    circleTableOf(([t], i) => (i < 10 ? [t, i === 4 ? 5 : 0, 0, 0] : [])),
+    circleTableOf(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0]),
+    circleTableOf(([t], i) => [t, 20 * Math.sin(cartAngleAt(i)), -20 * Math.cos(cartAngleAt(i)), wrapAngle(cartAngleAt(i) + 0.03 * Math.sin(i * i))]),
+    circleTableOf(spinRowOf, 't,x_m,y_m,yaw'),
   ]) assert.equal((await readTable(table)).summary.units.length.unit, 'm');
 });
 
 test('units are guessed from two signs', async () => {
-  const degrees = (/** @type {number} */ yaw) => (yaw * 180) / Math.PI;
+  const toDegrees = (/** @type {number} */ yaw) => (yaw * 180) / Math.PI;
   /** Tables and their units of time and angle. @type {[string, string, string][]} */
-  const cases = [
-    [circleTable(), 's', 'rad'],
-    [circleTable(([t, x, y], i) => [t, x, y, i / 40]), 's', 'rad'],
-    [circleTable(([t, x, y, yaw]) => [t, x, y, degrees(yaw)]), 's', 'deg'],
-    [circleTable(([t, x, y, yaw]) => [t, x, y, (degrees(yaw) + 360) % 360]), 's', 'deg'],
-    [circleTable(([t, x, y, yaw]) => [1000 * t, x, y, yaw]), 'ms', 'rad'],
-    [circleTable(([t, x, y, yaw]) => [1e9 * t, x, y, yaw]), 'ns', 'rad'],
-    [circleTable(([t, x, y, yaw]) => [1e9 * t + 1e10, x, y, yaw]), 'ns', 'rad'],
-    [circleTable(([t, x, y, yaw]) => [1000 * t, x, y, degrees(yaw)]), 'ms', 'deg'],
-    [circleTable(([t, x, y, yaw]) => [1e9 * t, x, y, yaw], '%time,field.x,field.y,field.theta'), 'ns', 'rad'],
+  const unitCases = [
+    [circleTableOf(), 's', 'rad'],
+    [circleTableOf(([t, x, y], i) => [t, x, y, i / 40]), 's', 'rad'],
+    [circleTableOf(([t, x, y, yaw]) => [t, x, y, toDegrees(yaw)]), 's', 'deg'],
+    [circleTableOf(([t, x, y, yaw]) => [t, x, y, (toDegrees(yaw) + 360) % 360]), 's', 'deg'],
+    [circleTableOf(([t, x, y, yaw]) => [1000 * t, x, y, yaw]), 'ms', 'rad'],
+    [circleTableOf(([t, x, y, yaw]) => [1e9 * t, x, y, yaw]), 'ns', 'rad'],
+    [circleTableOf(([t, x, y, yaw]) => [1e9 * t + 1e10, x, y, yaw]), 'ns', 'rad'],
+    [circleTableOf(([t, x, y, yaw]) => [1000 * t, x, y, toDegrees(yaw)]), 'ms', 'deg'],
+    [circleTableOf(([t, x, y, yaw]) => [1e9 * t, x, y, yaw], '%time,field.x,field.y,field.theta'), 'ns', 'rad'],
   ];
-  for (const [text, time, angle] of cases) {
-    const { data, summary: { units } } = await readTable(text);
-    assert.deepEqual([units.time.unit, units.angle.unit], [time, angle]);
-    assert.ok(Math.abs(data.t.at(-1) - data.t[0] - CIRCLE[799][0]) < 1e-9, `${data.t[799]}`);
-    assert.ok(Math.abs(Math.sin(data.theta[799] - CIRCLE[799][3])) < 1e-9, `${data.theta[799]}`);
+  for (const [tableText, timeUnit, angleUnit] of unitCases) {
+    const { data, summary: { units } } = await readTable(tableText);
+    assert.deepEqual([units.time.unit, units.angle.unit], [timeUnit, angleUnit]);
+    assert.ok(Math.abs(data.t.at(-1) - data.t[0] - CIRCLE_ROWS[799][0]) < 1e-9, `${data.t[799]}`);
+    assert.ok(Math.abs(Math.sin(data.theta[799] - CIRCLE_ROWS[799][3])) < 1e-9, `${data.theta[799]}`);
   }
 });
 
 /** Tables that lead to a question about a unit. Each has the option that answers it, and a field of row 9 with its value after the answer. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions, [string, number]][]} */
 const UNIT_QUESTIONS = [
-  ['millimetres', circleTable(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE[9][1]]],
-  ['centimetres of a slow robot', circleTable(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: m or cm or mm\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
-  ['centimetres of a slow robot that turns on the spot', circleTable(spinRow), /in m, the robot would drive at 9\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['x', 0.05 * (0.45 - Math.sin(0.225) * 2)]],
+  ['millimetres', circleTableOf(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: cm or mm or m\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE_ROWS[9][1]]],
+  ['centimetres of a slow robot', circleTableOf(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: m or cm or mm\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
+  ['centimetres of a slow robot that turns on the spot', circleTableOf(spinRowOf), /in m, the robot would drive at 9\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['x', 0.05 * (0.45 - Math.sin(0.225) * 2)]],
   ['commands in centimetres', ['t,v,omega', ...timesFrom(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
-  ['metres that a name has as millimetres', circleTable(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }, ['x', CIRCLE[9][1]]],
+  ['metres that a name has as millimetres', circleTableOf(undefined, 't,x_mm,y_mm,yaw'), /in mm, the robot .*: m or mm\.$/, { lengthUnit: 'm' }, ['x', CIRCLE_ROWS[9][1]]],
   ['commands in milliseconds', ['t,v,omega', ...timesFrom(50).map((t, i) => `${1000 * t},${i % 2},0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
-  ['seconds that a name has as nanoseconds', circleTable(undefined, 't_ns,x,y,yaw'), /in ns, the times would mean/, { timeUnit: 's' }, ['t', CIRCLE[9][0]]],
-  ['degrees of a robot that drives straight on', circleTable(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }, ['theta', (Math.sin(0.05) * Math.PI) / 9]],
-  ['radians that a name has as degrees', circleTable(undefined, 't,x,y,yaw_deg'), /headings in deg .*: rad or deg\.$/, { angleUnit: 'rad' }, ['theta', CIRCLE[9][3]]],
+  ['seconds that a name has as nanoseconds', circleTableOf(undefined, 't_ns,x,y,yaw'), /in ns, the times would mean/, { timeUnit: 's' }, ['t', CIRCLE_ROWS[9][0]]],
+  ['degrees of a robot that drives straight on', circleTableOf(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }, ['theta', (Math.sin(0.05) * Math.PI) / 9]],
+  ['radians that a name has as degrees', circleTableOf(undefined, 't,x,y,yaw_deg'), /headings in deg .*: rad or deg\.$/, { angleUnit: 'rad' }, ['theta', CIRCLE_ROWS[9][3]]],
   ['turn rates in degrees', ['t,v,omega', ...timesFrom(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
 ];
 
 test('times in minutes or hours are refused by their name', async () => {
-  for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await refusalSentenceOf(readTable(circleTable(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
-  assert.equal((await readTable(circleTable(([t, ...rest]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...rest], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
+  for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await refusalSentenceOf(readTable(circleTableOf(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
+  assert.equal((await readTable(circleTableOf(([t, ...rest]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...rest], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
 });
 
-for (const [name, text, sentence, options, [field, value]] of UNIT_QUESTIONS) {
+for (const [name, tableText, expectedMessage, options, [fieldName, expectedValue]] of UNIT_QUESTIONS) {
   test(`asks about ${name}`, async () => {
-    const error = await refusalErrorOf(readTable(text));
-    assert.match(error.message, sentence);
+    const refusalError = await refusalErrorOf(readTable(tableText));
+    assert.match(refusalError.message, expectedMessage);
     const [[what, answer]] = Object.entries(options);
-    assert.equal(error.ask?.what, what);
-    assert.ok(error.ask.choices.includes(answer), String(error.ask.choices));
-    const { data, summary: { units } } = await readTable(text, options);
+    assert.equal(refusalError.ask?.what, what);
+    assert.ok(refusalError.ask.choices.includes(answer), String(refusalError.ask.choices));
+    const { data, summary: { units } } = await readTable(tableText, options);
     assert.deepEqual(units[/** @type {'time' | 'length' | 'angle'} */ (what.replace('Unit', ''))], { unit: answer, by: 'option' });
-    assert.ok(Math.abs(data[field][9] - value) < 1e-12, `${data[field][9]}, not ${value}`);
+    assert.ok(Math.abs(data[fieldName][9] - expectedValue) < 1e-12, `${data[fieldName][9]}, not ${expectedValue}`);
   });
 }
 
@@ -244,19 +244,19 @@ const REFUSED_TABLES = [
   ['text in many rows', 't,x,y,yaw\n0,0,0,0\n1,a,0,0\n2,b,0,0\n', /, line 3: x is “a”; expected is a number\. 2 of 3 rows have text in place of a number, or too few cells; at most 10 % of the rows may\.$/],
   ['hexadecimal digits', 't,x,y,yaw\n0x10,0,0,0\n', /, line 2: t is “0x10”;/],
   ['thousands beside decimal commas', 't;x;y;yaw\n0,5;1.234;0;0\n1,5;1;0;0\n', /, line 2: x is “1\.234”;/],
-  ['thousands in quotes', circleTable(([t, x, y, yaw]) => [`"${1000 * t}"`.replace(/\B(?=\d{3}")/, ','), x, y, yaw], 't_ms,x,y,yaw'), /t_ms is “1,000”; expected is a number without separators of thousands\./],
+  ['thousands in quotes', circleTableOf(([t, x, y, yaw]) => [`"${1000 * t}"`.replace(/\B(?=\d{3}")/, ','), x, y, yaw], 't_ms,x,y,yaw'), /t_ms is “1,000”; expected is a number without separators of thousands\./],
   ['decimal commas between commas', 't,x,y,yaw\n0,5,1,25,2,5,0,1\n1,5,1,25,2,5,0,1\n', /has 8 cells, and the header in line 1 4;/],
   ['short rows', 't,x,y,yaw\n0,0,0,0\n0,0,0\n1,0,0,0\n', /, line 3: the row has 3 cells;/],
   ['a long line', `t,x,y,yaw\n0,0,0,0\n${'1'.repeat(400_000)}`, /, line 3: the line has more than 65536 bytes;/],
   ['few rows', 't,x,y,yaw\nnan,0,0,0\n1,0,0,0', /, line 2: 1 of 2 rows can be used \(a value that is not finite\);/],
   ['a large value', 't,x,y,yaw\n0,0,0,0\n1,0,1e300,0\n', /, line 3: a value is 1e\+300;/],
-  ['two logs at the same times', circleTable((row, i) => row.with(0, CIRCLE[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],
-  ['nanoseconds without leading zeros', circleTable(([t, ...pose]) => [`${Math.floor(t)}.${Math.round((t % 1) * 1e9)}`, ...pose]), /^run\.csv: in 0\.50000000 and other times the digits after the point lack their leading zeros;/],
-  ['a quaternion in another order', circleTable(([t, x, y, yaw]) => [t, x, y, 0, Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)]).slice('t,x,y,yaw\n'.length), /do not turn about a vertical Z axis;/],
-  ['several frames', circleTable((row, i) => [...row, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames, topics or robots \(wheel, base\); keep/],
-  ['robots one after the other', circleTable((row, i) => [...row, i >> 9], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
-  ['robots one after the other, with a prefix', circleTable((row, i) => [...row, i >> 9], 't,odom_x,odom_y,odom_yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
-  ['two paths', circleTable(([t, x, ...rest], i) => [t, i % 6 ? x : x + 1, ...rest]), /poses of two paths alternate, 1\.\d m apart: .*; keep those of one\.$/],
+  ['two logs at the same times', circleTableOf((row, i) => row.with(0, CIRCLE_ROWS[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],
+  ['nanoseconds without leading zeros', circleTableOf(([t, ...pose]) => [`${Math.floor(t)}.${Math.round((t % 1) * 1e9)}`, ...pose]), /^run\.csv: in 0\.50000000 and other times the digits after the point lack their leading zeros;/],
+  ['a quaternion in another order', circleTableOf(([t, x, y, yaw]) => [t, x, y, 0, Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)]).slice('t,x,y,yaw\n'.length), /do not turn about a vertical Z axis;/],
+  ['several frames', circleTableOf((row, i) => [...row, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames, topics or robots \(wheel, base\); keep/],
+  ['robots one after the other', circleTableOf((row, i) => [...row, i >> 9], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
+  ['robots one after the other, with a prefix', circleTableOf((row, i) => [...row, i >> 9], 't,odom_x,odom_y,odom_yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
+  ['two paths', circleTableOf(([t, x, ...rest], i) => [t, i % 6 ? x : x + 1, ...rest]), /poses of two paths alternate, 1\.\d m apart: .*; keep those of one\.$/],
   ['poses of KITTI', `${KITTI_ROW}\n${KITTI_ROW}\n`, /poses of KITTI, which have no times; add/],
   ['Euler angles of Motive', 'Format Version,1.23,Take Name,x,Rotation Type,XYZ,Length Units,Meters\n\n,Type,Rigid Body\n,Name,Robot\n,ID,1\n,,Rotation\nFrame,Time (Seconds),X\n0,0.0,1\n1,0.1,1\n', /Euler angles \(XYZ\); export/],
   ['commands without times', '0.4,0.0,0.0,0.0,0.0,0.1\n0.4,0.0,0.0,0.0,0.0,0.1\n', /geometry_msgs\/Twist, which have no times; give/],
@@ -266,12 +266,12 @@ const REFUSED_TABLES = [
   ['columns for a table of another width', '0 1 2 3 4\n1 1 2 3 4\n', /has 5 cells, and --columns names 4;/, { columns: ['t', 'x', 'y', 'yaw'] }],
 ];
 
-for (const [name, contents, sentence, options] of REFUSED_TABLES) {
+for (const [name, contents, expectedMessage, options] of REFUSED_TABLES) {
   test(`refuses ${name}`, async () => {
-    const error = await refusalErrorOf(readTable(contents, options));
-    assert.match(error.message, sentence);
-    assert.match(error.message, /; [a-z].+\.$/);
-    assert.match(error.sentence(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);
+    const refusalError = await refusalErrorOf(readTable(contents, options));
+    assert.match(refusalError.message, expectedMessage);
+    assert.match(refusalError.message, /; [a-z].+\.$/);
+    assert.match(refusalError.sentence(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);
   });
 }
 
@@ -283,8 +283,8 @@ test('more rows than those of a day at 100 Hz are refused', async () => {
 });
 
 test('a file that has been moved is refused', async () => {
-  const missingFile = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
-  assert.equal(await refusalSentenceOf(openRecordings([/** @type {any} */ (missingFile)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
+  const movedFile = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
+  assert.equal(await refusalSentenceOf(openRecordings([/** @type {any} */ (movedFile)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
 });
 
 test('lines across the pieces of a large file are read whole', async () => {

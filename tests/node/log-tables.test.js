@@ -30,53 +30,53 @@ const CIRCLE_ROWS = Array.from({ length: 24 }, (_, i) => {
 
 /** @typedef {typeof CIRCLE_ROWS[0]} Row */
 
-/** Table of all rows. @param {string} header @param {(row: Row) => (string | number)[]} cells @param {string} [separator] */
+/** Returns a table of all rows. @param {string} header @param {(row: Row) => (string | number)[]} cells @param {string} [separator] */
 const tableOf = (header, cells, separator = ',') => [header, ...CIRCLE_ROWS.map((row) => cells(row).join(separator)), ''].join('\n');
 
-const EPOCH = 1_718_000_000;
-/** Digits of a time in nanoseconds. @param {number} t */
-const nanoseconds = (t) => `${EPOCH + Math.floor(t)}${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
-const splitTime = (/** @type {number} */ t) => [EPOCH + Math.floor(t), Math.round((t % 1) * 1e9)];
-const decimalComma = (/** @type {unknown} */ value) => String(value).replace('.', ',');
-const degrees = (/** @type {number} */ radians) => (radians * 180) / Math.PI;
-const isoDate = (/** @type {number} */ t) => new Date((EPOCH + Math.floor(t)) * 1000).toISOString().slice(0, 19) + `.${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
-const poseOf = (/** @type {Row} */ { x, y, qz, qw }) => [x, y, 0, 0, 0, qz, qw];
-const zeroList = (/** @type {number} */ count) => Array.from({ length: count }, () => 0);
-const ABBREVIATED = '<array type: double[36]>';
-const utf16Bytes = (/** @type {string} */ text) => new Uint8Array(Buffer.from(`\ufeff${text}`, 'utf16le'));
+const EPOCH_SECONDS = 1_718_000_000;
+/** Returns the digits of a time in nanoseconds. @param {number} t */
+const nanosecondText = (t) => `${EPOCH_SECONDS + Math.floor(t)}${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
+const secondsAndNanoseconds = (/** @type {number} */ t) => [EPOCH_SECONDS + Math.floor(t), Math.round((t % 1) * 1e9)];
+const withDecimalComma = (/** @type {unknown} */ value) => String(value).replace('.', ',');
+const toDegrees = (/** @type {number} */ radians) => (radians * 180) / Math.PI;
+const isoDateOf = (/** @type {number} */ t) => new Date((EPOCH_SECONDS + Math.floor(t)) * 1000).toISOString().slice(0, 19) + `.${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
+const poseCellsOf = (/** @type {Row} */ { x, y, qz, qw }) => [x, y, 0, 0, 0, qz, qw];
+const zerosOf = (/** @type {number} */ count) => Array.from({ length: count }, () => 0);
+const ABBREVIATED_ARRAY = '<array type: double[36]>';
+const utf16BytesOf = (/** @type {string} */ text) => new Uint8Array(Buffer.from(`\ufeff${text}`, 'utf16le'));
 
 const ODOMETRY_COLUMNS = 'seq header.frame_id child_frame_id pose.pose.position.x pose.pose.position.y pose.pose.position.z pose.pose.orientation.x pose.pose.orientation.y pose.pose.orientation.z pose.pose.orientation.w'.split(' ');
 const VELOCITY_COLUMNS = ['twist.twist.linear.x', 'twist.twist.linear.y', 'twist.twist.angular.x', 'twist.twist.angular.z'];
-const rostopicTable = (/** @type {(row: Row) => string | number} */ stamp) =>
-  tableOf(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((name) => `field.${name}`)].join(','), (row) => [nanoseconds(row.t), stamp(row), row.i, 'odom', 'base', ...poseOf(row), 9, row.v, 9, 9, row.omega]);
-const bagpyTable = (/** @type {string} */ sec, /** @type {string} */ nsec) =>
-  tableOf(['Time', sec, nsec, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (row) => [EPOCH + row.t + 7, ...splitTime(row.t), row.i, 'odom', 'base', ...poseOf(row), row.v, 9, 9, row.omega]);
+const rostopicTableOf = (/** @type {(row: Row) => string | number} */ stamp) =>
+  tableOf(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((name) => `field.${name}`)].join(','), (row) => [nanosecondText(row.t), stamp(row), row.i, 'odom', 'base', ...poseCellsOf(row), 9, row.v, 9, 9, row.omega]);
+const bagpyTableOf = (/** @type {string} */ sec, /** @type {string} */ nsec) =>
+  tableOf(['Time', sec, nsec, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (row) => [EPOCH_SECONDS + row.t + 7, ...secondsAndNanoseconds(row.t), row.i, 'odom', 'base', ...poseCellsOf(row), row.v, 9, 9, row.omega]);
 
 /** PlotJuggler's table of two topics, in which each sample of a topic has its own row. */
 const plotjugglerTable = [
   ['__time', ...['position/x', 'position/y', 'orientation/x', 'orientation/y', 'orientation/z', 'orientation/w'].flatMap((name) => [`/odom/pose/pose/${name}`, `/mocap/pose/${name}`]), '/imu/angular_velocity/z'].join(','),
   ...CIRCLE_ROWS.flatMap(({ t, x, y, qz, qw }) => [
-    [EPOCH + t, ...[x, y, 0, 0, qz, qw].flatMap((value) => [value, '']), ''],
-    [EPOCH + t + 0.01, ...[x + 4, y, 0, 0, qz, qw].flatMap((value) => ['', value]), ''],
-    [EPOCH + t + 0.02, ...Array.from({ length: 12 }, () => ''), 0.5],
+    [EPOCH_SECONDS + t, ...[x, y, 0, 0, qz, qw].flatMap((value) => [value, '']), ''],
+    [EPOCH_SECONDS + t + 0.01, ...[x + 4, y, 0, 0, qz, qw].flatMap((value) => ['', value]), ''],
+    [EPOCH_SECONDS + t + 0.02, ...Array.from({ length: 12 }, () => ''), 0.5],
   ]).map((cells) => cells.join(',')),
 ].join('\n');
 
 /** Returns an export of Motive, with preamble, body and marker. @param {'Meters' | 'Millimeters'} unit @param {boolean} isYUp */
-function motiveTable(unit, isYUp) {
-  const scale = unit === 'Meters' ? 1 : 1000;
-  const repeatedCells = (/** @type {string} */ text, /** @type {number} */ count) => Array.from({ length: count }, () => text).join(',');
+function motiveTableOf(unit, isYUp) {
+  const unitsPerMetre = unit === 'Meters' ? 1 : 1000;
+  const repeatCell = (/** @type {string} */ text, /** @type {number} */ count) => Array.from({ length: count }, () => text).join(',');
   return [
     `Format Version,1.25,Take Name,drive,Take Notes,,Capture Frame Rate,16.000000,Export Frame Rate,16.000000,Capture Start Time,2024-06-10 06.13.20.000 AM,Total Frames in Take,60,Rotation Type,Quaternion,Length Units,${unit},Coordinate Space,Global`,
     '',
-    `,Type,${repeatedCells('Rigid Body', 8)},${repeatedCells('Rigid Body Marker', 3)}`,
-    `,Name,${repeatedCells('Robot', 8)},${repeatedCells('Robot:Marker1', 3)}`,
-    `,ID,${repeatedCells('6E6B', 11)}`,
-    `,,${repeatedCells('Rotation', 4)},${repeatedCells('Position', 3)},Mean Marker Error,${repeatedCells('Position', 3)}`,
+    `,Type,${repeatCell('Rigid Body', 8)},${repeatCell('Rigid Body Marker', 3)}`,
+    `,Name,${repeatCell('Robot', 8)},${repeatCell('Robot:Marker1', 3)}`,
+    `,ID,${repeatCell('6E6B', 11)}`,
+    `,,${repeatCell('Rotation', 4)},${repeatCell('Position', 3)},Mean Marker Error,${repeatCell('Position', 3)}`,
     'Frame,Time (Seconds),X,Y,Z,W,X,Y,Z,,X,Y,Z',
     ...CIRCLE_ROWS.map(({ i, t, x, y, qz, qw }) => {
       // Heading about Y turns Z towards X.
-      const bodyCells = isYUp ? [0, qz, 0, qw, y * scale, 0.1, x * scale] : [0, 0, qz, qw, x * scale, y * scale, 0.1];
+      const bodyCells = isYUp ? [0, qz, 0, qw, y * unitsPerMetre, 0.1, x * unitsPerMetre] : [0, 0, qz, qw, x * unitsPerMetre, y * unitsPerMetre, 0.1];
       return [i, t, ...bodyCells, 0.0001, 1, 2, 3].join(',');
     }),
   ].join('\r\n');
@@ -85,63 +85,63 @@ function motiveTable(unit, isYUp) {
 /** Lines of tables that pandas wrote, by tests/reference/logs/tables.py. */
 const PANDAS_TABLES = JSON.parse(readFileSync(new URL('../reference/logs/tables.json', import.meta.url), 'utf8'));
 
-const pandasTable = (/** @type {string} */ name) => `${PANDAS_TABLES[name].join('\n')}\n`;
+const pandasTableOf = (/** @type {string} */ name) => `${PANDAS_TABLES[name].join('\n')}\n`;
 
 /** @type {Case[]} */
 const READABLE_TABLES = [
-  { name: 'pandas: an index without a name', text: pandasTable('index') },
-  { name: 'pandas: dates of UTC', start: EPOCH, text: pandasTable('utc') },
-  { name: 'pandas: dates of Berlin', start: EPOCH, text: pandasTable('berlin') },
-  { name: 'pandas: dates without a zone', start: EPOCH, text: pandasTable('naive'), says: /UTC/ },
-  { name: 'pandas: durations', text: pandasTable('timedelta') },
-  { name: 'pandas: decimal commas in UTF-16', text: utf16Bytes(pandasTable('german')) },
-  { name: 'pandas: nanoseconds in quotes', start: EPOCH, text: pandasTable('nanoseconds') },
-  { name: 'pandas: a log of two that are merged', series: ['odom_', 'gt_'], choice: { series: 'odom_' }, text: pandasTable('merged') },
+  { name: 'pandas: an index without a name', text: pandasTableOf('index') },
+  { name: 'pandas: dates of UTC', start: EPOCH_SECONDS, text: pandasTableOf('utc') },
+  { name: 'pandas: dates of Berlin', start: EPOCH_SECONDS, text: pandasTableOf('berlin') },
+  { name: 'pandas: dates without a zone', start: EPOCH_SECONDS, text: pandasTableOf('naive'), says: /UTC/ },
+  { name: 'pandas: durations', text: pandasTableOf('timedelta') },
+  { name: 'pandas: decimal commas in UTF-16', text: utf16BytesOf(pandasTableOf('german')) },
+  { name: 'pandas: nanoseconds in quotes', start: EPOCH_SECONDS, text: pandasTableOf('nanoseconds') },
+  { name: 'pandas: a log of two that are merged', series: ['odom_', 'gt_'], choice: { series: 'odom_' }, text: pandasTableOf('merged') },
   { name: 'blanks after commas, quoted names, units', text: tableOf('"time [s]", "x [m]", "y [m]", "yaw [rad]"', ({ t, x, y, theta }) => [t, x, y, theta], ', ') },
   { name: 'tabs, columns in another order', text: tableOf('heading\ttimestamp\tx\ty', ({ t, x, y, theta }) => [theta, t, x, y], '\t') },
   { name: 'a separator in quotes', text: tableOf('note,t,x,y,yaw', ({ t, x, y, theta }) => ['"a, b"', t, x, y, theta]) },
-  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(decimalComma), ';').replaceAll('\n', '\r\n')}` },
-  { name: 'a spreadsheet in UTF-16', text: utf16Bytes(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(decimalComma), '\t')) },
-  { name: 'commas in quotes', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${decimalComma(value)}"`)) },
-  { name: 'times with exponents', start: EPOCH, text: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${nanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(decimalComma)], ';') },
-  { name: 'units in a row below the header', text: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta), 24.5]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
-  { name: 'quantities over their units', text: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
-  { name: 'bars, seconds and microseconds', start: EPOCH, text: tableOf('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
+  { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(withDecimalComma), ';').replaceAll('\n', '\r\n')}` },
+  { name: 'a spreadsheet in UTF-16', text: utf16BytesOf(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(withDecimalComma), '\t')) },
+  { name: 'commas in quotes', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${withDecimalComma(value)}"`)) },
+  { name: 'times with exponents', start: EPOCH_SECONDS, text: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${nanosecondText(t).slice(1)}E+18`, ...[x, y, theta].map(withDecimalComma)], ';') },
+  { name: 'units in a row below the header', text: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta), 24.5]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
+  { name: 'quantities over their units', text: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
+  { name: 'bars, seconds and microseconds', start: EPOCH_SECONDS, text: tableOf('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH_SECONDS + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
   { name: 'rows of two topics', series: ['/a', '/b'], choice: { series: '/b' }, text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9`, `/b,${t},${x},${y},${theta}`, `,${t},9,9,9`]).toSpliced(0, 0, 'topic,t,x,y,yaw').join('\n') },
   { name: 'rows of two robots, each with both logs', series: ['a/odom_', 'b/odom_', 'a/gt_', 'b/gt_'], choice: { series: 'b/gt_' }, text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`a,${t},8,8,8,9,9,9`, `b,${t},7,7,7,${x},${y},${theta}`]).toSpliced(0, 0, 'robot,t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw').join('\n') },
   { name: 'rows of two topics, each with columns of its own', series: ['a_', 'b_'], choice: { series: 'b_' }, text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`/a,${t},9,9,9,,,`, `/b,${t},,,,${x},${y},${theta}`]).toSpliced(0, 0, 'topic,t,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
   { name: 'two logs that are joined with NaN', series: ['a_', 'b_'], choice: { series: 'b_' }, says: /^24 of 24 rows/, text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`${t + 0.01},9,9,9,NaN,NaN,NaN`, `${t},NaN,NaN,NaN,${x},${y},${theta}`]).toSpliced(0, 0, 't,a_x,a_y,a_yaw,b_x,b_y,b_yaw').join('\n') },
   { name: 'numbers of laps and landmarks', text: tableOf('t,id,tag_id,x,y,yaw', ({ i, t, x, y, theta }) => [t, i >> 3, i >> 3, x, y, theta]) },
   { name: 'semicolons below a long preamble', text: `${'Parameter 1: value, 2\n'.repeat(80)}${tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [t, x, y, theta], ';')}` },
-  { name: 'names of MATLAB', text: tableOf('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, degrees(theta)]), says: /degrees/ },
+  { name: 'names of MATLAB', text: tableOf('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, toDegrees(theta)]), says: /degrees/ },
   { name: 'durations of MATLAB', text: tableOf('Time,x,y,yaw', ({ t, x, y, theta }) => [`00:00:${String(Math.floor(t)).padStart(2, '0')}.${String(t % 1).slice(2).padEnd(1, '0')}`, x, y, theta]) },
-  { name: 'millimetres, degrees and milliseconds by name', text: tableOf('t_ms,x [mm],y [mm],yaw (deg)', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, degrees(theta)]) },
-  { name: 'rostopic echo -p', start: EPOCH, text: rostopicTable(({ t }) => nanoseconds(t)) },
-  { name: 'rostopic echo -p with stamps of 0', start: EPOCH, text: rostopicTable(() => 0) },
-  { name: 'rostopic echo -p, commands', start: EPOCH, kind: 'commands', choice: { kind: 'commands' }, text: rostopicTable(({ t }) => nanoseconds(t)) },
-  { name: 'bagpy', start: EPOCH, text: bagpyTable('header.stamp.secs', 'header.stamp.nsecs') },
-  { name: 'stamp_sec, stamp_nsec', start: EPOCH, text: bagpyTable('stamp_sec', 'stamp_nsec') },
-  { name: 'seconds, nanoseconds', start: EPOCH, text: bagpyTable('seconds', 'nanoseconds [ns]') },
-  { name: 'ros2 topic echo --csv of odometry', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ...zeroList(36), row.v, 0, 0, 0, 0, row.omega, ...zeroList(36)]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'odom', 'base', ...poseOf(row), ABBREVIATED, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'map', ...poseOf(row), ABBREVIATED]).slice(1) },
-  { name: 'ros2 topic echo --csv of poses', start: EPOCH, text: tableOf('', (row) => [...splitTime(row.t), 'map', ...poseOf(row)]).slice(1) },
-  { name: 'ros2 topic echo --csv of commands', start: EPOCH, kind: 'commands', text: tableOf('', ({ t, v, omega }) => [...splitTime(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
-  { name: 'PlotJuggler, a topic of two', start: EPOCH, series: ['/odom', '/mocap', '/imu'], choice: { series: '/odom' }, text: plotjugglerTable },
+  { name: 'millimetres, degrees and milliseconds by name', text: tableOf('t_ms,x [mm],y [mm],yaw (deg)', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]) },
+  { name: 'rostopic echo -p', start: EPOCH_SECONDS, text: rostopicTableOf(({ t }) => nanosecondText(t)) },
+  { name: 'rostopic echo -p with stamps of 0', start: EPOCH_SECONDS, text: rostopicTableOf(() => 0) },
+  { name: 'rostopic echo -p, commands', start: EPOCH_SECONDS, kind: 'commands', choice: { kind: 'commands' }, text: rostopicTableOf(({ t }) => nanosecondText(t)) },
+  { name: 'bagpy', start: EPOCH_SECONDS, text: bagpyTableOf('header.stamp.secs', 'header.stamp.nsecs') },
+  { name: 'stamp_sec, stamp_nsec', start: EPOCH_SECONDS, text: bagpyTableOf('stamp_sec', 'stamp_nsec') },
+  { name: 'seconds, nanoseconds', start: EPOCH_SECONDS, text: bagpyTableOf('seconds', 'nanoseconds [ns]') },
+  { name: 'ros2 topic echo --csv of odometry', start: EPOCH_SECONDS, text: tableOf('', (row) => [...secondsAndNanoseconds(row.t), 'odom', 'base', ...poseCellsOf(row), ...zerosOf(36), row.v, 0, 0, 0, 0, row.omega, ...zerosOf(36)]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH_SECONDS, text: tableOf('', (row) => [...secondsAndNanoseconds(row.t), 'odom', 'base', ...poseCellsOf(row), ABBREVIATED_ARRAY, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED_ARRAY]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH_SECONDS, text: tableOf('', (row) => [...secondsAndNanoseconds(row.t), 'map', ...poseCellsOf(row), ABBREVIATED_ARRAY]).slice(1) },
+  { name: 'ros2 topic echo --csv of poses', start: EPOCH_SECONDS, text: tableOf('', (row) => [...secondsAndNanoseconds(row.t), 'map', ...poseCellsOf(row)]).slice(1) },
+  { name: 'ros2 topic echo --csv of commands', start: EPOCH_SECONDS, kind: 'commands', text: tableOf('', ({ t, v, omega }) => [...secondsAndNanoseconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
+  { name: 'PlotJuggler, a topic of two', start: EPOCH_SECONDS, series: ['/odom', '/mocap', '/imu'], choice: { series: '/odom' }, text: plotjugglerTable },
   { name: 'a prefix', series: ['gt_', 'odom_'], choice: { series: 'odom_' }, text: tableOf('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
   { name: 'a suffix', series: ['_gt', '_odom'], choice: { series: '_gt' }, text: tableOf('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
   { name: 'an own message before one that it contains', text: tableOf('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw', ({ t, x, y, theta }) => [t, 9, x, y, theta]), series: ['', 'object'] },
-  { name: 'Motive in metres, Y up', text: motiveTable('Meters', true), says: /Y is the vertical axis/ },
-  { name: 'Motive in millimetres, Z up', text: motiveTable('Millimeters', false), says: /Z is the vertical axis/ },
-  { name: 'TUM', start: EPOCH, text: tableOf('# timestamp tx ty tz qx qy qz qw', (row) => [EPOCH + row.t, ...poseOf(row)], ' ') },
-  { name: 'TUM without a header, tabs', text: tableOf('', (row) => [row.t, ...poseOf(row)], '\t').slice(1) },
-  { name: 'UTIAS', start: EPOCH, text: tableOf('# Ground truth\n# Time [s]    x [m]    y [m]    orientation [rad]', ({ t, x, y, theta }) => [EPOCH + t, x, y, theta], '    ') },
+  { name: 'Motive in metres, Y up', text: motiveTableOf('Meters', true), says: /Y is the vertical axis/ },
+  { name: 'Motive in millimetres, Z up', text: motiveTableOf('Millimeters', false), says: /Z is the vertical axis/ },
+  { name: 'TUM', start: EPOCH_SECONDS, text: tableOf('# timestamp tx ty tz qx qy qz qw', (row) => [EPOCH_SECONDS + row.t, ...poseCellsOf(row)], ' ') },
+  { name: 'TUM without a header, tabs', text: tableOf('', (row) => [row.t, ...poseCellsOf(row)], '\t').slice(1) },
+  { name: 'UTIAS', start: EPOCH_SECONDS, text: tableOf('# Ground truth\n# Time [s]    x [m]    y [m]    orientation [rad]', ({ t, x, y, theta }) => [EPOCH_SECONDS + t, x, y, theta], '    ') },
   { name: 'UTIAS, commands', kind: 'commands', text: tableOf('# Time [s]    forward velocity [m/s]    angular velocity[rad/s]', ({ t, v, omega }) => [t, v, omega], '\t') },
   { name: 'a commented header in another order', text: tableOf('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
-  { name: 'EuRoC', start: EPOCH, text: tableOf('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [nanoseconds(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
+  { name: 'EuRoC', start: EPOCH_SECONDS, text: tableOf('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [nanosecondText(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
   { name: 'CARMEN', text: CIRCLE_ROWS.flatMap(({ t, x, y, theta }) => [`FLASER 3 1.0 2.0 3.0 ${x} ${y} ${theta} 5 6 7 ${t} host ${t}`, `ODOM 5 6 7 0.5 0.1 0 ${t} host ${t}`]).join('\n'), series: ['ODOM', 'FLASER'], choice: { series: 'FLASER' } },
-  { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, text: tableOf('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, degrees(theta)]) },
-  { name: 'dates with a zone, in a column without a name', start: EPOCH, text: tableOf(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDate(t + 7200)}+02:00`, x, y, theta]) },
+  { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, text: tableOf('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, toDegrees(theta)]) },
+  { name: 'dates with a zone, in a column without a name', start: EPOCH_SECONDS, text: tableOf(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDateOf(t + 7200)}+02:00`, x, y, theta]) },
   { name: 'times in ms, by rate and speed', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), says: /time in ms \(by rate and speed\)/ },
 ];
 
@@ -152,12 +152,12 @@ for (const { name, text, kind = 'poses', start = 0, series = [''], choice, optio
     const [log] = await recording.read([{ series: '', ...choice }]);
     const { t, ...columns } = /** @type {any} */ (log.data);
     assert.equal(log.kind, kind);
-    const fields = /** @type {(keyof Row)[]} */ (kind === 'poses' ? ['x', 'y', 'theta'] : ['v', 'omega']);
+    const fieldNames = /** @type {(keyof Row)[]} */ (kind === 'poses' ? ['x', 'y', 'theta'] : ['v', 'omega']);
     assert.equal(t.length, CIRCLE_ROWS.length);
     for (const row of CIRCLE_ROWS) {
       assert.equal(log.start - start + t[row.i], row.t);
       // Other units and quaternions round values up to 1.25 in the last place.
-      for (const field of fields) assert.ok(Math.abs(columns[field][row.i] - row[field]) <= Number.EPSILON, `${field} ${columns[field][row.i]} ${row[field]}`);
+      for (const fieldName of fieldNames) assert.ok(Math.abs(columns[fieldName][row.i] - row[fieldName]) <= Number.EPSILON, `${fieldName} ${columns[fieldName][row.i]} ${row[fieldName]}`);
     }
     const sentences = summarySentences(log, english.found);
     if (says) assert.match(sentences.join('\n'), says);

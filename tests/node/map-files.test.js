@@ -3,8 +3,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { limits } from '../../www/settings.js';
-import { SIGNATURE, headerChunk, pngOf } from '../png.js';
-import { mapYaml, fileWith, simulationWithMap, refusalMessageOf } from './map-support.js';
+import { PNG_SIGNATURE, headerChunk, pngOf } from '../png.js';
+import { mapYamlFile, fileWith, simulationWithMap, refusalMessageOf } from './map-support.js';
 
 const PGM = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');
 
@@ -13,20 +13,20 @@ const MAX_REFUSAL_MS = 1000;
 
 /** Expects that a description is refused at once, for a reason. @param {string} yaml @param {string} reason */
 async function assertRefusedAtOnce(yaml, reason) {
-  const start = performance.now();
-  const sentence = await refusalMessageOf([fileWith('map.yaml', yaml), PGM]);
-  const duration = performance.now() - start;
-  assert.match(sentence, new RegExp(`^map\\.yaml, line \\d+: (${reason}); expected is one field a line, as in resolution: 0\\.05\\.$`));
-  assert.ok(duration < MAX_REFUSAL_MS, `${yaml.slice(0, 40)} took ${duration} ms`);
+  const startTime = performance.now();
+  const message = await refusalMessageOf([fileWith('map.yaml', yaml), PGM]);
+  const durationMs = performance.now() - startTime;
+  assert.match(message, new RegExp(`^map\\.yaml, line \\d+: (${reason}); expected is one field a line, as in resolution: 0\\.05\\.$`));
+  assert.ok(durationMs < MAX_REFUSAL_MS, `${yaml.slice(0, 40)} took ${durationMs} ms`);
 }
 
 test('a map that repeats or contains itself is refused at once', async () => {
-  const aliases = 'aliases exceeded maxAliases \\(0\\)';
-  await assertRefusedAtOnce('image: &a [*a]', aliases);
-  await assertRefusedAtOnce('image: &a map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nmode: *a', aliases);
+  const aliasError = 'aliases exceeded maxAliases \\(0\\)';
+  await assertRefusedAtOnce('image: &a [*a]', aliasError);
+  await assertRefusedAtOnce('image: &a map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nmode: *a', aliasError);
   for (const [levels, width] of [[9, 9], [7, 5], [30, 2]]) {
     const aliasLines = Array.from({ length: levels }, (_, i) => `k${i}: &a${i} [${Array(width).fill(i ? `*a${i - 1}` : 'x').join(', ')}]`);
-    await assertRefusedAtOnce(`${aliasLines.join('\n')}\nimage: *a${levels - 1}`, aliases);
+    await assertRefusedAtOnce(`${aliasLines.join('\n')}\nimage: *a${levels - 1}`, aliasError);
   }
 });
 
@@ -40,16 +40,16 @@ test('YAML features other than fields and values are refused at once', async () 
   await assertRefusedAtOnce('image: *a', 'unidentified alias "a"|aliases exceeded maxAliases \\(0\\)');
   // A long key, or one with the name of a property of objects, is ignored like other unknown fields.
   for (const key of ['x'.repeat(9e4), '__proto__', 'constructor', 'toString', '<<']) {
-    const { grid } = await simulationWithMap(mapYaml({ image: 'map.pgm', [key]: '{resolution: 9, image: [1]}' }), PGM);
+    const { grid } = await simulationWithMap(mapYamlFile({ image: 'map.pgm', [key]: '{resolution: 9, image: [1]}' }), PGM);
     assert.deepEqual([grid?.columns, grid?.rows, grid?.resolution], [2, 1, 0.05]);
   }
   assert.equal(Reflect.get({}, 'resolution'), undefined);
 });
 
 test('files that are not one map, or a plan that is not JSON, are refused with what is expected', async () => {
-  const yaml = mapYaml({ image: 'map.pgm' });
-  const plan = fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
-  for (const files of [[yaml, PGM, plan], [PGM], [yaml, PGM, fileWith('notes.txt', '')]]) {
+  const yamlFile = mapYamlFile({ image: 'map.pgm' });
+  const planFile = fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
+  for (const files of [[yamlFile, PGM, planFile], [PGM], [yamlFile, PGM, fileWith('notes.txt', '')]]) {
     const names = files.map(({ name }) => name).join(', ');
     assert.equal(await refusalMessageOf(files), `${names}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`);
   }
@@ -58,18 +58,18 @@ test('files that are not one map, or a plan that is not JSON, are refused with w
 
 test('a PNG image may have any extension', async () => {
   const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
-  const [pgmMap, pngMap] = await Promise.all([PGM, fileWith('map.pgm', png)].map((image) => simulationWithMap(mapYaml({ image: 'map.pgm' }), image)));
+  const [pgmMap, pngMap] = await Promise.all([PGM, fileWith('map.pgm', png)].map((image) => simulationWithMap(mapYamlFile({ image: 'map.pgm' }), image)));
   assert.deepEqual(pngMap.grid, pgmMap.grid);
 });
 
 test('a value of any kind or length is refused by a sentence that can be read', async () => {
   const longText = 'x'.repeat(9e4);
-  for (const value of [`"${longText}"`, `[${'[1], '.repeat(1e4)}]`, '{a: {b: [c]}}', 'null', 'true', '.nan', '1e999', '""']) {
-    for (const field of ['image', 'resolution', 'origin', 'negate', 'mode', 'occupied_thresh', 'free_thresh']) {
-      const sentence = await refusalMessageOf([mapYaml({ image: 'map.pgm', [field]: value }), PGM]);
-      const isAccepted = field === 'negate' && value === 'true';
-      assert.match(sentence, isAccepted ? /^$/ : new RegExp(`^map\\.yaml: ${field}(\\[0\\])? .+; (allowed|expected) (is|are) .+\\.$`), `${field}: ${value.slice(0, 30)}`);
-      assert.ok(sentence.length < 400, `${field}: ${value.slice(0, 30)}: ${sentence.length} characters`);
+  for (const yamlValue of [`"${longText}"`, `[${'[1], '.repeat(1e4)}]`, '{a: {b: [c]}}', 'null', 'true', '.nan', '1e999', '""']) {
+    for (const fieldName of ['image', 'resolution', 'origin', 'negate', 'mode', 'occupied_thresh', 'free_thresh']) {
+      const message = await refusalMessageOf([mapYamlFile({ image: 'map.pgm', [fieldName]: yamlValue }), PGM]);
+      const isAccepted = fieldName === 'negate' && yamlValue === 'true';
+      assert.match(message, isAccepted ? /^$/ : new RegExp(`^map\\.yaml: ${fieldName}(\\[0\\])? .+; (allowed|expected) (is|are) .+\\.$`), `${fieldName}: ${yamlValue.slice(0, 30)}`);
+      assert.ok(message.length < 400, `${fieldName}: ${yamlValue.slice(0, 30)}: ${message.length} characters`);
     }
   }
 });
@@ -79,15 +79,15 @@ test('the size of a file is checked before the file is read', async () => {
     const largeFile = fileWith(name, '');
     Object.defineProperty(largeFile, 'size', { value: maxBytes + 1 });
     largeFile.arrayBuffer = () => assert.fail(`${name} is read.`);
-    const files = name === 'map.pgm' ? [mapYaml({ image: name }), largeFile] : [largeFile];
+    const files = name === 'map.pgm' ? [mapYamlFile({ image: name }), largeFile] : [largeFile];
     assert.equal(await refusalMessageOf(files), `${name}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
   }
 });
 
 test('a damaged or too large PNG image is refused by a sentence', async () => {
   const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
-  const sentence = await refusalMessageOf([mapYaml(), fileWith('map.png', png.subarray(0, 50))]);
-  assert.match(sentence, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
-  const largeImage = Buffer.concat([SIGNATURE, headerChunk({ width: 100_000, height: 100_000 })]);
-  assert.equal(await refusalMessageOf([mapYaml(), fileWith('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
+  const message = await refusalMessageOf([mapYamlFile(), fileWith('map.png', png.subarray(0, 50))]);
+  assert.match(message, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
+  const headerOfLargeImage = Buffer.concat([PNG_SIGNATURE, headerChunk({ width: 100_000, height: 100_000 })]);
+  assert.equal(await refusalMessageOf([mapYamlFile(), fileWith('map.png', headerOfLargeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
 });

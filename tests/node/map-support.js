@@ -9,11 +9,11 @@ const motion = await load();
 
 const decodePng = async (/** @type {Uint8Array} */ bytes) => motion.readMapImage(bytes);
 
-/** @param {string} name @param {BlobPart} contents */
+/** Returns a file with these contents. @param {string} name @param {BlobPart} contents */
 export const fileWith = (name, contents) => new File([contents], name);
 
 /** Returns the YAML file that describes an image, with fields replaced or added. @param {Record<string, unknown>} [fields] */
-export function mapYaml(fields) {
+export function mapYamlFile(fields) {
   const allFields = { image: 'map.png', resolution: 0.05, origin: '[0, 0, 0]', ...fields };
   return fileWith('map.yaml', Object.entries(allFields).map(([key, value]) => `${key}: ${value}\n`).join(''));
 }

@@ -8,15 +8,16 @@ import { wallContact, wallGrips, wallsAfterMove } from '../../www/widgets/map-sq
 const BOUNDS = Float64Array.of(0, 0, 6, 4);
 const OUTER_WALLS = [0, 0, 6, 0, 6, 0, 6, 4, 6, 4, 0, 4, 0, 4, 0, 0];
 const WALLS = Float64Array.of(...OUTER_WALLS, 3, 0, 3, 1.5, 3, 2.5, 3, 4, 0, 1, 3, 1);
-const LOWER_WALL = OUTER_WALLS.length;
+/** Index in WALLS of the part of the wall below the doorway. */
+const LOWER_WALL_INDEX = OUTER_WALLS.length;
 
-/** @param {string} part @param {number} [wall] */
-const gripOf = (part, wall = LOWER_WALL) => wallGrips({ bounds: BOUNDS, walls: WALLS }).find((grip) => grip?.part === part && grip.wall === wall);
+/** Returns the grip of a part of a wall. @param {string} part @param {number} [wall] index in WALLS */
+const gripOf = (part, wall = LOWER_WALL_INDEX) => wallGrips({ bounds: BOUNDS, walls: WALLS }).find((grip) => grip?.part === part && grip.wall === wall);
 
 test('free ends and inner walls have grips, the shell and ends at other walls have none', () => {
   const grips = wallGrips({ bounds: BOUNDS, walls: WALLS });
   assert.equal(grips.length, (3 * WALLS.length) / 4);
-  const gripNames = grips.filter((grip) => grip !== undefined).map(({ part, wall }) => `${part} ${(wall - LOWER_WALL) / 4}`);
+  const gripNames = grips.filter((grip) => grip !== undefined).map(({ part, wall }) => `${part} ${(wall - LOWER_WALL_INDEX) / 4}`);
   assert.deepEqual(gripNames, ['to 0', 'side 0', 'from 1', 'side 1', 'side 2']);
 });
 
@@ -25,15 +26,15 @@ test('a jamb goes along its wall, up to the other jamb and down to a stub', () =
   assert.ok(grip);
   assert.deepEqual(grip.axis, [0, 1]);
   assert.deepEqual(grip.range.map((limit) => Number(limit.toFixed(9))), [-1.45, 0.95]);
-  assert.deepEqual([...wallsAfterMove(WALLS, grip, 0.5).subarray(LOWER_WALL, LOWER_WALL + 4)], [3, 0, 3, 2]);
+  assert.deepEqual([...wallsAfterMove(WALLS, grip, 0.5).subarray(LOWER_WALL_INDEX, LOWER_WALL_INDEX + 4)], [3, 0, 3, 2]);
 });
 
 test('a wall goes across, and the wall that ends at it follows', () => {
   const grip = gripOf('side');
   assert.ok(grip);
   const wallsAfter = wallsAfterMove(WALLS, grip, grip.axis[0] * 0.5);
-  assert.deepEqual([...wallsAfter.subarray(LOWER_WALL)], [3.5, 0, 3.5, 1.5, 3, 2.5, 3, 4, 0, 1, 3.5, 1]);
-  assert.deepEqual([...wallsAfter.subarray(0, LOWER_WALL)], OUTER_WALLS);
+  assert.deepEqual([...wallsAfter.subarray(LOWER_WALL_INDEX)], [3.5, 0, 3.5, 1.5, 3, 2.5, 3, 4, 0, 1, 3.5, 1]);
+  assert.deepEqual([...wallsAfter.subarray(0, LOWER_WALL_INDEX)], OUTER_WALLS);
 });
 
 test('the contact is at the wall that the robot touches first, none on a path that keeps clear', () => {

@@ -14,6 +14,8 @@ export function freshModule() {
 }
 
 /**
+ * Asserts that a value differs from the expected one by the tolerance at most.
+ *
  * @param {number} value
  * @param {number} expected
  * @param {number} tolerance

@@ -18,18 +18,18 @@ import { presets } from '../../www/settings.js';
  * @property {Record<string, { bounds: number[], configurations: Record<string, Configuration> }>} widgets
  */
 
-/** Bits that replace those of every NaN (not a number); tests/native/digest/encoding.rs tells why. */
-const NAN = 0x7ff8_0000_0000_0000n;
+/** Bits that replace those of every NaN (not a number). The reason is in tests/native/digest/encoding.rs. */
+const NAN_BITS = 0x7ff8_0000_0000_0000n;
 
-/** Results of the simulation of each widget, by parts. @type {Record<string, (motion: Motion, document: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
-export const widgets = {
-  'banana-machine'({ BananaMachine, commandReaching }, document, { preset, bounds = document.widgets['banana-machine'].bounds, settings }) {
+/** Functions that return the results of each widget's simulation, by parts. @type {Record<string, (motion: Motion, document: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
+export const resultFunctions = {
+  'banana-machine'({ BananaMachine, commandReaching }, configurations, { preset, bounds = configurations.widgets['banana-machine'].bounds, settings }) {
     const simulation = new BananaMachine({ ...commandOf(presets['banana-machine'], preset), ...settings });
     const { shown, config: { command } } = simulation;
     const [xMin, yMin, xMax, yMax] = bounds;
-    const { columns, rows } = document.picture;
+    const { columns, rows } = configurations.picture;
     const pictureOf = (/** @type {'plane' | 'twist'} */ view) =>
-      simulation.picture(view, xMin, yMin, xMax, yMax, columns, rows, ramps(1)).slice();
+      simulation.picture(view, xMin, yMin, xMax, yMax, columns, rows, createRamps(1)).slice();
     // The native digest has no error of the area ratio.
     const stats = { ...simulation.stats, areaRatioError: undefined };
     delete stats.areaRatioError;
@@ -42,7 +42,7 @@ export const widgets = {
       contours: simulation.contours,
       curve: simulation.skewCurve(-3, 3, 25),
       samples: {
-        inspected: everyOf(shown, 501).map((index) => ({ ...simulation.inspect(index), heading: simulation.heading(index) })),
+        inspected: everyNthIndex(shown, 501).map((index) => ({ ...simulation.inspect(index), heading: simulation.heading(index) })),
         nearest: VIEWS.map((view) => simulation.nearest(view, 0.9, 0.2, 0.5, 0.3)),
         reaching: [[1, 0.5], [-0.3, 0.8], [0, 0], [2, -1.5]].map(([x, y]) => commandReaching(x, y, command)),
       },
@@ -54,15 +54,15 @@ export const widgets = {
     return results;
   },
 
-  'map-squeeze'({ MapSqueeze }, document, { preset, map, bounds = document.widgets['map-squeeze'].bounds, settings }) {
+  'map-squeeze'({ MapSqueeze }, configurations, { preset, map, bounds = configurations.widgets['map-squeeze'].bounds, settings }) {
     const start = presets['map-squeeze'].find(({ name }) => name === preset)?.start;
     const simulation = new MapSqueeze({ start, ...settings });
-    const { plan, description, image } = map === undefined ? {} : document.maps[map];
+    const { plan, description, image } = map === undefined ? {} : configurations.maps[map];
     if (plan) simulation.setPlan(plan);
-    if (description) simulation.setGrid(description, new TextEncoder().encode(`${document.images[image].join('\n')}\n`));
+    if (description) simulation.setGrid(description, new TextEncoder().encode(`${configurations.images[image].join('\n')}\n`));
     const { shown, startFree, openPlace, noise, stats } = simulation;
     const [xMin, yMin, xMax, yMax] = bounds;
-    const { columns, rows } = document.picture;
+    const { columns, rows } = configurations.picture;
     const results = {
       map: { ...simulation.plan, grid: simulation.grid },
       poses: simulation.poses,
@@ -70,7 +70,7 @@ export const widgets = {
       statistics: { shown, startFree, openPlace, noise, stats },
       paths: {
         commanded: simulation.commanded,
-        driven: everyOf(shown, 101).map((index) => simulation.path(index)),
+        driven: everyNthIndex(shown, 101).map((index) => simulation.path(index)),
         nearest: simulation.nearest(2.1, 2.4, 0.5),
       },
       trials: SAMPLERS.map((sampler) => {
@@ -81,13 +81,13 @@ export const widgets = {
           return null;
         }
       }),
-      picture: simulation.picture(xMin, yMin, xMax, yMax, columns, rows, ramps(3)).slice(),
+      picture: simulation.picture(xMin, yMin, xMax, yMax, columns, rows, createRamps(3)).slice(),
     };
     simulation.free();
     return results;
   },
 
-  'arc-anatomy'({ ArcAnatomy }, document, { preset, bounds = document.widgets['arc-anatomy'].bounds, settings }) {
+  'arc-anatomy'({ ArcAnatomy }, configurations, { preset, bounds = configurations.widgets['arc-anatomy'].bounds, settings }) {
     const { v, omega, dt, nextX, nextY, nextTheta } = presets['arc-anatomy'].find(({ name }) => name === (preset ?? 'left')) ?? presets['arc-anatomy'][0];
     const simulation = new ArcAnatomy({ command: { v, omega, dt }, next: { x: nextX, y: nextY, theta: nextTheta }, ...settings });
     const [xMin, yMin, xMax, yMax] = bounds;
@@ -114,7 +114,7 @@ export const widgets = {
       ways: { commanded: simulation.commanded, nominal: simulation.nominal },
       poses: { poses: simulation.poses, twists: simulation.twists, first: simulation.posesAfter(1) },
       rollouts: {
-        driven: everyOf(shown, 501).map((index) => simulation.rollout(index)),
+        driven: everyNthIndex(shown, 501).map((index) => simulation.rollout(index)),
         nearest: simulation.nearest(config.command.v * config.command.dt * config.step, 0.1, 0.5),
       },
       outlines: simulation.outlines(config.step),
@@ -143,15 +143,15 @@ export const widgets = {
       leg: simulation.leg(5),
       nearest: simulation.nearest(0.5, 1, 3),
     };
-    // The poses at the beginnings of the legs make another log.
+    // The poses at the starts of the legs are the second log.
     const { count, times, odometry, reference } = legs;
-    const column = (/** @type {Float64Array} */ values, /** @type {number} */ size, /** @type {number} */ place) =>
-      Float64Array.from({ length: count }, (_, leg) => values[size * leg + place]);
-    const poses = (/** @type {Float64Array} */ ends) => ({ t: column(times, 2, 0), x: column(ends, 6, 0), y: column(ends, 6, 1), theta: column(ends, 6, 2) });
-    if (count > 1) simulation.setLog(poses(odometry), poses(reference));
-    const log = [simulation.fits, simulation.stats.alphas, simulation.stats.intervals];
+    const columnOf = (/** @type {Float64Array} */ array, /** @type {number} */ size, /** @type {number} */ offset) =>
+      Float64Array.from({ length: count }, (_, leg) => array[size * leg + offset]);
+    const posesOf = (/** @type {Float64Array} */ ends) => ({ t: columnOf(times, 2, 0), x: columnOf(ends, 6, 0), y: columnOf(ends, 6, 1), theta: columnOf(ends, 6, 2) });
+    if (count > 1) simulation.setLog(posesOf(odometry), posesOf(reference));
+    const resultsOfLog = [simulation.fits, simulation.stats.alphas, simulation.stats.intervals];
     simulation.free();
-    return { ...results, log };
+    return { ...results, log: resultsOfLog };
   },
 
   'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {
@@ -182,80 +182,84 @@ function commandOf(presets, presetName) {
   return { command: { v, omega, dt } };
 }
 
-/** @type {(count: number, step: number) => number[]} */
-const everyOf = (count, step) => Array.from({ length: Math.ceil(count / step) }, (_, i) => i * step);
+/** Returns the multiples of a step below a count. @type {(count: number, step: number) => number[]} */
+const everyNthIndex = (count, step) => Array.from({ length: Math.ceil(count / step) }, (_, i) => i * step);
 
 /** Returns colour ramps whose colours all differ, equal to those of configuration.rs. @param {number} count number of ramps */
-const ramps = (count) => Uint8Array.from({ length: 1024 * count }, (_, offset) => {
+const createRamps = (count) => Uint8Array.from({ length: 1024 * count }, (_, offset) => {
   const i = (offset >> 2) & 255;
   return [i, 255 - i, 85 * (offset >> 10), 255][offset & 3];
 });
 
-/** @param {any} value @returns {value is ArrayLike<unknown>} */
+/** Returns true for arrays of all kinds. @param {any} value @returns {value is ArrayLike<unknown>} */
 const isList = (value) => Array.isArray(value) || ArrayBuffer.isView(value);
 
 /**
+ * Appends a value to a list of numbers: a list as its length and items, a string as a list of its character codes, an object as its
+ * values in order, and null as NaN.
+ *
  * @param {Encodable} value
- * @param {number[]} numbers to which the value is appended: a list as its length and items, a string as a list of its character
- *   codes, an object as its values in order, and null as NaN
+ * @param {number[]} numbers
  */
-function encode(value, numbers) {
+function appendNumbers(value, numbers) {
   if (value === null) numbers.push(NaN);
   else if (typeof value === 'number' || typeof value === 'boolean') numbers.push(Number(value));
-  else if (typeof value === 'string') encode(Uint16Array.from(value, (_, i) => value.charCodeAt(i)), numbers);
+  else if (typeof value === 'string') appendNumbers(Uint16Array.from(value, (_, i) => value.charCodeAt(i)), numbers);
   else if (typeof value !== 'object') throw new TypeError(`${typeof value} cannot be encoded.`);
   else if (isList(value)) {
     numbers.push(value.length);
-    for (let i = 0; i < value.length; i++) encode(/** @type {any} */ (value)[i], numbers);
-  } else for (const item of Object.values(value)) encode(item, numbers);
+    for (let i = 0; i < value.length; i++) appendNumbers(/** @type {any} */ (value)[i], numbers);
+  } else for (const item of Object.values(value)) appendNumbers(item, numbers);
 }
 
 /** Returns a hash of every bit of a value. @param {Encodable} value */
 export async function hashOf(value) {
   /** @type {number[]} */
   const numbers = [];
-  encode(value, numbers);
-  const view = new DataView(new ArrayBuffer(8 * numbers.length));
+  appendNumbers(value, numbers);
+  const dataView = new DataView(new ArrayBuffer(8 * numbers.length));
   numbers.forEach((number, i) => {
-    if (Number.isNaN(number)) view.setBigUint64(8 * i, NAN, true);
-    else view.setFloat64(8 * i, number, true);
+    if (Number.isNaN(number)) dataView.setBigUint64(8 * i, NAN_BITS, true);
+    else dataView.setFloat64(8 * i, number, true);
   });
-  return hex(await crypto.subtle.digest('SHA-256', view)).slice(0, 16);
+  return hex(await crypto.subtle.digest('SHA-256', dataView)).slice(0, 16);
 }
 
-/** @param {ArrayBuffer} bytes */
+/** Returns bytes as hexadecimal digits. @param {ArrayBuffer} bytes */
 const hex = (bytes) => Array.from(new Uint8Array(bytes), (byte) => byte.toString(16).padStart(2, '0')).join('');
 
 /**
+ * Returns the text that golden.txt must have, or its lines on some widgets.
+ *
  * @param {Motion} motion
- * @param {Configurations} document
- * @param {string[]} [tags] of the widgets whose digests are wanted
- * @returns {Promise<string>} the text that golden.txt must have, or its lines on these widgets
+ * @param {Configurations} configurations
+ * @param {string[]} [tags] of these widgets
+ * @returns {Promise<string>}
  */
-export async function digest(motion, document, tags = Object.keys(document.widgets)) {
+export async function computeDigest(motion, configurations, tags = Object.keys(configurations.widgets)) {
   /** @type {string[]} */
   const lines = [];
   for (const widget of tags) {
-    for (const [name, configuration] of Object.entries(document.widgets[widget].configurations)) {
-      const parts = Object.entries(widgets[widget](motion, document, configuration));
-      const hashes = await Promise.all(parts.map(async ([part, value]) => ` ${part}:${await hashOf(value)}`));
-      lines.push(`${widget}/${name}${hashes.join('')}\n`);
+    for (const [name, configuration] of Object.entries(configurations.widgets[widget].configurations)) {
+      const resultParts = Object.entries(resultFunctions[widget](motion, configurations, configuration));
+      const partHashes = await Promise.all(resultParts.map(async ([part, value]) => ` ${part}:${await hashOf(value)}`));
+      lines.push(`${widget}/${name}${partHashes.join('')}\n`);
     }
   }
   return lines.sort().join('');
 }
 
 /** Returns a line for each configuration whose digest differs. @param {string} golden @param {string} computed */
-export function differences(golden, computed) {
+export function findDifferences(golden, computed) {
   const hashesByName = (/** @type {string} */ text) =>
     new Map(text.trimEnd().split('\n').map((line) => /** @type {[string, string[]]} */ ([line.split(' ')[0], line.split(' ').slice(1)])));
   const [expectedByName, computedByName] = [hashesByName(golden), hashesByName(computed)];
   const configurationNames = [...new Set([...expectedByName.keys(), ...computedByName.keys()])];
   return configurationNames.flatMap((name) => {
-    const [golden, computed] = [expectedByName.get(name), computedByName.get(name)];
-    if (golden === undefined) return [`${name} is not in golden.txt`];
-    if (computed === undefined) return [`${name} is gone`];
-    const changedParts = computed.filter((part) => !golden.includes(part)).map((part) => part.split(':')[0]);
-    return changedParts.length > 0 || golden.length !== computed.length ? [`${name}: ${changedParts.join(', ')}`] : [];
+    const [goldenHashes, computedHashes] = [expectedByName.get(name), computedByName.get(name)];
+    if (goldenHashes === undefined) return [`${name} is not in golden.txt`];
+    if (computedHashes === undefined) return [`${name} is gone`];
+    const changedParts = computedHashes.filter((part) => !goldenHashes.includes(part)).map((part) => part.split(':')[0]);
+    return changedParts.length > 0 || goldenHashes.length !== computedHashes.length ? [`${name}: ${changedParts.join(', ')}`] : [];
   });
 }

@@ -31,101 +31,105 @@ const PAGE_SIZE = { width: 1280, height: 800 };
 /** Time limit of a script in a page, ms. The digest of all simulations takes longest. */
 const SCRIPT_TIMEOUT = 240_000;
 
-const KEYS = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, ArrowUp: Key.ARROW_UP, ArrowDown: Key.ARROW_DOWN };
+const KEY_CODES = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, ArrowUp: Key.ARROW_UP, ArrowDown: Key.ARROW_DOWN };
 
-/** @returns {Promise<Engine>} */
-async function chromium() {
+/** Starts Chromium. @returns {Promise<Engine>} */
+async function startChromium() {
   const { chrome, driver } = await ensureBrowser();
-  const args = [...CHROME_ARGUMENTS, '--headless=new', '--force-prefers-reduced-motion'];
-  return engineWith(driver, {}, { browserName: 'chrome', 'goog:chromeOptions': { binary: chrome, args } });
+  const chromeArguments = [...CHROME_ARGUMENTS, '--headless=new', '--force-prefers-reduced-motion'];
+  return startEngine(driver, {}, { browserName: 'chrome', 'goog:chromeOptions': { binary: chrome, args: chromeArguments } });
 }
 
-/** @returns {Promise<Engine>} */
-async function firefox() {
+/** Starts Firefox. @returns {Promise<Engine>} */
+async function startFirefox() {
   const { firefox, driver } = await ensureFirefox();
   const prefs = { 'ui.prefersReducedMotion': 1 };
-  return engineWith(driver, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefox, args: ['-headless'], prefs } });
+  return startEngine(driver, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefox, args: ['-headless'], prefs } });
 }
 
-/** @returns {Promise<Engine>} */
-async function webkit() {
+/** Starts WebKit's MiniBrowser on a virtual screen. @returns {Promise<Engine>} */
+async function startWebKit() {
   const { driver, browser, display } = await ensureWebKit();
-  // Xvfb takes the first number that is free, and prints it when it is ready.
-  const screen = start(display, ['-displayfd', '1', '-screen', '0', '1600x1200x24', '-nolisten', 'tcp']);
-  const number = await screen.said(/^(\d+)\n/m);
-  const config = mkdtempSync(join(tmpdir(), 'motion-engines-'));
-  mkdirSync(join(config, 'gtk-3.0'));
-  writeFileSync(join(config, 'gtk-3.0/settings.ini'), '[Settings]\ngtk-enable-animations=false\n');
-  const env = { DISPLAY: `:${number}`, XDG_CONFIG_HOME: config };
+  // Xvfb takes the first free display number, and prints it when it is ready.
+  const screenProcess = start(display, ['-displayfd', '1', '-screen', '0', '1600x1200x24', '-nolisten', 'tcp']);
+  const displayNumber = await screenProcess.said(/^(\d+)\n/m);
+  const configDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
+  mkdirSync(join(configDirectory, 'gtk-3.0'));
+  writeFileSync(join(configDirectory, 'gtk-3.0/settings.ini'), '[Settings]\ngtk-enable-animations=false\n');
+  const env = { DISPLAY: `:${displayNumber}`, XDG_CONFIG_HOME: configDirectory };
   const capabilities = { browserName: 'MiniBrowser', 'webkitgtk:browserOptions': { binary: browser, args: ['--automation'] } };
-  return engineWith(driver, env, capabilities, async () => {
-    await screen.stop();
-    rmSync(config, { recursive: true });
+  return startEngine(driver, env, capabilities, async () => {
+    await screenProcess.stop();
+    rmSync(configDirectory, { recursive: true });
   });
 }
 
 /**
+ * Starts an engine by its driver.
+ *
  * @param {string} driver program that speaks WebDriver
  * @param {Record<string, string>} env
  * @param {object} capabilities
  * @param {() => Promise<unknown>} [end] called after the driver has ended
  * @returns {Promise<Engine>}
  */
-async function engineWith(driver, env, capabilities, end = async () => {}) {
-  const server = await program((port) => [driver, [`--port=${port}`], env], '/status')('', {
+async function startEngine(driver, env, capabilities, end = async () => {}) {
+  const driverServer = await program((port) => [driver, [`--port=${port}`], env], '/status')('', {
     start: (command, args) => start(command, args, { env }),
     run: () => Promise.reject(new Error('It runs nothing.')),
   });
-  const stop = async () => {
-    await server.stop();
+  const stopDriver = async () => {
+    await driverServer.stop();
     await end();
   };
   try {
-    return await inSession(server.url.replace('/status', ''), capabilities, stop);
+    return await openSession(driverServer.url.replace('/status', ''), capabilities, stopDriver);
   } catch (error) {
-    await stop();
+    await stopDriver();
     throw error;
   }
 }
 
 /**
+ * Opens a session of a running driver.
+ *
  * @param {string} url of the driver
  * @param {object} capabilities
  * @param {() => Promise<void>} stop
  * @returns {Promise<Engine>}
  */
-async function inSession(url, capabilities, stop) {
+async function openSession(url, capabilities, stop) {
   const session = await new Builder().usingServer(url).withCapabilities(new Capabilities(/** @type {any} */ (capabilities))).build();
   await session.manage().setTimeouts({ script: SCRIPT_TIMEOUT, pageLoad: SCRIPT_TIMEOUT });
   const window = session.manage().window();
   await window.setRect(PAGE_SIZE);
-  const [width, height] = /** @type {number[]} */ (await session.executeScript('return [innerWidth, innerHeight]'));
-  await window.setRect({ width: 2 * PAGE_SIZE.width - width, height: 2 * PAGE_SIZE.height - height });
+  const [innerWidth, innerHeight] = /** @type {number[]} */ (await session.executeScript('return [innerWidth, innerHeight]'));
+  await window.setRect({ width: 2 * PAGE_SIZE.width - innerWidth, height: 2 * PAGE_SIZE.height - innerHeight });
   return {
     version: (await session.getCapabilities()).get('browserVersion'),
     open: (url) => session.get(url),
     async ask(work, given) {
-      // Run by a script of the page: Firefox runs scripts of WebDriver in a sandbox, whose arrays are not of the page's type.
-      const run = `(async () => (${work})(${JSON.stringify(given) ?? 'undefined'}))().then((result) => [result], (error) => [null, \`\${error}\\n\${error.stack}\`])`;
-      const answer = await session.executeAsyncScript(
+      // A script of the page runs the function, because Firefox runs scripts of WebDriver in a sandbox, whose arrays are not of the page's type.
+      const script = `(async () => (${work})(${JSON.stringify(given) ?? 'undefined'}))().then((result) => [result], (error) => [null, \`\${error}\\n\${error.stack}\`])`;
+      const answerJson = await session.executeAsyncScript(
         `const [run, done] = arguments;
         const script = document.createElement('script');
         script.textContent = run;
         addEventListener('answer', () => done(script.dataset.answer), { once: true });
         document.head.append(script);`,
-        `{ const script = document.currentScript; ${run}.then((answer) => { script.dataset.answer = JSON.stringify(answer); script.remove(); dispatchEvent(new Event('answer')); }); }`,
+        `{ const script = document.currentScript; ${script}.then((answer) => { script.dataset.answer = JSON.stringify(answer); script.remove(); dispatchEvent(new Event('answer')); }); }`,
       );
-      const [result, error] = /** @type {[any, string?]} */ (JSON.parse(answer));
+      const [result, error] = /** @type {[any, string?]} */ (JSON.parse(answerJson));
       if (error) throw new Error(error);
       return result;
     },
     async drag([[x, y], ...points]) {
-      // One chain of actions: some drivers release the button between two chains. Each move takes longer than a frame.
-      const actions = session.actions({ async: false }).move({ x, y, duration: 0 }).press();
-      for (const [x, y] of points) actions.move({ x, y, duration: 40 });
-      await actions.release().perform();
+      // The drag is one chain of actions, because some drivers release the button between two. Each move takes longer than a frame.
+      const dragActions = session.actions({ async: false }).move({ x, y, duration: 0 }).press();
+      for (const [x, y] of points) dragActions.move({ x, y, duration: 40 });
+      await dragActions.release().perform();
     },
-    press: (key) => session.actions().sendKeys(KEYS[key]).perform(),
+    press: (key) => session.actions().sendKeys(KEY_CODES[key]).perform(),
     screenshot: async () => Buffer.from(await session.takeScreenshot(), 'base64'),
     async close() {
       await session.quit();
@@ -135,4 +139,4 @@ async function inSession(url, capabilities, stop) {
 }
 
 /** Functions that start the engines, by the names that the command line takes. @type {Record<string, () => Promise<Engine>>} */
-export const engineStarters = { chromium, firefox, webkit };
+export const engineStarters = { chromium: startChromium, firefox: startFirefox, webkit: startWebKit };

@@ -9,8 +9,8 @@ import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../www/settings.js';
-import { differences } from '../digest/digest.js';
-import { figures, simulationOf } from './figures.mjs';
+import { findDifferences } from '../digest/digest.js';
+import { figures, createSimulation } from './figures.mjs';
 import { simulationState } from './inside.js';
 
 /** @typedef {import('./browsers.mjs').Engine} Engine */
@@ -23,7 +23,7 @@ const MAX_COLOURS_OF_BLANK = 16;
 
 const readSource = (/** @type {string} */ path) => readFileSync(join(ROOT, path), 'utf8');
 
-/** A page in one engine; `ask` calls functions of inside.js in it. */
+/** Page in one engine. `ask` calls functions of inside.js in the page. */
 class Page {
   /**
    * @param {string} name
@@ -37,6 +37,8 @@ class Page {
   }
 
   /**
+   * Calls a function of inside.js in the page.
+   *
    * @template {keyof typeof import('./inside.js')} Name
    * @param {Name} name
    * @param {Parameters<typeof import('./inside.js')[Name]>[0]} [given]
@@ -49,7 +51,7 @@ class Page {
     );
   }
 
-  /** Loads the page anew. @param {string} [tag] of a figure to scroll to and wait for */
+  /** Loads the page again. @param {string} [tag] of a figure to scroll to and wait for */
   async open(tag) {
     await this.engine.open(this.address);
     if (tag !== undefined) await this.untilSettled(tag);
@@ -64,7 +66,7 @@ class Page {
   async untilSettled(tag) {
     const { stats, samples } = await this.ask('untilSettled', tag);
     assert.equal(stats, samples, `The statistics are of ${stats} samples.`);
-    for (const count of await this.ask('coloursOf', tag)) assert.ok(count > MAX_COLOURS_OF_BLANK, `A picture has ${count} colours.`);
+    for (const count of await this.ask('colourCountsOf', tag)) assert.ok(count > MAX_COLOURS_OF_BLANK, `A picture has ${count} colours.`);
   }
 
   /** Writes a screenshot to a file. @param {string} what part of the file name */
@@ -75,7 +77,7 @@ class Page {
   }
 
   /** Returns the new messages of the console. @returns {Promise<string[]>} */
-  async complaints() {
+  async takeComplaints() {
     const messages = await this.engine.ask(() => /** @type {string[]} */ (/** @type {any} */ (globalThis).complaints.splice(0)), null);
     return [...new Set(messages)];
   }
@@ -89,19 +91,19 @@ class Page {
  * @param {string} address
  * @returns {Promise<{ passed: number, failures: string[] }>}
  */
-export async function check(name, engine, address) {
+export async function runChecks(name, engine, address) {
   const page = new Page(name, engine, address);
   /** @type {string[]} */
   const failures = [];
-  let passed = 0;
-  const runCheck = async (/** @type {string} */ what, /** @type {() => Promise<unknown>} */ work) => {
+  let passedCount = 0;
+  const runCheck = async (/** @type {string} */ checkName, /** @type {() => Promise<unknown>} */ checkFunction) => {
     try {
-      await work();
-      assert.deepEqual(await page.complaints(), [], 'The console has something to say.');
-      passed++;
-      console.log(`ok     ${name}: ${what}`);
+      await checkFunction();
+      assert.deepEqual(await page.takeComplaints(), [], 'The console has something to say.');
+      passedCount++;
+      console.log(`ok     ${name}: ${checkName}`);
     } catch (error) {
-      failures.push(`${name}: ${what}: ${error instanceof Error ? error.message : error}`);
+      failures.push(`${name}: ${checkName}: ${error instanceof Error ? error.message : error}`);
       console.log(`FAILED ${failures.at(-1)}`);
       await page.keepScreenshot('failed').catch(() => {});
     }
@@ -117,13 +119,13 @@ export async function check(name, engine, address) {
     }
     await runCheck(`sliders of ${tag} follow the keyboard`, () => checkSliderKeys(page, tag));
   }
-  return { passed, failures };
+  return { passed: passedCount, failures };
 }
 
-/** @param {Page} page */
+/** Compares the digest of all configurations with golden.txt. @param {Page} page */
 async function checkDigest(page) {
   await page.open();
-  assert.deepEqual(differences(readSource('tests/digest/golden.txt'), await page.ask('wholeDigest')), []);
+  assert.deepEqual(findDifferences(readSource('tests/digest/golden.txt'), await page.ask('computeWholeDigest')), []);
 }
 
 /**
@@ -135,7 +137,7 @@ async function checkDigest(page) {
  */
 async function compareWithNode(page, tag) {
   const { config, hash } = await page.ask('stateOf', tag);
-  const simulation = await simulationOf(tag, config);
+  const simulation = await createSimulation(tag, config);
   assert.equal(hash, (await simulationState(simulation)).hash, `Node has other bits for ${JSON.stringify(config)}.`);
   return { simulation, hash };
 }
@@ -158,17 +160,17 @@ async function checkDragging(page, tag, { name, to, placeOf }) {
   await page.open(tag);
   const hashBefore = await page.ask('pictureHashOf', tag);
   const handlePlaces = await page.ask('placesOf', { tag, handle: name, to });
-  // Pointer positions are whole pixels. A handle that is grasped beside its middle keeps its offset from the pointer.
-  const from = [Math.round(handlePlaces.from.x), Math.round(handlePlaces.from.y)];
-  const vector = [handlePlaces.to.x - handlePlaces.from.x, handlePlaces.to.y - handlePlaces.from.y];
-  const pointAt = (/** @type {number} */ share) => /** @type {[number, number]} */ (from.map((coordinate, i) => Math.round(coordinate + share * vector[i])));
+  // Pointer positions are whole pixels. A handle that is grabbed beside its centre keeps its offset from the pointer.
+  const grabPoint = [Math.round(handlePlaces.from.x), Math.round(handlePlaces.from.y)];
+  const dragVector = [handlePlaces.to.x - handlePlaces.from.x, handlePlaces.to.y - handlePlaces.from.y];
+  const pointAt = (/** @type {number} */ share) => /** @type {[number, number]} */ (grabPoint.map((coordinate, i) => Math.round(coordinate + share * dragVector[i])));
   await page.engine.drag(Array.from({ length: DRAG_STEPS + 1 }, (_, i) => pointAt(i / DRAG_STEPS)));
   await page.untilSettled(tag);
   await page.keepScreenshot(`${tag}-${name}-dragged`);
   const { simulation } = await compareWithNode(page, tag);
   const [x, y] = placeOf(simulation, to);
-  const error = Math.hypot(x - to[0], y - to[1]) / handlePlaces.pixel;
-  assert.ok(error <= 1, `It is ${error.toFixed(2)} pixels beside where it was dragged.`);
+  const pixelError = Math.hypot(x - to[0], y - to[1]) / handlePlaces.pixel;
+  assert.ok(pixelError <= 1, `It is ${pixelError.toFixed(2)} pixels beside where it was dragged.`);
   assert.notEqual(await page.ask('pictureHashOf', tag), hashBefore, 'The picture is as it was.');
 }
 
@@ -186,19 +188,19 @@ async function checkHandleKeys(page, tag, { name }) {
 /** Moves each slider by keys, and compares its value. @type {(page: Page, tag: string) => Promise<void>} */
 async function checkSliderKeys(page, tag) {
   await page.open(tag);
-  await page.ask('renderSteps', tag);
-  const sliders = await page.ask('slidersOf', tag);
+  await page.ask('renderAfterInputs', tag);
+  const sliders = await page.ask('sliderStatesOf', tag);
   assert.ok(sliders.length >= 2, `${sliders.length} sliders are to be seen.`);
   for (const { key } of sliders) {
-    const sliderOf = async () => (await page.ask('slidersOf', tag)).find((slider) => slider.key === key);
-    const sliderBefore = await sliderOf();
+    const readSlider = async () => (await page.ask('sliderStatesOf', tag)).find((slider) => slider.key === key);
+    const sliderBefore = await readSlider();
     assert.ok(sliderBefore && (await page.ask('focus', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
     await page.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
     await page.untilSettled(tag);
-    const sliderAfter = await sliderOf();
-    const expected = Math.min(sliderBefore.shown + 2 * sliderBefore.step, sliderBefore.end) - sliderBefore.step;
-    assert.ok(sliderAfter && Math.abs(sliderAfter.shown - expected) < 1e-9, `The slider of ${key} was at ${sliderBefore.shown} and is at ${sliderAfter?.shown}.`);
-    assert.ok((sliderAfter.value - sliderBefore.value) * (expected - sliderBefore.shown) > 0, `${key} was ${sliderBefore.value} and is ${sliderAfter.value}.`);
+    const sliderAfter = await readSlider();
+    const expectedPosition = Math.min(sliderBefore.shown + 2 * sliderBefore.step, sliderBefore.end) - sliderBefore.step;
+    assert.ok(sliderAfter && Math.abs(sliderAfter.shown - expectedPosition) < 1e-9, `The slider of ${key} was at ${sliderBefore.shown} and is at ${sliderAfter?.shown}.`);
+    assert.ok((sliderAfter.value - sliderBefore.value) * (expectedPosition - sliderBefore.shown) > 0, `${key} was ${sliderBefore.value} and is ${sliderAfter.value}.`);
   }
   await compareWithNode(page, tag);
 }

@@ -46,7 +46,7 @@ export const figures = {
 };
 
 /** Returns the simulation of a figure, in Node. @param {string} tag @param {any} config @returns {Promise<any>} */
-export async function simulationOf(tag, config) {
+export async function createSimulation(tag, config) {
   const motion = /** @type {any} */ (await load());
   return new motion[tag.replace(/(^|-)(\w)/g, (_, _dash, letter) => letter.toUpperCase())](config);
 }

@@ -4,7 +4,7 @@
  * @module
  */
 
-import { digest, hashOf } from '../digest/digest.js';
+import { computeDigest, hashOf } from '../digest/digest.js';
 
 /**
  * @typedef {{ x: number, y: number }} Point
@@ -13,8 +13,8 @@ import { digest, hashOf } from '../digest/digest.js';
  */
 
 const figureOf = (/** @type {string} */ tag) => /** @type {Figure} */ (document.querySelector(tag));
-const rootOf = (/** @type {string} */ tag) => /** @type {ShadowRoot} */ (figureOf(tag).shadowRoot);
-const firstCanvasOf = (/** @type {string} */ tag) => /** @type {HTMLCanvasElement} */ (rootOf(tag).querySelector('canvas'));
+const shadowRootOf = (/** @type {string} */ tag) => /** @type {ShadowRoot} */ (figureOf(tag).shadowRoot);
+const firstCanvasOf = (/** @type {string} */ tag) => /** @type {HTMLCanvasElement} */ (shadowRootOf(tag).querySelector('canvas'));
 const nextFrame = () => new Promise(requestAnimationFrame);
 
 /** Number of frames without a change after which a figure counts as settled. */
@@ -27,31 +27,31 @@ const UNCHANGED_FRAMES = 10;
  * @returns {Promise<{ stats: number, samples: number }>} number of samples in the statistics, and number requested
  */
 export async function untilSettled(tag) {
-  const end = performance.now() + 60_000;
+  const deadline = performance.now() + 60_000;
   const figure = /** @type {any} */ (figureOf(tag));
   // A figure outside the viewport does not start.
   figure.scrollIntoView({ block: 'start' });
   while (!(figure.shadowRoot && firstCanvasOf(tag))) {
-    if (performance.now() > end) throw new Error(`<${tag}> has no picture.`);
+    if (performance.now() > deadline) throw new Error(`<${tag}> has no picture.`);
     await nextFrame();
   }
   firstCanvasOf(tag).scrollIntoView({ block: 'center' });
   // Statistics of some figures count attempts, and others have no samples.
-  const samples = figure.samples ?? 0;
-  const sampleCount = () => figure.stats?.n ?? figure.stats?.attempts ?? figure.stats?.drawn ?? 0;
-  while (sampleCount() !== samples && performance.now() < end) await nextFrame();
-  const layout = () => JSON.stringify([figure.pictures.map((/** @type {any} */ { view }) => view.extent), firstCanvasOf(tag).getBoundingClientRect()]);
-  let lastLayout = layout();
-  for (let unchangedFrames = 0; unchangedFrames < UNCHANGED_FRAMES && performance.now() < end; unchangedFrames++) {
+  const requestedCount = figure.samples ?? 0;
+  const countSamples = () => figure.stats?.n ?? figure.stats?.attempts ?? figure.stats?.drawn ?? 0;
+  while (countSamples() !== requestedCount && performance.now() < deadline) await nextFrame();
+  const readLayout = () => JSON.stringify([figure.pictures.map((/** @type {any} */ { view }) => view.extent), firstCanvasOf(tag).getBoundingClientRect()]);
+  let lastLayout = readLayout();
+  for (let unchangedFrames = 0; unchangedFrames < UNCHANGED_FRAMES && performance.now() < deadline; unchangedFrames++) {
     await nextFrame();
-    const currentLayout = layout();
+    const currentLayout = readLayout();
     if (currentLayout !== lastLayout) unchangedFrames = 0;
     lastLayout = currentLayout;
   }
-  return { stats: sampleCount(), samples };
+  return { stats: countSamples(), samples: requestedCount };
 }
 
-/** @param {string} tag */
+/** Returns the state of a figure. @param {string} tag */
 export const stateOf = (tag) => simulationState(figureOf(tag).simulation);
 
 /** Returns the state of a simulation of any widget. @param {any} simulation @returns {Promise<State>} */
@@ -69,7 +69,7 @@ export function placesOf({ tag, handle, to: [x, y] }) {
   const { view } = figureOf(tag).pictures[0];
   const { left, top, width } = firstCanvasOf(tag).getBoundingClientRect();
   const pixelsPerViewPixel = width / view.width;
-  const box = /** @type {Element} */ (rootOf(tag).querySelector(`.handle.${handle}`)).getBoundingClientRect();
+  const box = /** @type {Element} */ (shadowRootOf(tag).querySelector(`.handle.${handle}`)).getBoundingClientRect();
   return {
     from: { x: box.x + box.width / 2, y: box.y + box.height / 2 },
     to: { x: left + pixelsPerViewPixel * view.toPixelX(x), y: top + pixelsPerViewPixel * view.toPixelY(y) },
@@ -79,51 +79,51 @@ export function placesOf({ tag, handle, to: [x, y] }) {
 
 /** Focuses an element of a figure; returns true if it got the focus. @param {{ tag: string, selector: string }} given */
 export function focus({ tag, selector }) {
-  const part = /** @type {HTMLElement} */ (rootOf(tag).querySelector(selector));
-  part.focus();
-  return rootOf(tag).activeElement === part;
+  const target = /** @type {HTMLElement} */ (shadowRootOf(tag).querySelector(selector));
+  target.focus();
+  return shadowRootOf(tag).activeElement === target;
 }
 
 /** Makes a figure render between each input event and the next frame, as other events can at any time. @param {string} tag */
-export function renderSteps(tag) {
+export function renderAfterInputs(tag) {
   const figure = /** @type {any} */ (figureOf(tag));
   figure.addEventListener('input', () => figure.requestUpdate());
 }
 
-/** @param {string} tag @returns {Promise<string>} a hash of every pixel of the first picture */
-export const pictureHashOf = (tag) => hashOf(dataOf(firstCanvasOf(tag)));
+/** Returns a hash of every pixel of a figure's first picture. @param {string} tag @returns {Promise<string>} */
+export const pictureHashOf = (tag) => hashOf(pixelsOf(firstCanvasOf(tag)));
 
-/** @param {HTMLCanvasElement} canvas */
-function dataOf(canvas) {
+/** Returns the pixels of a canvas. @param {HTMLCanvasElement} canvas */
+function pixelsOf(canvas) {
   const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
   return context.getImageData(0, 0, canvas.width, canvas.height).data;
 }
 
 /** Returns the number of colours of each visible picture. @param {string} tag */
-export function coloursOf(tag) {
-  const canvases = [...rootOf(tag).querySelectorAll('canvas')].filter((canvas) => canvas.checkVisibility());
-  return canvases.map((canvas) => new Set(new Uint32Array(dataOf(canvas).buffer)).size);
+export function colourCountsOf(tag) {
+  const canvases = [...shadowRootOf(tag).querySelectorAll('canvas')].filter((canvas) => canvas.checkVisibility());
+  return canvases.map((canvas) => new Set(new Uint32Array(pixelsOf(canvas).buffer)).size);
 }
 
 /** Returns the visible sliders of a figure: value of the setting, position of the slider, its step and its end. @param {string} tag */
-export function slidersOf(tag) {
+export function sliderStatesOf(tag) {
   const figure = /** @type {any} */ (figureOf(tag));
-  return [...rootOf(tag).querySelectorAll('input[type=range]')]
+  return [...shadowRootOf(tag).querySelectorAll('input[type=range]')]
     .filter((slider) => slider.checkVisibility())
     .map((slider) => {
       const { id, value, step, max } = /** @type {HTMLInputElement} */ (slider);
-      const shown = Number(value);
+      const sliderPosition = Number(value);
       // The id of a slider in a chart is not the name of a setting.
-      const setting = { [id]: shown, ...figure.getState() }[id];
-      return { key: id, value: figure[id] ?? setting, shown, step: Number(step), end: Number(max) };
+      const settingValue = { [id]: sliderPosition, ...figure.getState() }[id];
+      return { key: id, value: figure[id] ?? settingValue, shown: sliderPosition, step: Number(step), end: Number(max) };
     });
 }
 
 /** Returns the digest of all configurations, by the published core. */
-export async function wholeDigest() {
-  const [{ load }, list] = await Promise.all([
+export async function computeWholeDigest() {
+  const [{ load }, response] = await Promise.all([
     import(new URL('/core.js', location.href).href),
     fetch('/tests/digest/configurations.json'),
   ]);
-  return digest(await load(), await list.json());
+  return computeDigest(await load(), await response.json());
 }

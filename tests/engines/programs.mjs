@@ -6,20 +6,20 @@ import { UserError, findProgram, isProgram, mustRun, printStep, run } from '../.
 import { CACHE_DIRECTORY, aptInstall, nativeRust } from '../../scripts/toolchain.mjs';
 
 const FIREFOX_NAMES = ['firefox-esr', 'firefox'];
-const FIREFOX_SENTENCE =
+const FIREFOX_MISSING_MESSAGE =
   'Firefox or its geckodriver is missing: install them (on Debian `sudo apt-get install firefox-esr`), or set FIREFOX to its path.';
-const WEBKIT_SENTENCE =
+const WEBKIT_MISSING_MESSAGE =
   'WebKit is missing, or what shows and drives it: on Debian and Ubuntu `sudo apt-get install webkit2gtk-driver xvfb`.';
 
 /** Directories in which distributions keep MiniBrowser, in a folder by architecture and version. */
 const LIBRARY_DIRECTORIES = ['/usr/lib', '/usr/libexec', '/usr/lib64'];
 
-/** @returns {Promise<{ firefox: string, driver: string }>} its programs */
+/** Returns the programs of Firefox. Installs them if they are missing. @returns {Promise<{ firefox: string, driver: string }>} */
 export async function ensureFirefox() {
-  const find = () => process.env.FIREFOX ?? FIREFOX_NAMES.map((name) => findProgram(name)).find((path) => path !== undefined);
-  if (find() === undefined) await aptInstall(['firefox-esr'], FIREFOX_SENTENCE);
-  const firefox = find();
-  if (firefox === undefined || !(await run(firefox, ['--version'], { quiet: true, seconds: 60 })).ok) throw new UserError(FIREFOX_SENTENCE);
+  const findFirefox = () => process.env.FIREFOX ?? FIREFOX_NAMES.map((name) => findProgram(name)).find((path) => path !== undefined);
+  if (findFirefox() === undefined) await aptInstall(['firefox-esr'], FIREFOX_MISSING_MESSAGE);
+  const firefox = findFirefox();
+  if (firefox === undefined || !(await run(firefox, ['--version'], { quiet: true, seconds: 60 })).ok) throw new UserError(FIREFOX_MISSING_MESSAGE);
   return { firefox, driver: await ensureGeckodriver() };
 }
 
@@ -27,39 +27,39 @@ export async function ensureFirefox() {
 async function ensureGeckodriver() {
   const { GECKOWEBDRIVER } = process.env;
   const bin = join(CACHE_DIRECTORY, 'geckodriver/bin');
-  const find = () => findProgram('geckodriver', [...(GECKOWEBDRIVER ? [GECKOWEBDRIVER] : []), bin]);
-  const present = find();
-  if (present !== undefined) return present;
-  const rust = await nativeRust();
+  const findGeckodriver = () => findProgram('geckodriver', [...(GECKOWEBDRIVER ? [GECKOWEBDRIVER] : []), bin]);
+  const presentDriver = findGeckodriver();
+  if (presentDriver !== undefined) return presentDriver;
+  const rustTools = await nativeRust();
   printStep('Compiling geckodriver, once');
-  const options = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE_DIRECTORY, 'geckodriver')];
-  await mustRun(FIREFOX_SENTENCE, join(rust.bin, 'cargo'), options, { env: rust.env, seconds: 1200 });
+  const cargoArguments = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE_DIRECTORY, 'geckodriver')];
+  await mustRun(FIREFOX_MISSING_MESSAGE, join(rustTools.bin, 'cargo'), cargoArguments, { env: rustTools.env, seconds: 1200 });
   return join(bin, 'geckodriver');
 }
 
-/** @typedef {{ driver: string, browser: string, display: string }} WebKit its programs; `display` is a virtual screen */
+/** @typedef {{ driver: string, browser: string, display: string }} WebKit programs of WebKit; `display` starts a virtual screen */
 
-/** @returns {Promise<WebKit>} */
+/** Returns the programs of WebKit. Installs them if they are missing. @returns {Promise<WebKit>} */
 export async function ensureWebKit() {
-  const present = findWebKit();
-  if (present !== undefined) return present;
-  await aptInstall(['webkit2gtk-driver', 'xvfb'], WEBKIT_SENTENCE);
-  const installed = findWebKit();
-  if (installed === undefined) throw new UserError(WEBKIT_SENTENCE);
-  return installed;
+  const presentPrograms = findWebKit();
+  if (presentPrograms !== undefined) return presentPrograms;
+  await aptInstall(['webkit2gtk-driver', 'xvfb'], WEBKIT_MISSING_MESSAGE);
+  const installedPrograms = findWebKit();
+  if (installedPrograms === undefined) throw new UserError(WEBKIT_MISSING_MESSAGE);
+  return installedPrograms;
 }
 
-/** @returns {WebKit | undefined} */
+/** Returns the programs of WebKit if all are found. @returns {WebKit | undefined} */
 function findWebKit() {
   const [driver, display, browser] = [findProgram('WebKitWebDriver'), findProgram('Xvfb'), findMiniBrowser()];
   return driver && display && browser ? { driver, display, browser } : undefined;
 }
 
-/** @returns {string | undefined} path of WebKit's MiniBrowser, in its newest version */
+/** Returns the path of WebKit's newest MiniBrowser. @returns {string | undefined} */
 function findMiniBrowser() {
-  const subdirectories = (/** @type {string} */ directory) =>
+  const subdirectoriesOf = (/** @type {string} */ directory) =>
     existsSync(directory) ? readdirSync(directory, { withFileTypes: true }).filter((entry) => entry.isDirectory()).map(({ name }) => join(directory, name)) : [];
-  const libraries = LIBRARY_DIRECTORIES.flatMap((directory) => [directory, ...subdirectories(directory).filter((path) => /-linux-gnu/.test(path))]);
-  const candidates = libraries.flatMap(subdirectories).filter((path) => /\/webkit(2gtk|gtk)-[\d.]+$/.test(path));
-  return candidates.sort().reverse().map((path) => join(path, 'MiniBrowser')).find(isProgram);
+  const libraryDirectories = LIBRARY_DIRECTORIES.flatMap((directory) => [directory, ...subdirectoriesOf(directory).filter((path) => /-linux-gnu/.test(path))]);
+  const webkitDirectories = libraryDirectories.flatMap(subdirectoriesOf).filter((path) => /\/webkit(2gtk|gtk)-[\d.]+$/.test(path));
+  return webkitDirectories.sort().reverse().map((path) => join(path, 'MiniBrowser')).find(isProgram);
 }

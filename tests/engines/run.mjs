@@ -37,7 +37,7 @@ async function serveSite() {
 }
 
 /** Opens a page in an engine, and returns what its checks found. @param {string} name @param {string} address */
-async function outcomeOf(name, address) {
+async function runChecksIn(name, address) {
   printStep(name);
   let version = 'none';
   try {
@@ -45,31 +45,31 @@ async function outcomeOf(name, address) {
     version = engine.version;
     try {
       // Imported only here, because checks.mjs imports dist/, which has to be built first.
-      const { check } = await import('./checks.mjs');
-      return { version, ...(await check(name, engine, address)) };
+      const { runChecks } = await import('./checks.mjs');
+      return { version, ...(await runChecks(name, engine, address)) };
     } finally {
       await engine.close();
     }
   } catch (error) {
-    const failure = error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error);
-    console.log(`FAILED ${name}: ${failure}`);
-    return { version, passed: 0, failures: [failure] };
+    const failureMessage = error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error);
+    console.log(`FAILED ${name}: ${failureMessage}`);
+    return { version, passed: 0, failures: [failureMessage] };
   }
 }
 
 /** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} engineNames */
-async function test(engineNames) {
-  const allNames = Object.keys(engineStarters);
-  const unknownName = engineNames.find((name) => !allNames.includes(name));
-  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allNames.join(', ')}.`);
+async function testEngines(engineNames) {
+  const allEngineNames = Object.keys(engineStarters);
+  const unknownName = engineNames.find((name) => !allEngineNames.includes(name));
+  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allEngineNames.join(', ')}.`);
   await build();
   const { address, stop } = await serveSite();
   const summaryLines = [];
-  let failed = 0;
+  let failureCount = 0;
   try {
-    for (const name of engineNames.length > 0 ? engineNames : allNames) {
-      const { version, passed, failures } = await outcomeOf(name, address);
-      failed += failures.length;
+    for (const name of engineNames.length > 0 ? engineNames : allEngineNames) {
+      const { version, passed, failures } = await runChecksIn(name, address);
+      failureCount += failures.length;
       summaryLines.push(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(10)} ${version.padEnd(16)} ${passed} passed, ${failures.length} failed`);
     }
   } finally {
@@ -77,9 +77,9 @@ async function test(engineNames) {
   }
   printStep(`Summary, by Node ${process.versions.node}`);
   console.log(summaryLines.join('\n'));
-  return failed === 0;
+  return failureCount === 0;
 }
 
 await runAsScript(import.meta.url, async () => {
-  if (!(await test(process.argv.slice(2)))) process.exitCode = 1;
+  if (!(await testEngines(process.argv.slice(2)))) process.exitCode = 1;
 });

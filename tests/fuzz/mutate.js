@@ -11,35 +11,35 @@ const TOKENS = [
   ...['yaw', 't_ns', 'stamp', 'qw', 'v', ';', '1e17', '1700000000.123456789', 'zstd', 'lz4', '/tf', 'cdr'],
 ].map((token) => Buffer.from(token));
 
-/** Small bytes, and those at the ends of ranges. */
-const BYTES = [0, 1, 2, 3, 4, 8, 16, 32, 127, 128, 255];
+/** Small bytes, and bytes at the limits of ranges. */
+const SPECIAL_BYTES = [0, 1, 2, 3, 4, 8, 16, 32, 127, 128, 255];
 
 /** Largest size of a mutation in bytes. */
-const MAX_SIZE = 4096;
+const MAX_MUTANT_BYTES = 4096;
 
 /** Returns a valid input of the corpus, changed in one to four places. @param {Uint8Array[]} corpus @param {() => number} random from 0 to 1 */
-export function mutantOf(corpus, random) {
+export function createMutant(corpus, random) {
   const randomBelow = (/** @type {number} */ count) => Math.floor(count * random());
   const randomItem = (/** @type {ArrayLike<any>} */ items) => items[randomBelow(items.length)];
   /** @type {Buffer<ArrayBuffer>} */
   let bytes = Buffer.from(randomItem(corpus));
   /** Replaces the bytes between two positions. @param {Uint8Array} middle */
   const replaceBytes = (middle, from = randomBelow(bytes.length + 1), to = from) => {
-    bytes = Buffer.concat([bytes.subarray(0, from), middle, bytes.subarray(to)]).subarray(0, MAX_SIZE);
+    bytes = Buffer.concat([bytes.subarray(0, from), middle, bytes.subarray(to)]).subarray(0, MAX_MUTANT_BYTES);
   };
-  for (let changes = 1 + randomBelow(4); changes > 0; changes--) {
-    const [from, to] = [randomBelow(bytes.length + 1), randomBelow(bytes.length + 1)].sort((a, b) => a - b);
+  for (let changesLeft = 1 + randomBelow(4); changesLeft > 0; changesLeft--) {
+    const [start, end] = [randomBelow(bytes.length + 1), randomBelow(bytes.length + 1)].sort((a, b) => a - b);
     const mutations = [
-      () => replaceBytes(Buffer.of(randomBelow(256)), from, from + 1),
-      () => replaceBytes(Buffer.of(randomItem(BYTES)), from, from + 1),
-      () => replaceBytes(Buffer.of((bytes[from] ?? 0) ^ (1 << randomBelow(8))), from, from + 1),
+      () => replaceBytes(Buffer.of(randomBelow(256)), start, start + 1),
+      () => replaceBytes(Buffer.of(randomItem(SPECIAL_BYTES)), start, start + 1),
+      () => replaceBytes(Buffer.of((bytes[start] ?? 0) ^ (1 << randomBelow(8))), start, start + 1),
       () => replaceBytes(randomItem(TOKENS)),
-      () => replaceBytes(randomItem(TOKENS), from, Math.min(to, from + 8)),
-      () => replaceBytes(Buffer.alloc(0), from, Math.min(to, from + 16)),
-      () => replaceBytes(bytes.subarray(from, to)),
-      () => replaceBytes(Buffer.concat(Array(1 + randomBelow(40)).fill(bytes.subarray(from, Math.min(to, from + 8))))),
-      () => replaceBytes(randomItem(corpus).subarray(from, to)),
-      () => (bytes = bytes.subarray(0, to)),
+      () => replaceBytes(randomItem(TOKENS), start, Math.min(end, start + 8)),
+      () => replaceBytes(Buffer.alloc(0), start, Math.min(end, start + 16)),
+      () => replaceBytes(bytes.subarray(start, end)),
+      () => replaceBytes(Buffer.concat(Array(1 + randomBelow(40)).fill(bytes.subarray(start, Math.min(end, start + 8))))),
+      () => replaceBytes(randomItem(corpus).subarray(start, end)),
+      () => (bytes = bytes.subarray(0, end)),
     ];
     randomItem(mutations)();
   }

@@ -38,60 +38,60 @@ const mapSqueeze = new motion.MapSqueeze({ samples: 1 });
  *
  * @type {{ attributes: ReturnType<typeof selectAttributes>, simulation: any, opening: any }[]}
  */
-const widgetSimulations = Object.entries(settings).map(([tag, declared]) => {
+const widgetSimulations = Object.entries(settings).map(([tag, declaredSettings]) => {
   const className = tag.replaceAll(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase());
-  const hasSamples = declared.some(({ key }) => key === 'samples');
+  const hasSamples = declaredSettings.some(({ key }) => key === 'samples');
   const simulation = { 'map-squeeze': mapSqueeze, 'alpha-calibrator': calibrator }[tag] ?? new (/** @type {any} */ (motion)[className])(hasSamples ? { samples: 1 } : {});
-  return { attributes: selectAttributes(propertiesOf(declared)), simulation, opening: simulation.config };
+  return { attributes: selectAttributes(propertiesOf(declaredSettings)), simulation, opening: simulation.config };
 });
 
 /** Maximum length of the message of a refusal, in which long quotations are shortened. */
-const MAX_LENGTH = 700;
+const MAX_MESSAGE_LENGTH = 700;
 
 /** Pattern of every message of a refusal: it says which values are allowed, or what to do. */
-const SENTENCE = /; (allowed|expected) (is|are) |; (add|choose|convert|copy|decompress|export|give|keep|name|open|split|state|unzip|write) /;
+const REFUSAL_PATTERN = /; (allowed|expected) (is|are) |; (add|choose|convert|copy|decompress|export|give|keep|name|open|split|state|unzip|write) /;
 
-/** Asserts that the message of a refusal is proper. @param {string} sentence */
-function assertSentence(sentence) {
-  assert.match(sentence, SENTENCE);
-  assert.ok(sentence.length <= MAX_LENGTH, `${sentence.length} characters: ${sentence}`);
+/** Asserts that the message of a refusal is proper. @param {string} message */
+function assertProperMessage(message) {
+  assert.match(message, REFUSAL_PATTERN);
+  assert.ok(message.length <= MAX_MESSAGE_LENGTH, `${message.length} characters: ${message}`);
 }
 
 /** Returns true if the files are accepted as a map. @param {File[]} files */
-async function filesAreTaken(...files) {
-  const sentence = await refusalMessageOf(files);
-  if (sentence === '') return true;
-  assert.ok(sentence.startsWith(files[0].name.replace(/\..*/, '')), sentence);
-  assertSentence(sentence);
+async function areFilesAccepted(...files) {
+  const message = await refusalMessageOf(files);
+  if (message === '') return true;
+  assert.ok(message.startsWith(files[0].name.replace(/\..*/, '')), message);
+  assertProperMessage(message);
   return false;
 }
 
 /** Returns true if the core accepts the value, and checks the message of a refusal. @param {() => void} give */
-function isTaken(give) {
+function isAccepted(give) {
   try {
     give();
     return true;
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
-    assertSentence(error.message);
+    assertProperMessage(error.message);
     return false;
   }
 }
 
 /** Returns true if a log is read. It must have finite numbers and rising times. @param {() => ReturnType<typeof readLog>} read */
-async function logIsRead(read) {
+async function isLogRead(read) {
   let log;
   try {
     log = await read();
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
     assert.ok(error.message.startsWith('run.'), error.message);
-    assertSentence(error.message);
+    assertProperMessage(error.message);
     return false;
   }
-  const { t, breaks, ...values } = log.data;
+  const { t, breaks, ...columns } = log.data;
   assert.ok(t.length > 1 && t.every((time, i) => Number.isFinite(time) && time > (t[i - 1] ?? -1)));
-  for (const column of Object.values(values)) assert.ok(column.length === t.length && column.every(Number.isFinite));
+  for (const column of Object.values(columns)) assert.ok(column.length === t.length && column.every(Number.isFinite));
   const { rows, dropped } = log.summary;
   assert.equal(Object.values(dropped).reduce((sum, { count }) => sum + count, t.length), rows);
   assert.ok(breaks.every((row, i) => row > (breaks[i - 1] ?? 0) && row < t.length));
@@ -99,7 +99,7 @@ async function logIsRead(read) {
 }
 
 /** Returns recordings of four topics in several forms: compressed or not, with an index and chunks or without. */
-async function recordings() {
+async function createRecordings() {
   const messages = Array.from({ length: 2 }, (_, i) => {
     const [t, stamp] = [1 + i / 8, stampOf(1 + i / 8)];
     const TF = 'tf2_msgs/msg/TFMessage';
@@ -110,25 +110,25 @@ async function recordings() {
       { topic: '/tf', type: TF, t, message: { transforms: [transformMessageOf(t, 'map', 'odom', i, 0, 0), transformMessageOf(t, 'odom', 'base', i, 0, 0)] } },
     ];
   }).flat();
-  const forms = /** @type {const} */ ([{ chunkSize: 4096 }, { compression: 'zstd' }, { compression: 'lz4' }, { index: false }, { index: false, chunks: true, compression: 'lz4' }]);
-  return Promise.all(forms.map(async (form) => withoutChecksums(await recordingOf(messages, { chunkSize: 1024, ...form }))));
+  const recordingOptions = /** @type {const} */ ([{ chunkSize: 4096 }, { compression: 'zstd' }, { compression: 'lz4' }, { index: false }, { index: false, chunks: true, compression: 'lz4' }]);
+  return Promise.all(recordingOptions.map(async (form) => clearChecksums(await recordingOf(messages, { chunkSize: 1024, ...form }))));
 }
 
-/** Clears the checksums of a recording, as readers would refuse any changed chunk because of them. @param {Buffer<ArrayBuffer>} bytes */
-function withoutChecksums(bytes) {
-  const [CHUNK, FOOTER] = [6, 2];
+/** Clears the checksums of a recording, with which readers would refuse any changed chunk. @param {Buffer<ArrayBuffer>} bytes */
+function clearChecksums(bytes) {
+  const [CHUNK_CODE, FOOTER_CODE] = [6, 2];
   for (let i = 8; i + 9 < bytes.length; i += 9 + Number(bytes.readBigUInt64LE(i + 1))) {
     // The checksum follows two times and a size in a chunk, and two positions in the footer.
-    const checksumOffset = { [CHUNK]: 24, [FOOTER]: 16 }[bytes[i]];
+    const checksumOffset = { [CHUNK_CODE]: 24, [FOOTER_CODE]: 16 }[bytes[i]];
     if (checksumOffset) bytes.writeUInt32LE(0, i + 9 + checksumOffset);
   }
   return bytes;
 }
 
-/** Recordings that other libraries wrote. @param {string[]} names */
-function fixtures(...names) {
-  const files = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
-  return names.map((name) => gunzipSync(Buffer.from(files[name], 'base64')));
+/** Reads recordings that other libraries wrote. @param {string[]} names */
+function readFixtures(...names) {
+  const compressedFiles = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
+  return names.map((name) => gunzipSync(Buffer.from(compressedFiles[name], 'base64')));
 }
 
 /** Topics and frames that are read from a recording. */
@@ -139,22 +139,22 @@ const FASTEST_DEFLATE = { level: 0, memLevel: 1 };
 
 const bytesOfTexts = (/** @type {string[]} */ ...texts) => texts.map((text) => Buffer.from(text));
 
-const YAMLS = bytesOfTexts(
+const MAP_YAMLS = bytesOfTexts(
   'image: map.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n',
   '# by hand\nimage: "maps/map.pgm"\nresolution: 5e-2\norigin:\n  - 1\n  - -2.5\n  - 1.57\nmode: scale\nnegate: false\n',
   '{image: map.pgm, resolution: .1, origin: [0, 0, 0], mode: raw, negate: true}',
   "? image\n: 'map.pgm'\nresolution: !!float 0.1\norigin: &o [0, 0, 0]\n",
 );
 
-const PLANS = bytesOfTexts(
+const FLOOR_PLANS = bytesOfTexts(
   '{"bounds": [0, 0, 6, 4], "walls": [[0, 0, 6, 0], [6, 0, 6, 4], [3, 0, 3, 1.5]]}',
   '{\n  "bounds": [-1e2, -3, 6, 4],\n  "walls": []\n}',
 );
 
 /** @type {Record<string, Target>} */
-export const targets = {
-  yaml: { corpus: YAMLS, run: (bytes) => filesAreTaken(fileWith('map.yaml', bytes), fileWith('map.pgm', 'P5 2 1 255\nab')) },
-  plan: { corpus: PLANS, run: (bytes) => filesAreTaken(fileWith('map.json', bytes)) },
+export const fuzzTargets = {
+  yaml: { corpus: MAP_YAMLS, run: (bytes) => areFilesAccepted(fileWith('map.yaml', bytes), fileWith('map.pgm', 'P5 2 1 255\nab')) },
+  plan: { corpus: FLOOR_PLANS, run: (bytes) => areFilesAccepted(fileWith('map.json', bytes)) },
   csv: {
     corpus: bytesOfTexts(
       't,x,y,yaw\n0.5,1,2,3\n0.75,1,2,-3\n1,nan,2,3\n1.25,1,2,3\n',
@@ -167,42 +167,42 @@ export const targets = {
       'ODOM 1 2 3 0.5 0.1 0 7 host 8\nODOM 1 2 3 0.5 0.1 0 8 host 8\nFLASER 2 1 1 1 2 3 1 2 3 7 host 8\n',
       'header.stamp.sec,header.stamp.nanosec,pose.pose.position.x,pose.pose.position.y,pose.pose.orientation.z,pose.pose.orientation.w\n7,5,1,2,0,1\n7,9,1,2,1,0\n',
     ),
-    run: (bytes) => logIsRead(() => readLog(new File([bytes], 'run.csv'), { kind: bytes[0] % 8 === 1 ? 'commands' : undefined })),
+    run: (bytes) => isLogRead(() => readLog(new File([bytes], 'run.csv'), { kind: bytes[0] % 8 === 1 ? 'commands' : undefined })),
   },
-  ...Object.fromEntries([['mcap', await recordings()], ['rosbag', fixtures('small.bag')], ['sqlite', fixtures('small.db3')]].map(([name, corpus]) => [name, {
+  ...Object.fromEntries([['mcap', await createRecordings()], ['rosbag', readFixtures('small.bag')], ['sqlite', readFixtures('small.db3')]].map(([name, corpus]) => [name, {
     corpus,
     async run(/** @type {Buffer<ArrayBuffer>} */ bytes) {
-      const source = new File([bytes], 'run.mcap');
+      const recordingFile = new File([bytes], 'run.mcap');
       const { length } = TOPIC_CHOICES;
       const byteSum = bytes.reduce((sum, byte) => sum + byte, 0);
-      const isRead = await logIsRead(() => readLog(source, TOPIC_CHOICES[byteSum % length]));
+      const isRead = await isLogRead(() => readLog(recordingFile, TOPIC_CHOICES[byteSum % length]));
       // One input in four is also asked for its list of topics.
       if (Math.floor(byteSum / length) % 4) return isRead;
       try {
-        for (const { name, count } of (await openRecordings([source]))[0].series) assert.ok(typeof name === 'string' && count >= 0);
+        for (const { name, count } of (await openRecordings([recordingFile]))[0].series) assert.ok(typeof name === 'string' && count >= 0);
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
-        assertSentence(error.message);
+        assertProperMessage(error.message);
       }
       return isRead;
     },
   }])),
   link: {
-    corpus: [...bytesOfTexts(...(await Promise.all(states().map(packJson)))), ...bytesOfTexts(...states().map((state) => JSON.stringify(state)))],
+    corpus: [...bytesOfTexts(...(await Promise.all(createStates().map(packJson)))), ...bytesOfTexts(...createStates().map((state) => JSON.stringify(state)))],
     async run(bytes) {
-      const text = bytes.length % 2 ? deflateRawSync(bytes, FASTEST_DEFLATE).toString('base64url') : bytes.toString('latin1');
+      const packedText = bytes.length % 2 ? deflateRawSync(bytes, FASTEST_DEFLATE).toString('base64url') : bytes.toString('latin1');
       try {
-        await unpack(text);
+        await unpack(packedText);
         return true;
       } catch (error) {
         assert.ok(error instanceof RangeError);
-        assertSentence(error.message);
+        assertProperMessage(error.message);
         return false;
       }
     },
   },
   state: {
-    corpus: states().map((state) => Buffer.from(JSON.stringify(state))),
+    corpus: createStates().map((state) => Buffer.from(JSON.stringify(state))),
     async run(bytes) {
       let state;
       try {
@@ -214,22 +214,22 @@ export const targets = {
       // The element itself checks this field.
       delete fields.widget;
       const mapBefore = mapOf(mapSqueeze, '');
-      const isMapTaken = map === null || isTaken(() => applyMap(mapSqueeze, map));
-      if (!isMapTaken) assert.deepEqual(mapOf(mapSqueeze, ''), mapBefore);
-      const isConfigured = isTaken(() => mapSqueeze.configure(fields));
+      const isMapAccepted = map === null || isAccepted(() => applyMap(mapSqueeze, map));
+      if (!isMapAccepted) assert.deepEqual(mapOf(mapSqueeze, ''), mapBefore);
+      const isConfigured = isAccepted(() => mapSqueeze.configure(fields));
       mapSqueeze.configure(widgetSimulations[1].opening);
-      return isMapTaken && isConfigured;
+      return isMapAccepted && isConfigured;
     },
   },
   attributes: {
     corpus: bytesOfTexts('v=1', 'omega=-0.5', 'alpha1=1e-3', 'conditioned=false', 'conditioned=', 'sampler=whole-arc', 'samples=10', 'seed=7', 'x=2.05', 'noise=0.12', 'model=odometry', 'alpha6=0', 'nextY=-0.5', 'rule=nav2', 'phase=1.5', 'steps=40', 'per=path', 'map=density', 'startTheta=1'),
     async run(bytes) {
-      const [name, ...values] = bytes.toString().split('=');
+      const [attributeName, ...valueParts] = bytes.toString().split('=');
       const { attributes, simulation, opening } = widgetSimulations[bytes.length % widgetSimulations.length];
-      const attribute = Object.hasOwn(attributes, name) ? attributes[name] : Object.values(attributes)[bytes.length % 9];
+      const attribute = Object.hasOwn(attributes, attributeName) ? attributes[attributeName] : Object.values(attributes)[bytes.length % 9];
       // Millions of samples would take too much memory.
-      if (/^(samples|steps)$/.test(name) && Number(values.join('=')) > 1e5) return false;
-      if (!isTaken(() => simulation.configure(attribute.change(attribute.converter.parse(values.join('=')), simulation.config)))) return false;
+      if (/^(samples|steps)$/.test(attributeName) && Number(valueParts.join('=')) > 1e5) return false;
+      if (!isAccepted(() => simulation.configure(attribute.change(attribute.converter.parse(valueParts.join('=')), simulation.config)))) return false;
       assert.equal(typeof attribute.converter.print(attribute.get(simulation.config)), 'string');
       simulation.configure(opening);
       return true;
@@ -243,7 +243,7 @@ function mapOf(simulation, name) {
 }
 
 /** Returns states of Map Squeeze as links contain them. */
-function states() {
+function createStates() {
   const simulation = new motion.MapSqueeze({ samples: 1 });
   const { config } = simulation;
   const plan = { name: 'room.json', bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] };

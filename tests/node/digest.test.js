@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { presets, settings } from '../../www/settings.js';
-import { differences, digest, widgets } from '../digest/digest.js';
+import { findDifferences, computeDigest, resultFunctions } from '../digest/digest.js';
 import { freshModule } from './support.js';
 
 const readText = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
@@ -26,16 +26,16 @@ const simulationClasses = new Map(
 const goldenDigest = readText('tests/digest/golden.txt');
 
 test('a seed gives the bits that it gave', async () => {
-  const computedDigest = await digest(motion, configurationList);
+  const computedDigest = await computeDigest(motion, configurationList);
   if (process.env.UPDATE_DIGEST) writeFileSync(new URL('../digest/golden.txt', import.meta.url), computedDigest);
-  else assert.deepEqual(differences(goldenDigest, computedDigest), []);
+  else assert.deepEqual(findDifferences(goldenDigest, computedDigest), []);
 });
 
 test('every widget and every class of the core has configurations, and every function is asked', () => {
   const listedTags = [...readText('www/widgets/index.ts').matchAll(/^import '\.\/([\w-]+)\//gm)].map(([, tag]) => tag);
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), listedTags.sort(), 'www/widgets/index.ts');
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...simulationClasses.keys()].sort(), 'core.js');
-  assert.deepEqual(Object.keys(widgets).sort(), listedTags, 'digest.js');
+  assert.deepEqual(Object.keys(resultFunctions).sort(), listedTags, 'digest.js');
   const functionNames = Object.keys(motion).filter((name) => !('free' in (motion[name].prototype ?? {})) && !MEMBERS_TESTED_ELSEWHERE.has(name) && !EXCLUDED_EXPORTS.has(name));
   for (const name of functionNames) assert.match(readText('tests/digest/digest.js'), new RegExp(`\\b${name}\\(`));
   const configurationCount = Object.values(configurationList.widgets).reduce((sum, { configurations }) => sum + Object.keys(configurations).length, 0);
@@ -62,7 +62,7 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
   });
 
   test(`all that a simulation of ${tag} tells is in its digest`, () => {
-    const functionText = widgets[tag].toString();
+    const functionText = resultFunctions[tag].toString();
     const memberNames = Object.getOwnPropertyNames(simulationClasses.get(tag).prototype);
     const missingNames = memberNames.filter((name) => !MEMBERS_TESTED_ELSEWHERE.has(name) && !new RegExp(`\\b${name}\\b`).test(functionText));
     assert.deepEqual(missingNames, [], `ask for them in digest.js and in tests/digest/`);
@@ -72,7 +72,7 @@ for (const [tag, { configurations }] of Object.entries(configurationList.widgets
 test('every map is used, and what differs is named', () => {
   const usedMapNames = new Set(Object.values(configurationList.widgets['map-squeeze'].configurations).map(({ map }) => map));
   for (const map of Object.keys(configurationList.maps)) assert.ok(usedMapNames.has(map), map);
-  assert.deepEqual(differences('a/b poses:1 table:2\na/c poses:3\n', 'a/b poses:1 table:9\na/d poses:3\n'), [
+  assert.deepEqual(findDifferences('a/b poses:1 table:2\na/c poses:3\n', 'a/b poses:1 table:9\na/d poses:3\n'), [
     'a/b: table',
     'a/c is gone',
     'a/d is not in golden.txt',

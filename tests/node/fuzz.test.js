@@ -6,8 +6,8 @@ import { Buffer } from 'node:buffer';
 import { existsSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { setImmediate as yieldToEventLoop } from 'node:timers/promises';
-import { mutantOf } from '../fuzz/mutate.js';
-import { targets } from '../fuzz/targets.js';
+import { createMutant } from '../fuzz/mutate.js';
+import { fuzzTargets } from '../fuzz/targets.js';
 import { randomGenerator } from '../random.js';
 
 /** Number of mutations for each target. The nightly job sets a larger number and another seed. */
@@ -27,7 +27,7 @@ function readFoundInputs(target) {
   return lines.map((line) => Buffer.from(line, 'hex'));
 }
 
-for (const [name, { corpus, run }] of Object.entries(targets)) {
+for (const [name, { corpus, run }] of Object.entries(fuzzTargets)) {
   test(`${name}: every input gives a result or a sentence`, async () => {
     const random = randomGenerator(SEED);
     const allInputs = [...corpus, ...readFoundInputs(name)];
@@ -48,7 +48,7 @@ for (const [name, { corpus, run }] of Object.entries(targets)) {
     let acceptedCount = 0;
     for (let i = 0; i < INPUT_COUNT; i++) {
       // Inputs that fuzzing found are mostly refused. Half of the mutations therefore start from valid inputs.
-      if (await checkInput(mutantOf(random() < 0.5 ? corpus : allInputs, random))) acceptedCount += 1;
+      if (await checkInput(createMutant(random() < 0.5 ? corpus : allInputs, random))) acceptedCount += 1;
       if (i % INPUTS_PER_TURN === 0) await yieldToEventLoop();
     }
     assert.ok(acceptedCount > 0 && acceptedCount < INPUT_COUNT, `${acceptedCount} of ${INPUT_COUNT} are accepted`);

@@ -12,69 +12,69 @@ import { ROOT } from '../../scripts/process.mjs';
 /** @typedef {{ name: string, definition: import('./project.mjs').Engine, serving: import('./project.mjs').Serving, url: string }} Site */
 
 /** Time limit in milliseconds; it is long because a development server compiles a page at the first request. */
-const TIMEOUT = 90_000;
+const TIMEOUT_MS = 90_000;
 
 /** Runs the checks of a site. @param {import('@playwright/test').Browser} browser @param {Site} site */
-export async function check(browser, site) {
+export async function runChecks(browser, site) {
   const { definition, serving } = site;
   /** @type {string[]} */
-  const messages = [];
+  const consoleMessages = [];
   /** @type {string[]} */
   const failures = [];
-  let passed = 0;
-  for (const [name, work] of Object.entries(serving.checks ?? checksOf(site))) {
+  let passedCount = 0;
+  for (const [checkName, checkFunction] of Object.entries(serving.checks ?? checksOf(site))) {
     const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: 'light' });
     const page = await context.newPage();
-    page.setDefaultTimeout(TIMEOUT);
-    listen(page, messages);
+    page.setDefaultTimeout(TIMEOUT_MS);
+    recordMessages(page, consoleMessages);
     try {
-      await work(page, site);
-      passed++;
+      await checkFunction(page, site);
+      passedCount++;
     } catch (error) {
-      failures.push(`${name}: ${error instanceof Error ? error.message : error}`);
+      failures.push(`${checkName}: ${error instanceof Error ? error.message : error}`);
     }
-    await page.screenshot({ path: join(ROOT, `test-results/embeddings/${[site.name, serving.name, name].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
+    await page.screenshot({ path: join(ROOT, `test-results/embeddings/${[site.name, serving.name, checkName].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
     await context.close();
   }
-  const unexplained = [...new Set(messages)].filter((message) => !definition.allowed?.some((allowedMessage) => allowedMessage.message.test(message)));
-  if (unexplained.length > 0) failures.push(`console: ${unexplained.join('\n')}`);
-  else passed++;
-  return { passed, failures };
+  const unexpectedMessages = [...new Set(consoleMessages)].filter((message) => !definition.allowed?.some((allowedMessage) => allowedMessage.message.test(message)));
+  if (unexpectedMessages.length > 0) failures.push(`console: ${unexpectedMessages.join('\n')}`);
+  else passedCount++;
+  return { passed: passedCount, failures };
 }
 
-/** @param {Site} site @returns {NonNullable<import('./project.mjs').Serving['checks']>} */
+/** Returns the checks of a site, by name. @param {Site} site @returns {NonNullable<import('./project.mjs').Serving['checks']>} */
 function checksOf({ definition, serving }) {
   const { go, pages } = definition;
   return {
-    'first load': firstLoad,
-    ...(go && { 'away and back': awayAndBack }),
-    ...(go && pages.second && { 'from a page without figures': comeFromOtherPage }),
-    ...((serving.dark ?? definition.dark) && { 'dark mode': darkMode }),
+    'first load': checkFirstLoad,
+    ...(go && { 'away and back': checkAwayAndBack }),
+    ...(go && pages.second && { 'from a page without figures': checkFromOtherPage }),
+    ...((serving.dark ?? definition.dark) && { 'dark mode': checkDarkMode }),
   };
 }
 
 /** Collects errors and warnings of the console and failed requests of a page. @param {Page} page @param {string[]} messages */
-function listen(page, messages) {
+function recordMessages(page, messages) {
   page.on('console', (message) => {
-    // The events requestfailed and response tell the addresses of failed requests.
+    // The events requestfailed and response have the addresses of failed requests.
     if (/^Failed to load resource/.test(message.text())) return;
     if (['error', 'warning', 'assert'].includes(message.type())) messages.push(message.text());
   });
   page.on('pageerror', (error) => messages.push(String(error)));
   page.on('requestfailed', (request) => {
-    const reason = request.failure()?.errorText;
-    // The page was left during the request.
-    if (reason !== 'net::ERR_ABORTED') messages.push(`${request.url()} ${reason}`);
+    const failureReason = request.failure()?.errorText;
+    // An aborted request means that the page was left.
+    if (failureReason !== 'net::ERR_ABORTED') messages.push(`${request.url()} ${failureReason}`);
   });
   page.on('response', (response) => {
     // Browsers request the icon on their own.
-    const icon = new URL(response.url()).pathname === '/favicon.ico';
-    if (response.status() >= 400 && !icon) messages.push(`${response.url()} ${response.status()}`);
+    const isIcon = new URL(response.url()).pathname === '/favicon.ico';
+    if (response.status() >= 400 && !isIcon) messages.push(`${response.url()} ${response.status()}`);
   });
 }
 
 /** Returns the address of a page. @param {Site} site @param {string} path */
-const address = ({ url }, path) => new URL(path.replace(/^\//, ''), url).href;
+const addressOf = ({ url }, path) => new URL(path.replace(/^\//, ''), url).href;
 
 /** Waits until every figure has drawn its present settings. @param {Page} page @param {Site} site */
 export async function untilLive(page, { definition }) {
@@ -97,8 +97,8 @@ export async function untilLive(page, { definition }) {
  * @param {string[]} names
  */
 function propertiesOf(element, names) {
-  const plainValue = (/** @type {any} */ value) => (ArrayBuffer.isView(value) ? Array.from(/** @type {any} */ (value)) : value);
-  return Object.fromEntries(names.map((name) => [name, plainValue(/** @type {any} */ (element)[name])]));
+  const toPlainValue = (/** @type {any} */ value) => (ArrayBuffer.isView(value) ? Array.from(/** @type {any} */ (value)) : value);
+  return Object.fromEntries(names.map((name) => [name, toPlainValue(/** @type {any} */ (element)[name])]));
 }
 
 /** Resolves when a figure has all of its samples, and its picture more than one colour. Runs in the page. @param {Element} element */
@@ -113,9 +113,9 @@ export async function untilComplete(element) {
   while ((figure.stats?.n ?? figure.stats?.drawn ?? figure.stats?.attempts) !== figure.samples || !isDrawn()) await new Promise(requestAnimationFrame);
 }
 
-/** @type {(page: Page, site: Site) => Promise<void>} */
-async function firstLoad(page, site) {
-  await page.goto(address(site, site.definition.pages.first));
+/** Opens the page of the figures. @type {(page: Page, site: Site) => Promise<void>} */
+async function checkFirstLoad(page, site) {
+  await page.goto(addressOf(site, site.definition.pages.first));
   await untilLive(page, site);
 }
 
@@ -126,34 +126,34 @@ async function firstLoad(page, site) {
  * @param {Site} site
  * @param {'first' | 'second'} which
  */
-async function follow(page, { definition }, which) {
+async function followLink(page, { definition }, which) {
   await definition.go?.(page, definition.pages[which] ?? which);
   await page.locator(definition.expected[0].selector).waitFor({ state: which === 'first' ? 'attached' : 'detached' });
 }
 
-/** @type {(page: Page, site: Site) => Promise<void>} */
-async function awayAndBack(page, site) {
-  await firstLoad(page, site);
-  await follow(page, site, 'second');
-  await follow(page, site, 'first');
+/** Follows a link away from the figures, and another one back. @type {(page: Page, site: Site) => Promise<void>} */
+async function checkAwayAndBack(page, site) {
+  await checkFirstLoad(page, site);
+  await followLink(page, site, 'second');
+  await followLink(page, site, 'first');
   await untilLive(page, site);
 }
 
-/** Opens the figure by a link on another page. It is created before its class is defined, and has to apply the properties set until then. @type {(page: Page, site: Site) => Promise<void>} */
-async function comeFromOtherPage(page, site) {
-  await page.goto(address(site, site.definition.pages.second ?? ''));
+/** Opens the figure by a link on another page. It is created before its class is defined, and must apply properties that were set before. @type {(page: Page, site: Site) => Promise<void>} */
+async function checkFromOtherPage(page, site) {
+  await page.goto(addressOf(site, site.definition.pages.second ?? ''));
   // When the network is idle, the engine's script handles links.
   await page.waitForLoadState('networkidle');
-  await follow(page, site, 'first');
+  await followLink(page, site, 'first');
   await untilLive(page, site);
 }
 
-/** @type {(page: Page, site: Site) => Promise<void>} */
-async function darkMode(page, site) {
-  const dark = site.serving.dark ?? site.definition.dark;
-  await firstLoad(page, site);
+/** Turns dark mode on and off. @type {(page: Page, site: Site) => Promise<void>} */
+async function checkDarkMode(page, site) {
+  const setDark = site.serving.dark ?? site.definition.dark;
+  await checkFirstLoad(page, site);
   for (const on of [true, false]) {
-    await dark?.(page, on);
+    await setDark?.(page, on);
     await page.locator(site.definition.expected[0].selector).evaluate(untilScheme, on ? 'dark' : 'light');
   }
 }

@@ -1,11 +1,11 @@
-/** A notebook in JupyterLab, with the Python package, and the page that nbconvert makes of it. */
+/** Notebook in JupyterLab, with the Python package, and the page that nbconvert makes of it. */
 
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { untilLive, untilScheme } from './checks.mjs';
-import { pinnedVersions, pythonDirectory, pythonInstall, pythonProgram } from './project.mjs';
-import { files, program } from './serving.mjs';
+import { pinnedVersions, pythonDirectoryOf, installPythonPackages, pythonProgramPath } from './project.mjs';
+import { serveFiles, serveByProgram } from './serving.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {import('./checks.mjs').Site} Site */
@@ -27,9 +27,9 @@ const ORIGINAL_SETTINGS = { omega: 0.8, samples: 20000, alphas: [0.1, 0.1, 0.1, 
 async function chooseMenuItem(page, menu, ...path) {
   await page.locator('.lm-MenuBar-item', { hasText: menu }).click();
   for (const [i, name] of path.entries()) {
-    const item = page.locator('.lm-Menu').nth(i).locator('.lm-Menu-item').filter({ has: page.getByText(name, { exact: true }) });
-    if (i < path.length - 1) await item.hover();
-    else await item.click();
+    const menuItem = page.locator('.lm-Menu').nth(i).locator('.lm-Menu-item').filter({ has: page.getByText(name, { exact: true }) });
+    if (i < path.length - 1) await menuItem.hover();
+    else await menuItem.click();
   }
 }
 
@@ -51,23 +51,23 @@ async function runNotebook(page, site) {
   await untilLive(page, site);
 }
 
-/** @param {Page} page */
-const machineElement = (page) => page.locator('banana-machine');
+/** Returns the Banana Machine of a page. @param {Page} page */
+const bananaMachineOf = (page) => page.locator('banana-machine');
 
 /** Evaluates Python code in the last cell of the notebook. @param {Page} page @param {string} code @returns {Promise<any>} its value */
 async function evaluatePython(page, code) {
   const cell = page.locator('.jp-CodeCell').last();
   await cell.locator('.cm-content').click();
   await page.keyboard.press('ControlOrMeta+A');
-  const count = await page.locator('.jp-CodeCell').count();
+  const cellCount = await page.locator('.jp-CodeCell').count();
   await page.keyboard.insertText(`import json; print('=' + json.dumps(${code}))`);
   await page.keyboard.press('Shift+Enter');
-  const output = page.locator('.jp-CodeCell').nth(count - 1).locator('.jp-OutputArea-output', { hasText: /^(=|.*Error)/s });
+  const output = page.locator('.jp-CodeCell').nth(cellCount - 1).locator('.jp-OutputArea-output', { hasText: /^(=|.*Error)/s });
   await output.waitFor();
-  await page.locator('.jp-CodeCell').nth(count).waitFor();
-  const text = (await output.textContent()) ?? '';
-  assert.ok(text.startsWith('='), text);
-  return JSON.parse(text.slice(1));
+  await page.locator('.jp-CodeCell').nth(cellCount).waitFor();
+  const outputText = (await output.textContent()) ?? '';
+  assert.ok(outputText.startsWith('='), outputText);
+  return JSON.parse(outputText.slice(1));
 }
 
 /**
@@ -78,17 +78,17 @@ async function evaluatePython(page, code) {
  * @param {unknown} expected
  */
 async function untilValue(page, code, expected) {
-  let value;
+  let actualValue;
   for (let i = 0; i < 10; i++) {
-    value = await evaluatePython(page, code);
-    if (JSON.stringify(value) === JSON.stringify(expected)) return;
+    actualValue = await evaluatePython(page, code);
+    if (JSON.stringify(actualValue) === JSON.stringify(expected)) return;
   }
-  assert.deepEqual(value, expected, code);
+  assert.deepEqual(actualValue, expected, code);
 }
 
-/** @param {Page} page @param {string[]} names */
+/** Returns properties of the Banana Machine. @param {Page} page @param {string[]} names */
 const propertiesOf = (page, names) =>
-  machineElement(page).evaluate((element, propertyNames) => Object.fromEntries(propertyNames.map((name) => [name, /** @type {any} */ (element)[name]])), names);
+  bananaMachineOf(page).evaluate((element, propertyNames) => Object.fromEntries(propertyNames.map((name) => [name, /** @type {any} */ (element)[name]])), names);
 
 /** @type {import('./project.mjs').Serving['checks']} */
 const JUPYTERLAB_CHECKS = {
@@ -96,21 +96,21 @@ const JUPYTERLAB_CHECKS = {
     await runNotebook(page, site);
     await untilValue(page, '[machine.stats["n"], machine.v, machine.preset, machine.error]', [20000, 1, null, '']);
     assert.ok((await evaluatePython(page, 'len(skews)')) > 0);
-    // Two assignments without waiting for the result of the first.
+    // The second assignment does not wait for the result of the first.
     await evaluatePython(page, '[setattr(machine, "preset", "hard"), setattr(machine, "omega", 0.2)]');
     await untilValue(page, '[machine.preset, machine.omega, machine.dt, machine.command]', [null, 0.2, 1.4, { v: 1, omega: 0.2, dt: 1.4 }]);
     assert.deepEqual(await propertiesOf(page, ['preset', 'omega', 'dt']), { preset: null, omega: 0.2, dt: 1.4 });
   },
   async 'changes by the user reach Python, and keys do not reach the notebook'(page, site) {
     await runNotebook(page, site);
-    const slider = machineElement(page).getByRole('slider', { name: /ω/ }).first();
-    await slider.focus();
-    const cells = await page.locator('.jp-Cell').count();
+    const omegaSlider = bananaMachineOf(page).getByRole('slider', { name: /ω/ }).first();
+    await omegaSlider.focus();
+    const cellCount = await page.locator('.jp-Cell').count();
     for (const key of ['ArrowRight', 'ArrowRight', 'ArrowDown', 'ArrowUp']) await page.keyboard.press(key);
-    // Letters and digits that are shortcuts of JupyterLab, for inserting cells and changing their type.
+    // These letters and digits are shortcuts of JupyterLab, for inserting cells and changing their type.
     for (const key of ['b', 'a', 'm', '1', '2', 'Enter']) await page.keyboard.press(key);
-    assert.equal(await page.locator('.jp-Cell').count(), cells);
-    assert.equal(await page.locator('.jp-CodeCell').count(), cells - 3);
+    assert.equal(await page.locator('.jp-Cell').count(), cellCount);
+    assert.equal(await page.locator('.jp-CodeCell').count(), cellCount - 3);
     const { omega } = /** @type {{ omega: number }} */ (await propertiesOf(page, ['omega']));
     assert.notEqual(omega, ORIGINAL_SETTINGS.omega);
     await untilValue(page, '[machine.omega, machine.command["omega"]]', [omega, omega]);
@@ -119,7 +119,7 @@ const JUPYTERLAB_CHECKS = {
     await runNotebook(page, site);
     for (const [theme, scheme] of /** @type {const} */ ([['JupyterLab Dark', 'dark'], ['JupyterLab Light', 'light']])) {
       await chooseMenuItem(page, 'Settings', 'Theme', theme);
-      await machineElement(page).evaluate(untilScheme, scheme);
+      await bananaMachineOf(page).evaluate(untilScheme, scheme);
     }
   },
 };
@@ -127,13 +127,13 @@ const JUPYTERLAB_CHECKS = {
 /** @type {import('./project.mjs').Serving['checks']} */
 const EXPORT_CHECKS = {
   async 'live without a kernel, as it was when it was run'(page, site) {
-    for (const [address, path] of Object.entries(PACKAGE_FILES)) await page.route(address, (route) => route.fulfill({ path: join(packagesDirectory, path) }));
+    for (const [urlPattern, packagePath] of Object.entries(PACKAGE_FILES)) await page.route(urlPattern, (route) => route.fulfill({ path: join(packagesDirectory, packagePath) }));
     // The page has no formulas.
     await page.route('**/mathjax/**', (route) => route.fulfill({ contentType: 'text/javascript', body: '' }));
     await page.goto(new URL('motion.html', site.url).href);
     await untilLive(page, site);
-    const slider = machineElement(page).getByRole('slider', { name: /ω/ }).first();
-    await slider.focus();
+    const omegaSlider = bananaMachineOf(page).getByRole('slider', { name: /ω/ }).first();
+    await omegaSlider.focus();
     await page.keyboard.press('ArrowRight');
     assert.notDeepEqual(await propertiesOf(page, ['omega']), { omega: ORIGINAL_SETTINGS.omega });
   },
@@ -156,38 +156,38 @@ export default {
   versions: () => pinnedVersions('jupyter', 'jupyterlab', 'anywidget', 'nbconvert', 'voila'),
   python: true,
   async install(directory, { run: execute, start, wheel }) {
-    const tools = pythonDirectory(directory);
-    await pythonInstall(directory, { run: execute, start }, [wheel]);
-    await execute('npm', ['install', '--prefix', tools, '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel', 'error', ...NPM_PACKAGES]);
+    const toolsDirectory = pythonDirectoryOf(directory);
+    await installPythonPackages(directory, { run: execute, start }, [wheel]);
+    await execute('npm', ['install', '--prefix', toolsDirectory, '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel', 'error', ...NPM_PACKAGES]);
     // JupyterLab would ask for permission to fetch news.
-    const settings = join(tools, 'share/jupyter/lab/settings');
-    mkdirSync(settings, { recursive: true });
-    writeFileSync(join(settings, 'overrides.json'), '{ "@jupyterlab/apputils-extension:notification": { "fetchNews": "false" } }');
+    const settingsDirectory = join(toolsDirectory, 'share/jupyter/lab/settings');
+    mkdirSync(settingsDirectory, { recursive: true });
+    writeFileSync(join(settingsDirectory, 'overrides.json'), '{ "@jupyterlab/apputils-extension:notification": { "fetchNews": "false" } }');
   },
   async build(directory, { run: execute }) {
-    packagesDirectory = join(pythonDirectory(directory), 'node_modules');
-    const command = ['nbconvert', '--execute', '--to', 'html', '--output-dir', '_build'];
-    await execute(pythonProgram(directory, 'jupyter'), [...command, 'motion.ipynb']);
+    packagesDirectory = join(pythonDirectoryOf(directory), 'node_modules');
+    const nbconvertArguments = ['nbconvert', '--execute', '--to', 'html', '--output-dir', '_build'];
+    await execute(pythonProgramPath(directory, 'jupyter'), [...nbconvertArguments, 'motion.ipynb']);
     assert.ok(readFileSync(join(directory, '_build/motion.html'), 'utf8').includes('widget-state+json'));
   },
   servings: [
     {
       name: 'JupyterLab',
       serve(directory, tools) {
-        const options = ['--no-browser', '--allow-root', '--IdentityProvider.token=', '--ServerApp.port_retries=0'];
-        // A separate configuration directory, so that this user's settings do not affect the test.
-        const ownDirectory = (/** @type {string} */ name) => join(pythonDirectory(directory), 'own', name);
-        const env = { JUPYTER_CONFIG_DIR: ownDirectory('config'), JUPYTERLAB_SETTINGS_DIR: ownDirectory('settings'), JUPYTERLAB_WORKSPACES_DIR: ownDirectory('workspaces') };
-        return program((port) => [pythonProgram(directory, 'jupyter'), ['lab', ...options, '--port', port], env])(directory, tools);
+        const labArguments = ['--no-browser', '--allow-root', '--IdentityProvider.token=', '--ServerApp.port_retries=0'];
+        // JupyterLab has a separate configuration directory, so that this user's settings do not affect the test.
+        const ownDirectoryOf = (/** @type {string} */ name) => join(pythonDirectoryOf(directory), 'own', name);
+        const env = { JUPYTER_CONFIG_DIR: ownDirectoryOf('config'), JUPYTERLAB_SETTINGS_DIR: ownDirectoryOf('settings'), JUPYTERLAB_WORKSPACES_DIR: ownDirectoryOf('workspaces') };
+        return serveByProgram((port) => [pythonProgramPath(directory, 'jupyter'), ['lab', ...labArguments, '--port', port], env])(directory, tools);
       },
       checks: JUPYTERLAB_CHECKS,
     },
     {
       name: 'Voilà',
-      serve: (directory, tools) => program((port) => [pythonProgram(directory, 'voila'), ['motion.ipynb', '--no-browser', '--port', port]])(directory, tools),
+      serve: (directory, tools) => serveByProgram((port) => [pythonProgramPath(directory, 'voila'), ['motion.ipynb', '--no-browser', '--port', port]])(directory, tools),
       checks: VOILA_CHECKS,
     },
-    { name: 'exported by nbconvert', serve: files('_build'), checks: EXPORT_CHECKS },
+    { name: 'exported by nbconvert', serve: serveFiles('_build'), checks: EXPORT_CHECKS },
   ],
   pages: { first: 'motion.ipynb' },
   expected: [

@@ -1,6 +1,6 @@
 import { untilLive } from './checks.mjs';
-import { pinnedVersions, pythonInstall, pythonProgram } from './project.mjs';
-import { program } from './serving.mjs';
+import { pinnedVersions, installPythonPackages, pythonProgramPath } from './project.mjs';
+import { serveByProgram } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
 const CHECKS = {
@@ -19,12 +19,12 @@ export default {
   heading: 'marimo',
   versions: () => pinnedVersions('marimo', 'marimo', 'anywidget'),
   python: true,
-  install: (directory, tools) => pythonInstall(directory, tools, [tools.wheel]),
+  install: (directory, tools) => installPythonPackages(directory, tools, [tools.wheel]),
   servings: [
     {
       name: 'app',
       serve: (directory, tools) =>
-        program((port) => [pythonProgram(directory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]])(directory, tools),
+        serveByProgram((port) => [pythonProgramPath(directory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]])(directory, tools),
       checks: CHECKS,
     },
   ],

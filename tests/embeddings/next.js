@@ -1,27 +1,27 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { npmInstall, pinnedVersions } from './project.mjs';
-import { files, program } from './serving.mjs';
+import { installNpmPackages, pinnedVersions } from './project.mjs';
+import { serveFiles, serveByProgram } from './serving.mjs';
 
-/** Returns how Next's own server is started. @param {string} command @param {string[]} args */
-const nextServer = (command, ...args) => program((port) => ['npx', ['next', command, '--port', port, ...args]]);
+/** Returns a function that serves a site by Next's own server. @param {string} command @param {string[]} args */
+const serveWithNext = (command, ...args) => serveByProgram((port) => ['npx', ['next', command, '--port', port, ...args]]);
 
 /** @type {import('./project.mjs').Engine} */
 export default {
   heading: 'Next',
   versions: () => pinnedVersions('next', 'next', 'react'),
-  install: npmInstall,
+  install: installNpmPackages,
   build: (_directory, { run }) => run('npm', ['run', 'build']),
   servings: [
-    { name: 'production', serve: nextServer('start') },
-    { name: 'development', serve: nextServer('dev') },
+    { name: 'production', serve: serveWithNext('start') },
+    { name: 'development', serve: serveWithNext('dev') },
     {
       name: 'static export',
       async serve(directory, tools) {
         // A static export has no partly static pages, which the example turns on, and its addresses suit any file server.
         writeFileSync(join(directory, 'next.config.ts'), "export default { output: 'export', basePath: '/book', trailingSlash: true };\n");
         await tools.run('npm', ['run', 'build']);
-        return files('out', '/book/')(directory, tools);
+        return serveFiles('out', '/book/')(directory, tools);
       },
     },
   ],

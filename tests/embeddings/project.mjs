@@ -9,7 +9,7 @@ import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, delimiter, join } from 'node:path';
 import { ROOT, mustRun, once, printStep } from '../../scripts/process.mjs';
-import { start } from './serving.mjs';
+import { startProgram } from './serving.mjs';
 import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
 
 /**
@@ -18,7 +18,7 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  * @typedef {object} Engine
  * @property {string} heading of its section in doc/embedding/, and its name in the table of doc/embedding.md
  * @property {() => string} versions of its packages, as the files of the example pin them
- * @property {boolean} [python] whether it takes the Python package
+ * @property {boolean} [python] true if it uses the Python package
  * @property {number} [node] major version of Node that it needs, if newer than that of our package
  * @property {(directory: string, tools: Tools & PackagePaths) => Promise<unknown>} install installs the packages in a fresh copy of the example
  * @property {(directory: string, tools: Tools) => Promise<unknown>} [build]
@@ -43,7 +43,7 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  * @typedef {object} Tools
  * @property {(command: string, args: string[], env?: Record<string, string>) => Promise<string>} run runs a program in
  *   the copy, asserts that it succeeds, and returns its output
- * @property {(command: string, args: string[], env?: Record<string, string>) => ReturnType<typeof import('./serving.mjs').start>} start
+ * @property {(command: string, args: string[], env?: Record<string, string>) => ReturnType<typeof import('./serving.mjs').startProgram>} start
  *   starts a program in the copy and does not wait for its end
  */
 
@@ -59,30 +59,30 @@ const SILENT_ENVIRONMENT = {
 };
 
 /** Directory for this clone alone, because tests of other clones may run at the same time. */
-const SCRATCH = join(CACHE_DIRECTORY, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
+const SCRATCH_DIRECTORY = join(CACHE_DIRECTORY, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
 
-/** @returns {Promise<string[]>} names of all engines */
-export async function engines() {
-  const { plain } = await import('./plain.mjs');
-  return [...Object.keys(plain), ...readdirSync(join(ROOT, 'tests/embeddings')).flatMap((name) => name.match(/^(.+)\.js$/)?.slice(1) ?? [])];
+/** Returns the names of all engines. @returns {Promise<string[]>} */
+export async function findEngineNames() {
+  const { plainEngines } = await import('./plain.mjs');
+  return [...Object.keys(plainEngines), ...readdirSync(join(ROOT, 'tests/embeddings')).flatMap((name) => name.match(/^(.+)\.js$/)?.slice(1) ?? [])];
 }
 
 /** Returns the description of an engine. @param {string} name @returns {Promise<Engine>} */
-export async function engine(name) {
-  const { plain } = await import('./plain.mjs');
-  return plain[name] ?? (await import(`./${name}.js`)).default;
+export async function loadEngine(name) {
+  const { plainEngines } = await import('./plain.mjs');
+  return plainEngines[name] ?? (await import(`./${name}.js`)).default;
 }
 
 /** Returns packages with the versions that an example pins. @param {string} example @param {string[]} packages */
 export function pinnedVersions(example, ...packages) {
   const directory = join(ROOT, 'examples', example);
-  const textOf = (/** @type {string} */ name) => (existsSync(join(directory, name)) ? readFileSync(join(directory, name), 'utf8') : '');
-  const { dependencies = {}, devDependencies = {} } = JSON.parse(textOf('package.json') || '{}');
-  const versions = new Map(Object.entries({ ...dependencies, ...devDependencies }));
-  for (const [, name, version] of textOf('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versions.set(name, version);
+  const readText = (/** @type {string} */ name) => (existsSync(join(directory, name)) ? readFileSync(join(directory, name), 'utf8') : '');
+  const { dependencies = {}, devDependencies = {} } = JSON.parse(readText('package.json') || '{}');
+  const versionByPackage = new Map(Object.entries({ ...dependencies, ...devDependencies }));
+  for (const [, name, version] of readText('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versionByPackage.set(name, version);
   return packages
     .map((name) => {
-      const version = versions.get(name);
+      const version = versionByPackage.get(name);
       if (!/^\d+\.\d+[\w.]*$/.test(version ?? '')) throw new Error(`examples/${example}: ${name} is ${version}, and must be one version.`);
       return `${name} ${version}`;
     })
@@ -90,15 +90,15 @@ export function pinnedVersions(example, ...packages) {
 }
 
 /** Installs the npm packages of an engine. @param {string} _directory @param {Tools & PackagePaths} tools */
-export async function npmInstall(_directory, { run, tarball }) {
+export async function installNpmPackages(_directory, { run, tarball }) {
   await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', tarball]);
 }
 
-/** Directory of an example's Python tools, outside of the example because some engines read all its files. @param {string} directory */
-export const pythonDirectory = (directory) => `${directory}.tools`;
+/** Returns the directory of an example's Python tools. It is outside of the example, because some engines read all its files. @param {string} directory */
+export const pythonDirectoryOf = (directory) => `${directory}.tools`;
 
-/** Returns the path of a program that `pythonInstall` has installed. @param {string} directory @param {string} name */
-export const pythonProgram = (directory, name) => join(pythonDirectory(directory), 'bin', name);
+/** Returns the path of a program that `installPythonPackages` has installed. @param {string} directory @param {string} name */
+export const pythonProgramPath = (directory, name) => join(pythonDirectoryOf(directory), 'bin', name);
 
 /**
  * Installs the Python packages of an engine.
@@ -107,48 +107,48 @@ export const pythonProgram = (directory, name) => join(pythonDirectory(directory
  * @param {Tools} tools
  * @param {string[]} wheels Python packages that are installed even if their versions have not changed
  */
-export async function pythonInstall(directory, { run }, wheels) {
-  await run('python3', ['-m', 'venv', pythonDirectory(directory)]);
-  const pip = pythonProgram(directory, 'pip');
-  const options = ['install', '--quiet', '--disable-pip-version-check'];
-  await run(pip, [...options, '--requirement', 'requirements.txt', ...wheels]);
+export async function installPythonPackages(directory, { run }, wheels) {
+  await run('python3', ['-m', 'venv', pythonDirectoryOf(directory)]);
+  const pip = pythonProgramPath(directory, 'pip');
+  const pipArguments = ['install', '--quiet', '--disable-pip-version-check'];
+  await run(pip, [...pipArguments, '--requirement', 'requirements.txt', ...wheels]);
   // The package may have changed without a new version.
-  if (wheels.length > 0) await run(pip, [...options, '--force-reinstall', '--no-deps', ...wheels]);
+  if (wheels.length > 0) await run(pip, [...pipArguments, '--force-reinstall', '--no-deps', ...wheels]);
 }
 
 /** Packs the npm package from the present build, once, and returns its path. */
-const tarball = once(async () => {
-  const { stdout } = await pack('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', emptyDirectory('npm')]);
-  return join(SCRATCH, 'packed/npm', stdout.trim());
+const packTarball = once(async () => {
+  const { stdout } = await runPacking('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', makeEmptyDirectory('npm')]);
+  return join(SCRATCH_DIRECTORY, 'packed/npm', stdout.trim());
 });
 
 /** Builds the wheel of the Python package, once, and returns its path. */
-const wheel = once(async () => {
-  const directory = emptyDirectory('python');
-  await pack('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(ROOT, 'python')]);
+const buildWheel = once(async () => {
+  const directory = makeEmptyDirectory('python');
+  await runPacking('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(ROOT, 'python')]);
   return join(directory, readdirSync(directory)[0]);
 });
 
 /** Returns an empty directory for the package of a registry. @param {string} registry */
-function emptyDirectory(registry) {
-  const directory = join(SCRATCH, 'packed', registry);
+function makeEmptyDirectory(registry) {
+  const directory = join(SCRATCH_DIRECTORY, 'packed', registry);
   rmSync(directory, { recursive: true, force: true });
   mkdirSync(directory, { recursive: true });
   return directory;
 }
 
 /** Runs a program that packs the package. @param {string} command @param {string[]} args */
-const pack = (command, args) => mustRun(`${command} cannot pack the package: see above.`, command, args, { quiet: true, seconds: 300 });
+const runPacking = (command, args) => mustRun(`${command} cannot pack the package: see above.`, command, args, { quiet: true, seconds: 300 });
 
 /** Returns the tools for a copy of an example. @param {string} directory @param {Record<string, string>} env @returns {Tools} */
 function toolsIn(directory, env) {
   return {
     async run(command, args, more) {
-      const sentence = `\`${[command, ...args].join(' ')}\` fails: see above.`;
+      const errorMessage = `\`${[command, ...args].join(' ')}\` fails: see above.`;
       const options = { cwd: directory, env: { ...env, ...more }, quiet: true, seconds: 900 };
-      return (await mustRun(sentence, command, args, options)).output;
+      return (await mustRun(errorMessage, command, args, options)).output;
     },
-    start: (command, args, more) => start(command, args, { cwd: directory, env: { ...env, ...more } }),
+    start: (command, args, more) => startProgram(command, args, { cwd: directory, env: { ...env, ...more } }),
   };
 }
 
@@ -164,31 +164,31 @@ const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
  * @returns {Promise<{ directory: string, tools: Tools }>}
  */
 export async function prepareExample(name, definition) {
-  const source = join(ROOT, 'examples', name);
-  const directory = join(SCRATCH, name);
-  const tools = toolsIn(directory, { ...SILENT_ENVIRONMENT, ...(await nodeFor(definition)) });
+  const exampleDirectory = join(ROOT, 'examples', name);
+  const directory = join(SCRATCH_DIRECTORY, name);
+  const tools = toolsIn(directory, { ...SILENT_ENVIRONMENT, ...(await environmentWithNode(definition)) });
   mkdirSync(directory, { recursive: true });
   for (const entry of readdirSync(directory)) {
     if (!KEPT_NAMES.includes(entry)) rmSync(join(directory, entry), { recursive: true });
   }
-  cpSync(source, directory, { recursive: true, filter: (path) => !KEPT_NAMES.includes(basename(path)) });
-  const packed = { tarball: await tarball(), wheel: definition.python ? await wheel() : '' };
-  const pins = ['package.json', 'requirements.txt'].map((file) => join(source, file)).filter((path) => existsSync(path));
+  cpSync(exampleDirectory, directory, { recursive: true, filter: (path) => !KEPT_NAMES.includes(basename(path)) });
+  const packagePaths = { tarball: await packTarball(), wheel: definition.python ? await buildWheel() : '' };
+  const pinFiles = ['package.json', 'requirements.txt'].map((file) => join(exampleDirectory, file)).filter((path) => existsSync(path));
   const hash = createHash('sha256');
-  for (const path of [...pins, ...Object.values(packed).filter((path) => path !== '')]) hash.update(readFileSync(path));
-  const stamp = join(directory, '.installed');
+  for (const path of [...pinFiles, ...Object.values(packagePaths).filter((path) => path !== '')]) hash.update(readFileSync(path));
+  const stampFile = join(directory, '.installed');
   const currentHash = hash.digest('hex');
-  if (existsSync(stamp) && readFileSync(stamp, 'utf8') === currentHash) return { directory, tools };
-  rmSync(stamp, { force: true });
+  if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === currentHash) return { directory, tools };
+  rmSync(stampFile, { force: true });
   removeCaches(join(directory, 'node_modules'));
   printStep(`${name}: installing`);
-  await definition.install(directory, { ...tools, ...packed });
-  writeFileSync(stamp, currentHash);
+  await definition.install(directory, { ...tools, ...packagePaths });
+  writeFileSync(stampFile, currentHash);
   return { directory, tools };
 }
 
 /**
- * Removes our package and caches of bundlers, because the package changes under the same version, which neither expects.
+ * Removes our package and caches of bundlers. Neither npm nor a bundler expects that the package changes under the same version.
  *
  * @param {string} modules
  */
@@ -200,9 +200,9 @@ function removeCaches(modules) {
 }
 
 /** Returns an environment with the Node that an engine needs, installed if this one is older. @param {Engine} definition @returns {Promise<Record<string, string>>} */
-async function nodeFor({ node = 0 }) {
+async function environmentWithNode({ node = 0 }) {
   if (Number.parseInt(process.versions.node) >= node) return {};
-  const directory = join(SCRATCH, `node-${node}`);
+  const directory = join(SCRATCH_DIRECTORY, `node-${node}`);
   const bin = join(directory, 'node_modules/node/bin');
   if (!existsSync(bin)) {
     const sentence = `Node ${node} is needed and this is ${process.versions.node}: install it from nodejs.org.`;

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { untilLive } from './checks.mjs';
-import { npmInstall, pinnedVersions } from './project.mjs';
-import { files } from './serving.mjs';
+import { installNpmPackages, pinnedVersions } from './project.mjs';
+import { serveFiles } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
 const CHECKS = {
@@ -21,8 +21,8 @@ const CHECKS = {
 export default {
   heading: 'reveal.js',
   versions: () => pinnedVersions('reveal', 'reveal.js'),
-  install: npmInstall,
-  servings: [{ name: 'page', serve: files('.'), checks: CHECKS }],
+  install: installNpmPackages,
+  servings: [{ name: 'page', serve: serveFiles('.'), checks: CHECKS }],
   pages: { first: '/' },
   expected: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
 };

@@ -1,6 +1,6 @@
 /**
  * `npm run test:embeddings`: builds, packs, and opens each example as its engine serves it. `npm run test:embeddings -- ENGINE…`
- * takes some of them. Pictures of the pages are in test-results/embeddings.
+ * selects some of them. Pictures of the pages are in test-results/embeddings.
  *
  * @module
  */
@@ -11,8 +11,8 @@ import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
 import { build } from '../../scripts/build.mjs';
 import { ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
-import { check } from './checks.mjs';
-import { engine, engines, prepareExample } from './project.mjs';
+import { runChecks } from './checks.mjs';
+import { loadEngine, findEngineNames, prepareExample } from './project.mjs';
 
 /** @typedef {{ name: string, serving: string, passed: number, failures: string[], seconds: number }} Outcome */
 
@@ -22,8 +22,8 @@ import { engine, engines, prepareExample } from './project.mjs';
  * @param {import('@playwright/test').Browser} browser
  * @param {string} name
  */
-async function outcomesOf(browser, name) {
-  const definition = await engine(name);
+async function testEngine(browser, name) {
+  const definition = await loadEngine(name);
   /** @type {Outcome[]} */
   const outcomes = [];
   let startTime = Date.now();
@@ -32,33 +32,33 @@ async function outcomesOf(browser, name) {
     for (const failure of failures) console.log(`FAILED ${failure}`);
     startTime = Date.now();
   };
-  let serving = 'build';
+  let servingName = 'build';
   try {
     const { directory, tools } = await prepareExample(name, definition);
     printStep(`${name}: building`);
     await definition.build?.(directory, tools);
     for (const currentServing of definition.servings) {
-      serving = currentServing.name;
-      printStep(`${name}: ${serving}`);
+      servingName = currentServing.name;
+      printStep(`${name}: ${servingName}`);
       const { url, stop } = await currentServing.serve(directory, tools);
       try {
-        const { passed, failures } = await check(browser, { name, definition, serving: currentServing, url });
-        addOutcome(serving, passed, failures);
+        const { passed, failures } = await runChecks(browser, { name, definition, serving: currentServing, url });
+        addOutcome(servingName, passed, failures);
       } finally {
         await stop();
       }
     }
   } catch (error) {
-    addOutcome(serving, 0, [error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error)]);
+    addOutcome(servingName, 0, [error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error)]);
   }
   return outcomes;
 }
 
 /** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} engineNames */
-async function test(engineNames) {
-  const allNames = await engines();
-  const unknownName = engineNames.find((name) => !allNames.includes(name));
-  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allNames.join(', ')}.`);
+async function testEngines(engineNames) {
+  const allEngineNames = await findEngineNames();
+  const unknownName = engineNames.find((name) => !allEngineNames.includes(name));
+  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allEngineNames.join(', ')}.`);
   await build();
   const { chrome, version } = await ensureBrowser();
   mkdirSync(join(ROOT, 'test-results/embeddings'), { recursive: true });
@@ -67,7 +67,7 @@ async function test(engineNames) {
   /** @type {Outcome[]} */
   const outcomes = [];
   try {
-    for (const name of engineNames.length > 0 ? engineNames : allNames) outcomes.push(...(await outcomesOf(browser, name)));
+    for (const name of engineNames.length > 0 ? engineNames : allEngineNames) outcomes.push(...(await testEngine(browser, name)));
   } finally {
     await browser.close();
   }
@@ -78,14 +78,14 @@ async function test(engineNames) {
 /** Prints versions and outcomes. @param {Outcome[]} outcomes @param {string} version of the browser */
 async function summarize(outcomes, version) {
   printStep(`Versions: Node ${process.versions.node}, Chromium ${version}`);
-  for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await engine(name)).versions()}`);
+  for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await loadEngine(name)).versions()}`);
   printStep('Summary');
   for (const { name, serving, passed, failures, seconds } of outcomes) {
-    const counts = `${passed} passed, ${failures.length} failed`;
-    console.log(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(16)} ${serving.padEnd(20)} ${seconds.toFixed(0).padStart(4)} s  ${counts}`);
+    const countText = `${passed} passed, ${failures.length} failed`;
+    console.log(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(16)} ${serving.padEnd(20)} ${seconds.toFixed(0).padStart(4)} s  ${countText}`);
   }
 }
 
 await runAsScript(import.meta.url, async () => {
-  if (!(await test(process.argv.slice(2)))) process.exitCode = 1;
+  if (!(await testEngines(process.argv.slice(2)))) process.exitCode = 1;
 });

@@ -20,7 +20,7 @@ const TIMEOUT_SECONDS = 120;
  * @param {string} [base] configured path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
-export const files = (output, base) => async (directory) => {
+export const serveFiles = (output, base) => async (directory) => {
   const { address, close } = await serve(join(directory, output), { port: 0, base });
   return { url: address, stop: close };
 };
@@ -32,26 +32,26 @@ export const files = (output, base) => async (directory) => {
  * @param {string} [base] the path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
-export const program = (command, base = '/') => async (_directory, { start }) => {
-  const port = await freePort();
+export const serveByProgram = (command, base = '/') => async (_directory, { start }) => {
+  const port = await findFreePort();
   const url = `http://localhost:${port}${base}`;
-  const server = start(...command(`${port}`));
-  const ended = server.ended.then(() => {
-    throw new Error(`The server has ended:\n${server.output()}`);
+  const engineServer = start(...command(`${port}`));
+  const earlyEnd = engineServer.ended.then(() => {
+    throw new Error(`The server has ended:\n${engineServer.output()}`);
   });
   try {
-    await Promise.race([untilAnswered(url), ended]);
+    await Promise.race([untilAnswered(url), earlyEnd]);
   } catch (error) {
-    await server.stop();
+    await engineServer.stop();
     throw error;
   }
   // The server may end from now on.
-  ended.catch(() => {});
-  return { url, stop: server.stop };
+  earlyEnd.catch(() => {});
+  return { url, stop: engineServer.stop };
 };
 
-/** @returns {Promise<number>} a free port */
-function freePort() {
+/** Returns a free port. @returns {Promise<number>} */
+function findFreePort() {
   return new Promise((resolve, reject) => {
     const server = createServer().on('error', reject);
     server.listen(0, 'localhost', () => {
@@ -68,7 +68,7 @@ async function untilAnswered(url) {
     const status = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status }) => status, String);
     if (status === 200) return;
     if (Date.now() > deadline) throw new Error(`${url} has not answered for ${TIMEOUT_SECONDS} s; the last was ${status}.`);
-    // No event tells when a server begins to listen.
+    // A server that begins to listen fires no event.
     await new Promise((resolve) => setTimeout(resolve, 200));
   }
 }
@@ -83,38 +83,38 @@ async function untilAnswered(url) {
  *   `output` returns the text printed so far; `said` waits for a match of a pattern and returns its first group; both other
  *   promises are resolved when the program has ended
  */
-export function start(command, args, { env = {}, cwd = ROOT } = {}) {
+export function startProgram(command, args, { env = {}, cwd = ROOT } = {}) {
   const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
-  const group = child.pid;
-  if (group !== undefined) endGroupWithProcess(group);
-  let output = '';
-  for (const stream of [child.stdout, child.stderr]) stream.setEncoding('utf8').on('data', (text) => (output += text));
+  const groupId = child.pid;
+  if (groupId !== undefined) endGroupWithProcess(groupId);
+  let outputText = '';
+  for (const stream of [child.stdout, child.stderr]) stream.setEncoding('utf8').on('data', (text) => (outputText += text));
   /** @type {Promise<void>} */
   const ended = new Promise((resolve) => {
     child.on('error', (error) => {
-      output += error.message;
+      outputText += error.message;
       resolve();
     });
     child.on('close', () => {
-      if (group !== undefined) forgetGroup(group);
+      if (groupId !== undefined) forgetGroup(groupId);
       resolve();
     });
   });
   return {
-    output: () => output,
+    output: () => outputText,
     said: (pattern) =>
       new Promise((resolve, reject) => {
         const checkOutput = () => {
-          const match = output.match(pattern);
+          const match = outputText.match(pattern);
           if (match) resolve(match[1]);
         };
         for (const stream of [child.stdout, child.stderr]) stream.on('data', checkOutput);
-        ended.then(() => reject(new Error(`${command} has ended:\n${output}`)));
+        ended.then(() => reject(new Error(`${command} has ended:\n${outputText}`)));
         checkOutput();
       }),
     ended,
     stop() {
-      if (group !== undefined) endGroup(group);
+      if (groupId !== undefined) endGroup(groupId);
       return ended;
     },
   };

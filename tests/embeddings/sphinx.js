@@ -1,16 +1,16 @@
-/** A book by Sphinx with a classic script. Every link loads another document. */
+/** Book by Sphinx with a classic script. Every link loads another document. */
 
 import { join } from 'node:path';
 import { copySingleFiles } from './plain.mjs';
-import { pinnedVersions, pythonInstall, pythonProgram } from './project.mjs';
-import { files } from './serving.mjs';
+import { pinnedVersions, installPythonPackages, pythonProgramPath } from './project.mjs';
+import { serveFiles } from './serving.mjs';
 
-/** Themes with a switch between light and dark, and one without. @type {Record<string, import('./project.mjs').Engine['dark']>} */
-const THEMES = {
+/** Functions that switch a theme between light and dark, by the theme's name. One theme has no switch. @type {Record<string, import('./project.mjs').Engine['dark']>} */
+const DARK_SWITCH_OF_THEME = {
   async furo(page, on) {
-    const currentTheme = page.locator(`[data-theme="${on ? 'dark' : 'light'}"]`);
+    const themeMark = page.locator(`[data-theme="${on ? 'dark' : 'light'}"]`);
     // The button cycles through light, dark, and the system's scheme.
-    for (let i = 0; i < 3 && (await currentTheme.count()) === 0; i++) await page.locator('.theme-toggle').filter({ visible: true }).click();
+    for (let i = 0; i < 3 && (await themeMark.count()) === 0; i++) await page.locator('.theme-toggle').filter({ visible: true }).click();
   },
   async pydata_sphinx_theme(page, on) {
     await page.locator('.theme-switch-button').filter({ visible: true }).click();
@@ -18,23 +18,23 @@ const THEMES = {
   },
   sphinx_rtd_theme: undefined,
 };
-const themeNames = Object.keys(THEMES);
+const themeNames = Object.keys(DARK_SWITCH_OF_THEME);
 
 /** @type {import('./project.mjs').Engine} */
 export default {
   heading: 'Sphinx',
   versions: () => pinnedVersions('sphinx', 'sphinx', ...themeNames.map((theme) => theme.replaceAll('_', '-'))),
   async install(directory, tools) {
-    await pythonInstall(directory, tools, []);
+    await installPythonPackages(directory, tools, []);
   },
   async build(directory, { run }) {
     copySingleFiles(join(directory, '_static'));
     for (const theme of themeNames) {
-      const options = ['--fail-on-warning', '--quiet', '--define', `html_theme=${theme}`];
-      await run(pythonProgram(directory, 'sphinx-build'), [...options, '.', `_build/${theme}`]);
+      const sphinxArguments = ['--fail-on-warning', '--quiet', '--define', `html_theme=${theme}`];
+      await run(pythonProgramPath(directory, 'sphinx-build'), [...sphinxArguments, '.', `_build/${theme}`]);
     }
   },
-  servings: themeNames.map((theme) => ({ name: theme, serve: files(`_build/${theme}`, '/a/book/'), dark: THEMES[theme] })),
+  servings: themeNames.map((theme) => ({ name: theme, serve: serveFiles(`_build/${theme}`, '/a/book/'), dark: DARK_SWITCH_OF_THEME[theme] })),
   pages: { first: 'index.html', second: 'map.html' },
   go: (page, path) => page.locator(`a[href$="${path}"]`).filter({ visible: true }).first().click(),
   expected: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],

@@ -10,7 +10,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { Builder, Capabilities, Key } from 'selenium-webdriver';
 import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
-import { program, start } from '../embeddings/serving.mjs';
+import { serveByProgram, startProgram } from '../embeddings/serving.mjs';
 import { ensureFirefox, ensureWebKit } from './programs.mjs';
 
 /**
@@ -51,7 +51,7 @@ async function startFirefox() {
 async function startWebKit() {
   const { driver, browser, display } = await ensureWebKit();
   // Xvfb takes the first free display number, and prints it when it is ready.
-  const screenProcess = start(display, ['-displayfd', '1', '-screen', '0', '1600x1200x24', '-nolisten', 'tcp']);
+  const screenProcess = startProgram(display, ['-displayfd', '1', '-screen', '0', '1600x1200x24', '-nolisten', 'tcp']);
   const displayNumber = await screenProcess.said(/^(\d+)\n/m);
   const configDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
   mkdirSync(join(configDirectory, 'gtk-3.0'));
@@ -74,8 +74,8 @@ async function startWebKit() {
  * @returns {Promise<Engine>}
  */
 async function startEngine(driver, env, capabilities, end = async () => {}) {
-  const driverServer = await program((port) => [driver, [`--port=${port}`], env], '/status')('', {
-    start: (command, args) => start(command, args, { env }),
+  const driverServer = await serveByProgram((port) => [driver, [`--port=${port}`], env], '/status')('', {
+    start: (command, args) => startProgram(command, args, { env }),
     run: () => Promise.reject(new Error('It runs nothing.')),
   });
   const stopDriver = async () => {

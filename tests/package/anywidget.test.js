@@ -28,20 +28,20 @@ after(async () => {
  * the figure, and `state` has the traits, which are the values of the model.
  *
  * @param {Record<string, unknown>} state
- * @param {'notebook' | 'book'} kind in a book, some methods of the model throw as MyST's model does, and the figure is in a shadow root
+ * @param {'notebook' | 'book'} hostKind in a book, some methods of the model throw as MyST's model does, and the figure is in a shadow root
  */
-async function pageShowing(state, kind) {
+async function openPageShowing(state, hostKind) {
   const page = await browser.newPage();
   const consoleMessages = recordConsoleMessages(page);
-  const body = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
-  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+  const pageHtml = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
+  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${server.address}page.html`);
-  await page.evaluate(render, { state, inBook: kind === 'book' });
+  await page.evaluate(renderModel, { state, inBook: hostKind === 'book' });
   return { page, consoleMessages };
 }
 
-/** Runs in the page. @param {{ state: Record<string, unknown>, inBook: boolean }} given */
-async function render({ state, inBook }) {
+/** Renders a figure of a model. Runs in the page. @param {{ state: Record<string, unknown>, inBook: boolean }} given */
+async function renderModel({ state, inBook }) {
   const listeners = new Map();
   const log = /** @type {unknown[]} */ ([]);
   const throwMissing = (/** @type {string} */ name) => {
@@ -58,11 +58,11 @@ async function render({ state, inBook }) {
     off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (inBook ? throwMissing('off') : listeners.get(name)?.delete(listener)),
     save_changes: () => (inBook ? throwMissing('save_changes') : log.push('saved')),
   };
-  const cell = /** @type {HTMLElement} */ (document.querySelector('#cell'));
-  const el = inBook ? cell.attachShadow({ mode: 'open' }).appendChild(document.createElement('div')) : cell;
-  const address = '/anywidget.js';
-  const { default: widget } = await import(address);
-  const end = widget.render({ model, el });
+  const cellElement = /** @type {HTMLElement} */ (document.querySelector('#cell'));
+  const el = inBook ? cellElement.attachShadow({ mode: 'open' }).appendChild(document.createElement('div')) : cellElement;
+  const moduleAddress = '/anywidget.js';
+  const { default: anywidgetModule } = await import(moduleAddress);
+  const end = anywidgetModule.render({ model, el });
   Object.assign(globalThis, { view: { model, state, log, el, end, listeners } });
 }
 
@@ -77,22 +77,24 @@ async function untilComplete(page) {
   await waitForFrames(page);
 }
 
-/** @param {import('@playwright/test').Page} page */
+/** Waits for three frames. @param {import('@playwright/test').Page} page */
 const waitForFrames = (page) =>
   page.evaluate(async () => {
     for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   });
 
 /**
+ * Returns traits of the model, and the properties of the figure that have the same names.
+ *
  * @param {import('@playwright/test').Page} page
  * @param {string[]} names
  * @returns {Promise<{ traits: Record<string, unknown>, figure: Record<string, unknown> }>}
  */
-const valuesOf = (page, names) =>
+const traitsAndPropertiesOf = (page, names) =>
   page.evaluate((traitNames) => {
     const { el, state } = /** @type {any} */ (globalThis).view;
-    const valuesOfTraits = (/** @type {any} */ object) => Object.fromEntries(traitNames.map((name) => [name, object[name]]));
-    return { traits: valuesOfTraits(state), figure: valuesOfTraits(el.firstElementChild) };
+    const pickTraits = (/** @type {any} */ object) => Object.fromEntries(traitNames.map((name) => [name, object[name]]));
+    return { traits: pickTraits(state), figure: pickTraits(el.firstElementChild) };
   }, names);
 
 /** Sets traits of the model and clears its log. @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changes */
@@ -110,16 +112,16 @@ const KERNEL_TRAITS = { stats: null, error: '', _asked: 0, _shown: {} };
 
 test('traits become what the figure shows, by whichever of their names, and those without a value what it shows', async () => {
   const state = { ...KERNEL_TRAITS, widget: 'banana-machine', omega: 0.8, samples: '2000', reverse_aware: true, 'heading-level': 3, v: null, alphas: null, preset: null, lang: 'de' };
-  const { page, consoleMessages } = await pageShowing(state, 'notebook');
+  const { page, consoleMessages } = await openPageShowing(state, 'notebook');
   await untilComplete(page);
-  const { figure, traits } = await valuesOf(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
+  const { figure, traits } = await traitsAndPropertiesOf(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
   assert.deepEqual(figure, { omega: 0.8, samples: 2000, reverseAware: true, headingLevel: '3', v: 1, preset: null, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], lang: 'de' });
   assert.equal(traits.v, 1);
   assert.equal(traits.samples, 2000);
   assert.deepEqual(traits.alphas, figure.alphas);
   await page.getByRole('button', { name: 'Neu würfeln' }).waitFor();
   await setTraits(page, { lang: null, omega: null });
-  assert.deepEqual((await valuesOf(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
+  assert.deepEqual((await traitsAndPropertiesOf(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
   await page.getByRole('button', { name: 'New seed' }).waitFor();
   assert.deepEqual(consoleMessages, []);
   await page.close();
@@ -127,11 +129,11 @@ test('traits become what the figure shows, by whichever of their names, and thos
 
 test('a trait with the underscore of a Python keyword sets the property of that name, and gets its value', async () => {
   const startPose = { x: 1, y: 2, theta: 0.5 };
-  const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'odometry-decomposer', from_: startPose }, 'notebook');
+  const { page, consoleMessages } = await openPageShowing({ ...KERNEL_TRAITS, widget: 'odometry-decomposer', from_: startPose }, 'notebook');
   await page.locator('canvas').first().waitFor();
-  assert.deepEqual((await valuesOf(page, ['from'])).figure, { from: startPose });
+  assert.deepEqual((await traitsAndPropertiesOf(page, ['from'])).figure, { from: startPose });
   await setTraits(page, { from_: null });
-  const { figure, traits } = await valuesOf(page, ['from', 'from_']);
+  const { figure, traits } = await traitsAndPropertiesOf(page, ['from', 'from_']);
   assert.notDeepEqual(figure.from, startPose);
   assert.deepEqual(traits.from_, figure.from);
   assert.deepEqual(consoleMessages, []);
@@ -139,13 +141,13 @@ test('a trait with the underscore of a Python keyword sets the property of that 
 });
 
 test('a change of the model reaches the figure, what follows of it the model, and an equal value nobody', async () => {
-  const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
+  const { page, consoleMessages } = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
   await untilComplete(page);
   await setTraits(page, { _asked: 1, preset: 'hard' });
-  const { traits, figure } = await valuesOf(page, ['preset', 'v', 'omega', 'dt', 'command']);
+  const { traits, figure } = await traitsAndPropertiesOf(page, ['preset', 'v', 'omega', 'dt', 'command']);
   assert.deepEqual(figure, { preset: 'hard', v: 1, omega: 1.2, dt: 1.4, command: { v: 1, omega: 1.2, dt: 1.4 } });
   assert.deepEqual(traits, figure);
-  const { traits: { _shown } } = await valuesOf(page, ['_shown']);
+  const { traits: { _shown } } = await traitsAndPropertiesOf(page, ['_shown']);
   assert.deepEqual(_shown, { heard: 1, settings: { ...traits, samples: 100, isolate: null } });
 
   // Several changes at once, as from a kernel that groups them: no earlier value is sent back.
@@ -155,9 +157,9 @@ test('a change of the model reaches the figure, what follows of it the model, an
     for (const name of ['omega', 'v']) for (const listener of listeners.get(`change:${name}`)) listener();
   });
   await waitForFrames(page);
-  const afterChanges = await valuesOf(page, ['preset', 'v', 'omega']);
-  assert.deepEqual(afterChanges.figure, { preset: null, v: 0.5, omega: 0.2 });
-  assert.deepEqual(afterChanges.traits, afterChanges.figure);
+  const valuesAfterChanges = await traitsAndPropertiesOf(page, ['preset', 'v', 'omega']);
+  assert.deepEqual(valuesAfterChanges.figure, { preset: null, v: 0.5, omega: 0.2 });
+  assert.deepEqual(valuesAfterChanges.traits, valuesAfterChanges.figure);
 
   await setTraits(page, { command: { dt: 1.4, omega: 0.2, v: 0.5 } });
   const log = await page.evaluate(() => /** @type {any} */ (globalThis).view.log);
@@ -167,24 +169,24 @@ test('a change of the model reaches the figure, what follows of it the model, an
 });
 
 test('what is refused is said by the trait error, and the trait has the last good value again', async () => {
-  const { page, consoleMessages } = await pageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
+  const { page, consoleMessages } = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
   await untilComplete(page);
-  const { traits: { alphas } } = await valuesOf(page, ['alphas']);
+  const { traits: { alphas } } = await traitsAndPropertiesOf(page, ['alphas']);
   await setTraits(page, { alphas: [1, 2, 3] });
-  const { traits } = await valuesOf(page, ['alphas', 'error']);
+  const { traits } = await traitsAndPropertiesOf(page, ['alphas', 'error']);
   assert.match(String(traits.error), /^alphas .*allowed/);
   assert.deepEqual(traits.alphas, alphas);
   await setTraits(page, { samples: 200 });
-  assert.deepEqual((await valuesOf(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
+  assert.deepEqual((await traitsAndPropertiesOf(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
   assert.deepEqual(consoleMessages, []);
   await page.close();
 });
 
 test('in a book whose models keep nothing the figure is as live, and what is taken away leaves nothing @nightly', async () => {
-  for (const kind of /** @type {const} */ (['book', 'notebook'])) {
-    const { page, consoleMessages } = await pageShowing({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, kind);
+  for (const hostKind of /** @type {const} */ (['book', 'notebook'])) {
+    const { page, consoleMessages } = await openPageShowing({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, hostKind);
     await untilComplete(page);
-    const { figure, traits } = await valuesOf(page, ['preset', 'samples', 'view']);
+    const { figure, traits } = await traitsAndPropertiesOf(page, ['preset', 'samples', 'view']);
     assert.deepEqual(figure, { preset: 'corridor', samples: 300, view: 'whole' });
     await page.getByRole('slider', { name: /noise level/ }).focus();
     await page.keyboard.press('ArrowRight');
@@ -193,22 +195,22 @@ test('in a book whose models keep nothing the figure is as live, and what is tak
     // The model has only the traits that it was given.
     assert.deepEqual(Object.keys(await page.evaluate(() => /** @type {any} */ (globalThis).view.state)).sort(), ['preset', 'samples', 'view', 'widget']);
     assert.equal(traits.preset, 'corridor');
-    const stateAfterRemoval = await page.evaluate(() => {
+    const remainsAfterRemoval = await page.evaluate(() => {
       const { el, end, listeners } = /** @type {any} */ (globalThis).view;
       end();
       return { html: el.innerHTML, listeners: [...listeners.values()].reduce((sum, { size }) => sum + size, 0) };
     });
-    assert.equal(stateAfterRemoval.html, '');
-    if (kind === 'notebook') assert.equal(stateAfterRemoval.listeners, 0);
+    assert.equal(remainsAfterRemoval.html, '');
+    if (hostKind === 'notebook') assert.equal(remainsAfterRemoval.listeners, 0);
     assert.deepEqual(consoleMessages, []);
     await page.close();
   }
 });
 
 test('a model of no widget says what is allowed in the place of the figure @nightly', async () => {
-  for (const [widget, said] of [[undefined, 'missing'], ['banana', '"banana"']]) {
-    const { page } = await pageShowing({ widget }, 'book');
-    await page.getByText(`This cell shows no figure: widget is ${said}; allowed is ${Object.keys(settings).join(' or ')}.`).waitFor();
+  for (const [widget, shownValue] of [[undefined, 'missing'], ['banana', '"banana"']]) {
+    const { page } = await openPageShowing({ widget }, 'book');
+    await page.getByText(`This cell shows no figure: widget is ${shownValue}; allowed is ${Object.keys(settings).join(' or ')}.`).waitFor();
     await page.close();
   }
 });

@@ -9,16 +9,16 @@ import { ROOT } from '../../scripts/process.mjs';
 import { installPackage } from './support.js';
 
 /** @type {ReturnType<typeof installPackage>} */
-let project;
+let installedProject;
 /** @type {string} */
 let packageRoot;
 
 before(() => {
-  project = installPackage();
-  packageRoot = join(project.directory, 'node_modules/motion-widgets');
+  installedProject = installPackage();
+  packageRoot = join(installedProject.directory, 'node_modules/motion-widgets');
 });
 
-after(() => project?.remove());
+after(() => installedProject?.remove());
 
 const readPackaged = (/** @type {string} */ document) => readFileSync(join(packageRoot, document), 'utf8');
 const isMissing = (/** @type {string} */ path) => !existsSync(join(packageRoot, path));
@@ -32,13 +32,13 @@ test('package.json names no file that the package leaves out', () => {
   assert.deepEqual(allPaths.filter(isMissing), []);
 });
 
-test('doc/calibration.md tells every option of the command that the package installs', () => {
+test('doc/calibration.md describes every option of the command that the package installs', () => {
   const { status, stdout } = spawnSync(process.execPath, [join(packageRoot, 'dist/cli.js'), '--help'], { encoding: 'utf8' });
   assert.equal(status, 0);
-  const options = new Set(stdout.match(/--[a-z-]+/g));
-  assert.ok(options.size > 15, [...options].join(' '));
-  const document = readFileSync(join(ROOT, 'doc/calibration.md'), 'utf8');
-  assert.deepEqual([...options].filter((option) => option !== '--help' && !document.includes(`\`${option}`) && !document.includes(` ${option}`)), []);
+  const commandOptions = new Set(stdout.match(/--[a-z-]+/g));
+  assert.ok(commandOptions.size > 15, [...commandOptions].join(' '));
+  const calibrationDocument = readFileSync(join(ROOT, 'doc/calibration.md'), 'utf8');
+  assert.deepEqual([...commandOptions].filter((option) => option !== '--help' && !calibrationDocument.includes(`\`${option}`) && !calibrationDocument.includes(` ${option}`)), []);
 });
 
 test('all that is released has one version', () => {

@@ -13,19 +13,19 @@ const project = serveProject();
 
 /** Runs a module next to the installed package, and returns what it prints. @param {string} source */
 function outputOfNode(source) {
-  const path = join(project.directory, 'script.mjs');
-  writeFileSync(path, source);
-  return execFileSync(process.execPath, [path], { encoding: 'utf8' });
+  const scriptPath = join(project.directory, 'script.mjs');
+  writeFileSync(scriptPath, source);
+  return execFileSync(process.execPath, [scriptPath], { encoding: 'utf8' });
 }
 
 test('every script of the package can be imported in Node, and leaves no names behind', () => {
   const { exports } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
   const scriptNames = Object.keys(exports).filter((name) => /\.js$/.test(exports[name].default));
-  const addresses = scriptNames.map((name) => join('motion-widgets', name));
-  assert.ok(addresses.length >= 4, addresses.join(' '));
+  const importNames = scriptNames.map((name) => join('motion-widgets', name));
+  assert.ok(importNames.length >= 4, importNames.join(' '));
   const output = outputOfNode(`
     const before = Object.getOwnPropertyNames(globalThis);
-    for (const address of ${JSON.stringify(addresses)}) await import(address);
+    for (const address of ${JSON.stringify(importNames)}) await import(address);
     console.log(JSON.stringify(Object.getOwnPropertyNames(globalThis).filter((name) => !before.includes(name))));
   `);
   // Lit keeps the versions of its loaded copies in global variables.
@@ -43,13 +43,13 @@ test('the elements find the core in Node', () => {
 });
 
 test('a server component is told that no browser would get the elements', () => {
-  const path = join(project.directory, 'server.mjs');
-  writeFileSync(path, "import 'motion-widgets';");
-  const { stderr } = spawnSync(process.execPath, ['--conditions=react-server', path], { encoding: 'utf8' });
+  const scriptPath = join(project.directory, 'server.mjs');
+  writeFileSync(scriptPath, "import 'motion-widgets';");
+  const { stderr } = spawnSync(process.execPath, ['--conditions=react-server', scriptPath], { encoding: 'utf8' });
   assert.match(stderr, /Error: motion-widgets is imported by a server component.*'motion-widgets\/react'/);
   // The core has no elements, and can be imported on a server.
-  writeFileSync(path, "import { load } from 'motion-widgets/core'; console.log(typeof load);");
-  assert.equal(execFileSync(process.execPath, ['--conditions=react-server', path], { encoding: 'utf8' }), 'function\n');
+  writeFileSync(scriptPath, "import { load } from 'motion-widgets/core'; console.log(typeof load);");
+  assert.equal(execFileSync(process.execPath, ['--conditions=react-server', scriptPath], { encoding: 'utf8' }), 'function\n');
 });
 
 /** Source of a page in TypeScript with React: components, their events, and tags of the elements. */
@@ -114,10 +114,10 @@ test('TypeScript knows the elements, the components of React and the core, howev
   // The script has to be in the directory of a module, so that top-level await is allowed.
   writeFileSync(join(project.directory, 'package.json'), '{ "private": true, "type": "module" }');
   for (const [module, resolution] of [['esnext', 'bundler'], ['nodenext', 'nodenext']]) {
-    const options = ['--noEmit', '--strict', '--jsx', 'react-jsx', '--target', 'es2023', '--lib', 'es2023,esnext.disposable,dom,dom.iterable', '--types', ''];
-    const files = ['typed.ts', 'typed.tsx'];
-    const args = [join(ROOT, 'node_modules/typescript/bin/tsc'), ...options, '--module', module, '--moduleResolution', resolution, ...files];
-    const { status, stdout } = spawnSync(process.execPath, args, { cwd: project.directory, encoding: 'utf8' });
+    const compilerOptions = ['--noEmit', '--strict', '--jsx', 'react-jsx', '--target', 'es2023', '--lib', 'es2023,esnext.disposable,dom,dom.iterable', '--types', ''];
+    const sourceFiles = ['typed.ts', 'typed.tsx'];
+    const compilerArguments = [join(ROOT, 'node_modules/typescript/bin/tsc'), ...compilerOptions, '--module', module, '--moduleResolution', resolution, ...sourceFiles];
+    const { status, stdout } = spawnSync(process.execPath, compilerArguments, { cwd: project.directory, encoding: 'utf8' });
     assert.equal(status, 0, stdout);
   }
 });
@@ -128,15 +128,15 @@ test('TypeScript knows the elements, the components of React and the core, howev
  * @param {string} scripts
  * @returns {Promise<{ consoleMessages: string[], modules: string[] }>} `modules` are addresses of requested WebAssembly modules
  */
-async function pageWith(scripts) {
-  const elements = '<banana-machine></banana-machine><banana-machine></banana-machine><map-squeeze></map-squeeze>';
+async function openPageWith(scripts) {
+  const elementsHtml = '<banana-machine></banana-machine><banana-machine></banana-machine><map-squeeze></map-squeeze>';
   const page = await project.browser.newPage();
   const consoleMessages = recordConsoleMessages(page);
   /** @type {string[]} */
-  const requests = [];
-  page.on('request', (request) => requests.push(request.url()));
+  const requestedUrls = [];
+  page.on('request', (request) => requestedUrls.push(request.url()));
   await page.route('**/page.html', (route) => {
-    route.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scripts}${elements}` });
+    route.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scripts}${elementsHtml}` });
   });
   await page.goto(`${project.address}page.html`);
   for (const element of await page.locator('banana-machine, map-squeeze').all()) {
@@ -144,15 +144,15 @@ async function pageWith(scripts) {
     await element.locator('canvas').first().waitFor({ timeout: 10_000 });
   }
   await page.close();
-  return { consoleMessages, modules: requests.filter((url) => url.includes('.wasm')) };
+  return { consoleMessages, modules: requestedUrls.filter((url) => url.includes('.wasm')) };
 }
 
-const DIST = '/node_modules/motion-widgets/dist/';
-const scriptTag = (/** @type {string} */ name) => `<script type="module" src="${DIST}${name}"></script>`;
+const DIST_PATH = '/node_modules/motion-widgets/dist/';
+const scriptTagOf = (/** @type {string} */ name) => `<script type="module" src="${DIST_PATH}${name}"></script>`;
 
 test('custom-elements.json says what the elements have', async () => {
-  const path = join(project.directory, 'node_modules/motion-widgets/dist/custom-elements.json');
-  const { modules } = JSON.parse(readFileSync(path, 'utf8'));
+  const manifestPath = join(project.directory, 'node_modules/motion-widgets/dist/custom-elements.json');
+  const { modules } = JSON.parse(readFileSync(manifestPath, 'utf8'));
   /** @type {any[]} */
   const declarations = modules[0].declarations;
   assert.deepEqual(declarations.map(({ tagName }) => tagName).sort(), Object.keys(settings).sort());
@@ -164,29 +164,29 @@ test('custom-elements.json says what the elements have', async () => {
       document.body.prepend(element);
       await new Promise((resolve) => element.addEventListener('load', resolve));
       const Class = /** @type {any} */ (element.constructor);
-      const frames = async () => {
+      const waitForFrames = async () => {
         for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
       };
-      await frames();
+      await waitForFrames();
       for (const fold of /** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('details')) fold.open = true;
-      await frames();
-      const parts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('[part]')];
-      const styles = [...new Set(Class.elementStyles.map(String))].join('');
-      const properties = [...new Set(styles.match(/--motion-[a-z-]+/g))];
-      return { attributes: [...Class.observedAttributes], parts: parts.flatMap(({ part }) => [...part]), properties };
+      await waitForFrames();
+      const partElements = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('[part]')];
+      const cssText = [...new Set(Class.elementStyles.map(String))].join('');
+      const cssProperties = [...new Set(cssText.match(/--motion-[a-z-]+/g))];
+      return { attributes: [...Class.observedAttributes], parts: partElements.flatMap(({ part }) => [...part]), properties: cssProperties };
     }, tagName);
-    const sortedNames = (/** @type {{ name: string }[]} */ list) => list.map(({ name }) => name).sort();
+    const sortedNamesOf = (/** @type {{ name: string }[]} */ list) => list.map(({ name }) => name).sort();
     // HTML attributes have no capital letters.
-    assert.deepEqual(sortedNames(attributes).map((name) => name.toLowerCase()).sort(), actualNames.attributes.sort(), tagName);
-    for (const name of sortedNames(members)) {
+    assert.deepEqual(sortedNamesOf(attributes).map((name) => name.toLowerCase()).sort(), actualNames.attributes.sort(), tagName);
+    for (const name of sortedNamesOf(members)) {
       const hasMember = await page.evaluate(([tag, key]) => key in /** @type {Element} */ (document.querySelector(tag)), [tagName, name]);
       assert.ok(hasMember, `${tagName} has ${name}`);
     }
     for (const { name, description } of [...attributes, ...members, ...events, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
-    assert.deepEqual(sortedNames(events), ['change', 'error', 'input', 'load', 'stats']);
+    assert.deepEqual(sortedNamesOf(events), ['change', 'error', 'input', 'load', 'stats']);
     // The element with the part progress exists only while samples are drawn.
-    assert.deepEqual(sortedNames(cssParts), [...new Set([...actualNames.parts, 'progress'])].sort(), `parts of ${tagName}`);
-    assert.deepEqual(sortedNames(cssProperties), actualNames.properties.sort(), `properties of ${tagName}`);
+    assert.deepEqual(sortedNamesOf(cssParts), [...new Set([...actualNames.parts, 'progress'])].sort(), `parts of ${tagName}`);
+    assert.deepEqual(sortedNamesOf(cssProperties), actualNames.properties.sort(), `properties of ${tagName}`);
   }
   await page.close();
 });
@@ -194,51 +194,51 @@ test('custom-elements.json says what the elements have', async () => {
 test('external.js loads a widget when its tag is met, with the words that the page gave it before', async () => {
   const page = await project.browser.newPage();
   /** @type {string[]} */
-  const requests = [];
-  page.on('request', (request) => requests.push(new URL(request.url()).pathname));
-  const module = `<script type="module">import { setMessages } from '${DIST}external.js';
+  const requestedPaths = [];
+  page.on('request', (request) => requestedPaths.push(new URL(request.url()).pathname));
+  const moduleScript = `<script type="module">import { setMessages } from '${DIST_PATH}external.js';
     setMessages('fr', { step: 'Un pas', squeeze: { title: 'Le plan' } });</script>`;
-  const body = `<!doctype html><html lang="fr"><link rel="icon" href="data:,">${module}<banana-machine></banana-machine><x-late></x-late>`;
-  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+  const pageHtml = `<!doctype html><html lang="fr"><link rel="icon" href="data:,">${moduleScript}<banana-machine></banana-machine><x-late></x-late>`;
+  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${project.address}page.html`);
   await page.locator('banana-machine canvas').first().waitFor();
-  const squeezeRequests = () => requests.filter((path) => path.includes('/map-squeeze-'));
-  assert.deepEqual(squeezeRequests(), []);
+  const squeezeRequestPaths = () => requestedPaths.filter((path) => path.includes('/map-squeeze-'));
+  assert.deepEqual(squeezeRequestPaths(), []);
   // An element that is defined later has a Map Squeeze in its shadow root.
   await page.evaluate(() => {
-    const Late = class extends HTMLElement {
+    const LateElement = class extends HTMLElement {
       connectedCallback() {
         this.attachShadow({ mode: 'open' }).innerHTML = '<map-squeeze></map-squeeze>';
       }
     };
-    customElements.define('x-late', Late);
+    customElements.define('x-late', LateElement);
   });
   await page.locator('map-squeeze').scrollIntoViewIfNeeded();
   await page.getByRole('region', { name: 'Le plan' }).getByRole('button', { name: 'Un pas' }).waitFor();
-  assert.equal(squeezeRequests().length, 1);
+  assert.equal(squeezeRequestPaths().length, 1);
   await page.close();
 });
 
 test('the classic script is ASCII: it means the same, whatever encoding its page has', () => {
-  const bytes = readFileSync(join(ROOT, 'dist/motion-widgets.iife.js'));
-  assert.equal(bytes.find((byte) => byte > 127), undefined);
+  const scriptBytes = readFileSync(join(ROOT, 'dist/motion-widgets.iife.js'));
+  assert.equal(scriptBytes.find((byte) => byte > 127), undefined);
 });
 
 test('two copies of the bundle on a page get along @nightly', async () => {
-  const classic = '<script defer src="/iframe/motion-widgets.iife.js"></script>';
-  for (const otherScript of [classic, scriptTag('external.js?copy')]) {
-    const { consoleMessages } = await pageWith(scriptTag('external.js') + otherScript);
+  const classicScript = '<script defer src="/iframe/motion-widgets.iife.js"></script>';
+  for (const otherScript of [classicScript, scriptTagOf('external.js?copy')]) {
+    const { consoleMessages } = await openPageWith(scriptTagOf('external.js') + otherScript);
     assert.deepEqual(consoleMessages, []);
   }
 });
 
 test('the address of the external module can be set by the script that imports it', async () => {
-  const address = `${DIST}motion.wasm?mine`;
-  const { consoleMessages, modules } = await pageWith(
-    `<script type="module">import { load } from '${DIST}external.js'; load('${address}');</script>`,
+  const moduleAddress = `${DIST_PATH}motion.wasm?mine`;
+  const { consoleMessages, modules } = await openPageWith(
+    `<script type="module">import { load } from '${DIST_PATH}external.js'; load('${moduleAddress}');</script>`,
   );
   assert.deepEqual(consoleMessages, []);
-  assert.deepEqual(modules, [new URL(address, project.address).href]);
+  assert.deepEqual(modules, [new URL(moduleAddress, project.address).href]);
 });
 
 /** Opens a page with a figure on a server that answers requests for modules by HTML, as some servers do for missing files. @param {string} script */
@@ -248,26 +248,26 @@ async function openWithoutModules(script) {
   const warnings = [];
   page.on('console', (message) => void (message.type() === 'warning' && warnings.push(message.text())));
   await page.route('**/*.wasm', (route) => route.fulfill({ contentType: 'text/html', body: '<!doctype html>' }));
-  const body = `<!doctype html><link rel="icon" href="data:,">${script}<banana-machine></banana-machine>`;
-  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+  const pageHtml = `<!doctype html><link rel="icon" href="data:,">${script}<banana-machine></banana-machine>`;
+  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${project.address}page.html`);
   return { page, warnings };
 }
 
-const ADVICE = "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out";
+const LOAD_ADVICE = "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out";
 
 test('where the file of a module cannot be had, the embedded one is used, and a warning names its address and the cure', async () => {
-  const { page, warnings } = await openWithoutModules(scriptTag('external.js'));
+  const { page, warnings } = await openWithoutModules(scriptTagOf('external.js'));
   await page.locator('banana-machine canvas').first().waitFor();
   assert.equal(warnings.length, 1);
   assert.match(warnings[0], new RegExp(`${project.address}\\S+\\.wasm answers with text/html, which is no WebAssembly module`));
-  assert.ok(warnings[0].includes(ADVICE));
+  assert.ok(warnings[0].includes(LOAD_ADVICE));
   await page.close();
 });
 
 test('an address that has no module is refused with the cure @nightly', async () => {
   const { page } = await openWithoutModules('');
-  const loadPromise = page.evaluate(async (address) => (await import(address)).load('/none.wasm'), `${DIST}external.js`);
-  await assert.rejects(loadPromise, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(ADVICE));
+  const loadPromise = page.evaluate(async (address) => (await import(address)).load('/none.wasm'), `${DIST_PATH}external.js`);
+  await assert.rejects(loadPromise, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(LOAD_ADVICE));
   await page.close();
 });

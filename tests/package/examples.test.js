@@ -19,7 +19,7 @@ test('a page with a module script', async () => {
 
 test('a frame that takes the height of its widget', async () => {
   const { page } = await openWithCloud(project.browser, `${project.address}iframe/`);
-  const heights = () =>
+  const readHeights = () =>
     page.evaluate(() => {
       const frame = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
       const innerRoot = /** @type {Document} */ (frame.contentDocument).documentElement;
@@ -29,10 +29,10 @@ test('a frame that takes the height of its widget', async () => {
     await page.setViewportSize({ width, height: 800 });
     await page.waitForFunction(() => {
       const frame = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
-      const body = /** @type {Document} */ (frame.contentDocument).body;
-      return frame.style.height === `${Math.ceil(body.getBoundingClientRect().height)}px`;
+      const innerBody = /** @type {Document} */ (frame.contentDocument).body;
+      return frame.style.height === `${Math.ceil(innerBody.getBoundingClientRect().height)}px`;
     });
-    const { frameHeight, contentHeight, scrolls } = await heights();
+    const { frameHeight, contentHeight, scrolls } = await readHeights();
     assert.equal(frameHeight, contentHeight);
     assert.ok(!scrolls);
   }
@@ -41,14 +41,14 @@ test('a frame that takes the height of its widget', async () => {
 
 test('a frame names what is wrong with its address @nightly', async () => {
   const page = await project.browser.newPage();
-  for (const [query, sentence] of [
+  for (const [query, expectedMessage] of [
     ['', /widget is missing; allowed is banana-machine or map-squeeze/],
     ['?widget=banana', /widget is "banana"; allowed is/],
     ['?widget=banana-machine&omga=1', /omga is an unknown parameter of banana-machine; allowed are .*\bomega\b/],
     ['?widget=map-squeeze&v=1&v=2', /v is given more than once/],
   ]) {
     await page.goto(`${project.address}iframe/embed.html${query}`);
-    assert.match(await page.getByRole('alert').innerText(), /** @type {RegExp} */ (sentence));
+    assert.match(await page.getByRole('alert').innerText(), /** @type {RegExp} */ (expectedMessage));
   }
   await page.close();
 });
@@ -63,15 +63,15 @@ test('a classic script, from a server and from a disk', async () => {
 });
 
 test('the one file of a classroom, from a disk', async () => {
-  const page = join(ROOT, 'dist/classroom.html');
-  const openedPage = await openWithCloud(project.browser, pathToFileURL(page).href);
-  assert.deepEqual(openedPage.requests, [pathToFileURL(page).href]);
+  const pagePath = join(ROOT, 'dist/classroom.html');
+  const openedPage = await openWithCloud(project.browser, pathToFileURL(pagePath).href);
+  assert.deepEqual(openedPage.requests, [pathToFileURL(pagePath).href]);
   await openedPage.page.close();
 });
 
 // The bundlers below do not copy the WebAssembly modules into their output, because they do not process `new URL(…, import.meta.url)`.
 
-/** @param {import('esbuild').BuildOptions} options */
+/** Returns a function that bundles main.js into a directory by esbuild. @param {import('esbuild').BuildOptions} options */
 const esbuildBundler = (options) => async (/** @type {string} */ outdir) => {
   const entryPoints = [join(project.directory, 'main.js')];
   const { warnings } = await build({ entryPoints, outdir, bundle: true, minify: true, logLevel: 'silent', ...options });
@@ -85,20 +85,20 @@ const BUNDLERS = {
   'esbuild as a classic script': esbuildBundler({ format: 'iife' }),
   async Rollup(dir) {
     // Rollup finds packages only with a plugin.
-    const bundle = await rollup({ input: { main: join(project.directory, 'node_modules/motion-widgets/dist/external.js') } });
-    await bundle.write({ dir });
+    const rollupBundle = await rollup({ input: { main: join(project.directory, 'node_modules/motion-widgets/dist/external.js') } });
+    await rollupBundle.write({ dir });
   },
 };
 
-for (const [name, bundle] of Object.entries(BUNDLERS)) {
+for (const [name, writeBundle] of Object.entries(BUNDLERS)) {
   test(`${name}: a figure is live from the embedded module, and no file is asked for in vain${name.includes('chunks') ? '' : ' @nightly'}`, async () => {
-    const path = name.replaceAll(/\W+/g, '-');
-    const directory = join(project.directory, path);
+    const directoryName = name.replaceAll(/\W+/g, '-');
+    const directory = join(project.directory, directoryName);
     mkdirSync(directory);
-    await bundle(directory);
+    await writeBundle(directory);
     const script = `<script ${name.endsWith('classic script') ? 'defer' : 'type="module"'} src="main.js"></script>`;
     writeFileSync(join(directory, 'index.html'), `<!doctype html><link rel="icon" href="data:,">${script}<banana-machine></banana-machine>`);
-    const { page, requests } = await openWithCloud(project.browser, `${project.address}${path}/`);
+    const { page, requests } = await openWithCloud(project.browser, `${project.address}${directoryName}/`);
     assert.deepEqual(requests.filter((address) => address.includes('.wasm')), []);
     await page.close();
   });

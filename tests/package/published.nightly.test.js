@@ -13,18 +13,18 @@ import { ROOT } from '../../scripts/process.mjs';
 const manifest = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
 
 /** @type {string} */
-let directory;
+let temporaryDirectory;
 /** @type {string} */
 let tarball;
 
 before(() => {
-  directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
+  temporaryDirectory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
   // The package has been built already.
-  const packOutput = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--json', '--pack-destination', directory], { encoding: 'utf8' });
-  tarball = join(directory, JSON.parse(packOutput)[0].filename);
+  const packOutput = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--json', '--pack-destination', temporaryDirectory], { encoding: 'utf8' });
+  tarball = join(temporaryDirectory, JSON.parse(packOutput)[0].filename);
 });
 
-after(() => rmSync(directory, { recursive: true, force: true }));
+after(() => rmSync(temporaryDirectory, { recursive: true, force: true }));
 
 test('the package has at most 1.5 MB', () => {
   const { size } = statSync(tarball);
@@ -42,21 +42,21 @@ test('Are the types wrong? finds nothing', () => {
   const entriesWithoutTypes = Object.keys(manifest.exports).filter((name) => /\.(css|wasm|json)$/.test(name));
   const cli = join(ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
   // All scripts are modules: `require` is not supported, nor resolution without `exports`.
-  const args = [cli, tarball, '--profile', 'esm-only', '--exclude-entrypoints', ...entriesWithoutTypes];
-  const { status, stdout } = spawnSync(process.execPath, args, { encoding: 'utf8' });
+  const attwArguments = [cli, tarball, '--profile', 'esm-only', '--exclude-entrypoints', ...entriesWithoutTypes];
+  const { status, stdout } = spawnSync(process.execPath, attwArguments, { encoding: 'utf8' });
   assert.equal(status, 0, stdout);
   assert.match(stdout, /"motion-widgets\/core"/);
 });
 
 test('whoever wrote what the bundles carry is named, with the licence', () => {
-  const licences = readFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), 'utf8');
-  const outputs = JSON.parse(readFileSync(join(ROOT, 'build/outputs.json'), 'utf8'));
-  const sources = Object.values(outputs).flatMap(({ inputs }) => Object.keys(inputs).filter((path) => inputs[path].bytesInOutput > 0));
-  const packages = sources.flatMap((path) => path.match(/(?<=node_modules\/)(?:@[^/]+\/)?[^/]+/) ?? []);
-  const [, crates] = readFileSync(join(ROOT, 'Cargo.toml'), 'utf8').match(/\n\[dependencies\]\n(.*?)\n\n/s) ?? [];
-  const dependencies = [...new Set(packages), ...[...(crates ?? '').matchAll(/^[\w-]+/gm)].map(String)];
-  assert.ok(dependencies.includes('lit-html') && dependencies.includes('nalgebra'), dependencies.join(' '));
-  for (const name of dependencies) assert.match(licences, new RegExp(`^${name} \\d\\S* \\(.+\\)$`, 'm'));
+  const licenceText = readFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), 'utf8');
+  const esbuildOutputs = JSON.parse(readFileSync(join(ROOT, 'build/outputs.json'), 'utf8'));
+  const bundledPaths = Object.values(esbuildOutputs).flatMap(({ inputs }) => Object.keys(inputs).filter((path) => inputs[path].bytesInOutput > 0));
+  const packageNames = bundledPaths.flatMap((path) => path.match(/(?<=node_modules\/)(?:@[^/]+\/)?[^/]+/) ?? []);
+  const [, crateList] = readFileSync(join(ROOT, 'Cargo.toml'), 'utf8').match(/\n\[dependencies\]\n(.*?)\n\n/s) ?? [];
+  const dependencyNames = [...new Set(packageNames), ...[...(crateList ?? '').matchAll(/^[\w-]+/gm)].map(String)];
+  assert.ok(dependencyNames.includes('lit-html') && dependencyNames.includes('nalgebra'), dependencyNames.join(' '));
+  for (const name of dependencyNames) assert.match(licenceText, new RegExp(`^${name} \\d\\S* \\(.+\\)$`, 'm'));
   const packedFiles = execFileSync('tar', ['-tf', tarball], { encoding: 'utf8' }).split('\n');
   assert.ok(packedFiles.includes('package/dist/LICENSE-third-party.txt'));
 });

@@ -11,77 +11,77 @@ import { pythonName, scriptName } from '../../scripts/names.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { CACHE_DIRECTORY, ensurePip } from '../../scripts/toolchain.mjs';
 
-const SOURCES = join(ROOT, 'python');
-const project = readFileSync(join(SOURCES, 'pyproject.toml'), 'utf8');
+const SOURCE_DIRECTORY = join(ROOT, 'python');
+const pyproject = readFileSync(join(SOURCE_DIRECTORY, 'pyproject.toml'), 'utf8');
 
 /** @type {string} */
 let temporaryDirectory;
 /** Search path of Python: the directories of the package and of its dependencies. @type {string} */
 let searchPath;
 
-/** @param {string[]} args @param {string} [pythonPath] */
+/** Runs Python, and returns its output. @param {string[]} args @param {string} [pythonPath] */
 const runPython = (args, pythonPath = '') => {
   const env = { ...process.env, PYTHONPATH: pythonPath, PIP_ROOT_USER_ACTION: 'ignore', PIP_DISABLE_PIP_VERSION_CHECK: '1' };
   return execFileSync('python3', args, { encoding: 'utf8', env });
 };
 
-/** @param {string[]} args @param {string} [pythonPath] */
+/** Runs pip. @param {string[]} args @param {string} [pythonPath] */
 const pip = (args, pythonPath) => runPython(['-m', 'pip', '--quiet', ...args], pythonPath);
 
 /** Installs what the package needs to be built and to run, once for all clones of the repository, and returns its directory. */
-function dependencies() {
-  const requirementLists = project.match(/^(?:requires|dependencies) = .*$/gm) ?? [];
+function installDependencies() {
+  const requirementLists = pyproject.match(/^(?:requires|dependencies) = .*$/gm) ?? [];
   const requirements = requirementLists.flatMap((list) => list.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
-  assert.ok(requirements.length >= 2, project);
-  const version = runPython(['--version']);
-  const directory = join(CACHE_DIRECTORY, `python-${createHash('sha256').update(requirements + version).digest('hex').slice(0, 12)}`);
+  assert.ok(requirements.length >= 2, pyproject);
+  const pythonVersion = runPython(['--version']);
+  const directory = join(CACHE_DIRECTORY, `python-${createHash('sha256').update(requirements + pythonVersion).digest('hex').slice(0, 12)}`);
   if (existsSync(directory)) return directory;
-  const incomplete = `${directory}-${process.pid}`;
-  pip(['install', '--target', incomplete, ...requirements]);
-  renameSync(incomplete, directory);
+  const incompleteDirectory = `${directory}-${process.pid}`;
+  pip(['install', '--target', incompleteDirectory, ...requirements]);
+  renameSync(incompleteDirectory, directory);
   return directory;
 }
 
 before(async () => {
   await ensurePip();
   temporaryDirectory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
-  const installedDependencies = dependencies();
-  pip(['wheel', '--no-deps', '--no-build-isolation', '--wheel-dir', temporaryDirectory, SOURCES], installedDependencies);
+  const dependencyDirectory = installDependencies();
+  pip(['wheel', '--no-deps', '--no-build-isolation', '--wheel-dir', temporaryDirectory, SOURCE_DIRECTORY], dependencyDirectory);
   const [wheel] = readdirSync(temporaryDirectory);
   const { version } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
   assert.equal(wheel, `motion_widgets-${version}-py3-none-any.whl`);
   const installDirectory = join(temporaryDirectory, 'site');
   pip(['install', '--no-deps', '--target', installDirectory, join(temporaryDirectory, wheel)]);
-  searchPath = [installDirectory, installedDependencies].join(delimiter);
+  searchPath = [installDirectory, dependencyDirectory].join(delimiter);
 });
 
 after(() => rmSync(temporaryDirectory, { recursive: true, force: true }));
 
 test('the wheel is imported, and a setting that is a keyword of Python has an underscore', () => {
-  const lines = [
+  const pythonLines = [
     'import json, motion_widgets as m',
     'figure = m.OdometryDecomposer(from_={"x": 1, "y": 2, "theta": 0.5})',
     'm.BananaMachine(reverse_aware=True, morph=0.5); m.MapSqueeze(steps=4)',
     'print(json.dumps([m.__file__, figure.get_state(["widget", "from_"])]))',
   ];
-  const [file, state] = JSON.parse(runPython(['-c', lines.join('\n')], searchPath));
+  const [file, state] = JSON.parse(runPython(['-c', pythonLines.join('\n')], searchPath));
   assert.ok(file.startsWith(temporaryDirectory), file);
   assert.deepEqual(state, { widget: 'odometry-decomposer', from_: { x: 1, y: 2, theta: 0.5 } });
 });
 
 test('no trait hides what every widget has', () => {
-  const lines = [
+  const pythonLines = [
     'import motion_widgets as m',
     'from motion_widgets._figure import Figure',
     'from traitlets import TraitType',
     'print([f"{name}.{each}" for name in m.__all__ for each, trait in vars(getattr(m, name)).items()',
     '       if isinstance(trait, TraitType) and hasattr(Figure, each)])',
   ];
-  assert.equal(runPython(['-c', lines.join('\n')], searchPath).trim(), '[]');
+  assert.equal(runPython(['-c', pythonLines.join('\n')], searchPath).trim(), '[]');
 });
 
 test('a value out of its range, and parts that are wrong or missing, are refused with what is allowed', () => {
-  const refusals = [
+  const refusedCalls = [
     ['MapSqueeze(omega=2e6)', 'omega is 2000000.0; allowed is a number from -1000000 to 1000000'],
     ['MapSqueeze(steps=0)', 'steps is 0; allowed is a whole number from 1 to 1000'],
     ['BananaMachine(model="car")', "model is 'car'; allowed is one of velocity, odometry"],
@@ -90,12 +90,12 @@ test('a value out of its range, and parts that are wrong or missing, are refused
     ['BananaMachine(alphas=[1, "2"])', "alphas[1] is '2'; allowed is a number from 0 to 1000000"],
     ['BananaMachine(overlays=["elipse"])', "overlays[0] is 'elipse'; allowed is one of command, ellipse, exponential, linearized, additive"],
   ];
-  const lines = ['import motion_widgets as m, traitlets', ...refusals.flatMap(([call]) => [`try: m.${call}`, 'except traitlets.TraitError as error: print(error)'])];
-  assert.deepEqual(runPython(['-c', lines.join('\n')], searchPath).trim().split('\n'), refusals.map(([, message]) => message));
+  const pythonLines = ['import motion_widgets as m, traitlets', ...refusedCalls.flatMap(([call]) => [`try: m.${call}`, 'except traitlets.TraitError as error: print(error)'])];
+  assert.deepEqual(runPython(['-c', pythonLines.join('\n')], searchPath).trim().split('\n'), refusedCalls.map(([, message]) => message));
 });
 
 test('what a figure reports is applied and echoed if the figure sent it and Python has not changed it since', () => {
-  const lines = [
+  const pythonLines = [
     'import comm, json, motion_widgets as m',
     'from comm.base_comm import BaseComm',
     'sent = []',
@@ -107,7 +107,7 @@ test('what a figure reports is applied and echoed if the figure sent it and Pyth
     'f.set_state({"omega": 1.2, "dt": 1.4, "_shown": {"heard": heard, "settings": {"preset": "hard", "omega": 1.2, "dt": 1.4}}})',
     'print(json.dumps([f.preset, f.omega, f.dt, [sorted(each["state"]) for each in sent]]))',
   ];
-  assert.deepEqual(JSON.parse(runPython(['-c', lines.join('\n')], searchPath)), ['hard', 0.2, 1.4, [['_shown', 'dt']]]);
+  assert.deepEqual(JSON.parse(runPython(['-c', pythonLines.join('\n')], searchPath)), ['hard', 0.2, 1.4, [['_shown', 'dt']]]);
 });
 
 test('settings that were not given are None', () => {

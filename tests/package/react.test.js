@@ -9,20 +9,20 @@ import { buildSync } from 'esbuild';
 import { ROOT } from '../../scripts/process.mjs';
 import { recordConsoleMessages, serveProject } from './support.js';
 
-const project = serveProject(prepare);
-/** Address of the pages. */
+const project = serveProject(prepareProject);
+/** Returns the address of a page. */
 const addressOf = (/** @type {string} */ name) => new URL(`react/${name}`, project.address).href;
 /** @type {import('@playwright/test').Page} */
 let page;
 /** Messages of the console. @type {string[]} */
 let consoleMessages;
 
-/** Source of a React application: a test changes its props by `page`, and reads the received events in `heard`. */
+/** Source of a React application: a test changes its props by `page`, and reads the received events in `receivedEvents`. */
 const APPLICATION_SOURCE = `
   import { createElement, useRef, useState } from 'react';
   import { BananaMachine, MapSqueeze } from 'motion-widgets/react';
 
-  export const heard = [];
+  export const receivedEvents = [];
   export const page = {};
 
   export function Application({ first = {} }) {
@@ -30,12 +30,12 @@ const APPLICATION_SOURCE = `
     const [stats, setStats] = useState(null);
     const figure = useRef(null);
     Object.assign(page, { figure, setProps, renderings: (page.renderings ?? 0) + 1 });
-    const hear = (name) => (event) => {
+    const recordEvent = (name) => (event) => {
       // Without this call the figure would also write the error to the console.
       event.preventDefault();
-      heard.push([name, event.currentTarget === figure.current, ...(event.message ? [event.message] : [])]);
+      receivedEvents.push([name, event.currentTarget === figure.current, ...(event.message ? [event.message] : [])]);
     };
-    const handlers = Object.fromEntries(['onLoad', 'onError', 'onInput', 'onChange'].map((name) => [name, hear(name)]));
+    const handlers = Object.fromEntries(['onLoad', 'onError', 'onInput', 'onChange'].map((name) => [name, recordEvent(name)]));
     const onStats = ({ detail }) => setStats(detail);
     if (props === null) return createElement('p', null, 'It has gone.');
     return createElement('main', null,
@@ -50,28 +50,28 @@ const APPLICATION_SOURCE = `
 const CLIENT_SOURCE = `
   import { StrictMode, createElement } from 'react';
   import { createRoot, hydrateRoot } from 'react-dom/client';
-  import { Application, heard, page } from './application.js';
+  import { Application, receivedEvents, page } from './application.js';
 
-  const application = (first) => createElement(StrictMode, null, createElement(Application, { first }));
-  const place = document.getElementById('root');
+  const applicationElement = (first) => createElement(StrictMode, null, createElement(Application, { first }));
+  const rootElement = document.getElementById('root');
   Object.assign(globalThis, {
-    heard,
+    receivedEvents,
     page,
-    hydrate: (first) => hydrateRoot(place, application(first)),
-    show: (first) => createRoot(place).render(application(first)),
+    hydrate: (first) => hydrateRoot(rootElement, applicationElement(first)),
+    show: (first) => createRoot(rootElement).render(applicationElement(first)),
   });
 `;
 
-function prepare() {
+function prepareProject() {
   for (const name of ['react-dom', 'scheduler']) {
     cpSync(join(ROOT, 'node_modules', name), join(project.directory, 'node_modules', name), { recursive: true });
   }
   mkdirSync(join(project.directory, 'react'));
   writeInProject('application.js', APPLICATION_SOURCE);
   writeInProject('client.js', CLIENT_SOURCE);
-  const pageWith = (/** @type {string} */ html) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${html}</div><script type="module" src="./bundle.js"></script>`;
-  writeInProject('index.html', pageWith(''));
-  writeInProject('sent.html', pageWith(serverHtmlOf({ omega: 0.8 })));
+  const pageHtmlOf = (/** @type {string} */ html) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${html}</div><script type="module" src="./bundle.js"></script>`;
+  writeInProject('index.html', pageHtmlOf(''));
+  writeInProject('sent.html', pageHtmlOf(serverHtmlOf({ omega: 0.8 })));
   const directory = join(project.directory, 'react');
   // The development build of React reports errors.
   const esbuildDefine = { 'process.env.NODE_ENV': '"development"' };
@@ -92,42 +92,42 @@ function writeInProject(name, contents) {
 
 /** Returns the HTML that a server renders for a figure. @param {object} props of the figure; they may contain NaN */
 function serverHtmlOf(props) {
-  const text = JSON.stringify(props, (_, value) => (Number.isNaN(value) ? 'NaN' : value)).replaceAll('"NaN"', 'NaN');
-  const source = `
+  const propsSource = JSON.stringify(props, (_, value) => (Number.isNaN(value) ? 'NaN' : value)).replaceAll('"NaN"', 'NaN');
+  const serverSource = `
     import { createElement } from 'react';
     import { renderToString } from 'react-dom/server';
     import { Application } from './application.js';
-    console.log(renderToString(createElement(Application, { first: ${text} })));`;
-  writeInProject('server.mjs', source);
+    console.log(renderToString(createElement(Application, { first: ${propsSource} })));`;
+  writeInProject('server.mjs', serverSource);
   writeInProject('package.json', '{ "type": "module" }');
-  const script = join(project.directory, 'react/server.mjs');
-  return execFileSync(process.execPath, [script], { encoding: 'utf8', env: { ...process.env, NODE_ENV: 'development' } }).trim();
+  const scriptPath = join(project.directory, 'react/server.mjs');
+  return execFileSync(process.execPath, [scriptPath], { encoding: 'utf8', env: { ...process.env, NODE_ENV: 'development' } }).trim();
 }
 
 /** Waits until the page shows the 2000 samples that the last `stats` event of the first figure has. */
 const untilComplete = () => page.getByText('of 2000').waitFor();
 
-/** @param {string} name of the file */
+/** Opens a page of the application. @param {string} name of the file */
 async function openPage(name) {
   await page.goto(addressOf(name));
   await page.waitForFunction(() => 'hydrate' in globalThis);
 }
 
-/** @param {Record<string, unknown> | null} props of the first figure, or null to remove it */
+/** Sets the props of the first figure, or removes it. @param {Record<string, unknown> | null} props */
 const setProps = (props) => page.evaluate((newProps) => /** @type {any} */ (globalThis).page.setProps(newProps), props);
 
-/** @param {string} name of a property of the first figure */
-const property = (name) => page.evaluate((key) => /** @type {any} */ (document.querySelector('banana-machine'))[key], name);
+/** Returns a property of the first figure. @param {string} name */
+const propertyOf = (name) => page.evaluate((key) => /** @type {any} */ (document.querySelector('banana-machine'))[key], name);
 
 /** Returns the events that the page received. @returns {Promise<[name: string, onFigure: boolean, message?: string][]>} */
-const receivedEvents = () => page.evaluate(() => /** @type {any} */ (globalThis).heard);
+const readReceivedEvents = () => page.evaluate(() => /** @type {any} */ (globalThis).receivedEvents);
 
 test('a server sends what attributes say', () => {
   const html = serverHtmlOf({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
-  const [tag] = html.match(/<banana-machine[^>]*>/) ?? [];
-  const attributes = { reverseAware: '', omega: '0.8', samples: '2000', overlays: 'command ellipse', share: '', 'heading-level': '2', class: 'wide' };
-  const actual = Object.fromEntries([...(tag ?? '').matchAll(/ ([\w-]+)="([^"]*)"/g)].map(([, name, text]) => [name, text]));
-  assert.deepEqual(actual, attributes);
+  const [openingTag] = html.match(/<banana-machine[^>]*>/) ?? [];
+  const expectedAttributes = { reverseAware: '', omega: '0.8', samples: '2000', overlays: 'command ellipse', share: '', 'heading-level': '2', class: 'wide' };
+  const actualAttributes = Object.fromEntries([...(openingTag ?? '').matchAll(/ ([\w-]+)="([^"]*)"/g)].map(([, name, text]) => [name, text]));
+  assert.deepEqual(actualAttributes, expectedAttributes);
   assert.match(html, /<map-squeeze conditioned="false" heading-level="3">/);
   assert.match(html, /<span slot="title">Figure 1<\/span>/);
 });
@@ -136,9 +136,9 @@ test('what the server has sent is taken over, before its elements are there', as
   await openPage('sent.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).hydrate({ omega: 0.8 }));
   await untilComplete();
-  assert.equal(await property('omega'), 0.8);
-  assert.deepEqual(await property('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
-  assert.deepEqual((await receivedEvents())[0], ['onLoad', true]);
+  assert.equal(await propertyOf('omega'), 0.8);
+  assert.deepEqual(await propertyOf('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
+  assert.deepEqual((await readReceivedEvents())[0], ['onLoad', true]);
   assert.deepEqual(consoleMessages, []);
 });
 
@@ -147,18 +147,18 @@ test('renderings keep the user’s changes, and properties and events do not tri
   await page.evaluate(() => /** @type {any} */ (globalThis).show({}));
   await untilComplete();
   await page.locator('banana-machine').first().locator('#v').press('ArrowRight');
-  await page.waitForFunction(() => /** @type {any} */ (globalThis).heard.some((/** @type {string[]} */ [name]) => name === 'onChange'));
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).receivedEvents.some((/** @type {string[]} */ [name]) => name === 'onChange'));
   await setProps({ omega: 0.3 });
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0.3);
-  assert.notEqual(await property('v'), 1);
-  const renderings = await page.evaluate(async () => {
+  assert.notEqual(await propertyOf('v'), 1);
+  const renderingCount = await page.evaluate(async () => {
     const { page } = /** @type {any} */ (globalThis);
     for (let i = 0; i < 10; i++) await new Promise(requestAnimationFrame);
     const countBefore = page.renderings;
     for (let i = 0; i < 30; i++) await new Promise(requestAnimationFrame);
     return page.renderings - countBefore;
   });
-  assert.equal(renderings, 0);
+  assert.equal(renderingCount, 0);
   assert.deepEqual(consoleMessages, []);
 });
 
@@ -166,14 +166,14 @@ test('a refused prop calls onError, and a removed one restores the opening value
   await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({ omega: 0.8, marked: 7, conditioned: false }));
   await untilComplete();
-  assert.equal(await property('marked'), 7);
+  assert.equal(await propertyOf('marked'), 7);
   await page.evaluate(() => /** @type {any} */ (globalThis).page.setProps({ omega: NaN, alphas: [1, 2] }));
-  await page.waitForFunction(() => /** @type {any} */ (globalThis).heard.filter((/** @type {string[]} */ [name]) => name === 'onError').length === 2);
-  assert.equal(await property('omega'), 0.8);
-  assert.deepEqual(await property('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).receivedEvents.filter((/** @type {string[]} */ [name]) => name === 'onError').length === 2);
+  assert.equal(await propertyOf('omega'), 0.8);
+  assert.deepEqual(await propertyOf('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
   await page.evaluate(() => /** @type {any} */ (globalThis).page.setProps({ alphas: undefined }));
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0);
-  assert.deepEqual(await property('alphas'), [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
-  assert.equal(await property('marked'), null);
+  assert.deepEqual(await propertyOf('alphas'), [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
+  assert.equal(await propertyOf('marked'), null);
   assert.deepEqual(consoleMessages, []);
 });

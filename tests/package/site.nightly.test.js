@@ -28,9 +28,9 @@ after(async () => {
 test('pages fit a phone, load without complaints, and start their figures', async () => {
   const page = await browser.newPage({ viewport: { width: 375, height: 800 } });
   const consoleMessages = recordConsoleMessages(page);
-  const paths = filesOf('build/site').map((path) => path.slice('build/site/'.length)).filter((path) => /^(?!rust|classroom|embed\.).*html$/.test(path));
+  const pagePaths = filesOf('build/site').map((path) => path.slice('build/site/'.length)).filter((path) => /^(?!rust|classroom|embed\.).*html$/.test(path));
   let figureCount = 0;
-  for (const path of paths) {
+  for (const path of pagePaths) {
     await page.goto(server.address + path);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${path} is too wide`);
     for (const figure of await page.locator('.stand > *, .document > :is(banana-machine, map-squeeze)').all()) {

@@ -11,30 +11,30 @@ import { settings } from '../../www/settings.js';
 const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 
 /** Report of esbuild on each file that it has written, by the file's path from the root. @type {Record<string, { entryPoint?: string, imports: { path: string, kind: string }[] }>} */
-const outputs = JSON.parse(readFileSync(pathOf('build/outputs.json'), 'utf8'));
+const esbuildOutputs = JSON.parse(readFileSync(pathOf('build/outputs.json'), 'utf8'));
 
 /** Returns a module with its static imports, which a browser loads with it, and without dynamic imports. @param {string} path */
-function loadedWith(path) {
+function filesLoadedWith(path) {
   const loadedPaths = new Set([path]);
   for (const loadedPath of loadedPaths) {
-    for (const { path: imported, kind } of outputs[loadedPath].imports) if (kind === 'import-statement') loadedPaths.add(imported);
+    for (const { path: imported, kind } of esbuildOutputs[loadedPath].imports) if (kind === 'import-statement') loadedPaths.add(imported);
   }
   return [...loadedPaths];
 }
 
 /** Returns the chunk of external.js whose entry point is a source file, and what a browser loads with it. @param {string} source */
-function chunkWith(source) {
-  const chunk = Object.entries(outputs).find(([product, { entryPoint }]) => entryPoint === source && product.startsWith('dist/chunks/'));
+function filesOfChunk(source) {
+  const chunk = Object.entries(esbuildOutputs).find(([product, { entryPoint }]) => entryPoint === source && product.startsWith('dist/chunks/'));
   assert.ok(chunk, `external.js has no chunk of ${source}.`);
-  return loadedWith(chunk[0]);
+  return filesLoadedWith(chunk[0]);
 }
 
 /** Returns the scripts that a page with some widgets loads before a user uses them. @param {string[]} tags @param {string} core */
 const scriptsOf = (tags, core) =>
-  [...new Set([...loadedWith('dist/external.js'), ...tags.flatMap((tag) => chunkWith(`www/widgets/${tag}/${tag}.ts`)), ...chunkWith(`build/${core}.js`)])];
+  [...new Set([...filesLoadedWith('dist/external.js'), ...tags.flatMap((tag) => filesOfChunk(`www/widgets/${tag}/${tag}.ts`)), ...filesOfChunk(`build/${core}.js`)])];
 
 /** Returns the path of the WebAssembly module of a widget. @param {string} tag */
-function moduleOf(tag) {
+function modulePathOf(tag) {
   const fileName = readdirSync(pathOf('dist/chunks')).find((name) => name.startsWith(`${tag}-`) && name.endsWith('.wasm'));
   assert.ok(fileName, `dist/chunks has no module for ${tag}.`);
   return `dist/chunks/${fileName}`;
@@ -42,38 +42,38 @@ function moduleOf(tag) {
 
 /** Asserts that files compressed by brotli are within a limit. @param {string} name @param {string[]} paths @param {number} limit bytes */
 function assertSize(name, paths, limit) {
-  const bestQuality = { params: { [constants.BROTLI_PARAM_QUALITY]: 11 } };
-  const bytes = paths.reduce((sum, path) => sum + brotliCompressSync(readFileSync(pathOf(path)), bestQuality).length, 0);
-  console.log(`${name}: ${bytes} of ${limit} bytes`);
-  assert.ok(bytes <= limit, `${name}: ${paths.join(' + ')} are ${bytes} bytes by brotli; allowed are ${limit}`);
+  const brotliOptions = { params: { [constants.BROTLI_PARAM_QUALITY]: 11 } };
+  const compressedBytes = paths.reduce((sum, path) => sum + brotliCompressSync(readFileSync(pathOf(path)), brotliOptions).length, 0);
+  console.log(`${name}: ${compressedBytes} of ${limit} bytes`);
+  assert.ok(compressedBytes <= limit, `${name}: ${paths.join(' + ')} are ${compressedBytes} bytes by brotli; allowed are ${limit}`);
 }
 
 /**
  * Limits in kilobytes: the budget of a page with one widget, and the present sizes of other files, rounded up. See "The size of
  * the module" in doc/implementation-notes.md.
  */
-const LIMITS = {
+const LIMITS_KB = {
   page: 118, moduleOfWidget: 56, pageOfCalibrator: 159, moduleOfCalibrator: 91, module: 221, classicScript: 444, notebook: 449,
 };
 
 /** Widget whose module also has all of motion::calibrate. */
-const CALIBRATOR = 'alpha-calibrator';
+const CALIBRATOR_TAG = 'alpha-calibrator';
 
 test('what a page loads does not grow', () => {
   const tags = Object.keys(settings);
   for (const tag of tags) {
-    const [page, module] = tag === CALIBRATOR ? [LIMITS.pageOfCalibrator, LIMITS.moduleOfCalibrator] : [LIMITS.page, LIMITS.moduleOfWidget];
-    assertSize(tag, [...scriptsOf([tag], tag), moduleOf(tag)], 1000 * page);
-    assertSize(`module of ${tag}`, [moduleOf(tag)], 1000 * module);
+    const [pageLimit, moduleLimit] = tag === CALIBRATOR_TAG ? [LIMITS_KB.pageOfCalibrator, LIMITS_KB.moduleOfCalibrator] : [LIMITS_KB.page, LIMITS_KB.moduleOfWidget];
+    assertSize(tag, [...scriptsOf([tag], tag), modulePathOf(tag)], 1000 * pageLimit);
+    assertSize(`module of ${tag}`, [modulePathOf(tag)], 1000 * moduleLimit);
   }
   assertSize('scripts of all widgets', scriptsOf(tags, 'motion'), 125_000);
-  assertSize('module', ['dist/motion.wasm'], 1000 * LIMITS.module);
-  assertSize('module for notebooks', ['dist/anywidget.js'], 1000 * LIMITS.notebook);
-  assertSize('classic script', ['dist/motion-widgets.iife.js'], 1000 * LIMITS.classicScript);
+  assertSize('module', ['dist/motion.wasm'], 1000 * LIMITS_KB.module);
+  assertSize('module for notebooks', ['dist/anywidget.js'], 1000 * LIMITS_KB.notebook);
+  assertSize('classic script', ['dist/motion-widgets.iife.js'], 1000 * LIMITS_KB.classicScript);
 });
 
 test('doc/embedding.md says these limits', () => {
   const document = readFileSync(new URL('../../doc/embedding.md', import.meta.url), 'utf8');
   const statedLimits = document.slice(document.indexOf('## Sizes')).match(/(?<=^\|.*)\d+(?= kB)/gm);
-  assert.deepEqual(statedLimits?.map(Number), Object.values(LIMITS));
+  assert.deepEqual(statedLimits?.map(Number), Object.values(LIMITS_KB));
 });

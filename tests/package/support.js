@@ -26,47 +26,48 @@ export function installPackage() {
   execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory]);
   const tarball = readdirSync(directory).find((name) => name.endsWith('.tgz'));
   assert.ok(tarball, 'npm pack makes a tarball');
-  const modules = join(directory, 'node_modules');
-  mkdirSync(modules);
-  execFileSync('tar', ['-xzf', tarball, '-C', modules], { cwd: directory });
-  renameSync(join(modules, 'package'), join(modules, 'motion-widgets'));
+  const modulesDirectory = join(directory, 'node_modules');
+  mkdirSync(modulesDirectory);
+  execFileSync('tar', ['-xzf', tarball, '-C', modulesDirectory], { cwd: directory });
+  renameSync(join(modulesDirectory, 'package'), join(modulesDirectory, 'motion-widgets'));
   writeFileSync(join(directory, 'package.json'), '{ "private": true }');
   // npm leaves the installation of peer dependencies to the application.
   const { peerDependencies } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
-  for (const name of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', name), join(modules, name), { recursive: true });
+  for (const name of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', name), join(modulesDirectory, name), { recursive: true });
   cpSync(join(ROOT, 'examples'), directory, { recursive: true });
   for (const name of COPIED_FILES) {
     for (const example of ['classic-script', 'iframe']) cpSync(join(ROOT, 'dist', name), join(directory, example, name));
   }
-  for (const entry of readdirSync(join(ROOT, 'examples'), { withFileTypes: true })) {
-    if (entry.isDirectory()) symlinkSync(modules, join(directory, entry.name, 'node_modules'));
+  for (const exampleEntry of readdirSync(join(ROOT, 'examples'), { withFileTypes: true })) {
+    if (exampleEntry.isDirectory()) symlinkSync(modulesDirectory, join(directory, exampleEntry.name, 'node_modules'));
   }
   return { directory, remove: () => rmSync(directory, { recursive: true, force: true }) };
 }
 
 /** Installs and serves the package for all tests of a file. @param {() => unknown} [prepare] is called after the installation */
 export function serveProject(prepare) {
-  const context = /** @type {{ directory: string, address: string, browser: import('@playwright/test').Browser }} */ ({});
+  const projectContext = /** @type {{ directory: string, address: string, browser: import('@playwright/test').Browser }} */ ({});
   /** @type {(() => void)[]} */
   const cleanups = [];
   before(async () => {
-    // Waits until the test file is evaluated.
+    // The test file must be evaluated before `prepare` is called.
     await null;
     const { directory, remove } = installPackage();
     cleanups.push(remove);
-    context.directory = directory;
+    projectContext.directory = directory;
     prepare?.();
     const { address, close } = await serve(directory, { port: 0 });
     cleanups.push(close);
-    Object.assign(context, { address, browser: await launchBrowser() });
+    Object.assign(projectContext, { address, browser: await launchBrowser() });
   });
   after(async () => {
-    await context.browser?.close();
+    await projectContext.browser?.close();
     for (const end of cleanups.reverse()) end();
   });
-  return context;
+  return projectContext;
 }
 
+/** Launches the browser of the tests. */
 export function launchBrowser() {
   return chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS });
 }
@@ -94,15 +95,15 @@ export async function openWithCloud(browser, address, prepare) {
   await prepare?.(page);
   const consoleMessages = recordConsoleMessages(page);
   /** @type {string[]} */
-  const requests = [];
-  page.on('request', (request) => requests.push(request.url()));
+  const requestedUrls = [];
+  page.on('request', (request) => requestedUrls.push(request.url()));
   await page.goto(address);
-  const frame = (await page.locator('iframe').count()) > 0 ? page.frameLocator('iframe') : page;
-  const canvas = frame.locator('banana-machine canvas').first();
+  const figureFrame = (await page.locator('iframe').count()) > 0 ? page.frameLocator('iframe') : page;
+  const canvas = figureFrame.locator('banana-machine canvas').first();
   await canvas.waitFor({ timeout: 10_000 }).catch((error) => {
     throw new Error([...consoleMessages, error.message].join('\n'));
   });
-  await frame.locator('banana-machine').first().evaluate(untilComplete);
+  await figureFrame.locator('banana-machine').first().evaluate(untilComplete);
   assert.deepEqual(consoleMessages, []);
-  return { page, requests };
+  return { page, requests: requestedUrls };
 }

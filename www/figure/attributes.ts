@@ -1,6 +1,6 @@
 /** Attributes and properties derived from a widget's settings, and their conversion from and to text. */
 
-import { includesFields, refusalError, checkedWord } from './checks.ts';
+import { checkedNumber, includesFields, refusalError, checkedWord } from './checks.ts';
 import type { Declaration } from '../settings.js';
 
 /** Conversion of a value from and to the text of an attribute. */
@@ -88,10 +88,19 @@ export const selectAttributes = (properties: Properties) =>
 /** Returns the property of a field of the configuration. */
 export const fieldProperty = (key: string, converter?: Converter): Property => ({ converter, get: (config) => config[key], change: (value) => ({ [key]: value }) });
 
-function propertyOf({ key, in: group, field = key, index, of, weights = [], type }: Declaration): Property {
+function propertyOf({ key, in: group, field = key, index, of, weights = [], type, min = -Infinity, max = Infinity }: Declaration): Property {
   const plainProperty = fieldProperty(key, CONVERTERS[type]);
-  // This setting is a level, which scales several settings of the simulation.
-  if (of) return { ...plainProperty, get: (config) => commonFactorOf(config[of], weights) };
+  // The property is a level, which scales the last numbers of a setting.
+  if (of) {
+    return {
+      ...plainProperty,
+      get: (config) => commonFactorOf(config[of], weights),
+      change: (level, { [of]: numbers }) => {
+        const scaledNumbers = weights.map((weight) => weight * checkedNumber(key, level, min, max));
+        return { [of]: [...numbers.slice(0, -weights.length), ...scaledNumbers] };
+      },
+    };
+  }
   if (!group) return plainProperty;
   const memberKey = index ?? field;
   return {

@@ -15,15 +15,11 @@ export class Reflection extends FigureController {
   #properties = this.host.definition.properties;
   /** Order in which pending properties are applied. Properties that others depend on come first, and a log, which takes long, last. */
   #order = ['preset', 'map', ...Object.keys(this.#properties), 'log'];
-  /** Attributes that were set before there was a simulation. */
-  #pendingAttributes: Map<string, string | null> = new Map();
-  /** Properties and states set before there was a simulation. The key is the name of a property, or a new object for each state. */
-  #pendingProperties: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
+  /** Assignments before there was a simulation. The key is the name of a property, or a new object for each state. */
+  #earlyAssignments: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
   /** True after the first connection: an element that is moved in the page keeps its settings. */
   #hasConnected = false;
   #isWriting = false;
-  /** Attribute that is being applied; its text is not overwritten. */
-  #incomingName: string | undefined;
   /** Attribute texts as last written. */
   #writtenTexts: AttributeTexts | undefined;
 
@@ -33,46 +29,36 @@ export class Reflection extends FigureController {
     if (!this.#hasConnected) this.#applyListAttributes(host);
     this.#hasConnected = true;
     for (const name of Object.keys(host)) {
-      for (let prototype = Object.getPrototypeOf(host); prototype !== HTMLElement.prototype; prototype = Object.getPrototypeOf(prototype)) {
-        if (!Object.getOwnPropertyDescriptor(prototype, name)?.set) continue;
-        const assignedValue = host[name];
-        delete host[name];
-        host[name] = assignedValue;
-        break;
-      }
+      if (!(name in Object.getPrototypeOf(host))) continue;
+      const assignedValue = host[name];
+      delete host[name];
+      Reflect.set(host, name, assignedValue);
     }
   }
 
   /** Reads list properties from texts such as `alphas="0.1,0.2"` or `"[0.1, 0.2]"`. The property refuses and reports any other text. */
   #applyListAttributes(host: Record<string, unknown>) {
-    for (const name of Object.keys(this.#properties)) {
-      const listText = name in this.#attributes || name in this.host.state.elementState ? null : this.host.getAttribute(name);
+    for (const [name, { converter }] of Object.entries(this.#properties)) {
+      const listText = converter || name in this.host.state.elementState ? null : this.host.getAttribute(name);
       if (listText === null || Object.hasOwn(host, name)) continue;
       const numbers = (listText.match(/[^\s,[\]]+/g) ?? []).map(Number);
       host[name] = numbers.every(Number.isFinite) ? numbers : listText;
     }
   }
 
-  /** Applies attributes and properties that were set before there was a simulation. */
-  applyPending() {
-    for (const name of Object.keys(this.#attributes)) {
-      const text = this.#pendingAttributes.get(name);
-      if (text !== undefined) this.#apply(name, text);
-    }
-    this.#pendingAttributes.clear();
-    // Properties between two states are sorted by dependency. States keep their order in time.
+  /** Applies the assignments before there was a simulation. States keep their order in time, with properties sorted by dependency between them. */
+  applyEarlyAssignments() {
     let stateOffset = 0;
-    const pendingEntries = [...this.#pendingProperties].map(([name, { apply }]) =>
+    const assignments = [...this.#earlyAssignments].map(([name, { apply }]) =>
       ({ apply, order: typeof name === 'string' ? stateOffset + this.#order.indexOf(name) : (stateOffset += this.#order.length) }));
-    this.#pendingProperties.clear();
-    pendingEntries.sort((a, b) => a.order - b.order);
-    for (const { apply } of pendingEntries) this.host.runtime.attemptOrReport(apply);
+    this.#earlyAssignments.clear();
+    for (const { apply } of assignments.sort((a, b) => a.order - b.order)) this.host.runtime.attemptOrReport(apply);
   }
 
   /** Applies a state, now or as soon as there is a simulation. */
   whenReady(applyState: () => void) {
     if (this.host.simulation) this.host.runtime.attempt(applyState);
-    else this.#pendingProperties.set({}, { apply: applyState });
+    else this.#earlyAssignments.set({}, { apply: applyState });
   }
 
   /** Sets a property to a value or to its text. Null or undefined sets the default. A value that is refused is reported. */
@@ -89,28 +75,30 @@ export class Reflection extends FigureController {
       this.host.runtime.attemptOrReport(applyIfChanged);
     } else {
       // The latest assignment is applied last.
-      this.#pendingProperties.delete(name);
-      this.#pendingProperties.set(name, { value: parsedValue, apply: applyIfChanged });
+      this.#earlyAssignments.delete(name);
+      this.#earlyAssignments.set(name, { value: parsedValue, apply: applyIfChanged });
     }
   }
 
-  /** Returns the value of a property. Before there is a simulation, that is the pending value. */
+  /** Returns the value of a property. Before there is a simulation, that is the value assigned to it, if any. */
   get(name: string) {
     const { simulation, state } = this.host;
-    const pending = this.pendingValue(name);
-    if (pending !== undefined) return pending;
-    if (name in state.elementState) return structuredClone(state.elementState[name]);
-    return simulation ? this.host.querySimulation(() => this.#properties[name].get(state.config)) : undefined;
+    if (this.#earlyAssignments.has(name)) return this.#earlyAssignments.get(name)?.value;
+    return structuredClone(simulation ? this.#properties[name].get(state.config) : state.elementState[name]);
   }
 
-  /** Sets a property of the definition, as `setProperty` does. */
+  /** Sets a property of the definition, as `setProperty` does. An error names the property as the caller did. */
   set(name: string, value: unknown) {
-    this.setProperty(name, value, (newValue) => this.#assign(name, newValue));
-  }
-
-  /** Returns the value of a property that waits for the simulation; undefined for none. */
-  pendingValue(name: string) {
-    return this.#pendingProperties.get(name)?.value;
+    const { settings, state } = this.host;
+    const { change, path } = this.#properties[name];
+    this.setProperty(name, value, (newValue) => {
+      try {
+        if (name in state.elementState) state.assign(name, newValue);
+        else settings.assign(change(newValue, settings.requested));
+      } catch (error) {
+        throw withFieldRenamed(error, name, path);
+      }
+    });
   }
 
   /** Sets an attribute that every figure has, after a check; null or undefined removes it. */
@@ -126,33 +114,7 @@ export class Reflection extends FigureController {
     const { words } = COMMON_ATTRS[attribute] ?? {};
     if (words && text !== null) this.host.runtime.attemptOrReport(() => checkedWord(attribute, text, words));
     const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
-    if (this.#isWriting || name === undefined) return;
-    if (this.host.simulation) this.#apply(name, text);
-    else this.#pendingAttributes.set(name, text);
-  }
-
-  #apply(name: string, text: string | null) {
-    this.#incomingName = name;
-    try {
-      Reflect.set(this.host, name, text);
-    } finally {
-      this.#incomingName = undefined;
-    }
-  }
-
-  /** Changes a property; an error names it by the name that the caller used. */
-  #assign(name: string, value: unknown) {
-    const { state, settings } = this.host;
-    if (name in state.elementState) {
-      state.assign(name, value);
-      return;
-    }
-    const { change, path } = this.#properties[name];
-    try {
-      settings.assign(change(value, settings.requested));
-    } catch (error) {
-      throw withFieldRenamed(error, name, path);
-    }
+    if (name !== undefined && !this.#isWriting) Reflect.set(this.host, name, text);
   }
 
   /** Default configuration. Some defaults depend on the present settings. */
@@ -165,7 +127,7 @@ export class Reflection extends FigureController {
     return new Map(Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)]));
   }
 
-  /** Writes the attributes that have changed; the first call only remembers their texts. */
+  /** Writes the attributes that have changed; the first call only remembers their texts. A text of the page stays if it has the same value. */
   updateAttributes() {
     this.host.runtime.attempt(() => {
       if (this.host.simulation) this.#write(this.#textsOf(this.host.state.config));
@@ -184,10 +146,10 @@ export class Reflection extends FigureController {
     }
     this.#isWriting = true;
     for (const name of changedNames) {
-      if (name === this.#incomingName) continue;
-      const text = texts.get(name) ?? null;
+      const { parse, print } = this.#attributes[name].converter;
+      const [text, presentText] = [texts.get(name) ?? null, this.host.getAttribute(name)];
       if (text === null) this.host.removeAttribute(name);
-      else this.host.setAttribute(name, text);
+      else if (presentText === null || print(parse(presentText)) !== text) this.host.setAttribute(name, text);
     }
     this.#isWriting = false;
   }

@@ -51,16 +51,12 @@ export class Settings extends FigureController {
    * element is changed at once.
    */
   request(change: Values | ((requested: Values) => Values)) {
-    const { runtime, definition, state, gesture, renderer } = this.host;
+    const { runtime, state, gesture, renderer } = this.host;
     runtime.attempt(() => {
       if (!this.host.simulation) return;
       this.forgetRefusal();
-      const computeChange = () => (typeof change === 'function' ? change(this.requested) : change);
-      const changeNow = computeChange();
-      const overlapsPending = (key: string, otherKey: string) => key in changeNow && otherKey in this.#pending;
-      // A setting and the group that has it are applied one after the other.
-      if (definition.declarations.some(({ key, of }) => of && (overlapsPending(key, of) || overlapsPending(of, key)))) this.applyPending();
-      for (const [key, value] of Object.entries(computeChange())) (key in state.elementState ? state.elementState : this.#pending)[key] = value;
+      const values = typeof change === 'function' ? change(this.requested) : change;
+      for (const [key, value] of Object.entries(values)) (key in state.elementState ? state.elementState : this.#pending)[key] = value;
       gesture.step();
       renderer.requestFrame();
     });

@@ -33,7 +33,7 @@ export class State extends FigureController {
     host.settings.reset();
     if (this.lastValidState) host.restore(host.simulation, this.lastValidState);
     host.simulationChanged();
-    host.reflection.applyPending();
+    host.reflection.applyEarlyAssignments();
     // The simulation is missing after a trap. The settings are not stale if a pending state was shown already.
     if (host.simulation && host.settings.isStale) this.#showState(this.lastValidState);
   }

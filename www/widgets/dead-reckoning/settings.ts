@@ -40,7 +40,7 @@ export const definition = definitionOf('dead-reckoning', {
     step: { symbol: '*k*', role: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
     steps: { symbol: '*K*', role: 'prior', min: 1, max: 200, step: 1, decimals: 0 },
     // The slider shows α₃, even if the other three are not in the usual ratio to it.
-    headingNoise: { ...ALPHA_SLIDER, step: 0.005, value: ({ alphas, headingNoise = alphas[2] }) => headingNoise },
+    headingNoise: { ...ALPHA_SLIDER, step: 0.005, value: ({ alphas }) => alphas[2] },
   },
   dependentDefaults: ({ steps }) => ({ step: Math.min(defaultConfig(declarations).step, steps) }),
 });

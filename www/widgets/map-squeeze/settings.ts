@@ -32,7 +32,7 @@ export const definition = definitionOf('map-squeeze', {
   lines: LINE_STYLES,
   sliderSpecs: {
     ...COMMAND_SLIDERS,
-    noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas, noise = alphas[0] }) => noise },
+    noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas }) => alphas[0] },
     clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
     steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
   },

@@ -16,11 +16,10 @@ function describeValue(value: unknown) {
   return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
 }
 
-/** Returns the first characters of a text, without splitting a surrogate pair. */
-function shorten(text: string) {
-  const firstCharacters = String(/.{0,40}/su.exec(text));
-  return firstCharacters === text ? text : `${firstCharacters}…`;
-}
+/** Maximum length of a text in a message. */
+const MAX_LENGTH = 40;
+
+const shorten = (text: string) => (text.length > MAX_LENGTH ? `${text.slice(0, MAX_LENGTH)}…` : text);
 
 /** Returns an object after a check of its keys; `checkFirst` runs before it. */
 export function checkedObject(field: string, value: unknown, keys: readonly string[], checkFirst?: (value: Record<string, unknown>) => void) {

@@ -136,10 +136,7 @@ export class Cloud extends FigureController {
   withDerivedFields(currentState: Values, changes: Values): Values {
     const { samples, playing } = { ...currentState, ...changes };
     if (typeof playing !== 'boolean') throw refusalError('state.playing', playing, 'true or false', TypeError);
-    const { shown = currentState.shown === currentState.samples ? samples : Math.min(currentState.shown, samples) } = changes;
-    // A comparison with undefined is false, so that a missing selection becomes null.
-    const keptSelection = currentState.marked < (playing ? samples : shown) ? currentState.marked : null;
-    return { shown, marked: keptSelection };
+    return { shown: currentState.shown === currentState.samples ? samples : Math.min(currentState.shown, samples) };
   }
 
   /** Index of the selected sample; −1 for none. */

@@ -4,8 +4,6 @@ import { FigureController } from './controller.ts';
 import type { Values } from './settings.ts';
 
 export class Gesture extends FigureController {
-  #hasStep = false;
-  #isAtEnd: boolean | undefined;
   /** True between an `input` event and its `change`. */
   #isOpen = false;
   /** Removes the listeners of a press. */
@@ -37,23 +35,22 @@ export class Gesture extends FigureController {
   /** Ends the gesture when the figure is removed. */
   hostDisconnected() {
     this.#endPress();
-    if (this.#isOpen || this.#hasStep) this.commit();
+    if (this.#isOpen) this.commit();
   }
 
   /** Records a step of a change that may continue. */
   step() {
-    if (!this.#isOpen && !this.#hasStep) this.previousViewModel = this.host.viewModel;
-    this.#hasStep = true;
-    this.#isAtEnd = false;
-    this.#queueEvents();
+    if (!this.#isOpen) this.previousViewModel = this.host.viewModel;
+    this.#isOpen = true;
+    this.#dispatch('input');
   }
 
   /** Ends a change: applies it and announces the outcome. */
   commit() {
     const { host } = this;
-    host.runtime.attempt(() => host.settings.applyPending());
+    host.settings.applyPending();
     host.announcer.announceNext();
-    this.#finish();
+    this.#end();
     if (host.settings.isStale) host.renderer.requestFrame();
     else if (host.simulation) {
       host.finishChange();
@@ -76,27 +73,15 @@ export class Gesture extends FigureController {
   /** Changes a field of the element's state as a complete gesture. No outcome is announced. */
   choose(name: string, value: unknown) {
     this.host.settings.request({ [name]: value });
-    this.#finish();
+    this.#end();
   }
 
-  #finish() {
-    this.#isAtEnd = true;
-    this.#queueEvents();
-  }
-
-  /** Fires each event once after the running handler, which may change several values. */
-  #queueEvents() {
-    queueMicrotask(() => {
-      const [step, end] = [this.#hasStep, this.#isAtEnd];
-      this.#hasStep = this.#isAtEnd = false;
-      this.#isOpen ||= step;
-      if (step) this.#dispatch('input');
-      if (!end || !this.#isOpen) return;
-      this.#isOpen = false;
-      this.host.reflection.updateAttributes();
-      this.#dispatch('change');
-      this.host.link.write();
-    });
+  #end() {
+    if (!this.#isOpen) return;
+    this.#isOpen = false;
+    this.host.reflection.updateAttributes();
+    this.#dispatch('change');
+    void this.host.link.write();
   }
 
   #dispatch(name: string) {

@@ -79,13 +79,11 @@ export class Settings extends FigureController {
 
   /** Changes settings at once, as a change by the page. Throws a TypeError or RangeError, without a change, for invalid values. */
   assign(values: Values) {
-    this.host.runtime.attempt(() => {
-      this.applyPending();
-      this.#configure(values);
-      this.host.reflection.updateAttributes();
-      this.host.renderer.releaseViews();
-      this.host.renderer.requestFrame();
-    });
+    this.applyPending();
+    this.#configure(values);
+    this.host.reflection.updateAttributes();
+    this.host.renderer.releaseViews();
+    this.host.renderer.requestFrame();
   }
 
   /** Applies pending changes. A refused one is reported and dropped. */

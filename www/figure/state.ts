@@ -50,7 +50,9 @@ export class State extends FigureController {
     const wholeState: Values = { ...currentState, ...host.withDerivedFields(currentState, checkedState) };
     const simulation = freeOnError(host.createSimulation(host.motion, wholeState), (newSimulation) => {
       const selectableCount = wholeState.playing ? newSimulation.config.samples : wholeState.shown;
-      for (const [name, field] of Object.entries(this.#fields)) wholeState[name] = validatedValue(field, `state.${name}`, wholeState[name], selectableCount);
+      for (const [name, field] of Object.entries(this.#fields)) {
+        if (name in checkedState) wholeState[name] = validatedValue(field, `state.${name}`, wholeState[name], selectableCount);
+      }
       host.restore(newSimulation, wholeState);
     });
     for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];

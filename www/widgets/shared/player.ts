@@ -51,9 +51,9 @@ export class Player<Key extends string> extends FigureController {
     const { host: { gesture, renderer } } = this;
     const willPlay = this.#key !== key;
     if (this.#key) gesture.commit();
-    if (willPlay && this.#valueAt(key) >= this.#playedSettings[key].to) this.#setValue(key, 0);
     this.#key = willPlay ? key : undefined;
     this.#stepRemainder = 0;
+    if (willPlay && this.#valueAt(key) >= this.#playedSettings[key].to) this.#setValue(key, 0);
     renderer.requestFrame();
     this.host.requestUpdate();
   }
@@ -64,6 +64,8 @@ export class Player<Key extends string> extends FigureController {
     const { to, duration } = this.#playedSettings[this.#key];
     const next = Math.min(to, this.#valueAt(this.#key) + this.#stepRemainder + (to * elapsed) / duration);
     this.#setValue(this.#key, next);
+    // A listener of the page may have set a state.
+    if (!this.#key) return false;
     this.#stepRemainder = next - this.#valueAt(this.#key);
     if (next < to) return true;
     this.stop();

@@ -131,7 +131,6 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   #highlight: string | null = null;
   /** Functions that resolve the promises of `settled`. */
   #settledResolvers: (() => void)[] = [];
-  #isUpdating: boolean | undefined;
 
   get definition() {
     return (this.constructor as typeof FigureElement).definition;
@@ -357,13 +356,6 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     this.colours.update();
   }
 
-  /** Postpones a request that comes during an update, which LitElement would lose. */
-  requestUpdate(...change: Parameters<LitElement['requestUpdate']>) {
-    // LitElement requests the first update before the fields exist.
-    if (#isUpdating in this && this.#isUpdating) this.updateComplete.then(() => this.requestUpdate());
-    else super.requestUpdate(...change);
-  }
-
   /** Renders the first time a task later. If the core is ready by then, no placeholder is rendered before the content. */
   protected async scheduleUpdate() {
     // In forced colours, Chromium keeps light colours in content that is rendered before `colours` has found a dark scheme.
@@ -381,7 +373,6 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
       super.update(changed);
       return this;
     };
-    this.#isUpdating = true;
     try {
       // After a trap the previous content stays. After a failure the message is rendered.
       if (!this.runtime.attemptOrFail(renderContent)) renderContent();
@@ -389,8 +380,6 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
       // No template can be rendered on this page, so that further updates are useless.
       this.shouldUpdate = () => false;
       this.renderRoot.textContent = words.failure(this.runtime.failure ?? '');
-    } finally {
-      this.#isUpdating = false;
     }
   }
 

@@ -13,8 +13,7 @@ const MAX_LENGTH = 1_000_000;
 export class Link extends FigureController {
   /** True if the latest address lacks the user's map, because it would be too long with it. */
   lacksMap = false;
-  /** Tokens of the latest read and the latest write of the address. Results of earlier ones are dropped. */
-  #latestRead = {};
+  /** Token of the latest write of the address. Results of earlier ones are dropped. */
   #latestWrite = {};
 
   hostConnected() {
@@ -50,12 +49,11 @@ export class Link extends FigureController {
   /** Applies the state in the page's address, if any, now or as soon as there is a simulation. */
   async #applyAddress() {
     const { host } = this;
-    const token = (this.#latestRead = {});
     const part = fragmentParts().find((fragmentPart) => this.#isOwnPart(fragmentPart));
     if (part === undefined) return;
     try {
       const state = await unpack(part.slice(part.indexOf('=') + 1));
-      if (token === this.#latestRead) host.runtime.attemptOrReport(() => host.setState(state as any));
+      host.runtime.attemptOrReport(() => host.setState(state as any));
     } catch (error) {
       host.runtime.report(error);
       useLanguageOf(host);

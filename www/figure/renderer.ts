@@ -6,13 +6,8 @@ import { clamp } from '../ui/clamp.ts';
 import { hasPixels } from './canvases.ts';
 import { FigureController } from './controller.ts';
 
-type AnyPicture = import('../scene/picture.ts').Picture<any>;
-
 /** Drawing time, ms, up to which the text is rendered in the same frame. After a longer one it is rendered in the next frame. */
 const MAX_SAME_FRAME_MS = 5;
-
-/** Drawing time in a frame, ms, after which further pictures wait for the next frame. A slow device then shows more frames of a drag. */
-const MAX_PICTURES_MS = 8;
 
 /** Maximum delay of the text during a drag, ms. */
 const MAX_TEXT_DELAY_MS = 100;
@@ -29,10 +24,8 @@ export class Renderer extends FigureController {
   isVisible = false;
   /** True once the text of the first picture was rendered. */
   #hasRenderedText = false;
-  /** Pictures to draw, the one that has waited longest first. */
-  #undrawn: Set<AnyPicture> = new Set();
-  /** True if the latest frame left pictures to the next one. */
-  #hasPicturesLeft = false;
+  /** True if the pictures are to be drawn in the next frame, and not the text alone. */
+  #arePicturesDue = false;
   /** Time of the first picture that is newer than the text; undefined if the text is up to date. */
   #textPendingSince: number | undefined;
   #frameRequest: number | undefined;
@@ -74,7 +67,6 @@ export class Renderer extends FigureController {
     if (!isVisible && (this.isOpening || this.#textPendingSince !== undefined)) this.#renderText();
     const hasAppeared = isVisible && !this.isVisible;
     this.isVisible = isVisible;
-    this.#hasPicturesLeft = false;
     // No events report changes of colours while the figure is out of the viewport.
     if (hasAppeared) this.host.colours.update();
     else if (!isVisible && this.host.isAwaited) this.requestFrame();
@@ -87,7 +79,7 @@ export class Renderer extends FigureController {
 
   /** Requests a frame, in which a visible figure draws all pictures. */
   requestFrame() {
-    this.#addPictures();
+    this.#arePicturesDue = true;
     this.#schedule();
   }
 
@@ -98,7 +90,7 @@ export class Renderer extends FigureController {
       this.#frameRequest = undefined;
       const elapsed = clamp(now - this.#previousTime, 0, MAX_TIME_STEP_MS);
       if (!this.isVisible) this.#updateUnseen();
-      else if (this.#undrawn.size > 0) this.#drawNow(elapsed);
+      else if (this.#arePicturesDue) this.#drawNow(elapsed);
       else this.#renderText();
       this.#previousTime = now;
     });
@@ -119,9 +111,9 @@ export class Renderer extends FigureController {
     });
   }
 
-  /** True if pictures or text have to follow in later frames. */
+  /** True if the text of the latest pictures follows in a later frame. */
   get isBehind() {
-    return this.#hasPicturesLeft || this.#textPendingSince !== undefined;
+    return this.#textPendingSince !== undefined;
   }
 
   /** True until a visible figure has drawn its first picture and rendered its text. */
@@ -145,29 +137,23 @@ export class Renderer extends FigureController {
   }
 
   #draw(elapsed: number) {
-    const host = this.host;
-    const { viewModel } = host;
+    const { host } = this;
     const startTime = performance.now();
+    this.#arePicturesDue = false;
     host.settings.applyPending();
     // The simulation is missing after a trap.
     if (!host.simulation) return;
     host.cloud?.advance(this.isPrinting);
     const { scene } = host;
-    if (host.viewModel !== viewModel) this.#addPictures();
     const { isPressed, previousViewModel } = host.gesture;
     const options = { elapsed, atOnce: this.isPrinting || prefersReducedMotion(), previousViewModel, highlight: host.highlight, handles: this.isPrinting };
     let isMoving = false;
-    this.#hasPicturesLeft = false;
-    for (const picture of this.#undrawn) {
-      if (this.#hasPicturesLeft) break;
-      this.#undrawn.delete(picture);
+    for (const picture of host.pictures) {
       const canvas = host.canvases.canvasOf(picture);
-      // A figure may have replaced its picture.
-      if (!host.pictures.includes(picture) || !hasPixels(canvas)) continue;
+      if (!hasPixels(canvas)) continue;
       // A drag keeps the scale of pictures with handles, so that they stay under the pointer.
       const still = isPressed && canvas.parentElement!.querySelector('.handle') !== null;
       isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...options, still }) || isMoving;
-      this.#hasPicturesLeft = this.#undrawn.size > 0 && (!this.#isResizing || this.isOpening) && performance.now() - startTime > MAX_PICTURES_MS;
     }
     host.placeHandles(scene);
     const now = performance.now();
@@ -180,7 +166,6 @@ export class Renderer extends FigureController {
     }
     host.resolveSettled();
     const isPlaying = host.player?.advance(elapsed);
-    if (this.#hasPicturesLeft) this.#schedule();
     if (isPlaying || isMoving || host.cloud?.isSettled === false) this.requestFrame();
   }
 
@@ -192,39 +177,28 @@ export class Renderer extends FigureController {
     this.host.requestUpdate();
   }
 
-  #addPictures() {
-    for (const picture of this.host.pictures) this.#undrawn.add(picture);
-  }
-
   /** Draws at once, because resizing has cleared the canvases: a drawing in the next frame would flicker. */
   drawResized() {
     this.host.canvases.update(this.isPrinting);
     this.host.colours.resolve();
-    this.#addPictures();
     this.#isResizing = true;
     this.#drawNow(0);
     this.#isResizing = false;
   }
 
-  /** Draws for print, in light colours and with all samples, or for the screen again. */
-  #print(isPrinting: boolean) {
+  /** Draws for print, in light colours and with all samples, or for the screen again. A print starts a figure that is far from the viewport. */
+  async #print(isPrinting: boolean) {
+    const { host } = this;
     this.isPrinting = isPrinting;
-    const { simulation, cloud } = this.host;
-    if (!simulation) {
-      // Browsers run microtasks before they print. The start needs no more than these if another figure has loaded the module.
-      if (isPrinting) void this.#startAndPrint();
-      return;
+    // Browsers run microtasks before they print. The start needs no more than these if another figure has loaded the module.
+    if (isPrinting && !host.simulation) {
+      await host.runtime.start();
+      await host.updateComplete;
     }
-    if (isPrinting) cloud?.finish();
-    else this.host.canvases.measure();
+    if (!host.simulation) return;
+    if (this.isPrinting) host.cloud?.finish();
+    else host.canvases.measure();
     this.drawResized();
     this.#renderText();
-  }
-
-  /** Starts a figure that is far from the viewport, and draws it for print. */
-  async #startAndPrint() {
-    await this.host.runtime.start();
-    await this.host.updateComplete;
-    if (this.host.simulation) this.#print(this.isPrinting);
   }
 }

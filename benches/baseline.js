@@ -41,12 +41,12 @@ export class Baseline {
     const chord = halfTurn === 0 ? v * dt : (v * dt * Math.sin(halfTurn)) / halfTurn;
     const noiseFree = { x: chord * Math.cos(halfTurn), y: chord * Math.sin(halfTurn), l: v * dt, t: 2 * halfTurn };
     const sums = driveCloud(this.unitNoise, this.cloud, [v, omega, dt], stdDevs, noiseFree);
-    const mean = Object.fromEntries(SUM_NAMES.map((name, i) => [name, sums[i] / n]));
-    const covariance = (/** @type {string} */ a, /** @type {string} */ b) => (n / (n - 1)) * ((mean[a + b] ?? mean[b + a]) - mean[a] * mean[b]);
-    const covarianceMatrix = (/** @type {string[]} */ names) => names.map((a) => names.map((b) => covariance(a, b)));
-    const heading = noiseFree.t + Math.atan2(mean.s, mean.c);
-    const cartesian = { mean: [noiseFree.x + mean.x, noiseFree.y + mean.y, heading], cov: covarianceMatrix(['x', 'y', 't']) };
-    const exponential = { mean: [noiseFree.l + mean.l, mean.m, noiseFree.t + mean.t], cov: covarianceMatrix(['l', 'm', 't']) };
+    const means = Object.fromEntries(SUM_NAMES.map((name, i) => [name, sums[i] / n]));
+    const covarianceOf = (/** @type {string} */ a, /** @type {string} */ b) => (n / (n - 1)) * ((means[a + b] ?? means[b + a]) - means[a] * means[b]);
+    const covarianceMatrixOf = (/** @type {string[]} */ names) => names.map((a) => names.map((b) => covarianceOf(a, b)));
+    const heading = noiseFree.t + Math.atan2(means.s, means.c);
+    const cartesian = { mean: [noiseFree.x + means.x, noiseFree.y + means.y, heading], cov: covarianceMatrixOf(['x', 'y', 't']) };
+    const exponential = { mean: [noiseFree.l + means.l, means.m, noiseFree.t + means.t], cov: covarianceMatrixOf(['l', 'm', 't']) };
 
     const { columns, rows } = view;
     if (this.counts.length !== columns * rows) {
@@ -58,14 +58,14 @@ export class Baseline {
       const l00 = Math.sqrt(cov[0][0]);
       const l10 = cov[0][j] / l00;
       const l11 = Math.sqrt(cov[j][j] - l10 * l10);
-      // Scaled so that two standard deviations have length 1.
+      // Two standard deviations get length 1.
       return [0.5 / l00, (-0.5 * l10) / (l00 * l11), 0.5 / l11];
     };
-    const centre = [mean.x, mean.y, mean.l, mean.t];
-    const scales = [...centre, ...whiteningOf(cartesian.cov, 1), ...whiteningOf(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
-    const [perX, perY] = [columns / (view.xMax - view.xMin), rows / (view.yMax - view.yMin)];
-    const [inEllipse, inExponential, square, cube, maxCount] = countCells(
-      this.cloud, this.counts, scales, [(noiseFree.x - view.xMin) * perX, perX, (view.yMax - noiseFree.y) * perY, perY, columns, rows],
+    const centre = [means.x, means.y, means.l, means.t];
+    const normalization = [...centre, ...whiteningOf(cartesian.cov, 1), ...whiteningOf(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
+    const [pixelsPerMetreX, pixelsPerMetreY] = [columns / (view.xMax - view.xMin), rows / (view.yMax - view.yMin)];
+    const [inEllipse, inExponential, sumOfSquares, sumOfCubes, maxCount] = countCells(
+      this.cloud, this.counts, normalization, [(noiseFree.x - view.xMin) * pixelsPerMetreX, pixelsPerMetreX, (view.yMax - noiseFree.y) * pixelsPerMetreY, pixelsPerMetreY, columns, rows],
     );
     this.#paint(ramp, maxCount);
     return {
@@ -73,7 +73,7 @@ export class Baseline {
         n,
         cartesian,
         exponential,
-        crossTrackSkew: (cube / n) / (square / n) ** 1.5,
+        crossTrackSkew: (sumOfCubes / n) / (sumOfSquares / n) ** 1.5,
         coverage: { ellipse: inEllipse / n, exponential: inExponential / n },
       },
       pixels: new Uint8ClampedArray(this.pixels.buffer),
@@ -91,12 +91,12 @@ export class Baseline {
 }
 
 /**
- * First pass: moves every sample and adds up its moments.
+ * Moves every sample and adds up its moments. This is the first pass.
  *
  * @param {Float64Array} noise
  * @param {Float64Array} cloud is filled
  * @param {number[]} command v, ω, Δt
- * @param {number[]} deviations of v̂, ω̂, γ̂
+ * @param {number[]} deviations standard deviations of v̂, ω̂, γ̂
  * @param {{ x: number, y: number, l: number, t: number }} origin noise-free motion
  * @returns {number[]} sums in the order of SUM_NAMES
  */
@@ -114,10 +114,10 @@ function driveCloud(noise, cloud, command, deviations, origin) {
     let t = 2 * halfTurn + sdGamma * noise[i + 2] * dt - t0;
     if (t > Math.PI || t < -Math.PI) t -= 2 * Math.PI * Math.round(t / (2 * Math.PI));
     // Exponential coordinates: length along the arc and lateral offset.
-    const turn = 0.5 * (t0 + t);
-    const stretch = turn === 0 ? 1 : turn / Math.tan(turn);
-    const l = stretch * x + turn * y - l0;
-    const m = stretch * y - turn * x;
+    const halfAngle = 0.5 * (t0 + t);
+    const stretch = halfAngle === 0 ? 1 : halfAngle / Math.tan(halfAngle);
+    const l = stretch * x + halfAngle * y - l0;
+    const m = stretch * y - halfAngle * x;
     const dx = x - x0;
     const dy = y - y0;
     x1 += dx;
@@ -147,18 +147,19 @@ function driveCloud(noise, cloud, command, deviations, origin) {
 }
 
 /**
- * Second pass: coverage of both contours, central moments across the mean heading, and counts of the picture.
+ * Counts the samples in both contours and in the cells of the picture, and adds up central moments across the mean heading. This is the
+ * second pass.
  *
  * @param {Float64Array} cloud
  * @param {Uint32Array} counts are added to
- * @param {number[]} scales centre, whitening of both ellipses, sine and cosine of the mean heading
+ * @param {number[]} normalization centre, whitening of both ellipses, sine and cosine of the mean heading
  * @param {number[]} view offset and pixels a metre of both axes, columns and rows
  * @returns {number[]} samples inside each contour, sums of squares and cubes, largest count
  */
-function countCells(cloud, counts, scales, view) {
-  const [cx, cy, cl, ct, e00, e10, e11, f00, f10, f11, sin, cos] = scales;
-  const [left, perX, top, perY, columns, rows] = view;
-  let inEllipse = 0, inExponential = 0, square = 0, cube = 0, maxCount = 0;
+function countCells(cloud, counts, normalization, view) {
+  const [cx, cy, cl, ct, e00, e10, e11, f00, f10, f11, sin, cos] = normalization;
+  const [leftOffset, pixelsPerMetreX, topOffset, pixelsPerMetreY, columns, rows] = view;
+  let inEllipse = 0, inExponential = 0, sumOfSquares = 0, sumOfCubes = 0, maxCount = 0;
   for (let j = 0; j < cloud.length; j += 4) {
     const x = cloud[j];
     const y = cloud[j + 1];
@@ -173,14 +174,14 @@ function countCells(cloud, counts, scales, view) {
     const f = f10 * dl + f11 * (cloud[j + 3] - ct);
     inExponential += +(e * e + f * f <= 1);
     const z = cos * dy - sin * dx;
-    square += z * z;
-    cube += z * z * z;
-    const column = left + x * perX;
-    const row = top - y * perY;
+    sumOfSquares += z * z;
+    sumOfCubes += z * z * z;
+    const column = leftOffset + x * pixelsPerMetreX;
+    const row = topOffset - y * pixelsPerMetreY;
     if (column >= 0 && row >= 0 && column < columns && row < rows) {
       const count = ++counts[(row | 0) * columns + (column | 0)];
       if (count > maxCount) maxCount = count;
     }
   }
-  return [inEllipse, inExponential, square, cube, maxCount];
+  return [inEllipse, inExponential, sumOfSquares, sumOfCubes, maxCount];
 }

@@ -5,7 +5,7 @@
  */
 
 import { Baseline } from './baseline.js';
-import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, densityPixels, statsAndContours } from './scene.js';
+import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, readDensityPixels, readStatsAndContours } from './scene.js';
 
 /** Largest accepted difference (m, rad or a fraction) between both implementations, which add in different orders. */
 const TOLERANCE = 1e-9;
@@ -16,17 +16,17 @@ export function differencesFromCore(motion, samples) {
   const baseline = new Baseline(ALPHAS, unitNoiseOf(simulation));
   /** @type {string[]} */
   const differenceTexts = [];
-  for (const step of [0, 30]) {
-    const { stats } = statsAndContours(simulation, step);
-    const baselineResult = baseline.refresh(commandAt(step), PICTURE_VIEW, COLOUR_RAMP);
-    for (const [name, value] of numbersByPath(baselineResult.stats)) {
+  for (const event of [0, 30]) {
+    const { stats } = readStatsAndContours(simulation, event);
+    const baselineResult = baseline.refresh(commandAt(event), PICTURE_VIEW, COLOUR_RAMP);
+    for (const [name, value] of numbersWithPaths(baselineResult.stats)) {
       const coreValue = name.split('.').reduce((part, key) => part[key], /** @type {any} */ (stats));
       // NaN is a difference too.
       if (!(Math.abs(value - coreValue) <= TOLERANCE)) differenceTexts.push(`${name}: ${value}, core ${coreValue}`);
     }
-    const pixels = densityPixels(simulation);
-    const differingCount = baselineResult.pixels.filter((value, i) => value !== pixels[i]).length;
-    if (differingCount > 0) differenceTexts.push(`pixels: ${differingCount} differ`);
+    const pixels = readDensityPixels(simulation);
+    const differingPixelCount = baselineResult.pixels.filter((value, i) => value !== pixels[i]).length;
+    if (differingPixelCount > 0) differenceTexts.push(`pixels: ${differingPixelCount} differ`);
   }
   simulation.free();
   return differenceTexts;
@@ -38,12 +38,12 @@ export function differencesFromCore(motion, samples) {
  * @param {import('../www/types.d.ts').BananaMachine} simulation
  */
 export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, a3, a4, a5, a6] }, executed }) {
-  const deviations = [[a1, a2], [a3, a4], [a5, a6]].map(([byV, byOmega]) => Math.sqrt(byV * v * v + byOmega * omega * omega));
-  return executed.map((value, i) => (value - [v, omega, 0][i % 3]) / deviations[i % 3]);
+  const stdDevs = [[a1, a2], [a3, a4], [a5, a6]].map(([byV, byOmega]) => Math.sqrt(byV * v * v + byOmega * omega * omega));
+  return executed.map((value, i) => (value - [v, omega, 0][i % 3]) / stdDevs[i % 3]);
 }
 
 /** Returns every number by its path. @param {object | number} value @param {string[]} path @returns {[string, number][]} */
-function numbersByPath(value, ...path) {
+function numbersWithPaths(value, ...path) {
   if (typeof value === 'number') return [[path.join('.'), value]];
-  return Object.entries(value).flatMap(([key, member]) => numbersByPath(member, ...path, key));
+  return Object.entries(value).flatMap(([key, member]) => numbersWithPaths(member, ...path, key));
 }

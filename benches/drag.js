@@ -29,7 +29,7 @@ export async function timeDrags(browser, address, steps) {
   const page = await context.newPage();
   await page.goto(address);
   await page.evaluate(() => document.body.append(document.createElement('map-squeeze')));
-  const session = await context.newCDPSession(page);
+  const cdpSession = await context.newCDPSession(page);
   /** @type {Drag[]} */
   const drags = [];
   for (const widget of ['banana-machine', 'map-squeeze']) {
@@ -37,58 +37,58 @@ export async function timeDrags(browser, address, steps) {
     await page.waitForFunction((tag) => document.querySelector(tag)?.shadowRoot?.querySelector('.slider'), widget);
     await page.locator(widget).evaluate((element) => element.scrollIntoView({ block: 'start' }));
     const draggedCount = await page.locator(widget).locator(DRAGGED_SELECTOR).count();
-    await session.send('Emulation.setCPUThrottlingRate', { rate: SLOWDOWN });
+    await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: SLOWDOWN });
     for (let i = 0; i < draggedCount; i++) {
       drags.push({ widget, ...(await page.evaluate(timeDrag, { widget, selector: DRAGGED_SELECTOR, i, steps })) });
     }
-    await session.send('Emulation.setCPUThrottlingRate', { rate: 1 });
+    await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: 1 });
   }
   await context.close();
   return drags;
 }
 
-/** Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} options */
+/** Measures the times of one drag. Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} options */
 async function timeDrag({ widget, selector, i, steps }) {
   const MAX_FRAMES = 30;
   const figure = /** @type {any} */ (document.querySelector(widget));
-  const root = /** @type {ShadowRoot} */ (figure.shadowRoot);
-  const target = /** @type {HTMLInputElement} */ (root.querySelectorAll(selector)[i]);
-  const isSlider = target.localName === 'input';
-  // The text of the drag before may still set the slider.
+  const shadowRoot = /** @type {ShadowRoot} */ (figure.shadowRoot);
+  const draggedElement = /** @type {HTMLInputElement} */ (shadowRoot.querySelectorAll(selector)[i]);
+  const isSlider = draggedElement.localName === 'input';
+  // The text update of the previous drag may still set the slider.
   await figure.settled;
-  const openingValue = target.value;
-  // Every picture begins with an empty canvas.
+  const openingValue = draggedElement.value;
+  // Every picture begins by clearing the canvas.
   let pictureCount = 0;
   const { clearRect } = CanvasRenderingContext2D.prototype;
   CanvasRenderingContext2D.prototype.clearRect = function (...box) {
     pictureCount++;
     clearRect.apply(this, box);
   };
-  /** @returns {Promise<number>} time at which the page has finished the current frame: that of the first message after it */
+  /** Returns the time at which the page has finished the current frame, which is that of the first message after it. @returns {Promise<number>} */
   const untilFrameDone = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => resolve(performance.now());
       port2.postMessage(undefined);
     });
-  /** @returns {Promise<number>} time of the next frame after a text changes, also one for screen readers only */
-  const nextTextChange = () =>
+  /** Returns the time of the next frame after a text changes, also one for screen readers only. @returns {Promise<number>} */
+  const waitForTextChange = () =>
     new Promise((resolve) => {
       const observer = new MutationObserver(() => {
         observer.disconnect();
         resolve(untilFrameDone());
       });
       const attributeFilter = ['aria-label', 'aria-valuetext'];
-      observer.observe(root, { subtree: true, characterData: true, childList: true, attributes: true, attributeFilter });
+      observer.observe(shadowRoot, { subtree: true, characterData: true, childList: true, attributes: true, attributeFilter });
     });
   const sendStep = (/** @type {number} */ step) => {
     if (isSlider) {
-      if (step % 2) target.stepUp();
-      else target.stepDown();
-      target.dispatchEvent(new InputEvent('input', { bubbles: true, composed: true }));
+      if (step % 2) draggedElement.stepUp();
+      else draggedElement.stepDown();
+      draggedElement.dispatchEvent(new InputEvent('input', { bubbles: true, composed: true }));
     } else {
       // Keys move a handle as a pointer does, by steps.
-      target.dispatchEvent(new KeyboardEvent('keydown', { key: step % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true, composed: true }));
+      draggedElement.dispatchEvent(new KeyboardEvent('keydown', { key: step % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true, composed: true }));
     }
   };
   /** @type {{ picture: number[], text: number[], steady: number[] }} */
@@ -98,39 +98,39 @@ async function timeDrag({ widget, selector, i, steps }) {
     await new Promise(requestAnimationFrame);
     const [configBefore, picturesBefore] = [JSON.stringify(figure.simulation.config), pictureCount];
     let frameStart = 0;
-    // Requested before the step, so that it runs before the figure's own callback.
-    const picture = new Promise((resolve) =>
+    // The frame is requested before the step, so that this callback runs before that of the figure.
+    const picturePromise = new Promise((resolve) =>
       requestAnimationFrame(() => {
         frameStart = performance.now();
         resolve(untilFrameDone());
       }),
     );
-    const textChange = nextTextChange();
+    const textPromise = waitForTextChange();
     sendStep(step);
-    let pictureTime = /** @type {number} */ (await picture);
+    let pictureTime = /** @type {number} */ (await picturePromise);
     // On a busy machine the picture may come a frame late.
-    for (let frame = 1; pictureCount === picturesBefore || JSON.stringify(figure.simulation.config) === configBefore; frame++) {
-      if (frame === MAX_FRAMES) throw new Error(`A step of ${target.id || target.className} has no picture after ${MAX_FRAMES} frames.`);
+    for (let frameNumber = 1; pictureCount === picturesBefore || JSON.stringify(figure.simulation.config) === configBefore; frameNumber++) {
+      if (frameNumber === MAX_FRAMES) throw new Error(`A step of ${draggedElement.id || draggedElement.className} has no picture after ${MAX_FRAMES} frames.`);
       await new Promise(requestAnimationFrame);
       pictureTime = await untilFrameDone();
     }
-    const textTime = await textChange;
+    const textTime = await textPromise;
     if (step < 0) continue;
     durations.picture.push(pictureTime - frameStart);
     durations.text.push(Math.max(0, textTime - pictureTime));
   }
-  let previousFrame = 0;
+  let previousFrameTime = 0;
   for (let step = 0; step <= steps; step++) {
     const now = /** @type {number} */ (await new Promise(requestAnimationFrame));
-    if (step > 0) durations.steady.push(now - previousFrame);
-    previousFrame = now;
+    if (step > 0) durations.steady.push(now - previousFrameTime);
+    previousFrameTime = now;
     sendStep(step);
   }
   CanvasRenderingContext2D.prototype.clearRect = clearRect;
   if (isSlider) {
-    target.value = openingValue;
-    for (const name of ['input', 'change']) target.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
+    draggedElement.value = openingValue;
+    for (const name of ['input', 'change']) draggedElement.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
     await new Promise(requestAnimationFrame);
   }
-  return { control: target.id || (target.getAttribute('aria-label') ?? ''), ...durations };
+  return { control: draggedElement.id || (draggedElement.getAttribute('aria-label') ?? ''), ...durations };
 }

@@ -17,10 +17,10 @@ export const PICTURE_VIEW = { xMin: -0.2, yMin: -0.6, xMax: 2.2, yMax: 1.2, colu
 
 /** Ramp of 256 colours (red, green, blue, opacity) from sparse to dense, as in the widget. */
 export const COLOUR_RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
-  const shade = (i >> 2) / 255;
-  const inkShare = 0.6 * Math.max(0, shade - 0.5);
-  const [from, to] = [[213, 94, 0], [27, 31, 36]];
-  return Math.round(i % 4 === 3 ? 255 * (0.15 + 0.85 * shade) : from[i % 4] + inkShare * (to[i % 4] - from[i % 4]));
+  const shadeShare = (i >> 2) / 255;
+  const inkShare = 0.6 * Math.max(0, shadeShare - 0.5);
+  const [sparseColour, denseColour] = [[213, 94, 0], [27, 31, 36]];
+  return Math.round(i % 4 === 3 ? 255 * (0.15 + 0.85 * shadeShare) : sparseColour[i % 4] + inkShare * (denseColour[i % 4] - sparseColour[i % 4]));
 });
 
 /** Command at an event. The slider goes up and down and never stays. @param {number} event @returns {Command} */
@@ -35,7 +35,7 @@ export function commandAt(event) {
  * @param {Picture} [picture]
  * @returns {Uint8ClampedArray}
  */
-export function densityPixels(simulation, { xMin, yMin, xMax, yMax, columns, rows } = PICTURE_VIEW) {
+export function readDensityPixels(simulation, { xMin, yMin, xMax, yMax, columns, rows } = PICTURE_VIEW) {
   return simulation.picture('plane', xMin, yMin, xMax, yMax, columns, rows, COLOUR_RAMP);
 }
 
@@ -45,7 +45,7 @@ export function densityPixels(simulation, { xMin, yMin, xMax, yMax, columns, row
  * @param {BananaMachine} simulation
  * @param {number} event
  */
-export function statsAndContours(simulation, event) {
+export function readStatsAndContours(simulation, event) {
   simulation.configure({ command: commandAt(event) });
   return { stats: simulation.stats, contours: simulation.contours };
 }

@@ -12,16 +12,18 @@ const STAGE_OF_MARK = /** @type {const} */ ({
 });
 
 /**
+ * Loads the page several times, and measures its stages.
+ *
  * @param {import('@playwright/test').Browser} browser
  * @param {string} address of page.html
  * @param {number} loads
  * @returns {Promise<Record<string, number[]>>} ms from the start of the script to the end of each stage, load by load
  */
-export async function timeStart(browser, address, loads) {
+export async function timeStarts(browser, address, loads) {
   /** @type {Record<string, number[]>} */
   const stageTimes = Object.fromEntries(Object.values(STAGE_OF_MARK).map((stage) => [stage, []]));
-  for (let load = 0; load < loads; load++) {
-    // A new process with its own caches.
+  for (let loadNumber = 0; loadNumber < loads; loadNumber++) {
+    // Each load has a new process with its own caches.
     const context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
     const page = await context.newPage();
     await page.addInitScript(markStages);
@@ -37,20 +39,20 @@ export async function timeStart(browser, address, loads) {
   return stageTimes;
 }
 
-/** Runs in the page before the page's scripts. */
+/** Marks the ends of stages that the page does not mark itself. Runs before the page's scripts. */
 function markStages() {
   // The cloud is on screen once an image of its density is drawn, or this number of dots.
   const DOTS_OF_CLOUD = 100;
   let dotCount = 0;
   const { prototype } = CanvasRenderingContext2D;
-  for (const name of /** @type {const} */ (['drawImage', 'putImageData', 'arc'])) {
-    const originalMethod = /** @type {(...values: any[]) => void} */ (prototype[name]);
+  for (const methodName of /** @type {const} */ (['drawImage', 'putImageData', 'arc'])) {
+    const originalMethod = /** @type {(...values: any[]) => void} */ (prototype[methodName]);
     /** @this {CanvasRenderingContext2D} @param {any[]} values */
-    prototype[name] = function (...values) {
+    prototype[methodName] = function (...values) {
       originalMethod.apply(this, values);
-      const root = this.canvas.getRootNode();
-      if (!(root instanceof ShadowRoot) || root.host.localName !== 'banana-machine') return;
-      if ((name === 'arc' && ++dotCount < DOTS_OF_CLOUD) || performance.getEntriesByName('drawn').length > 0) return;
+      const canvasRoot = this.canvas.getRootNode();
+      if (!(canvasRoot instanceof ShadowRoot) || canvasRoot.host.localName !== 'banana-machine') return;
+      if ((methodName === 'arc' && ++dotCount < DOTS_OF_CLOUD) || performance.getEntriesByName('drawn').length > 0) return;
       performance.mark('drawn');
       // A message is read once the frame that is being made has been handed to the screen.
       const { port1, port2 } = new MessageChannel();

@@ -6,7 +6,7 @@
 
 import { Baseline } from './baseline.js';
 import { differencesFromCore, unitNoiseOf } from './check.js';
-import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, densityPixels, statsAndContours } from './scene.js';
+import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, readDensityPixels, readStatsAndContours } from './scene.js';
 import { raceContenders } from './timing.js';
 
 /** @typedef {import('../www/types.d.ts').Motion} Motion */
@@ -18,34 +18,36 @@ import { raceContenders } from './timing.js';
  */
 
 /**
+ * Measures the core, and the baseline where there is one.
+ *
  * @param {Motion} motion
  * @param {object} options
  * @param {boolean} options.quick
  * @param {{ odometry: string, reference: string }} options.log CSV
  * @returns {Promise<Timings>}
  */
-export async function measure(motion, { quick, log }) {
+export async function measureCore(motion, { quick, log }) {
   const differingStatistics = differencesFromCore(motion, 4000);
   if (differingStatistics.length > 0) throw new Error(`The baseline does not compute what the core does:\n${differingStatistics.join('\n')}`);
-  const seconds = quick ? 0.2 : 2;
-  const refresh = [];
+  const secondsPerRace = quick ? 0.2 : 2;
+  const refreshTimings = [];
   for (const samples of [1e4, 1e5, 1e6]) {
     const simulation = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 1, command: commandAt(0) });
     const baselineSimulation = new Baseline(ALPHAS, unitNoiseOf(simulation));
     const refreshCore = (/** @type {number} */ event) => {
-      statsAndContours(simulation, event);
-      densityPixels(simulation);
+      readStatsAndContours(simulation, event);
+      readDensityPixels(simulation);
     };
     const refreshBaseline = (/** @type {number} */ event) => void baselineSimulation.refresh(commandAt(event), PICTURE_VIEW, COLOUR_RAMP);
-    refresh.push({ samples, ...(await raceContenders({ core: refreshCore, baseline: refreshBaseline }, seconds)) });
+    refreshTimings.push({ samples, ...(await raceContenders({ core: refreshCore, baseline: refreshBaseline }, secondsPerRace)) });
     simulation.free();
   }
   const [odometry, reference] = [log.odometry, log.reference].map(columnsOf);
-  const { calibration } = await raceContenders({ calibration: () => void motion.calibrate({ odometry, reference }) }, seconds);
-  return { refresh, calibration };
+  const { calibration } = await raceContenders({ calibration: () => void motion.calibrate({ odometry, reference }) }, secondsPerRace);
+  return { refresh: refreshTimings, calibration };
 }
 
-/** @param {string} csv */
+/** Parses a log. @param {string} csv */
 function columnsOf(csv) {
   const rows = csv.trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
   const [t, x, y, theta] = [0, 1, 2, 3].map((i) => Float64Array.from(rows, (row) => row[i]));

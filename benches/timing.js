@@ -1,18 +1,20 @@
 /**
- * Races of contenders, which take turns within one run. What slows the simulation down then slows all of them, and ratios are computed for each
+ * Races of contenders, which take turns within one run. What slows the machine down then slows all of them, and ratios are computed for each
  * turn.
  *
  * @module
  */
 
 /** Minimum duration of a turn, ms: the clock's step in an isolated page, 5 µs, is half a per cent of it. */
-const MIN_TURN_DURATION = 1;
+const MIN_TURN_MS = 1;
 /** Number of warm-up turns: afterwards V8 compiles nothing more. */
 const WARM_UP_TURNS = 8;
 /** Limits of the number of turns: fewer have no meaningful quartiles, and more change nothing. */
 const [MIN_TURNS, MAX_TURNS] = [5, 60];
 
 /**
+ * Lets contenders take turns, and returns their times.
+ *
  * @template {string} Name
  * @param {Record<Name, (event: number) => void>} contenders what each does at an event
  * @param {number} seconds for all turns, if that is enough time for the minimum number of turns
@@ -22,17 +24,17 @@ export async function raceContenders(contenders, seconds) {
   const contenderList = /** @type {[Name, (event: number) => void][]} */ (Object.entries(contenders));
   /** @type {Record<string, number[]>} */
   const turnTimes = Object.fromEntries(contenderList.map(([name]) => [name, []]));
-  let event = 0;
+  let eventNumber = 0;
   let endTime = Infinity;
-  for (let turn = -WARM_UP_TURNS; turn < MAX_TURNS && (turn < MIN_TURNS || performance.now() < endTime); turn++) {
-    if (turn === 0) endTime = performance.now() + 1000 * seconds;
+  for (let turnNumber = -WARM_UP_TURNS; turnNumber < MAX_TURNS && (turnNumber < MIN_TURNS || performance.now() < endTime); turnNumber++) {
+    if (turnNumber === 0) endTime = performance.now() + 1000 * seconds;
     // The page can handle events in between.
     await new Promise((resolve) => setTimeout(resolve));
     for (const [name, handleEvent] of contenderList) {
-      const [start, firstEvent] = [performance.now(), event];
-      let elapsed = 0;
-      for (; elapsed < MIN_TURN_DURATION; elapsed = performance.now() - start) handleEvent(event++);
-      if (turn >= 0) turnTimes[name].push(elapsed / (event - firstEvent));
+      const [turnStart, firstEvent] = [performance.now(), eventNumber];
+      let elapsedMs = 0;
+      for (; elapsedMs < MIN_TURN_MS; elapsedMs = performance.now() - turnStart) handleEvent(eventNumber++);
+      if (turnNumber >= 0) turnTimes[name].push(elapsedMs / (eventNumber - firstEvent));
     }
   }
   return turnTimes;

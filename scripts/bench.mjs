@@ -9,15 +9,15 @@ import { build } from './build.mjs';
 import { EXAMPLE_LOGS } from './example-log.mjs';
 import { ROOT, UserError, printStep, run, runAsScript } from './process.mjs';
 import { serve } from './serve.mjs';
-import { nativeRust } from './toolchain.mjs';
-import { report } from '../benches/report.js';
+import { ensureNativeRust } from './toolchain.mjs';
+import { formatReport } from '../benches/report.js';
 
 /** Headers that isolate the page. Its clock then has steps of 5 µs instead of 100 µs. */
 const ISOLATION_HEADERS = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
 
 /** @typedef {{ quick: boolean, log: { odometry: string, reference: string } }} Options */
 
-/** @param {boolean} quick */
+/** Measures everything, and prints the report. @param {boolean} quick */
 async function runBench(quick) {
   // The full build, as it is published: the local build is not optimized.
   await build();
@@ -25,20 +25,20 @@ async function runBench(quick) {
   const options = { quick, log: { odometry, reference } };
   printStep('Node');
   // These modules need dist/, which exists only after the build.
-  const { measure } = await import('../benches/suite.js');
+  const { measureCore } = await import('../benches/suite.js');
   const { load } = await import('../dist/core.js');
-  const node = await measure(/** @type {import('../www/types.d.ts').Motion} */ (await load()), options);
+  const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await load()), options);
   const browser = await ensureBrowser();
   printStep('Chromium');
-  const results = { ranOn: await describeMachine(browser.version), quick, node, ...(await resultsInChromium(browser.chrome, options)) };
+  const results = { ranOn: await describeMachine(browser.version), quick, node: nodeTimings, ...(await measureInChromium(browser.chrome, options)) };
   writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(results, null, 2)}\n`);
-  console.log(`\n${report(results)}\n\nbuild/bench.json has all measurements.`);
+  console.log(`\n${formatReport(results)}\n\nbuild/bench.json has all measurements.`);
 }
 
 /** Describes the machine and the versions. @param {string} chromium */
 async function describeMachine(chromium) {
   const commit = await run('git', ['describe', '--always', '--dirty'], { quiet: true });
-  const { description } = await nativeRust();
+  const { description } = await ensureNativeRust();
   return {
     'Measured on': new Date().toISOString().slice(0, 10),
     commit: commit.ok ? commit.stdout.trim() : 'unknown',
@@ -50,33 +50,35 @@ async function describeMachine(chromium) {
 }
 
 /**
+ * Measures in Chromium.
+ *
  * @param {string} executablePath
  * @param {Options} options
  * @returns {Promise<Pick<import('../benches/report.js').Results, 'chromium' | 'start' | 'drags'>>}
  */
-async function resultsInChromium(executablePath, options) {
-  const { chromium: launcher } = await import('@playwright/test');
+async function measureInChromium(executablePath, options) {
+  const { chromium: chromiumLauncher } = await import('@playwright/test');
   const { timeDrags } = await import('../benches/drag.js');
-  const { timeStart } = await import('../benches/start.js');
+  const { timeStarts: timeStart } = await import('../benches/start.js');
   const { address, close } = await serve(ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATION_HEADERS });
-  const browser = await launcher.launch({ executablePath, args: CHROME_ARGUMENTS });
-  const figuresPage = `${address}benches/page.html`;
+  const browser = await chromiumLauncher.launch({ executablePath, args: CHROME_ARGUMENTS });
+  const figuresAddress = `${address}benches/page.html`;
   try {
     printStep('First cloud');
-    const start = await timeStart(browser, figuresPage, options.quick ? 5 : 11);
+    const startTimes = await timeStart(browser, figuresAddress, options.quick ? 5 : 11);
     printStep('Drags');
-    const drags = await timeDrags(browser, figuresPage, options.quick ? 10 : 40);
+    const dragTimes = await timeDrags(browser, figuresAddress, options.quick ? 10 : 40);
     printStep('Refresh and calibration');
     // This page has no figures.
     const page = await browser.newPage();
     await page.route(`${address}empty`, (route) => route.fulfill({ headers: ISOLATION_HEADERS, contentType: 'text/html', body: '' }));
     await page.goto(`${address}empty`);
     if (!(await page.evaluate('crossOriginIsolated'))) throw new Error('The page is not isolated, and its clock too coarse.');
-    const chromium = await page.evaluate(async ({ modules: [core, suite], given }) => {
-      const [{ load }, { measure }] = await Promise.all([import(core), import(suite)]);
-      return measure(await load(), given);
+    const chromiumTimings = await page.evaluate(async ({ modules: [core, suite], given }) => {
+      const [{ load }, { measureCore }] = await Promise.all([import(core), import(suite)]);
+      return measureCore(await load(), given);
     }, { modules: [`${address}dist/core.js`, `${address}benches/suite.js`], given: options });
-    return { chromium, start, drags };
+    return { chromium: chromiumTimings, start: startTimes, drags: dragTimes };
   } finally {
     await browser.close();
     close();
@@ -84,8 +86,8 @@ async function resultsInChromium(executablePath, options) {
 }
 
 await runAsScript(import.meta.url, async () => {
-  const options = process.argv.slice(2);
-  const unknownOption = options.find((option) => option !== '--quick');
+  const commandOptions = process.argv.slice(2);
+  const unknownOption = commandOptions.find((option) => option !== '--quick');
   if (unknownOption !== undefined) throw new UserError(`"${unknownOption}" is not an option; \`npm run bench\` takes only --quick.`);
-  await runBench(options.includes('--quick'));
+  await runBench(commandOptions.includes('--quick'));
 });

@@ -6,45 +6,45 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { filesOf } from './bundle.mjs';
 import { ROOT, UserError, isProgram, once, printStep, run } from './process.mjs';
-import { CACHE_DIRECTORY, manifestValue, nativeRust } from './toolchain.mjs';
+import { CACHE_DIRECTORY, readManifestValue, ensureNativeRust } from './toolchain.mjs';
 
 const BINDGEN_CRATE = 'scripts/bind';
 
 /** Returns the path of the program that generates the glue of the core. The first call builds it. */
-export const bindProgram = once(() => compileProgram('bind', []));
+export const ensureBindProgram = once(() => compileProgram('bind', []));
 
 /** Returns the path of the program that runs WebAssembly tests in a browser. The first call builds it. */
-export const testRunnerProgram = once(async () => {
+export const ensureTestRunner = once(async () => {
   // Most of its crates are compiled for the other program already.
-  await bindProgram();
+  await ensureBindProgram();
   return compileProgram('test-runner', ['--features', 'test-runner']);
 });
 
 /** Compiles a program once, and returns its path. @param {string} name @param {string[]} features */
 async function compileProgram(name, features) {
-  const version = requireSameVersion();
+  const bindgenVersion = requireSameVersion();
   const sourceHash = createHash('sha256');
   for (const path of filesOf(BINDGEN_CRATE)) sourceHash.update(readFileSync(join(ROOT, path)));
-  const installDirectory = join(CACHE_DIRECTORY, `wasm-bindgen-${version}-${sourceHash.digest('hex').slice(0, 12)}`);
-  const program = join(installDirectory, 'bin', name);
-  if (isProgram(program)) return program;
-  const { bin, env } = await nativeRust();
-  printStep(`Building ${name} of wasm-bindgen ${version}, once`);
-  const args = ['install', '--quiet', '--debug', '--path', BINDGEN_CRATE, '--bin', name, ...features, '--root', installDirectory, '--no-track', '--force'];
+  const installDirectory = join(CACHE_DIRECTORY, `wasm-bindgen-${bindgenVersion}-${sourceHash.digest('hex').slice(0, 12)}`);
+  const programPath = join(installDirectory, 'bin', name);
+  if (isProgram(programPath)) return programPath;
+  const { bin, env } = await ensureNativeRust();
+  printStep(`Building ${name} of wasm-bindgen ${bindgenVersion}, once`);
+  const cargoArguments = ['install', '--quiet', '--debug', '--path', BINDGEN_CRATE, '--bin', name, ...features, '--root', installDirectory, '--no-track', '--force'];
   // Cargo locks its directory while it builds, so this build has its own.
   const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };
-  const lockedInstall = await run(join(bin, 'cargo'), [...args, '--locked'], { ...cargoOptions, quiet: true });
+  const lockedInstall = await run(join(bin, 'cargo'), [...cargoArguments, '--locked'], { ...cargoOptions, quiet: true });
   // A crate of the lock file may be missing in a mirror.
-  if (lockedInstall.ok || (await run(join(bin, 'cargo'), args, cargoOptions)).ok) return program;
+  if (lockedInstall.ok || (await run(join(bin, 'cargo'), cargoArguments, cargoOptions)).ok) return programPath;
   throw new UserError(
-    `wasm-bindgen ${version} could not be built: check that this machine reaches the registry of Rust packages and start again.`,
+    `wasm-bindgen ${bindgenVersion} could not be built: check that this machine reaches the registry of Rust packages and start again.`,
   );
 }
 
 /** Returns the version of wasm-bindgen. The core and the programs need exactly the same version. @returns {string} */
 function requireSameVersion() {
-  const version = manifestValue('Cargo.lock', /^name = "wasm-bindgen"\nversion = "(.+)"$/m);
-  const binderVersion = manifestValue(`${BINDGEN_CRATE}/Cargo.lock`, /^name = "wasm-bindgen-cli-support"\nversion = "(.+)"$/m);
+  const version = readManifestValue('Cargo.lock', /^name = "wasm-bindgen"\nversion = "(.+)"$/m);
+  const binderVersion = readManifestValue(`${BINDGEN_CRATE}/Cargo.lock`, /^name = "wasm-bindgen-cli-support"\nversion = "(.+)"$/m);
   if (version === binderVersion) return version;
   throw new UserError(
     `The core has wasm-bindgen ${version} and ${BINDGEN_CRATE} has ${binderVersion}: write "=${version}" into ${BINDGEN_CRATE}/Cargo.toml, ` +

@@ -9,12 +9,12 @@ import { CACHE_DIRECTORY, aptInstall } from './toolchain.mjs';
 export const FULL_CHROME_NAMES = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
 /** Programs of Chromium. The headless one is preferred: it takes a third less processor time. */
 const CHROME_NAMES = ['chromium-headless-shell', ...FULL_CHROME_NAMES];
-const CHROME_DIRECTORY_OF_MACOS = '/Applications/Google Chrome.app/Contents/MacOS';
-const MISSING_BROWSER =
+const MACOS_CHROME_DIRECTORY = '/Applications/Google Chrome.app/Contents/MacOS';
+const MISSING_BROWSER_MESSAGE =
   'Chromium and a chromedriver of the same version are missing: install both ' +
   '(on Debian `sudo apt-get install chromium chromium-driver`), or set CHROME and CHROMEDRIVER to their paths.';
 
-/** Runs without a sandbox (in containers), without a graphics card, and without background network requests. */
+/** Arguments that run Chromium without a sandbox (for containers), without a graphics card, and without background network requests. */
 export const CHROME_ARGUMENTS = [
   '--no-sandbox',
   '--disable-gpu',
@@ -39,7 +39,7 @@ async function ensureFonts() {
   await aptInstall(['fonts-liberation'], 'A font as wide as Arial is missing: install fonts-liberation.');
 }
 
-/** @returns {Promise<Browser>} */
+/** Returns a browser with its driver, and installs what is missing. @returns {Promise<Browser>} */
 export async function ensureBrowser() {
   const browser = await ensureChrome();
   await ensureFonts();
@@ -48,13 +48,13 @@ export async function ensureBrowser() {
 
 async function ensureChrome() {
   const { CHROME, CHROMEDRIVER } = process.env;
-  const presentBrowser = await matchingPair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
+  const presentBrowser = await checkPair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
   if (presentBrowser !== undefined) return presentBrowser;
-  if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER);
+  if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
   // Packages of these names on Ubuntu only point to a snap, which cannot be driven from here.
-  const onDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
-  const installedBrowser = onDebian ? await debianBrowser() : await chromeForTesting();
-  if (installedBrowser === undefined) throw new UserError(MISSING_BROWSER);
+  const isDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
+  const installedBrowser = isDebian ? await installDebianBrowser() : await installChromeForTesting();
+  if (installedBrowser === undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
   return installedBrowser;
 }
 
@@ -62,16 +62,18 @@ async function ensureChrome() {
 export function findChrome(names = CHROME_NAMES) {
   return (
     names.map((name) => findProgram(name)).find((path) => path !== undefined) ??
-    findProgram('Google Chrome', [CHROME_DIRECTORY_OF_MACOS])
+    findProgram('Google Chrome', [MACOS_CHROME_DIRECTORY])
   );
 }
 
 /**
+ * Returns a browser and its driver with the version of the browser.
+ *
  * @param {string | undefined} chrome
  * @param {string | undefined} driver
  * @returns {Promise<Browser | undefined>} undefined unless both run and are of one major version
  */
-async function matchingPair(chrome, driver) {
+async function checkPair(chrome, driver) {
   if (chrome === undefined || driver === undefined) return undefined;
   const [version, driverVersion] = await Promise.all([versionOf(chrome), versionOf(driver)]);
   if (version === undefined || version.split('.')[0] !== driverVersion?.split('.')[0]) return undefined;
@@ -84,33 +86,33 @@ async function versionOf(program) {
   return stdout.match(/\d+(\.\d+){3}/)?.[0];
 }
 
-async function debianBrowser() {
-  await aptInstall(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER);
-  return matchingPair(findChrome(), findProgram('chromedriver'));
+async function installDebianBrowser() {
+  await aptInstall(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER_MESSAGE);
+  return checkPair(findChrome(), findProgram('chromedriver'));
 }
 
 /** Returns Google's Chrome for Testing, which has a matching chromedriver. Both are downloaded once. */
-async function chromeForTesting() {
-  const directory = join(CACHE_DIRECTORY, 'browsers');
-  const pathsFile = join(directory, 'paths.json');
+async function installChromeForTesting() {
+  const browsersDirectory = join(CACHE_DIRECTORY, 'browsers');
+  const pathsFile = join(browsersDirectory, 'paths.json');
   if (existsSync(pathsFile)) {
     const { chrome, driver } = JSON.parse(readFileSync(pathsFile, 'utf8'));
-    const presentBrowser = await matchingPair(chrome, driver);
+    const presentBrowser = await checkPair(chrome, driver);
     if (presentBrowser !== undefined) return presentBrowser;
   }
   printStep('Downloading Chrome for Testing');
-  const chrome = await downloadProgram(directory, 'chrome@stable');
+  const chrome = await downloadProgram(browsersDirectory, 'chrome@stable');
   if (chrome === undefined) return undefined;
   if ((await versionOf(chrome)) === undefined) await installLibraries();
-  const driver = await downloadProgram(directory, `chromedriver@${await versionOf(chrome)}`);
+  const driver = await downloadProgram(browsersDirectory, `chromedriver@${await versionOf(chrome)}`);
   writeFileSync(pathsFile, JSON.stringify({ chrome, driver }));
-  return matchingPair(chrome, driver);
+  return checkPair(chrome, driver);
 }
 
 /** Downloads a program, and returns its path. @param {string} directory @param {string} programAndVersion @returns {Promise<string | undefined>} */
 async function downloadProgram(directory, programAndVersion) {
-  const installCommand = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', programAndVersion];
-  const { ok, stdout } = await run('npm', [...installCommand, '--path', directory, '--format', '{{path}}'], { seconds: 900 });
+  const installArguments = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', programAndVersion];
+  const { ok, stdout } = await run('npm', [...installArguments, '--path', directory, '--format', '{{path}}'], { seconds: 900 });
   return ok ? stdout.trim().split('\n').pop() : undefined;
 }
 

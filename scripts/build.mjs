@@ -4,8 +4,8 @@ import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
-import { bindProgram } from './bindgen.mjs';
-import { WIDGETS, bundle, filesOf } from './bundle.mjs';
+import { ensureBindProgram } from './bindgen.mjs';
+import { WIDGET_TAGS, bundle, filesOf } from './bundle.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { cratesOf } from './licences.mjs';
 import { ROOT, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
@@ -40,14 +40,14 @@ const CORE_SOURCES = [
 export async function build({ local = false } = {}) {
   const coreHash = hashOfFiles(CORE_SOURCES);
   const coreProducts = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json'];
-  const figureProducts = WIDGETS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
+  const figureProducts = WIDGET_TAGS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
   const isPublishedCurrent = isCurrent('build/core.sha256', coreHash, coreProducts);
   const compiledHash = local && !isPublishedCurrent ? `${coreHash} local` : coreHash;
-  // Packages first: without a network that fails at once, and compiling takes minutes.
+  // Packages are installed first: without a network that fails at once, and compiling takes minutes.
   await ensurePackages();
   await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['motion'], local));
-  if (!local) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGETS, false));
-  const tagsWithCore = compiledHash === coreHash && isCurrent('build/figures.sha256', coreHash, figureProducts) ? WIDGETS : [];
+  if (!local) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGET_TAGS, false));
+  const tagsWithCore = compiledHash === coreHash && isCurrent('build/figures.sha256', coreHash, figureProducts) ? WIDGET_TAGS : [];
   const pagesHash = hashOfFiles(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledHash + tagsWithCore);
   await buildIfStale('build/pages.sha256', pagesHash, ['dist/core.js', 'dist/classroom.html', 'python/src/motion_widgets/_elements.py'], () => bundle({ tags: tagsWithCore }));
   await buildIfStale('build/example-log.sha256', hashOfFiles(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOGS), writeExampleLog);
@@ -84,49 +84,51 @@ function isCurrent(stamp, sourceHash, products) {
 /**
  * Builds cores, each a module and its glue.
  *
- * @param {string[]} exportNames "motion" for the whole core, or the tags of figures, whose cores have their own simulation alone
+ * @param {string[]} coreNames "motion" for the whole core, or the tags of figures, whose cores have their own simulation alone
  * @param {boolean} local
  */
-async function buildCores(exportNames, local) {
+async function buildCores(coreNames, local) {
   // Waits for Rust first: an error of other work would end the process before the message about missing Rust.
-  const rust = await wasmRust();
-  const [binderProgram, packages] = [bindProgram(), ensurePackages(local ? undefined : 'scripts')];
-  printStep(`Compiling the core to WebAssembly (${rust.description}): ${exportNames.join(', ')}`);
-  const finishedCores = [];
-  for (const name of exportNames) {
+  const rustTools = await wasmRust();
+  const [binderPromise, packagesPromise] = [ensureBindProgram(), ensurePackages(local ? undefined : 'scripts')];
+  printStep(`Compiling the core to WebAssembly (${rustTools.description}): ${coreNames.join(', ')}`);
+  const finishPromises = [];
+  for (const name of coreNames) {
     // Cargo writes all cores to one path: each is bound before the next is compiled. Optimization runs meanwhile.
-    const [wasm, bind] = await settleAll([compileCore(rust, name, local), binderProgram, packages]);
-    await mustRun('wasm-bindgen failed: see above.', bind, [wasm, pathOf(`build/bound/${name}`)]);
-    finishedCores.push(finishCore(name, local));
+    const [modulePath, binderPath] = await settleAll([compileCore(rustTools, name, local), binderPromise, packagesPromise]);
+    await mustRun('wasm-bindgen failed: see above.', binderPath, [modulePath, pathOf(`build/bound/${name}`)]);
+    finishPromises.push(finishCore(name, local));
   }
-  await settleAll(finishedCores);
-  if (!exportNames.includes('motion')) return;
+  await settleAll(finishPromises);
+  if (!coreNames.includes('motion')) return;
   copyFileSync(pathOf('build/bound/motion/motion.d.ts'), pathOf('build/core.d.ts'));
   writeFileSync(pathOf('build/motion.wasm.d.ts'), BUNDLED_CORE_TYPES);
 }
 
 /**
+ * Compiles a core.
+ *
  * @param {Awaited<ReturnType<typeof wasmRust>>} rust
  * @param {string} name the tag of a widget, or "motion" for the whole core
  * @param {boolean} local
  * @returns {Promise<string>} the path of the module as rustc leaves it
  */
 async function compileCore(rust, name, local) {
-  const cargo = join(rust.bin, 'cargo');
+  const cargoPath = join(rust.bin, 'cargo');
   // `cargo build` also makes a Rust library, and then cannot optimize across crates. `cargo rustc` makes the module only.
   // Panic locations contain paths. In a published module the paths of this machine are removed.
-  const sources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
+  const registrySources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
   const { stdout: sysroot } = await run(join(rust.bin, 'rustc'), ['--print', 'sysroot'], { env: rust.env, quiet: true });
-  const remapFlags = [sources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
+  const remapFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
   const remapOption = `target.wasm32-unknown-unknown.rustflags=[${remapFlags}]`;
   const profile = local ? 'web' : 'release';
-  const options = ['--quiet', '--locked', '--profile', profile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
+  const cargoOptions = ['--quiet', '--locked', '--profile', profile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
   const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
-  await mustRun('The core does not compile: see the errors above.', cargo, ['rustc', ...options, ...rust.target, ...widgetOptions], { env: rust.env });
-  const cargoOutput = async (/** @type {string[]} */ ...question) => (await run(cargo, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
-  const metadata = JSON.parse(await cargoOutput('metadata', '--format-version', '1'));
+  await mustRun('The core does not compile: see the errors above.', cargoPath, ['rustc', ...cargoOptions, ...rust.target, ...widgetOptions], { env: rust.env });
+  const outputOfCargo = async (/** @type {string[]} */ ...question) => (await run(cargoPath, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
+  const metadata = JSON.parse(await outputOfCargo('metadata', '--format-version', '1'));
   if (name === 'motion') {
-    const crateTree = await cargoOutput('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
+    const crateTree = await outputOfCargo('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
     writeFileSync(pathOf('build/crates.json'), JSON.stringify(cratesOf(crateTree, metadata)));
   }
   return join(metadata.target_directory, `wasm32-unknown-unknown/${profile}/motion.wasm`);
@@ -151,34 +153,34 @@ async function shrinkModule(path) {
  * @param {string} path of the module, with the names of its functions
  */
 async function silencePanics(path) {
-  // Resolved at runtime: the package is installed for full builds only, and a constant name would make the type checker look for it.
+  // The name is a variable, because the package is installed for full builds only: the type checker would look for a constant name.
   const packageName = 'binaryen';
   const { default: binaryen } = await import(packageName);
   const module = binaryen.readBinary(readFileSync(pathOf(path)));
   const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
   module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
-  const { Function: functions } = binaryen;
-  const panicNames = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
+  const { Function: functionWrapper } = binaryen;
+  const panicNamePattern = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
   for (let i = 0; i < module.getNumFunctions(); i++) {
     const panicFunction = module.getFunctionByIndex(i);
     const { name, base } = binaryen.getFunctionInfo(panicFunction);
-    if (base === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(name) && panicNames.test(name)) {
-      functions.setBody(panicFunction, module.unreachable());
+    if (base === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(name) && panicNamePattern.test(name)) {
+      functionWrapper.setBody(panicFunction, module.unreachable());
     }
   }
   writeFileSync(pathOf(path), module.emitBinary());
   module.dispose();
 }
 
-/** After the usual passes, merges variables with equal values once more. */
+/** Passes of the optimizer: the usual ones, and then a second merge of variables with equal values. */
 const OPTIMIZER_PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-locals', '--reorder-locals'];
 
 /** Optimizes a module in place, and returns what the optimizer prints. @param {string} path @param {string[]} passes */
 async function optimize(path, passes = OPTIMIZER_PASSES) {
   // Features that rustc enables for this target by default, and SIMD from .cargo/config.toml.
-  const features = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
+  const wasmFeatures = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   const { stdout } = await mustRun('wasm-opt failed: see above.', process.execPath, [
-    pathOf('node_modules/binaryen/bin/wasm-opt'), ...passes, ...features.map((name) => `--enable-${name}`), pathOf(path),
+    pathOf('node_modules/binaryen/bin/wasm-opt'), ...passes, ...wasmFeatures.map((name) => `--enable-${name}`), pathOf(path),
     '-o', pathOf(path)], { quiet: true });
   return stdout;
 }
@@ -217,7 +219,7 @@ async function writeGlue(name, glueNames) {
   const glueChanges = /** @type {[RegExp, string][]} */ ([
     // Errors of wasm-bindgen itself end a core as a trap does; plain errors come from callbacks of the page.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
-    // Removed here, because www/core.ts does it for all classes.
+    // These lines are removed, because www/core.ts does the same for all classes.
     [/^if \(Symbol\.dispose\) .*$/gm, ''],
     [/new FinalizationRegistry\(/g, '/* @__PURE__ */ $&'],
     // wasm-bindgen adds the members of a namespace one by one. Bundlers take that for side effects, and keep unused namespaces.
@@ -229,9 +231,9 @@ async function writeGlue(name, glueNames) {
   if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, which scripts/build.mjs replaces.`);
   const changedGlue = glueChanges.reduce((text, [pattern, replacement]) => text.replace(pattern, replacement), bindgenGlue);
   const exportNames = [...bindgenGlue.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, exportName]) => exportName);
-  const { build: bundled } = await import('esbuild');
+  const { build: bundleScript } = await import('esbuild');
   const gluePlugin = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents: changedGlue })) };
-  const { outputFiles } = await bundled({
+  const { outputFiles } = await bundleScript({
     stdin: { contents: `export { ${[...exportNames, ...glueNames.imports.map(([, importName]) => importName), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: pathOf(`build/bound/${name}`) },
     bundle: true,
     format: 'esm',
@@ -242,7 +244,7 @@ async function writeGlue(name, glueNames) {
   const shortNameOf = new Map(glueNames.exports);
   const exportOf = (/** @type {string} */ exportName) => shortNameOf.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
   const glueBody = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, key) => `wasm.${exportOf(key)}`);
-  const lines = [
+  const moduleLines = [
     'export default async (module) => {',
     glueBody,
     `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, importName, key]) => `${key}: ${importName}`)} } });`,
@@ -251,7 +253,7 @@ async function writeGlue(name, glueNames) {
     `return { ${exportNames} };`,
     '};',
   ];
-  writeFileSync(pathOf(`build/${name}.js`), `${lines.join('\n')}\n`);
+  writeFileSync(pathOf(`build/${name}.js`), `${moduleLines.join('\n')}\n`);
   const declaration = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./simulations.d.ts")>;\n';
   writeFileSync(pathOf(`build/${name}.d.ts`), `${declaration}export default instantiate;\n`);
 }

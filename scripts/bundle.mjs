@@ -4,9 +4,9 @@ import { createHash } from 'node:crypto';
 import { appendFileSync, chmodSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
 import * as declared from '../www/settings.js';
-import { widgets } from './declarations.mjs';
-import { licences, packagesOf } from './licences.mjs';
-import { manifest } from './manifest.mjs';
+import { describeWidgets } from './declarations.mjs';
+import { licenceTextOf, packagesOf } from './licences.mjs';
+import { createManifest } from './manifest.mjs';
 import { ROOT, UserError, printStep } from './process.mjs';
 import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
@@ -17,13 +17,13 @@ import { importTypeScript } from './typescript.mjs';
 const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 
 /** Files of www/ that are copied to dist/. */
-const COPIED_FILES = /\.(html|css)$/;
+const COPIED_FILES_RE = /\.(html|css)$/;
 
 /** Tags of the elements. */
-export const WIDGETS = Object.keys(declared.settings);
+export const WIDGET_TAGS = Object.keys(declared.settings);
 
 /** Name by which a bundle imports the bytes of the whole core, as a function that returns them. */
-const BYTES_MODULE = 'motion.bytes';
+const BYTES_MODULE_NAME = 'motion.bytes';
 
 /**
  * Placeholder for the name of the chunk that contains `MODULE.external`. It has the same length, so that source maps stay valid. Within
@@ -32,10 +32,10 @@ const BYTES_MODULE = 'motion.bytes';
 const CHUNK_PLACEHOLDER = 'chunk-________.js';
 
 /** Figures whose logs a worker reads. */
-const LOG_FIGURES = ['alpha-calibrator'];
+const LOG_FIGURE_TAGS = ['alpha-calibrator'];
 
 /** Path of the worker's script in dist/. */
-const LOG_WORKER = 'chunks/log-worker.js';
+const LOG_WORKER_PATH = 'chunks/log-worker.js';
 
 /** Path of dist/chunks/ from the scripts that share the bytes of the core. */
 const CHUNK_PATHS = { core: './chunks/', external: './' };
@@ -47,11 +47,11 @@ const CHUNK_PATHS = { core: './chunks/', external: './' };
  * @param {string} place path of dist/, relative to the bundle
  * @param {string} [fallback] statement for a bundle that is part of another bundle
  */
-const startWorker = (place, fallback = '') =>
+const startWorkerSource = (place, fallback = '') =>
   'export function startWorker() {' +
   '  const here = import.meta.url;' +
   `  if (here?.includes('${CHUNK_PLACEHOLDER}')) {` +
-  `    const url = new URL('${place}${LOG_WORKER}', here);` +
+  `    const url = new URL('${place}${LOG_WORKER_PATH}', here);` +
   '    const script = () => URL.createObjectURL(new Blob([`import ${JSON.stringify(url)}`], { type: "text/javascript" }));' +
   '    return new Worker(url.origin === location.origin ? url : script(), { type: "module" });' +
   '  }' +
@@ -59,7 +59,7 @@ const startWorker = (place, fallback = '') =>
   '}';
 
 /** Sources of the modules by which each kind of bundle replaces its import of the WebAssembly module. They export the cores with their glue. */
-const MODULE_SCRIPTS = {
+const MODULE_SOURCES = {
   /**
    * The bytes as text with a character for each byte: its code, modulo 256, is the byte. Brotli and gzip compress this text
    * almost as well as the module itself (7 % more bytes are transferred). Base64, or a module that is compressed already, would be larger.
@@ -68,9 +68,9 @@ const MODULE_SCRIPTS = {
    * @param {RegExp} shifted characters to whose code 256 is added
    */
   bytes: (bytes, shifted) => {
-    const text = Buffer.from(bytes).toString('latin1').replaceAll(shifted, (character) => String.fromCharCode(character.charCodeAt(0) + 256));
+    const byteText = Buffer.from(bytes).toString('latin1').replaceAll(shifted, (character) => String.fromCharCode(character.charCodeAt(0) + 256));
     return (
-      `const text = ${JSON.stringify(text)};` +
+      `const text = ${JSON.stringify(byteText)};` +
       // `Uint8Array.from` would take ten times as long, because it uses the string's iterator.
       'export default () => { const bytes = new Uint8Array(text.length);' +
       'for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); return bytes; };'
@@ -82,13 +82,13 @@ const MODULE_SCRIPTS = {
    * @param {string[]} tags of the figures with logs that have a module of their own
    */
   worker: (tags) => {
-    const glue = ['motion', ...tags].map((tag, i) => [`import * as glue${i} from './${tag}.js';`, `'${tag}': { glue: async () => glue${i} }`]);
-    return `${glue.map(([imported]) => imported).join('')} export default { ${glue.map(([, entry]) => entry).join(', ')} }; export function startWorker() {}`;
+    const glueLines = ['motion', ...tags].map((tag, i) => [`import * as glue${i} from './${tag}.js';`, `'${tag}': { glue: async () => glue${i} }`]);
+    return `${glueLines.map(([imported]) => imported).join('')} export default { ${glueLines.map(([, entry]) => entry).join(', ')} }; export function startWorker() {}`;
   },
   /** The core alone: its bytes are in a separate script, which external.js shares. */
-  core: () => `import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source: async () => (await import('${BYTES_MODULE}')).default() } }; export function startWorker() {}`,
+  core: () => `import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source: async () => (await import('${BYTES_MODULE_NAME}')).default() } }; export function startWorker() {}`,
   /** The core with its bytes in the bundle. @param {boolean} isClassic */
-  inlined: (isClassic) => `import source from '${BYTES_MODULE}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorker('./')}`,
+  inlined: (isClassic) => `import source from '${BYTES_MODULE_NAME}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorkerSource('./')}`,
   /**
    * Bundlers such as Vite and webpack copy the file of `new URL(…, import.meta.url)`, and replace its address. Bundlers such as
    * esbuild and Rollup change nothing, so that the address in the bundled script is wrong. A classic script has no
@@ -97,8 +97,8 @@ const MODULE_SCRIPTS = {
    * @param {string[]} tags of the figures that have a separate module
    */
   external: (tags) => {
-    const files = [['motion', '../motion.wasm'], ...tags.map((tag) => [tag, `./${basename(moduleOf(tag).path)}`])];
-    const cores = files.map(([name, path]) => (
+    const modulePaths = [['motion', '../motion.wasm'], ...tags.map((tag) => [tag, `./${basename(moduleFileOf(tag).path)}`])];
+    const coreEntries = modulePaths.map(([name, path]) => (
       `'${name}': { glue: () => import('./${name}.js'), source: () => bundledSource('${path}', () => new URL('${path}', import.meta.url)) }`
     ));
     return (
@@ -107,15 +107,15 @@ const MODULE_SCRIPTS = {
       '  const url = here && written();' +
       `  return url && (here.includes('${CHUNK_PLACEHOLDER}') || url.href !== new URL(path, here).href) ? url : undefined;` +
       '};' +
-      `const embedded = { glue: () => import('./motion.js'), source: async () => (await import('${BYTES_MODULE}')).default() };` +
-      `const all = { embedded, ${cores} }; export default all;` +
-      startWorker('../', `if (all.motion.source()) return new Worker(new URL('./${basename(LOG_WORKER)}', import.meta.url), { type: 'module' });`)
+      `const embedded = { glue: () => import('./motion.js'), source: async () => (await import('${BYTES_MODULE_NAME}')).default() };` +
+      `const all = { embedded, ${coreEntries} }; export default all;` +
+      startWorkerSource('../', `if (all.motion.source()) return new Worker(new URL('./${basename(LOG_WORKER_PATH)}', import.meta.url), { type: 'module' });`)
     );
   },
 };
 
 /** Returns the module that a widget needs, without the simulations of others. @param {string} tag */
-const moduleOf = (tag) => hashedFile(tag, '.wasm', readFileSync(pathOf(`build/${tag}.wasm`)));
+const moduleFileOf = (tag) => hashedFileOf(tag, '.wasm', readFileSync(pathOf(`build/${tag}.wasm`)));
 
 /**
  * Returns a file of dist/chunks/ with a hash of its contents in the name.
@@ -124,7 +124,7 @@ const moduleOf = (tag) => hashedFile(tag, '.wasm', readFileSync(pathOf(`build/${
  * @param {string} extension
  * @param {string | Uint8Array} contents
  */
-function hashedFile(name, extension, contents) {
+function hashedFileOf(name, extension, contents) {
   const hash = createHash('sha256').update(contents).digest('hex').slice(0, 8);
   return { path: `dist/chunks/${name}-${hash}${extension}`, contents };
 }
@@ -154,19 +154,19 @@ export declare function isFigureTag(tag: string): boolean;
 `;
 
 /**
- * Bundles everything anew.
+ * Bundles everything.
  *
  * @param {object} [options]
  * @param {string[]} [options.tags] the figures that have a module of their own; the others share the whole core
  * @param {(path: string, script: string) => string} [options.transformScript] returns the script that replaces a script of www/
  */
-export async function bundle({ tags = WIDGETS, transformScript = (_, script) => script } = {}) {
+export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script) => script } = {}) {
   printStep('Bundling the pages');
   await writeTypes();
   await writeComponents();
   writeFileSync(pathOf('build/widgets.js'), await widgetLoaders());
-  const wasm = readFileSync(pathOf('build/motion.wasm'));
-  const bytesModule = hashedFile('motion-bytes', '.js', MODULE_SCRIPTS.bytes(wasm, SHIFTED_CHARACTERS.utf8));
+  const moduleBytes = readFileSync(pathOf('build/motion.wasm'));
+  const bytesScript = hashedFileOf('motion-bytes', '.js', MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS.utf8));
   const { build, transformSync } = await import('esbuild');
   /**
    * Bundles scripts of www/ for dist/.
@@ -175,7 +175,7 @@ export async function bundle({ tags = WIDGETS, transformScript = (_, script) => 
    * @param {keyof typeof CHUNK_PATHS | 'inlined' | 'worker'} form
    * @param {import('esbuild').BuildOptions} options
    */
-  const bundleOf = (entryPoints, form, options) =>
+  const bundleScripts = (entryPoints, form, options) =>
     build({
       entryPoints: Object.entries(entryPoints).map(([out, path]) => ({ in: join('www', path), out })),
       absWorkingDir: ROOT,
@@ -194,21 +194,21 @@ export async function bundle({ tags = WIDGETS, transformScript = (_, script) => 
         {
           name: 'wasm',
           setup({ onLoad, onResolve }) {
-            const moduleScripts = {
-              core: MODULE_SCRIPTS.core,
-              external: () => MODULE_SCRIPTS.external(tags),
-              worker: () => MODULE_SCRIPTS.worker(tags.filter((tag) => LOG_FIGURES.includes(tag))),
-              inlined: () => MODULE_SCRIPTS.inlined(options.format === 'iife'),
+            const moduleSources = {
+              core: MODULE_SOURCES.core,
+              external: () => MODULE_SOURCES.external(tags),
+              worker: () => MODULE_SOURCES.worker(tags.filter((tag) => LOG_FIGURE_TAGS.includes(tag))),
+              inlined: () => MODULE_SOURCES.inlined(options.format === 'iife'),
             };
-            onLoad({ filter: /\.wasm$/ }, () => ({ contents: moduleScripts[form](), loader: 'js' }));
+            onLoad({ filter: /\.wasm$/ }, () => ({ contents: moduleSources[form](), loader: 'js' }));
             if (options.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
             const chunkDirectory = form === 'core' || form === 'external' ? CHUNK_PATHS[form] : undefined;
-            onResolve({ filter: new RegExp(`^${BYTES_MODULE}$`) }, ({ path }) => (
-              chunkDirectory ? { path: `${chunkDirectory}${basename(bytesModule.path)}`, external: true } : { path, namespace: 'core' }
+            onResolve({ filter: new RegExp(`^${BYTES_MODULE_NAME}$`) }, ({ path }) => (
+              chunkDirectory ? { path: `${chunkDirectory}${basename(bytesScript.path)}`, external: true } : { path, namespace: 'core' }
             ));
-            onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SCRIPTS.bytes(wasm, SHIFTED_CHARACTERS[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
+            onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             // A page without workers runs the worker's script itself.
-            if (form === 'external') onResolve({ filter: /\/logs\/worker\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER)}`, external: true }));
+            if (form === 'external') onResolve({ filter: /\/logs\/worker\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
             onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: minimalDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
               contents: options.format === 'iife' ? ADDRESS_MODULES.classic : options.splitting ? ADDRESS_MODULES.chunk : readFileSync(path, 'utf8'),
@@ -233,61 +233,61 @@ export async function bundle({ tags = WIDGETS, transformScript = (_, script) => 
       metafile: true,
       write: false,
     });
-  const results = await Promise.all([
-    bundleOf({ core: 'core.ts' }, 'core', { inject: [] }),
-    bundleOf({ 'motion-widgets': 'motion-widgets.ts' }, 'inlined', {}),
+  const bundles = await Promise.all([
+    bundleScripts({ core: 'core.ts' }, 'core', { inject: [] }),
+    bundleScripts({ 'motion-widgets': 'motion-widgets.ts' }, 'inlined', {}),
     // Jupyter sends this module as text, without a source map next to it.
-    bundleOf({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
-    bundleOf({ external: 'external.ts' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
-    bundleOf({ [LOG_WORKER.replace('.js', '')]: 'log-worker.ts' }, 'worker', { inject: [] }),
-    bundleOf({ 'motion-widgets.iife': 'motion-widgets.ts' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
-    bundleOf({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
-    bundleOf({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),
-    // Loads the core from the file in the same directory.
-    bundleOf({ cli: 'cli.ts' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
-    bundleOf({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
+    bundleScripts({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
+    bundleScripts({ external: 'external.ts' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
+    bundleScripts({ [LOG_WORKER_PATH.replace('.js', '')]: 'log-worker.ts' }, 'worker', { inject: [] }),
+    bundleScripts({ 'motion-widgets.iife': 'motion-widgets.ts' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
+    bundleScripts({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
+    bundleScripts({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),
+    // The command line loads the core from the file in the same directory.
+    bundleScripts({ cli: 'cli.ts' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
+    bundleScripts({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);
-  if (!results.length || results.some(({ warnings }) => warnings.length)) {
+  if (!bundles.length || bundles.some(({ warnings }) => warnings.length)) {
     throw new UserError('The pages do not bundle: see the messages above.');
   }
 
   rmSync(pathOf('dist'), { recursive: true, force: true });
-  const write = (/** @type {string} */ path, /** @type {string | Uint8Array} */ contents) => {
+  const writeOutput = (/** @type {string} */ path, /** @type {string | Uint8Array} */ contents) => {
     mkdirSync(dirname(path), { recursive: true });
     writeFileSync(path, contents);
   };
-  for (const { path, contents, text } of results.flatMap(({ outputFiles }) => outputFiles)) {
+  for (const { path, contents, text } of bundles.flatMap(({ outputFiles }) => outputFiles)) {
     const outputContents = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(path, '.map')) : contents;
-    write(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? withNonAsciiEscaped(text) : outputContents);
+    writeOutput(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? withNonAsciiEscaped(text) : outputContents);
   }
-  const elementManifest = await manifest();
-  const elements = elementManifest.modules.flatMap(({ declarations }) => declarations);
-  const allWidgets = await widgets();
-  for (const path of filesOf('www').filter((path) => COPIED_FILES.test(path))) {
+  const elementManifest = await createManifest();
+  const elementDeclarations = elementManifest.modules.flatMap(({ declarations }) => declarations);
+  const widgetDescriptions = await describeWidgets();
+  for (const path of filesOf('www').filter((path) => COPIED_FILES_RE.test(path))) {
     const text = readFileSync(pathOf(path), 'utf8');
-    write(pathOf(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elements, allWidgets) : text);
+    writeOutput(pathOf(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elementDeclarations, widgetDescriptions) : text);
   }
   // The module needs Lit, which is not installed in a bare clone. A static import would fail there.
   const { preUpgradeCss } = await importTypeScript('www/figure/reserved-height.ts');
   // Without scripts no height is reserved.
-  const reservedHeights = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
+  const reservedHeightCss = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity: any rule of a page takes precedence.
-  const slideStyle = `:where(.reveal) :where(${WIDGETS}){font-size:.28em;text-align:start}`;
-  appendFileSync(pathOf('dist/motion-widgets.css'), `\n:where(${WIDGETS}){margin-block:1em}\n${slideStyle}\n${reservedHeights}\n`);
-  write(pathOf('dist/motion.wasm'), wasm);
-  for (const { path, contents } of [bytesModule, ...tags.map(moduleOf)]) write(pathOf(path), contents);
-  const typings = { core: 'www/types.d.ts', simulations: 'build/simulations.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
-  for (const [name, path] of Object.entries(typings)) write(pathOf(`dist/${name}.d.ts`), withLocalImports(readFileSync(pathOf(path), 'utf8')));
-  write(pathOf('dist/external.d.ts'), ELEMENT_DECLARATIONS);
-  for (const name of ['de', 'motion-widgets.css']) write(pathOf(`dist/${name}.d.ts`), 'export {};\n');
+  const slideCss = `:where(.reveal) :where(${WIDGET_TAGS}){font-size:.28em;text-align:start}`;
+  appendFileSync(pathOf('dist/motion-widgets.css'), `\n:where(${WIDGET_TAGS}){margin-block:1em}\n${slideCss}\n${reservedHeightCss}\n`);
+  writeOutput(pathOf('dist/motion.wasm'), moduleBytes);
+  for (const { path, contents } of [bytesScript, ...tags.map(moduleFileOf)]) writeOutput(pathOf(path), contents);
+  const typingPaths = { core: 'www/types.d.ts', simulations: 'build/simulations.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
+  for (const [name, path] of Object.entries(typingPaths)) writeOutput(pathOf(`dist/${name}.d.ts`), withLocalImports(readFileSync(pathOf(path), 'utf8')));
+  writeOutput(pathOf('dist/external.d.ts'), ELEMENT_DECLARATIONS);
+  for (const name of ['de', 'motion-widgets.css']) writeOutput(pathOf(`dist/${name}.d.ts`), 'export {};\n');
   chmodSync(pathOf('dist/cli.js'), 0o755);
-  write(pathOf('dist/classroom.html'), inlinedPage('index.html'));
-  write(pathOf('dist/custom-elements.json'), `${JSON.stringify(elementManifest, null, 1)}\n`);
+  writeOutput(pathOf('dist/classroom.html'), inlinedPage('index.html'));
+  writeOutput(pathOf('dist/custom-elements.json'), `${JSON.stringify(elementManifest, null, 1)}\n`);
   // Sizes of products, which tests/package/sizes.nightly.test.js reads.
-  const bundleOutputs = Object.assign({}, ...results.map(({ metafile }) => metafile.outputs));
-  write(pathOf('build/outputs.json'), JSON.stringify(bundleOutputs));
+  const bundleOutputs = Object.assign({}, ...bundles.map(({ metafile }) => metafile.outputs));
+  writeOutput(pathOf('build/outputs.json'), JSON.stringify(bundleOutputs));
   const crates = JSON.parse(readFileSync(pathOf('build/crates.json'), 'utf8'));
-  write(pathOf('dist/LICENSE-third-party.txt'), licences([...packagesOf(bundleOutputs), ...crates]));
+  writeOutput(pathOf('dist/LICENSE-third-party.txt'), licenceTextOf([...packagesOf(bundleOutputs), ...crates]));
   await writePython();
 }
 
@@ -308,12 +308,12 @@ function withMinifiedStyles(script, transform) {
     /** @type {string[]} */
     const expressions = [];
     const plainStyle = style.replace(EXPRESSIONS_RE, (expression, at) => {
-      const name = `expression${expressions.push(expression)}`;
-      return /(^|\n) *$/.test(style.slice(0, at)) ? `@${name};` : name;
+      const placeholder = `expression${expressions.push(expression)}`;
+      return /(^|\n) *$/.test(style.slice(0, at)) ? `@${placeholder};` : placeholder;
     });
-    const { code: shortStyle, warnings } = transform(plainStyle, { loader: 'css', minify: true });
+    const { code: minifiedStyle, warnings } = transform(plainStyle, { loader: 'css', minify: true });
     if (warnings.length > 0) throw new UserError(`Style that cannot be read: ${warnings[0].text} in ${plainStyle}`);
-    return shortStyle.trim().replace(/@expression(\d+);|expression(\d+)/g, (_, statement, value) => expressions[Number(statement ?? value) - 1]);
+    return minifiedStyle.trim().replace(/@expression(\d+);|expression(\d+)/g, (_, statement, value) => expressions[Number(statement ?? value) - 1]);
   });
 }
 
@@ -345,21 +345,21 @@ export function filesOf(path) {
  * @returns {Promise<string>} a module
  */
 async function widgetLoaders() {
-  const loaders = WIDGETS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.ts'),\n`);
-  const modules = await Promise.all(WIDGETS.map((tag) => importTypeScript(`www/widgets/${tag}/settings.ts`)));
+  const loaderLines = WIDGET_TAGS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.ts'),\n`);
+  const settingsModules = await Promise.all(WIDGET_TAGS.map((tag) => importTypeScript(`www/widgets/${tag}/settings.ts`)));
   return (
     '/** @type {Record<string, () => Promise<unknown>>} by their tags */\n' +
-    `export const widgets = {\n${loaders.join('')}};\n\n` +
-    `export const messageKeys = ${JSON.stringify(modules.map(({ definition }) => definition.messageKey))};\n`
+    `export const widgets = {\n${loaderLines.join('')}};\n\n` +
+    `export const messageKeys = ${JSON.stringify(settingsModules.map(({ definition }) => definition.messageKey))};\n`
   );
 }
 
 /** Returns the declarations of settings without their documentation, which no page shows. */
 function minimalDeclarations() {
   const omittedKeys = ['sentence', 'nullable'];
-  const asJson = (/** @type {unknown} */ value) => JSON.stringify(value, (key, member) => (omittedKeys.includes(key) ? undefined : member));
+  const toJson = (/** @type {unknown} */ value) => JSON.stringify(value, (key, member) => (omittedKeys.includes(key) ? undefined : member));
   return Object.entries(declared)
-    .map(([name, value]) => `export const ${name} = ${asJson(value)};\n`)
+    .map(([name, value]) => `export const ${name} = ${toJson(value)};\n`)
     .join('');
 }
 
@@ -415,9 +415,9 @@ function withLocalImports(types) {
 
 /** Removes the text of the inlined module from a source map: a quarter of a million characters. @param {string} text */
 function withoutModule(text) {
-  const map = JSON.parse(text);
-  const contentToKeep = (/** @type {string} */ content, /** @type {number} */ i) => (map.sources[i].endsWith(BYTES_MODULE) ? '' : content);
-  return JSON.stringify({ ...map, sourcesContent: map.sourcesContent.map(contentToKeep) });
+  const sourceMap = JSON.parse(text);
+  const keepContent = (/** @type {string} */ content, /** @type {number} */ i) => (sourceMap.sources[i].endsWith(BYTES_MODULE_NAME) ? '' : content);
+  return JSON.stringify({ ...sourceMap, sourcesContent: sourceMap.sourcesContent.map(keepContent) });
 }
 
 /**
@@ -431,13 +431,13 @@ function inlinedPage(name) {
   const readDistFile = (/** @type {string} */ path) => readFileSync(pathOf(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
   const styleLink = /<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g;
   const scriptTag = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;
-  const page = readDistFile(name);
-  const externalLink = page.replace(styleLink, '').replace(scriptTag, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
+  const pageHtml = readDistFile(name);
+  const externalLink = pageHtml.replace(styleLink, '').replace(scriptTag, '').match(/<(?:script[^>]*\ssrc|link[^>]*\shref)="(?!data:)[^"]*"/);
   if (externalLink) throw new UserError(`${name}: ${externalLink[0]} cannot be put into one file; expected is "./" and a file of www/.`);
   const inlineScript = (/** @type {string} */ path) =>
     `<script type="module">${readDistFile(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
-  // Replaces links to other pages by their text: a copied file does not have them next to it.
-  return page
+  // Links to other pages are replaced by their text, because a copied file does not have these pages next to it.
+  return pageHtml
     .replaceAll(/<a href="\.\/[^"]*">([^<]*)<\/a>/g, '$1')
     .replace(styleLink, (_, path) => `<style>\n${readDistFile(path)}</style>`)
     .replace(scriptTag, (_, path) => inlineScript(path === 'motion-widgets.js' ? 'motion-widgets.iife.js' : path));

@@ -2,7 +2,7 @@
 // from each widget's settings.ts, and from the comments of the elements' classes.
 
 import { presets, settings } from '../www/settings.js';
-import { scriptName } from './names.mjs';
+import { checkScriptName } from './names.mjs';
 import { ROOT, once } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 
@@ -44,14 +44,14 @@ const CLOUD_DOCUMENTATION = {
 };
 
 /** Returns the name of the class or type for a tag or key. @param {string} name */
-export const pascalCase = (name) => scriptName(name.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase()));
+export const toPascalCase = (name) => checkScriptName(name.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase()));
 
-/** @param {readonly string[]} words */
-export const unionType = (words) => words.map((word) => `'${word}'`).join(' | ');
+/** Returns the TypeScript type of some words. @param {readonly string[]} words */
+export const unionTypeOf = (words) => words.map((word) => `'${word}'`).join(' | ');
 
-/** @param {Declaration} declaration */
-export function typeOf({ key, type, words, nullable }) {
-  const text = words ? unionType(words) : (TYPE_NAMES[type] ?? pascalCase(key));
+/** Returns the TypeScript type of a setting. @param {Declaration} declaration */
+export function typeTextOf({ key, type, words, nullable }) {
+  const text = words ? unionTypeOf(words) : (TYPE_NAMES[type] ?? toPascalCase(key));
   return nullable ? `${text} | null` : text;
 }
 
@@ -63,100 +63,100 @@ export function typeOf({ key, type, words, nullable }) {
  */
 export function descriptionOf(declaration, opening) {
   const { sentence, type } = declaration;
-  const range = rangeText(declaration);
+  const range = rangeTextOf(declaration);
   const numberKind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (type)] ?? '';
   const allowedText = range && `${numberKind} from ${range}`.trim();
-  const facts = [allowedText, opening && `opens with ${opening}`].filter(Boolean).join('; ');
-  return facts ? `${sentence} ${facts[0].toUpperCase()}${facts.slice(1)}.` : sentence;
+  const factText = [allowedText, opening && `opens with ${opening}`].filter(Boolean).join('; ');
+  return factText ? `${sentence} ${factText[0].toUpperCase()}${factText.slice(1)}.` : sentence;
 }
 
-/** @param {Declaration} declaration */
-function rangeText({ min, max, unit }) {
-  return min === undefined || max === undefined ? undefined : `${numberText(min)} to ${numberText(max)}${unit ? ` ${unit}` : ''}`;
+/** Returns the range of a setting as text. @param {Declaration} declaration */
+function rangeTextOf({ min, max, unit }) {
+  return min === undefined || max === undefined ? undefined : `${numberTextOf(min)} to ${numberTextOf(max)}${unit ? ` ${unit}` : ''}`;
 }
 
-/** @param {number} value */
-function numberText(value) {
+/** Returns a limit or default as text. @param {number} value */
+function numberTextOf(value) {
   if (value === Number.MAX_SAFE_INTEGER) return '2⁵³ − 1';
   const numberFormat = new Intl.NumberFormat('en', { maximumSignificantDigits: 7, useGrouping: 'min2' });
   return numberFormat.format(value).replaceAll(',', '\u202f').replace('-', '−');
 }
 
 /** Returns the comments of the elements' classes by the names of the classes. */
-export const classComments = once(async () => {
+export const readClassComments = once(async () => {
   // @ts-expect-error It comes without types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
   // With `noWrite` the analyzer returns the manifest, and writes no file but package.json, which gets the path of the manifest in dist/.
-  const argv = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.ts', 'www/widgets/*/*.ts'];
-  const { schemaVersion, modules } = await cli({ argv, cwd: ROOT, noWrite: true });
+  const analyzerArguments = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.ts', 'www/widgets/*/*.ts'];
+  const { schemaVersion, modules } = await cli({ argv: analyzerArguments, cwd: ROOT, noWrite: true });
   /** @type {any[]} */
   const declarations = modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);
   return { schemaVersion, classes: new Map(declarations.map((declaration) => [declaration.name, declaration])) };
 });
 
 /** Returns a description without the line ends of its comment. @param {string} text */
-export const oneLine = (text) => text.replaceAll('\n', ' ');
+export const joinLines = (text) => text.replaceAll('\n', ' ');
 
-/** @returns {Promise<Widget[]>} */
-export function widgets() {
+/** Returns the descriptions of all widgets. @returns {Promise<Widget[]>} */
+export function describeWidgets() {
   return Promise.all(Object.keys(settings).map(describeWidget));
 }
 
-/** Returns the declarations of a widget. @param {string} tag @returns {Promise<Widget>} */
+/** Returns the description of a widget. @param {string} tag @returns {Promise<Widget>} */
 async function describeWidget(tag) {
   // Static imports would fail in a bare clone, in which the libraries of these modules are not installed yet.
   const { COMMON_ATTRS, NUMBER_CONVERTER, WORD_LIST_CONVERTER } = await importTypeScript('www/figure/attributes.ts');
   const { definition: { attributes, declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/attributes.ts').Documentation[]} */
   const documentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
-  const { classes } = await classComments();
-  const element = classes.get(`${pascalCase(tag)}Element`);
+  const { classes } = await readClassComments();
+  const elementClass = classes.get(`${toPascalCase(tag)}Element`);
   /** @type {Record<string, string>} */
-  const attributeSentences = Object.fromEntries(element.attributes.map((/** @type {any} */ { name, description }) => [name, description]));
-  const propertyTable = Object.assign({}, ...documentations.map(({ properties }) => properties));
-  const stateTable = Object.assign({}, ...documentations.map(({ state }) => state));
+  const attributeSentences = Object.fromEntries(elementClass.attributes.map((/** @type {any} */ { name, description }) => [name, description]));
+  const documentedProperties = Object.assign({}, ...documentations.map(({ properties }) => properties));
+  const documentedState = Object.assign({}, ...documentations.map(({ state }) => state));
   const settingOf = (/** @type {string} */ name) => declarations.find((/** @type {Declaration} */ { key }) => key === name);
 
-  /** @returns {Attribute} */
+  /** Returns the description of an attribute. @returns {Attribute} */
   const describeAttribute = (/** @type {[string, any]} */ [name, entry]) => {
     const declaration = settingOf(name);
     if (declaration) {
       const defaultValue = declaration.default;
       const openingText = defaultValue === null ? undefined : String(defaultValue);
-      const shownDefault = typeof defaultValue === 'number' ? numberText(defaultValue) : openingText;
+      const shownDefault = typeof defaultValue === 'number' ? numberTextOf(defaultValue) : openingText;
       const withoutRange = descriptionOf({ ...declaration, min: undefined }, shownDefault);
-      return { name, type: typeOf(declaration), description: descriptionOf(declaration, shownDefault), opening: openingText, allowed: rangeText(declaration), withoutRange };
+      return { name, type: typeTextOf(declaration), description: descriptionOf(declaration, shownDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
     }
     const { words, coveredAttributes, converter, property } = entry;
     const nullable = coveredAttributes || entry.nullable;
     const openingText = elementFields[name]?.opening ?? (coveredAttributes ? openingPresetOf(tag) : nullable ? undefined : words?.[0]);
-    const type = converter === NUMBER_CONVERTER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST_CONVERTER ? `(${unionType(words)})[]` : unionType(words);
+    const type = converter === NUMBER_CONVERTER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST_CONVERTER ? `(${unionTypeOf(words)})[]` : unionTypeOf(words);
     const text = Array.isArray(openingText) ? openingText.join(' ') : openingText;
     const description = descriptionOf({ ...entry, sentence: attributeSentences[name] }, text);
-    return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: rangeText(entry), withoutRange: description };
+    return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: rangeTextOf(entry), withoutRange: description };
   };
-  const documentedItem = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
+  const toItem = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
   const attributeList = Object.entries({ ...attributes, ...COMMON_ATTRS }).map(describeAttribute);
   /** @type {Declaration[]} */
-  const wholeSettings = declarations.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
-  const groupFields = wholeSettings.filter(({ key }) => !(key in attributes)).map(fieldOf);
-  const classFields = element.members
+  const topLevelSettings = declarations.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
+  const groupFields = topLevelSettings.filter(({ key }) => !(key in attributes)).map(fieldOf);
+  const classFields = elementClass.members
     .filter((/** @type {any} */ { kind, privacy, inheritedFrom }) => kind === 'field' && privacy === 'public' && !inheritedFrom)
-    .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: oneLine(description), readonly, type: type.text }));
-  const properties = [...groupFields, ...Object.entries(propertyTable).map(documentedItem), ...classFields];
+    .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: joinLines(description), readonly, type: type.text }));
+  const properties = [...groupFields, ...Object.entries(documentedProperties).map(toItem), ...classFields];
   const documentedElementFields = Object.keys(elementFields).map((name) => {
     const { type, description } = /** @type {Field} */ ([...attributeList, ...properties].find((item) => item.name === name) ?? {});
     return { name, type, description };
   });
-  const state = new Map([...wholeSettings.map(fieldOf), ...documentedElementFields, ...Object.entries(stateTable).map(documentedItem)].map((item) => [item.name, item]));
-  for (const { name, type } of state.values()) if (!type) throw new Error(`${tag}: nothing says what ${name} is in its state.`);
-  return { tag, className: pascalCase(tag), attributes: attributeList, properties, state: [...state.values()] };
+  const stateFields = new Map([...topLevelSettings.map(fieldOf), ...documentedElementFields, ...Object.entries(documentedState).map(toItem)].map((item) => [item.name, item]));
+  for (const { name, type } of stateFields.values()) if (!type) throw new Error(`${tag}: nothing says what ${name} is in its state.`);
+  return { tag, className: toPascalCase(tag), attributes: attributeList, properties, state: [...stateFields.values()] };
 }
 
-/** @param {Declaration} declaration */
+/** Returns the description of a setting as a field. @param {Declaration} declaration */
 function fieldOf(declaration) {
-  return { name: declaration.key, type: typeOf(declaration), description: descriptionOf(declaration) };
+  return { name: declaration.key, type: typeTextOf(declaration), description: descriptionOf(declaration) };
 }
 
 /** Returns the preset that the widget opens with, if there is one. @param {string} tag */

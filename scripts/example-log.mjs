@@ -18,16 +18,16 @@ export const TRUE_MODEL = { alphas: [0.03, 0.008, 0.002, 0.002], mountYaw: 0.03,
 export const LEG_LIMIT = { distance: 0.25, angle: 0.2 };
 
 /** Start and duration of the drive, its integration step, and the time between two rows of a log, s. */
-const [START, DURATION, STEP, ROW_INTERVAL] = [10, 225, 0.005, 0.05];
+const [START_TIME, DURATION, TIME_STEP, ROW_INTERVAL] = [10, 225, 0.005, 0.05];
 
 /** Integration steps between two rows. */
-const STEPS_PER_ROW = Math.round(ROW_INTERVAL / STEP);
+const STEPS_PER_ROW = Math.round(ROW_INTERVAL / TIME_STEP);
 
 /**
  * Time in s by which the reference begins earlier and ends later than the odometry. Apart from the offset of the clocks, the rows of
  * both have the same times, because interpolation would cause errors of a few per cent: a turn takes only five rows.
  */
-const EXTRA_TIME = 1;
+const EXTRA_REFERENCE_TIME = 1;
 
 /** Seed of the noise. */
 const NOISE_SEED = 1;
@@ -40,42 +40,42 @@ const DRIVE_SPEEDS = { v: 0.8, turn: 0.9 };
 
 /** Command and its duration in seconds. @typedef {{ seconds: number, v: number, omega: number }} Command */
 
-/** @returns {Generator<Command>} straight drives, arcs, turns on the spot and pauses, without end */
-function* driveCommands() {
+/** Generates commands without end: straight drives, arcs, turns on the spot and pauses. @returns {Generator<Command>} */
+function* generateCommands() {
   // Low-discrepancy sequence by the golden ratio: numbers between two limits that never repeat.
-  const evenlySpread = (/** @type {number} */ i, /** @type {number} */ from, /** @type {number} */ to) => from + (to - from) * ((i * 0.6180339887) % 1);
+  const spreadEvenly = (/** @type {number} */ i, /** @type {number} */ from, /** @type {number} */ to) => from + (to - from) * ((i * 0.6180339887) % 1);
   for (let i = 1; ; i++) {
     const turnSign = i % 3 === 0 ? -1 : 1;
-    yield { seconds: evenlySpread(i, 1.5, 4), v: DRIVE_SPEEDS.v, omega: 0 };
-    if (i % 2 === 0) yield { seconds: evenlySpread(3 * i, 1.5, 3.5), v: 0.75 * DRIVE_SPEEDS.v, omega: turnSign * evenlySpread(5 * i, 0.3, 0.9) };
+    yield { seconds: spreadEvenly(i, 1.5, 4), v: DRIVE_SPEEDS.v, omega: 0 };
+    if (i % 2 === 0) yield { seconds: spreadEvenly(3 * i, 1.5, 3.5), v: 0.75 * DRIVE_SPEEDS.v, omega: turnSign * spreadEvenly(5 * i, 0.3, 0.9) };
     if (i % 5 === 0) yield { seconds: 1, v: 0, omega: 0 };
     yield { seconds: 0.4, v: 0, omega: 0 };
-    yield { seconds: evenlySpread(7 * i, 1.4, 3), v: 0, omega: turnSign * DRIVE_SPEEDS.turn };
+    yield { seconds: spreadEvenly(7 * i, 1.4, 3), v: 0, omega: turnSign * DRIVE_SPEEDS.turn };
     yield { seconds: 0.4, v: 0, omega: 0 };
   }
 }
 
 /** Returns the poses of the odometry, one for each row. @param {Motion} motion @returns {Pose[]} */
-function odometryPoses(motion) {
-  const limitedChange = (/** @type {number} */ value, /** @type {number} */ goal, /** @type {number} */ maxChange) => value + Math.max(-maxChange, Math.min(maxChange, goal - value));
+function simulateOdometry(motion) {
+  const limitChange = (/** @type {number} */ value, /** @type {number} */ goal, /** @type {number} */ maxChange) => value + Math.max(-maxChange, Math.min(maxChange, goal - value));
   let pose = { x: 0, y: 0, theta: 0 };
   const poses = [pose];
-  let [v, omega, steps] = [0, 0, 0];
-  for (const command of driveCommands()) {
-    for (let stepsLeft = Math.round(command.seconds / STEP); stepsLeft > 0; stepsLeft--) {
-      if (steps >= DURATION / STEP) return poses;
-      v = limitedChange(v, command.v, MAX_ACCELERATIONS.v * STEP);
-      omega = limitedChange(omega, command.omega, MAX_ACCELERATIONS.omega * STEP);
-      if (v !== 0 || omega !== 0) pose = motion.se2.boxplus(pose, [v * STEP, 0, omega * STEP]);
-      steps += 1;
-      if (steps % STEPS_PER_ROW === 0) poses.push(pose);
+  let [v, omega, stepCount] = [0, 0, 0];
+  for (const command of generateCommands()) {
+    for (let stepsLeft = Math.round(command.seconds / TIME_STEP); stepsLeft > 0; stepsLeft--) {
+      if (stepCount >= DURATION / TIME_STEP) return poses;
+      v = limitChange(v, command.v, MAX_ACCELERATIONS.v * TIME_STEP);
+      omega = limitChange(omega, command.omega, MAX_ACCELERATIONS.omega * TIME_STEP);
+      if (v !== 0 || omega !== 0) pose = motion.se2.boxplus(pose, [v * TIME_STEP, 0, omega * TIME_STEP]);
+      stepCount += 1;
+      if (stepCount % STEPS_PER_ROW === 0) poses.push(pose);
     }
   }
   return poses;
 }
 
 /** Returns a pose with the digits of a log. @param {Pose} pose @returns {[number, number, number]} */
-const roundedPose = ({ x, y, theta }) => [Number(x.toFixed(4)), Number(y.toFixed(4)), Number(theta.toFixed(5))];
+const roundPose = ({ x, y, theta }) => [Number(x.toFixed(4)), Number(y.toFixed(4)), Number(theta.toFixed(5))];
 
 /**
  * Returns the rows at which AMCL would update. Each is the first one whose distance or turn from the previous update exceeds a limit.
@@ -100,52 +100,52 @@ function legEndsOf(rows) {
  * @param {number} seed seed of the first leg's noise; each leg has the next one
  * @returns {Pose[]} one for each row, up to the end of the last complete leg
  */
-function truePoses(motion, measuredPoses, seed) {
+function simulateTruth(motion, measuredPoses, seed) {
   const { se2 } = motion;
-  const rows = measuredPoses.map(roundedPose);
-  const scaledPose = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUE_MODEL.distanceScale * x, y: TRUE_MODEL.distanceScale * y, theta });
+  const roundedPoses = measuredPoses.map(roundPose);
+  const scalePose = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUE_MODEL.distanceScale * x, y: TRUE_MODEL.distanceScale * y, theta });
   const poseOf = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
-  const model = new motion.OdometryModel({ alphas: TRUE_MODEL.alphas });
-  const trueDrive = [scaledPose(measuredPoses[0])];
-  const legEnds = legEndsOf(rows);
-  for (const [leg, end] of legEnds.entries()) {
-    if (leg === 0) continue;
-    const fromRow = legEnds[leg - 1];
-    const [start, goal] = [fromRow, end].map((row) => scaledPose(poseOf(rows[row])));
-    const trueStart = trueDrive[fromRow];
-    const [x, y, theta] = model.sample(motion.decompose(start, goal), trueStart, 1, seed + leg);
-    const motionTo = (/** @type {Pose} */ pose) => se2.compose(se2.inverse(start), pose);
-    const legError = se2.boxminus(se2.compose(se2.inverse(trueStart), { x, y, theta }), motionTo(goal));
-    for (let i = fromRow + 1; i <= end; i++) {
-      const legShare = (i - fromRow) / (end - fromRow);
+  const odometryModel = new motion.OdometryModel({ alphas: TRUE_MODEL.alphas });
+  const truePoses = [scalePose(measuredPoses[0])];
+  const legEnds = legEndsOf(roundedPoses);
+  for (const [legIndex, endRow] of legEnds.entries()) {
+    if (legIndex === 0) continue;
+    const startRow = legEnds[legIndex - 1];
+    const [legStart, legGoal] = [startRow, endRow].map((row) => scalePose(poseOf(roundedPoses[row])));
+    const trueStart = truePoses[startRow];
+    const [x, y, theta] = odometryModel.sample(motion.decompose(legStart, legGoal), trueStart, 1, seed + legIndex);
+    const motionFromStart = (/** @type {Pose} */ pose) => se2.compose(se2.inverse(legStart), pose);
+    const legError = se2.boxminus(se2.compose(se2.inverse(trueStart), { x, y, theta }), motionFromStart(legGoal));
+    for (let i = startRow + 1; i <= endRow; i++) {
+      const legShare = (i - startRow) / (endRow - startRow);
       const smoothShare = legShare * legShare * (3 - 2 * legShare);
-      trueDrive.push(se2.boxplus(se2.compose(trueStart, motionTo(scaledPose(measuredPoses[i]))), legError.map((component) => smoothShare * component)));
+      truePoses.push(se2.boxplus(se2.compose(trueStart, motionFromStart(scalePose(measuredPoses[i]))), legError.map((component) => smoothShare * component)));
     }
   }
-  model.free();
-  return trueDrive;
+  odometryModel.free();
+  return truePoses;
 }
 
 /** Returns the tables of the example log, as CSV. @param {Motion} motion @param {number} [seed] */
-export function exampleLog(motion, seed = NOISE_SEED) {
-  const measuredPoses = odometryPoses(motion);
-  const trueDrive = truePoses(motion, measuredPoses, seed);
-  const extraRows = Math.round(EXTRA_TIME / ROW_INTERVAL);
-  const csvLine = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...roundedPose(pose)].join(',')}\n`;
-  const csvTable = (/** @type {string[]} */ lines) => `t,x,y,yaw\n${lines.join('')}`;
-  const [odometry, reference] = [/** @type {string[]} */ ([]), /** @type {string[]} */ ([])];
-  const mount = { x: 0, y: 0, theta: TRUE_MODEL.mountYaw };
-  const lastRow = trueDrive.length - 1;
-  for (let i = 0; i <= lastRow; i++) odometry.push(csvLine(START + i * ROW_INTERVAL, measuredPoses[i]));
-  for (let i = -extraRows; i <= lastRow + extraRows; i++) {
-    const pose = trueDrive[Math.max(0, Math.min(i, lastRow))];
-    reference.push(csvLine(START + i * ROW_INTERVAL + TRUE_MODEL.clockOffset, motion.se2.compose(pose, mount)));
+export function createExampleLog(motion, seed = NOISE_SEED) {
+  const measuredPoses = simulateOdometry(motion);
+  const truePoses = simulateTruth(motion, measuredPoses, seed);
+  const extraRowCount = Math.round(EXTRA_REFERENCE_TIME / ROW_INTERVAL);
+  const csvLineOf = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...roundPose(pose)].join(',')}\n`;
+  const csvTableOf = (/** @type {string[]} */ lines) => `t,x,y,yaw\n${lines.join('')}`;
+  const [odometryLines, referenceLines] = [/** @type {string[]} */ ([]), /** @type {string[]} */ ([])];
+  const mountPose = { x: 0, y: 0, theta: TRUE_MODEL.mountYaw };
+  const lastRow = truePoses.length - 1;
+  for (let i = 0; i <= lastRow; i++) odometryLines.push(csvLineOf(START_TIME + i * ROW_INTERVAL, measuredPoses[i]));
+  for (let i = -extraRowCount; i <= lastRow + extraRowCount; i++) {
+    const pose = truePoses[Math.max(0, Math.min(i, lastRow))];
+    referenceLines.push(csvLineOf(START_TIME + i * ROW_INTERVAL + TRUE_MODEL.clockOffset, motion.se2.compose(pose, mountPose)));
   }
-  return { odometry: csvTable(odometry), reference: csvTable(reference) };
+  return { odometry: csvTableOf(odometryLines), reference: csvTableOf(referenceLines) };
 }
 
 /** Writes both logs. dist/core.js must be built. */
 export async function writeExampleLog() {
   const { load } = await import('../dist/core.js');
-  for (const [name, text] of Object.entries(exampleLog(await load()))) writeFileSync(join(ROOT, EXAMPLE_LOGS[name]), text);
+  for (const [name, text] of Object.entries(createExampleLog(await load()))) writeFileSync(join(ROOT, EXAMPLE_LOGS[name]), text);
 }

@@ -6,7 +6,7 @@ import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'nod
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { ROOT, UserError, mustRun, printStep, run, runAsScript } from './process.mjs';
-import { nativeRust } from './toolchain.mjs';
+import { ensureNativeRust } from './toolchain.mjs';
 
 const FUZZ_TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((file) => file.replace(/\.txt$/, ''));
 
@@ -16,43 +16,44 @@ const INPUT_LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286',
 /** Options of the build. Safe Rust needs no sanitizer, and tracing of comparisons would halve the speed. */
 const BUILD_OPTIONS = ['--sanitizer', 'none', '--no-trace-compares'];
 
-/** Packed inputs of a target: hexadecimal, one input a line. @param {string} target */
-const packedPath = (target) => join(ROOT, 'fuzz/corpus', `${target}.txt`);
+/** Returns the path of the packed inputs of a target: hexadecimal, one input a line. @param {string} target */
+const packedPathOf = (target) => join(ROOT, 'fuzz/corpus', `${target}.txt`);
 
-/** @param {string} target @param {'known' | 'found' | 'merged'} kind */
-const inputFolder = (target, kind) => join(ROOT, 'build/fuzz', target, kind);
+/** Returns the folder of unpacked inputs of a target. @param {string} target @param {'known' | 'found' | 'merged'} kind */
+const inputFolderOf = (target, kind) => join(ROOT, 'build/fuzz', target, kind);
 
 /** Writes the packed inputs of a target as files for libFuzzer. @param {string} target */
 function unpackInputs(target) {
-  const knownFolder = inputFolder(target, 'known');
+  const knownFolder = inputFolderOf(target, 'known');
   rmSync(knownFolder, { recursive: true, force: true });
   mkdirSync(knownFolder, { recursive: true });
-  mkdirSync(inputFolder(target, 'found'), { recursive: true });
-  const lines = readFileSync(packedPath(target), 'latin1').split('\n').slice(0, -1);
-  lines.forEach((line, i) => writeFileSync(join(knownFolder, String(i)), Buffer.from(line, 'hex')));
+  mkdirSync(inputFolderOf(target, 'found'), { recursive: true });
+  const inputLines = readFileSync(packedPathOf(target), 'latin1').split('\n').slice(0, -1);
+  inputLines.forEach((line, i) => writeFileSync(join(knownFolder, String(i)), Buffer.from(line, 'hex')));
 }
 
 /** Runs a target with cargo-fuzz. @param {string} target @param {string[]} folders of inputs @param {string[]} options of libFuzzer */
-async function cargoFuzz(target, folders, options) {
-  const { bin, env } = await nativeRust();
-  const args = ['+nightly', 'fuzz', 'run', ...BUILD_OPTIONS, 'target', ...folders, '--', ...options];
-  return run(join(bin, 'cargo'), args, { env: { ...env, FUZZ_TARGET: target }, quiet: true });
+async function runCargoFuzz(target, folders, options) {
+  const { bin, env } = await ensureNativeRust();
+  const cargoArguments = ['+nightly', 'fuzz', 'run', ...BUILD_OPTIONS, 'target', ...folders, '--', ...options];
+  return run(join(bin, 'cargo'), cargoArguments, { env: { ...env, FUZZ_TARGET: target }, quiet: true });
 }
 
+/** Compiles the targets. */
 async function compileTargets() {
-  const { bin, env } = await nativeRust();
-  const cargo = join(bin, 'cargo');
-  const sentence =
+  const { bin, env } = await ensureNativeRust();
+  const cargoPath = join(bin, 'cargo');
+  const missingMessage =
     'cargo-fuzz or a nightly Rust is missing: run `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`, and start again.';
-  await mustRun(sentence, cargo, ['+nightly', 'fuzz', '--version'], { env, quiet: true });
-  await mustRun('The targets do not compile: see above.', cargo, ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
+  await mustRun(missingMessage, cargoPath, ['+nightly', 'fuzz', '--version'], { env, quiet: true });
+  await mustRun('The targets do not compile: see above.', cargoPath, ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
 }
 
-/** @param {string} target @param {string} runs @param {string} seed @returns {Promise<boolean>} false if an input failed */
+/** Runs a target on new inputs, and returns false if one failed. @param {string} target @param {string} runs @param {string} seed @returns {Promise<boolean>} */
 async function fuzzTarget(target, runs, seed) {
   unpackInputs(target);
-  const fuzzLimits = [`-runs=${runs}`, `-seed=${seed}`, ...INPUT_LIMITS];
-  const { ok, output } = await cargoFuzz(target, [inputFolder(target, 'found'), inputFolder(target, 'known')], fuzzLimits);
+  const fuzzOptions = [`-runs=${runs}`, `-seed=${seed}`, ...INPUT_LIMITS];
+  const { ok, output } = await runCargoFuzz(target, [inputFolderOf(target, 'found'), inputFolderOf(target, 'known')], fuzzOptions);
   if (!ok) console.error(output.split('\n').slice(-60).join('\n'));
   const edgeCount = [...output.matchAll(/ cov: (\d+)/g)].pop()?.[1];
   console.log(`${ok ? 'ok    ' : 'FAILED'} ${target.padEnd(12)} edges ${edgeCount}, ${output.match(/^Done .*$/m)?.[0]}`);
@@ -62,37 +63,37 @@ async function fuzzTarget(target, runs, seed) {
 /** Packs the smallest set of known and found inputs that reaches the same code. @param {string} target */
 async function keepInputs(target) {
   unpackInputs(target);
-  const mergedFolder = inputFolder(target, 'merged');
+  const mergedFolder = inputFolderOf(target, 'merged');
   rmSync(mergedFolder, { recursive: true, force: true });
   mkdirSync(mergedFolder);
   // Hit counts of edges would keep five times as many inputs.
-  const options = ['-set_cover_merge=1', '-use_counters=0', ...INPUT_LIMITS];
-  const { ok, output } = await cargoFuzz(target, [mergedFolder, inputFolder(target, 'known'), inputFolder(target, 'found')], options);
+  const mergeOptions = ['-set_cover_merge=1', '-use_counters=0', ...INPUT_LIMITS];
+  const { ok, output } = await runCargoFuzz(target, [mergedFolder, inputFolderOf(target, 'known'), inputFolderOf(target, 'found')], mergeOptions);
   if (!ok) throw new UserError(output);
-  const lines = readdirSync(mergedFolder).map((name) => readFileSync(join(mergedFolder, name)).toString('hex'));
-  writeFileSync(packedPath(target), lines.sort().map((line) => `${line}\n`).join(''));
-  console.log(`${target}: ${lines.length} inputs`);
+  const inputLines = readdirSync(mergedFolder).map((name) => readFileSync(join(mergedFolder, name)).toString('hex'));
+  writeFileSync(packedPathOf(target), inputLines.sort().map((line) => `${line}\n`).join(''));
+  console.log(`${target}: ${inputLines.length} inputs`);
   return true;
 }
 
 await runAsScript(import.meta.url, async () => {
   const args = process.argv.slice(2);
-  const isKeeping = args[0] === 'keep';
-  const [runs, seed] = isKeeping ? [] : [args[0] ?? '1000000', args[1] ?? '1'];
-  const namedTargets = args.slice(isKeeping ? 1 : 2);
-  for (const [name, number] of Object.entries({ RUNS: runs, SEED: seed })) {
-    if (number !== undefined && !/^[1-9]\d*$/.test(number)) throw new UserError(`${name} must be a whole number from 1 (got "${number}").`);
+  const isKeepMode = args[0] === 'keep';
+  const [runs, seed] = isKeepMode ? [] : [args[0] ?? '1000000', args[1] ?? '1'];
+  const namedTargets = args.slice(isKeepMode ? 1 : 2);
+  for (const [parameterName, parameterText] of Object.entries({ RUNS: runs, SEED: seed })) {
+    if (parameterText !== undefined && !/^[1-9]\d*$/.test(parameterText)) throw new UserError(`${parameterName} must be a whole number from 1 (got "${parameterText}").`);
   }
   const unknownTarget = namedTargets.find((name) => !FUZZ_TARGETS.includes(name));
   if (unknownTarget !== undefined) throw new UserError(`"${unknownTarget}" is not a target; targets are ${FUZZ_TARGETS.join(', ')}.`);
   const waitingTargets = namedTargets.length > 0 ? namedTargets : [...FUZZ_TARGETS];
-  printStep(`${isKeeping ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
+  printStep(`${isKeepMode ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
   await compileTargets();
-  const runWaiting = async () => {
+  const runWaitingTargets = async () => {
     for (let target = waitingTargets.shift(); target !== undefined; target = waitingTargets.shift()) {
-      const task = isKeeping ? keepInputs(target) : fuzzTarget(target, `${runs}`, `${seed}`);
-      if (!(await task)) process.exitCode = 1;
+      const targetRun = isKeepMode ? keepInputs(target) : fuzzTarget(target, `${runs}`, `${seed}`);
+      if (!(await targetRun)) process.exitCode = 1;
     }
   };
-  await Promise.all(Array.from({ length: availableParallelism() }, runWaiting));
+  await Promise.all(Array.from({ length: availableParallelism() }, runWaitingTargets));
 });

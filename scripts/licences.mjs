@@ -7,7 +7,7 @@ import { ROOT } from './process.mjs';
 /** @typedef {{ name: string, version: string, licence: string, directory: string }} Package */
 
 /** Licence of the standard library, which is no package. A toolchain may be installed without its documents. */
-const STANDARD_LIBRARY = 'The standard library of Rust (MIT OR Apache-2.0), copyright The Rust Project contributors: see rust-lang.org.';
+const STANDARD_LIBRARY_NOTICE = 'The standard library of Rust (MIT OR Apache-2.0), copyright The Rust Project contributors: see rust-lang.org.';
 
 /**
  * Returns the crates that are compiled into the module.
@@ -40,7 +40,7 @@ export function packagesOf(outputs) {
 }
 
 /** Returns each licence text once, below the packages that have it. @param {Package[]} packages */
-export function licences(packages) {
+export function licenceTextOf(packages) {
   /** @type {Map<string, string[]>} */
   const packagesByText = new Map();
   for (const { name, version, licence, directory } of packages) {
@@ -48,10 +48,10 @@ export function licences(packages) {
     // MIT is the shortest licence of several to choose from.
     const licenceFile = licenceFiles.find((file) => /mit/i.test(file)) ?? licenceFiles[0];
     if (licenceFile === undefined) throw new Error(`${name} ${version} (${licence}) comes without the text of its licence.`);
-    const text = readFileSync(join(directory, licenceFile), 'utf8').replaceAll('\r', '').trim();
-    packagesByText.set(text, [...(packagesByText.get(text) ?? []), `${name} ${version} (${licence})`]);
+    const licenceText = readFileSync(join(directory, licenceFile), 'utf8').replaceAll('\r', '').trim();
+    packagesByText.set(licenceText, [...(packagesByText.get(licenceText) ?? []), `${name} ${version} (${licence})`]);
   }
   const sections = [...packagesByText].map(([text, names]) => [names.sort().join('\n'), text]);
   const sectionTexts = sections.sort(([a], [b]) => (a < b ? -1 : 1)).map((parts) => parts.join('\n\n'));
-  return `${['The bundles of motion-widgets carry parts of these works.', STANDARD_LIBRARY, ...sectionTexts].join(`\n\n${'-'.repeat(72)}\n\n`)}\n`;
+  return `${['The bundles of motion-widgets carry parts of these works.', STANDARD_LIBRARY_NOTICE, ...sectionTexts].join(`\n\n${'-'.repeat(72)}\n\n`)}\n`;
 }

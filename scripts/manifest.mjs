@@ -3,7 +3,7 @@
 // Attributes and properties come from the declarations. Methods, events, parts and colours come from the comments of the classes.
 // A test in a browser compares the manifest with the elements.
 
-import { classComments, oneLine, widgets } from './declarations.mjs';
+import { readClassComments, joinLines, describeWidgets } from './declarations.mjs';
 
 /**
  * @typedef {{ name: string, type?: { text: string }, description?: string }} Item
@@ -20,12 +20,12 @@ import { classComments, oneLine, widgets } from './declarations.mjs';
  * @property {Item[]} cssProperties
  */
 
-/** @returns {Promise<{ schemaVersion: string, modules: { kind: string, path: string, declarations: Element[], exports: object[] }[] }>} */
-export async function manifest() {
-  const { schemaVersion, classes } = await classComments();
-  const declarations = (await widgets()).map((widget) => {
-    const name = `${widget.className}Element`;
-    return elementOf(widget, name, classes.get(name));
+/** Returns the manifest. @returns {Promise<{ schemaVersion: string, modules: { kind: string, path: string, declarations: Element[], exports: object[] }[] }>} */
+export async function createManifest() {
+  const { schemaVersion, classes } = await readClassComments();
+  const declarations = (await describeWidgets()).map((widget) => {
+    const className = `${widget.className}Element`;
+    return elementOf(widget, className, classes.get(className));
   });
   const modulePath = 'dist/external.js';
   const exports = declarations.map(({ name, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name, module: modulePath } }));
@@ -33,6 +33,8 @@ export async function manifest() {
 }
 
 /**
+ * Returns the declaration of an element in the manifest.
+ *
  * @param {import('./declarations.mjs').Widget} widget
  * @param {string} name of its element's class
  * @param {any} analyzedClass comments of the class, as the analyzer reads them
@@ -40,7 +42,7 @@ export async function manifest() {
 function elementOf({ tag, className, attributes, properties }, name, analyzedClass) {
   /** Replaces the general names of types in the common class by those of this class. @param {string} type */
   const withClassNames = (type) => ({ text: type.replace(/\bSimulation\b/, className).replace(/\bValues\b/, `${className}State`) });
-  const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withClassNames(type.text) }), description: description && oneLine(description) });
+  const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withClassNames(type.text) }), description: description && joinLines(description) });
   const documentedItems = (/** @type {any[]} */ items) => items.filter(({ description }) => description).map(itemOf);
   const memberOf = (/** @type {any} */ { kind, parameters, return: result, readonly, ...rest }) => ({
     kind,

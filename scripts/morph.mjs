@@ -9,15 +9,15 @@ import { ROOT, findProgram, mustRun, runAsScript } from './process.mjs';
 import { serve } from './serve.mjs';
 import { aptInstall } from './toolchain.mjs';
 
-/** Width of the figure, which shows one picture, and size of its letters, pixels. */
-const FIGURE_WIDTH = 690;
-const FONT_SIZE = 24;
+/** Width of the figure, at which it shows one picture, and size of its letters. */
+const FIGURE_WIDTH_PX = 690;
+const FONT_SIZE_PX = 24;
 
-/** Pictures of the morph, the duration of one, and that of the first and last, ms. */
+/** Number of pictures of the morph, duration of each, and duration of the first and last. */
 const FRAME_COUNT = 24;
-const FRAME_DURATIONS = { each: 100, end: 1600 };
+const FRAME_DURATIONS_MS = { each: 100, end: 1600 };
 
-const MISSING_WEBP = 'img2webp is missing: install the package webp.';
+const MISSING_WEBP_MESSAGE = 'img2webp is missing: install the package webp.';
 
 await runAsScript(import.meta.url, async () => {
   await build({ local: true });
@@ -26,26 +26,26 @@ await runAsScript(import.meta.url, async () => {
   const { address, close } = await serve(join(ROOT, 'dist'), { port: 0 });
   const frameDirectory = mkdtempSync(join(tmpdir(), 'morph-'));
   try {
-    if (findProgram('img2webp') === undefined) await aptInstall(['webp'], MISSING_WEBP);
-    const page = await browser.newPage({ viewport: { width: FIGURE_WIDTH, height: 1350 } });
+    if (findProgram('img2webp') === undefined) await aptInstall(['webp'], MISSING_WEBP_MESSAGE);
+    const page = await browser.newPage({ viewport: { width: FIGURE_WIDTH_PX, height: 1350 } });
     await page.goto(`${address}embed.html?widget=banana-machine`);
-    await page.addStyleTag({ content: `body { margin: 0; font-size: ${FONT_SIZE}px }` });
+    await page.addStyleTag({ content: `body { margin: 0; font-size: ${FONT_SIZE_PX}px }` });
     const figure = page.locator('banana-machine');
     await figure.locator('.folds').waitFor();
     await page.waitForFunction(() => !(/** @type {any} */ (document.querySelector('banana-machine')).playing));
     await page.waitForTimeout(1500);
     const { y, height } = (await figure.locator('.morphing').boundingBox()) ?? { y: 0, height: 0 };
-    const clip = { x: 0, y: 0, width: FIGURE_WIDTH, height: y + height };
-    const frames = [];
+    const clipBox = { x: 0, y: 0, width: FIGURE_WIDTH_PX, height: y + height };
+    const frameArguments = [];
     for (let i = 0; i <= FRAME_COUNT; i++) {
       const morphShare = (1 - Math.cos((Math.PI * i) / FRAME_COUNT)) / 2;
       await figure.evaluate((element, morph) => element.setAttribute('morph', String(morph)), morphShare);
       await page.waitForTimeout(100);
-      const path = join(frameDirectory, `${i}.png`);
-      await page.screenshot({ path, clip });
-      frames.push('-d', String(i % FRAME_COUNT === 0 ? FRAME_DURATIONS.end : FRAME_DURATIONS.each), path);
+      const framePath = join(frameDirectory, `${i}.png`);
+      await page.screenshot({ path: framePath, clip: clipBox });
+      frameArguments.push('-d', String(i % FRAME_COUNT === 0 ? FRAME_DURATIONS_MS.end : FRAME_DURATIONS_MS.each), framePath);
     }
-    await mustRun(MISSING_WEBP, 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...frames, '-o', join(ROOT, 'doc/morph.webp')]);
+    await mustRun(MISSING_WEBP_MESSAGE, 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...frameArguments, '-o', join(ROOT, 'doc/morph.webp')]);
   } finally {
     await browser.close();
     close();

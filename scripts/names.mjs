@@ -7,7 +7,7 @@ const PYTHON_KEYWORDS = new Set(
 );
 
 /** Members of every widget of ipywidgets, which a trait of this name would hide. tests/package/python.test.js looks for more. */
-const WIDGET_NAMES = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log', 'open', 'stats', 'tabbable', 'tooltip']);
+const IPYWIDGET_MEMBERS = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log', 'open', 'stats', 'tabbable', 'tooltip']);
 
 /**
  * Returns the name of a property in Python: in snake case, and with an underscore after a keyword or a member of every widget, as PEP 8
@@ -15,10 +15,10 @@ const WIDGET_NAMES = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log',
  *
  * @param {string} property
  */
-export function pythonName(property) {
+export function pythonNameOf(property) {
   const name = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
   if (!/^[a-z]\w*$/.test(name)) throw new Error(`${property} cannot be the name of a trait in Python: rename it.`);
-  return PYTHON_KEYWORDS.has(name) || WIDGET_NAMES.has(name) ? `${name}_` : name;
+  return PYTHON_KEYWORDS.has(name) || IPYWIDGET_MEMBERS.has(name) ? `${name}_` : name;
 }
 
 /**
@@ -26,7 +26,7 @@ export function pythonName(property) {
  *
  * @param {string} name
  */
-export function scriptName(name) {
+export function checkScriptName(name) {
   if (!/^[A-Za-z_$][\w$]*$/.test(name) || isReserved(name)) throw new Error(`${name} cannot name a declaration in JavaScript: rename it.`);
   // A type of this name would hide the one that every script has, as Map or Event.
   if (name in globalThis) throw new Error(`${name} is a global of JavaScript: give the setting or element another name.`);

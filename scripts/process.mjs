@@ -11,14 +11,14 @@ export const ROOT = fileURLToPath(new URL('..', import.meta.url));
 /** Error about something that the user has to provide or correct. Its message is printed without a stack trace. */
 export class UserError extends Error {}
 
-/** @type {AsyncLocalStorage<string[]>} */
+/** Collected output of each work that runs in parallel with other work. @type {AsyncLocalStorage<string[]>} */
 const outputStore = new AsyncLocalStorage();
 
 /** Prints text, or adds it to the collected output. @param {string} text @param {NodeJS.WriteStream} [stream] */
 function print(text, stream = process.stdout) {
-  const lines = outputStore.getStore();
-  if (lines === undefined) stream.write(text);
-  else lines.push(text);
+  const outputTexts = outputStore.getStore();
+  if (outputTexts === undefined) stream.write(text);
+  else outputTexts.push(text);
 }
 
 /**
@@ -30,11 +30,11 @@ function print(text, stream = process.stdout) {
  */
 export async function withCollectedOutput(work) {
   /** @type {string[]} */
-  const lines = [];
+  const outputTexts = [];
   try {
-    return await outputStore.run(lines, work);
+    return await outputStore.run(outputTexts, work);
   } finally {
-    print(lines.join(''));
+    print(outputTexts.join(''));
   }
 }
 
@@ -44,14 +44,16 @@ export function printStep(text) {
 }
 
 /**
+ * Returns a function that does some work at its first call, and returns the same result at every call.
+ *
  * @template T
  * @param {() => Promise<T>} work
- * @returns {() => Promise<T>} a function that does the work at its first call, and returns the same result at every call
+ * @returns {() => Promise<T>}
  */
 export function once(work) {
   /** @type {Promise<T> | undefined} */
-  let result;
-  return () => (result ??= work());
+  let resultPromise;
+  return () => (resultPromise ??= work());
 }
 
 /** Returns a function that runs tasks one after the other. @returns {<T>(work: () => Promise<T>) => Promise<T>} */
@@ -105,10 +107,11 @@ export function endGroup(group) {
   try {
     process.kill(-group, 'SIGKILL');
   } catch {
-    // It has ended by itself.
+    // The group has ended by itself.
   }
 }
 
+/** Ends this process and all process groups. */
 function endAfterSignal() {
   processGroups.forEach(endGroup);
   process.exit(130);
@@ -128,7 +131,7 @@ export function forgetGroup(group) {
 }
 
 /** Milliseconds without output after which the name of the running program is printed. */
-const MAX_SILENCE = 30_000;
+const MAX_SILENCE_MS = 30_000;
 
 /**
  * @typedef {object} RunOptions
@@ -162,15 +165,15 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
     const startTime = Date.now();
     const silenceTimer = outputStore.getStore() ? undefined : setInterval(() => {
       print(`  ${basename(command)} ${basename(args[0] ?? '')} has been running for ${Math.round((Date.now() - startTime) / 1000)} s\n`);
-    }, MAX_SILENCE);
-    const processGroup = seconds === undefined ? undefined : child.pid;
+    }, MAX_SILENCE_MS);
+    const processGroupId = seconds === undefined ? undefined : child.pid;
     /** @type {NodeJS.Timeout | undefined} */
     let limitTimer;
-    if (seconds !== undefined && processGroup !== undefined) {
-      endGroupWithProcess(processGroup);
+    if (seconds !== undefined && processGroupId !== undefined) {
+      endGroupWithProcess(processGroupId);
       limitTimer = setTimeout(() => {
         timedOut = true;
-        endGroup(processGroup);
+        endGroup(processGroupId);
       }, seconds * 1000);
     }
     child.stdout.setEncoding('utf8').on('data', (text) => {
@@ -187,7 +190,7 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
     const settleRun = (/** @type {boolean} */ ok) => {
       clearTimeout(limitTimer);
       clearInterval(silenceTimer);
-      if (processGroup !== undefined) forgetGroup(processGroup);
+      if (processGroupId !== undefined) forgetGroup(processGroupId);
       resolve({ ok, timedOut, stdout, output });
     };
     child.on('error', () => settleRun(false));

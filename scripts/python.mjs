@@ -4,8 +4,8 @@
 import { copyFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../www/settings.js';
-import { classComments, oneLine, widgets } from './declarations.mjs';
-import { pythonName } from './names.mjs';
+import { readClassComments, joinLines, describeWidgets } from './declarations.mjs';
+import { pythonNameOf } from './names.mjs';
 import { ROOT } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 
@@ -17,12 +17,12 @@ import { importTypeScript } from './typescript.mjs';
 const PYTHON_DIRECTORY = join(ROOT, 'python');
 
 /** Traits of traitlets for settings without a range. */
-const OPTIONAL_TRAITS = { Bool: 't.Bool(None, allow_none=True)', Dict: 't.Dict(default_value=None, allow_none=True)', Unicode: 't.Unicode(None, allow_none=True)' };
+const TRAITS_WITHOUT_RANGE = { Bool: 't.Bool(None, allow_none=True)', Dict: 't.Dict(default_value=None, allow_none=True)', Unicode: 't.Unicode(None, allow_none=True)' };
 
 /** Writes the module of the elements, and copies the script and the licences into the package: pip reads only its directory. */
 export async function writePython() {
   const sourceDirectory = join(PYTHON_DIRECTORY, 'src/motion_widgets');
-  writeFileSync(join(sourceDirectory, '_elements.py'), await elementsSource());
+  writeFileSync(join(sourceDirectory, '_elements.py'), await createElementsSource());
   copyFileSync(join(ROOT, 'dist/anywidget.js'), join(sourceDirectory, 'anywidget.js'));
   for (const license of readdirSync(ROOT).filter((name) => name.startsWith('LICENSE'))) {
     copyFileSync(join(ROOT, license), join(PYTHON_DIRECTORY, license));
@@ -30,17 +30,17 @@ export async function writePython() {
   copyFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), join(PYTHON_DIRECTORY, 'LICENSE-third-party.txt'));
 }
 
-/** @returns {Promise<string>} a module of Python */
-export async function elementsSource() {
+/** Returns the source of the module of the elements. @returns {Promise<string>} */
+export async function createElementsSource() {
   const { GLOBAL_ATTRIBUTES } = await importTypeScript('www/named.ts');
-  const { classes } = await classComments();
-  const widgetClasses = (await widgets()).map(({ tag, className, attributes, properties }) => {
+  const { classes } = await readClassComments();
+  const widgetClasses = (await describeWidgets()).map(({ tag, className, attributes, properties }) => {
     const documentedFields = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
-    const traits = documentedFields.filter(({ readonly }) => !readonly).map((field) => ({ ...field, trait: traitOf(field, tag) }));
-    const globalTraits = GLOBAL_ATTRIBUTES.map((/** @type {string} */ name) => ({ name, trait: OPTIONAL_TRAITS.Unicode, description: `As the attribute \`${name}\` of HTML.` }));
-    return { className, tag, sentence: oneLine(classes.get(`${className}Element`).description), traits: [...traits, ...globalTraits] };
+    const traits = documentedFields.filter(({ readonly }) => !readonly).map((field) => ({ ...field, trait: traitCallOf(field, tag) }));
+    const globalTraits = GLOBAL_ATTRIBUTES.map((/** @type {string} */ name) => ({ name, trait: TRAITS_WITHOUT_RANGE.Unicode, description: `As the attribute \`${name}\` of HTML.` }));
+    return { className, tag, sentence: joinLines(classes.get(`${className}Element`).description), traits: [...traits, ...globalTraits] };
   });
-  const lines = [
+  const sourceLines = [
     '# Generated from the declarations by `npm run build`: not to be edited.',
     '',
     'from __future__ import annotations',
@@ -50,58 +50,58 @@ export async function elementsSource() {
     'from ._figure import Figure',
     'from ._traits import Group, Number, Sequence, Whole, Word',
     '',
-    `__all__ = [${widgetClasses.map(({ className }) => quoted(className)).join(', ')}]`,
+    `__all__ = [${widgetClasses.map(({ className }) => quote(className)).join(', ')}]`,
   ];
   for (const { className, tag, sentence, traits } of widgetClasses) {
-    lines.push('', '', '@t.signature_has_traits', `class ${className}(Figure):`, `    """${sentence}`, '');
-    for (const { name, description, trait } of traits) lines.push(`    ${pythonName(name)}:`, `        ${withPythonNames(description)}${wordSentence(trait)}`);
-    lines.push('    """', '', `    widget = t.Unicode(${quoted(tag)}, read_only=True).tag(sync=True)`);
-    for (const { name, trait } of traits) lines.push(`    ${pythonName(name)} = ${trait}`);
+    sourceLines.push('', '', '@t.signature_has_traits', `class ${className}(Figure):`, `    """${sentence}`, '');
+    for (const { name, description, trait } of traits) sourceLines.push(`    ${pythonNameOf(name)}:`, `        ${withPythonNames(description)}${wordSentenceOf(trait)}`);
+    sourceLines.push('    """', '', `    widget = t.Unicode(${quote(tag)}, read_only=True).tag(sync=True)`);
+    for (const { name, trait } of traits) sourceLines.push(`    ${pythonNameOf(name)} = ${trait}`);
   }
-  return `${lines.join('\n')}\n`;
+  return `${sourceLines.join('\n')}\n`;
 }
 
 /** Returns the call that creates a trait. @param {Field & { allowed?: string }} field @param {string} tag */
-function traitOf({ name, type, allowed }, tag) {
+function traitCallOf({ name, type, allowed }, tag) {
   const declaration = settings[tag].find(({ key }) => key === name);
-  if (declaration) return traitOfSetting(declaration, tag);
+  if (declaration) return traitCallOfSetting(declaration, tag);
   if (type === 'number' && allowed) return `Number(${allowed.replace(' to ', ', ')})`;
-  const words = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => quoted(word)).join(', ');
+  const words = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => quote(word)).join(', ');
   if (type.includes('[]')) return `Sequence(Word(${words}))`;
   if (words) return `Word(${words})`;
-  const optionalTrait = { boolean: OPTIONAL_TRAITS.Bool, number: 'Whole(0)' }[type.replace(' | null', '')];
-  return optionalTrait ?? OPTIONAL_TRAITS.Dict;
+  const optionalTrait = { boolean: TRAITS_WITHOUT_RANGE.Bool, number: 'Whole(0)' }[type.replace(' | null', '')];
+  return optionalTrait ?? TRAITS_WITHOUT_RANGE.Dict;
 }
 
 /** Returns the type of a setting, as Python source. @param {Declaration} declaration @param {string} tag @returns {string} */
-function traitOfSetting({ key, type, words = [], fields = [], min, max }, tag) {
+function traitCallOfSetting({ key, type, words = [], fields = [], min, max }, tag) {
   const rangeText = `${min}, ${max}`;
   switch (type) {
     case 'number': return `Number(${rangeText})`;
     case 'whole': return `Whole(${rangeText})`;
     case 'numbers': return `Sequence(Number(${rangeText}))`;
-    case 'boolean': return OPTIONAL_TRAITS.Bool;
-    case 'word': return `Word(${words.map(quoted).join(', ')})`;
+    case 'boolean': return TRAITS_WITHOUT_RANGE.Bool;
+    case 'word': return `Word(${words.map(quote).join(', ')})`;
     case 'group': {
       const nameOf = (/** @type {Declaration} */ member) => member.field ?? member.key;
       const fieldsOfGroup = settings[tag].filter((member) => member.in === key && fields.includes(nameOf(member)));
-      return `Group(${fieldsOfGroup.map((member) => `${nameOf(member)}=${traitOfSetting(member, tag)}`).join(', ')})`;
+      return `Group(${fieldsOfGroup.map((member) => `${nameOf(member)}=${traitCallOfSetting(member, tag)}`).join(', ')})`;
     }
   }
 }
 
 /** Returns the words that a trait takes, as a sentence. @param {string} trait */
-function wordSentence(trait) {
+function wordSentenceOf(trait) {
   const [, isList, words] = trait.match(/^(Sequence\()?Word\(([^)]+)\)/) ?? [];
   return words ? ` ${isList ? 'Some' : 'One'} of ${words}.` : '';
 }
 
 /** Constants of JavaScript that have other names in Python. @type {Record<string, string>} */
-const PYTHON_WORDS = { null: 'None', true: 'True', false: 'False' };
+const PYTHON_CONSTANTS = { null: 'None', true: 'True', false: 'False' };
 
 /** Replaces names of properties and constants by their Python names. @param {string} description with properties in backticks */
 const withPythonNames = (description) =>
-  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, name) => `\`${pythonName(name)}\``).replaceAll(/\b(null|true|false)\b/g, (word) => PYTHON_WORDS[word]);
+  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, name) => `\`${pythonNameOf(name)}\``).replaceAll(/\b(null|true|false)\b/g, (word) => PYTHON_CONSTANTS[word]);
 
-/** @param {string} value */
-const quoted = (value) => JSON.stringify(value);
+/** Returns a string literal. @param {string} value */
+const quote = (value) => JSON.stringify(value);

@@ -3,7 +3,7 @@
 
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { unionType, widgets } from './declarations.mjs';
+import { unionTypeOf, describeWidgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
 
 /** @typedef {import('./declarations.mjs').Widget} Widget */
@@ -12,13 +12,13 @@ const HEADER = '// Generated from the declarations: not to be edited.\n';
 
 /** Writes both files. */
 export async function writeComponents() {
-  const figures = await widgets();
-  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEADER}\nimport { component } from '../www/react.ts';\n\n${figures.map(componentOf).join('')}`);
-  writeFileSync(join(ROOT, 'build/react.d.ts'), [HEADER, importLines(figures), PROP_TYPES, ...figures.map(componentTypesOf), jsxTags(figures)].join('\n'));
+  const widgetDescriptions = await describeWidgets();
+  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEADER}\nimport { component } from '../www/react.ts';\n\n${widgetDescriptions.map(componentSourceOf).join('')}`);
+  writeFileSync(join(ROOT, 'build/react.d.ts'), [HEADER, importLinesOf(widgetDescriptions), PROP_TYPES_SOURCE, ...widgetDescriptions.map(componentTypesOf), jsxTagsOf(widgetDescriptions)].join('\n'));
 }
 
-/** @param {Widget} widget */
-function componentOf({ tag, className, attributes, properties }) {
+/** Returns the source of a component. @param {Widget} widget */
+function componentSourceOf({ tag, className, attributes, properties }) {
   const propNames = {
     attributes: Object.fromEntries(attributes.map(({ name, property = name }) => [property, name])),
     // A boolean attribute without a default is true if it is present. The others are written as true or false.
@@ -28,16 +28,16 @@ function componentOf({ tag, className, attributes, properties }) {
   return `export const ${className} = component('${className}', '${tag}', ${JSON.stringify(propNames)});\n`;
 }
 
-/** @param {Widget[]} allWidgets */
-function importLines(allWidgets) {
-  const elements = allWidgets.map(({ className }) => `${className}Element`);
+/** Returns the imports of the types. @param {Widget[]} allWidgets */
+function importLinesOf(allWidgets) {
+  const elementTypeNames = allWidgets.map(({ className }) => `${className}Element`);
   return (
     "import type { ClassAttributes, ForwardRefExoticComponent, HTMLAttributes, RefAttributes } from 'react';\n" +
-    `import type { ${[...elements, 'FigureElement', 'FigureEvents'].sort().join(', ')} } from '../www/types.d.ts';\n`
+    `import type { ${[...elementTypeNames, 'FigureElement', 'FigureEvents'].sort().join(', ')} } from '../www/types.d.ts';\n`
   );
 }
 
-const PROP_TYPES = `/** Type of a prop: numbers and lists of words also as text, as in attributes, and digits also as numbers. */
+const PROP_TYPES_SOURCE = `/** Type of a prop: numbers and lists of words also as text, as in attributes, and digits also as numbers. */
 type PropValue<Value> = Value extends number
   ? Value | \`\${number}\`
   : Value extends \`\${infer Digit extends number}\`
@@ -84,10 +84,10 @@ type Tag<Element extends FigureElement<any, any>, Names extends keyof Element> =
   Omit<HTMLAttributes<Element>, Names | keyof Handlers<Element>>;
 `;
 
-/** @param {Widget} widget */
+/** Returns the types of a component. @param {Widget} widget */
 function componentTypesOf({ tag, className, attributes, properties }) {
-  const attributeNames = unionType(attributes.map(({ name, property = name }) => property));
-  const propertyNames = unionType(properties.filter(({ readonly }) => !readonly).map(({ name }) => name));
+  const attributeNames = unionTypeOf(attributes.map(({ name, property = name }) => property));
+  const propertyNames = unionTypeOf(properties.filter(({ readonly }) => !readonly).map(({ name }) => name));
   return (
     `type ${className}Attributes = ${attributeNames};\n\n` +
     `/** Props of \`<${className}>\`. */\n` +
@@ -97,8 +97,8 @@ function componentTypesOf({ tag, className, attributes, properties }) {
   );
 }
 
-/** @param {Widget[]} allWidgets */
-function jsxTags(allWidgets) {
+/** Returns the types of the tags in JSX. @param {Widget[]} allWidgets */
+function jsxTagsOf(allWidgets) {
   const tagLines = allWidgets.map(({ tag, className }) => `      '${tag}': Tag<${className}Element, ${className}Attributes>;\n`);
   return `declare module 'react' {\n  namespace JSX {\n    interface IntrinsicElements {\n${tagLines.join('')}    }\n  }\n}\n`;
 }

@@ -18,12 +18,12 @@ import { ROOT, UserError, runAsScript } from './process.mjs';
 export async function serve(directory, { port, base: basePath = '/', headers = {} } = {}) {
   // A static import would fail in a bare clone, in which sirv is not installed yet.
   const { default: sirv } = await import('sirv');
-  const files = sirv(directory, { dev: true, etag: true, setHeaders: (response) => response.setHeaders(new Map(Object.entries(headers))) });
+  const serveFile = sirv(directory, { dev: true, etag: true, setHeaders: (response) => response.setHeaders(new Map(Object.entries(headers))) });
   const server = createServer((request, response) => {
     const sendNotFound = () => void response.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
     if (!request.url?.startsWith(basePath)) return sendNotFound();
     request.url = request.url.slice(basePath.length - 1);
-    files(request, response, sendNotFound);
+    serveFile(request, response, sendNotFound);
   });
   let portToTry = port ?? 4173;
   return new Promise((resolve, reject) => {
@@ -37,16 +37,16 @@ export async function serve(directory, { port, base: basePath = '/', headers = {
       }
     });
     server.on('listening', () => {
-      const address = server.address();
-      if (address === null || typeof address === 'string') return;
-      resolve({ address: `http://localhost:${address.port}${basePath}`, close: () => server.close().closeAllConnections() });
+      const serverAddress = server.address();
+      if (serverAddress === null || typeof serverAddress === 'string') return;
+      resolve({ address: `http://localhost:${serverAddress.port}${basePath}`, close: () => server.close().closeAllConnections() });
     });
     server.listen(portToTry, 'localhost');
   });
 }
 
 /** Returns the port in the environment variable PORT; undefined if it is not set. @returns {number | undefined} */
-function requestedPort() {
+function readRequestedPort() {
   const [argument] = process.argv.slice(2);
   if (argument !== undefined) throw new UserError(`npm start has no options (got "${argument}"): PORT selects a port, as in PORT=9000 npm start.`);
   const portText = process.env.PORT;
@@ -58,7 +58,7 @@ function requestedPort() {
 }
 
 await runAsScript(import.meta.url, async () => {
-  const port = requestedPort();
+  const port = readRequestedPort();
   await build({ local: true });
   const { address } = await serve(join(ROOT, 'dist'), { port });
   console.log(`\nThe widgets are at ${address} (Ctrl-C stops).`);

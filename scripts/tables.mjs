@@ -11,27 +11,29 @@ const TABLE_BUILDERS = {
   attributes: (_, widgets) =>
     widgets
       .map(({ tag, attributes }) => {
-        const rows = attributes.map((attribute) => [codeHtml(attribute.name), valuesHtml(attribute), proseHtml(attribute.withoutRange)]);
-        return tableHtml(tag, 'attribute', codeHtml(`<${tag}>`), ['attribute', 'values', 'description'], rows);
+        const attributeRows = attributes.map((attribute) => [codeHtml(attribute.name), valuesHtml(attribute), proseHtml(attribute.withoutRange)]);
+        return tableHtml(tag, 'attribute', codeHtml(`<${tag}>`), ['attribute', 'values', 'description'], attributeRows);
       })
       .join('\n\n'),
-  events: (elements) => itemTable(elements, 'event', 'Events; all bubble except <code>error</code>', ['event', 'fired when'], ({ events }) => events),
+  events: (elements) => itemTableHtml(elements, 'event', 'Events; all bubble except <code>error</code>', ['event', 'fired when'], ({ events }) => events),
   methods: (elements) =>
-    itemTable(elements, 'method', 'Methods', ['method', 'description'], ({ members }) =>
+    itemTableHtml(elements, 'method', 'Methods', ['method', 'description'], ({ members }) =>
       members
         .filter(({ kind }) => kind === 'method')
         .map(({ name, parameters = [], description }) => ({ name: `${name}(${parameters.map((parameter) => parameter.name).join(', ')})`, description })),
     ),
-  slots: (elements) => itemTable(elements, 'slot', 'Slots', ['slot', 'content'], ({ slots }) => slots),
-  properties: (elements) => itemTable(elements, 'property', 'Custom properties', ['property', 'description'], ({ cssProperties }) => cssProperties),
-  parts: (elements) => itemTable(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'description'], ({ cssParts }) => cssParts),
+  slots: (elements) => itemTableHtml(elements, 'slot', 'Slots', ['slot', 'content'], ({ slots }) => slots),
+  properties: (elements) => itemTableHtml(elements, 'property', 'Custom properties', ['property', 'description'], ({ cssProperties }) => cssProperties),
+  parts: (elements) => itemTableHtml(elements, 'part', 'Parts, for <code>::part()</code>', ['part', 'description'], ({ cssParts }) => cssParts),
 };
 
 /**
+ * Returns a page with tables in place of their comments.
+ *
  * @param {string} page HTML with comments like `<!-- table of events -->`
  * @param {Element[]} elements
  * @param {Widget[]} widgets
- * @returns {string} the page with the tables
+ * @returns {string}
  */
 export function withTables(page, elements, widgets) {
   return page.replaceAll(/^ *<!-- table of (\w+) -->$/gm, (_, name) => TABLE_BUILDERS[name](elements, widgets));
@@ -46,18 +48,20 @@ export function withTables(page, elements, widgets) {
  * @param {string[]} headings
  * @param {(element: Element) => Item[]} itemsOf
  */
-function itemTable(elements, kind, caption, headings, itemsOf) {
+function itemTableHtml(elements, kind, caption, headings, itemsOf) {
   const itemsByName = new Map(elements.flatMap(itemsOf).map((item) => [item.name, item]));
-  const elementsWith = (/** @type {string} */ name) => elements.filter((element) => itemsOf(element).some((item) => item.name === name));
-  const rows = [...itemsByName.values()].map(({ name, description }) => {
-    const owners = elementsWith(name);
-    const ownersText = owners.length < elements.length ? ` Only ${owners.map(({ tagName }) => codeHtml(`<${tagName}>`)).join(' and ')}.` : '';
+  const elementsWithItem = (/** @type {string} */ name) => elements.filter((element) => itemsOf(element).some((item) => item.name === name));
+  const itemRows = [...itemsByName.values()].map(({ name, description }) => {
+    const owningElements = elementsWithItem(name);
+    const ownersText = owningElements.length < elements.length ? ` Only ${owningElements.map(({ tagName }) => codeHtml(`<${tagName}>`)).join(' and ')}.` : '';
     return [codeHtml(name), proseHtml(description) + ownersText];
   });
-  return tableHtml('both', kind, caption, headings, rows);
+  return tableHtml('both', kind, caption, headings, itemRows);
 }
 
 /**
+ * Returns a table of attributes or other items.
+ *
  * @param {string} owner tag of the element that has the items, or "both" for all elements
  * @param {string} kind
  * @param {string} caption
@@ -76,7 +80,7 @@ ${bodyRows.join('\n')}
         </table>`;
 }
 
-/** @param {import('./declarations.mjs').Attribute} attribute */
+/** Returns the allowed values of an attribute. @param {import('./declarations.mjs').Attribute} attribute */
 function valuesHtml({ type, allowed }) {
   const allowedWords = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => codeHtml(word));
   return allowedWords.length ? allowedWords.join(', ') : (allowed ?? type);
@@ -84,13 +88,13 @@ function valuesHtml({ type, allowed }) {
 
 /** Returns text as HTML, with code between backticks marked up. @param {string} [text] */
 function proseHtml(text = '') {
-  return escapedHtml(text).replaceAll(/`([^`]+)`/g, '<code>$1</code>');
+  return escapeHtml(text).replaceAll(/`([^`]+)`/g, '<code>$1</code>');
 }
 
 /** Returns text as an HTML code element. @param {string} text */
 function codeHtml(text) {
-  return `<code>${escapedHtml(text)}</code>`;
+  return `<code>${escapeHtml(text)}</code>`;
 }
 
 /** Escapes text for HTML and its attributes. */
-export const escapedHtml = (text = '') => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
+export const escapeHtml = (text = '') => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');

@@ -6,12 +6,12 @@
 import { existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
-import { testRunnerProgram } from './bindgen.mjs';
+import { ensureTestRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { filesOf } from './bundle.mjs';
 import { ROOT, UserError, withCollectedOutput, once, printStep, run, runAsScript, settleAll } from './process.mjs';
-import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.mjs';
+import { ensureLints, ensurePackages, ensureNativeRust, wasmRust } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
 /** @typedef {{ name: string, ok: boolean, seconds: number, output?: string, tally?: Tally, note?: string }} Outcome */
@@ -24,31 +24,31 @@ import { ensureLints, ensurePackages, nativeRust, wasmRust } from './toolchain.m
  */
 
 /** True if the nightly tests run as well. */
-const NIGHTLY = process.argv.includes('--all');
+const IS_NIGHTLY = process.argv.includes('--all');
 
 /** Time limit of a part, s, so that a hanging test does not stop the run. */
-const TIME_LIMIT = NIGHTLY ? 3600 : 1200;
+const TIME_LIMIT_SECONDS = IS_NIGHTLY ? 3600 : 1200;
 
 const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 /** @type {('tests' | 'tests/package' | 'tests/engines')[]} workspaces of package.json that the tests need */
-const TEST_WORKSPACES = NIGHTLY ? ['tests', 'tests/package', 'tests/engines'] : ['tests'];
+const TEST_WORKSPACES = IS_NIGHTLY ? ['tests', 'tests/package', 'tests/engines'] : ['tests'];
 
 /** Builds dist/ and installs the packages of the tests. Daily tests use the common core in all figures; nightly ones also the core of each figure. */
-const ensureBuilt = once(() => settleAll([build({ local: !NIGHTLY }), ...TEST_WORKSPACES.map((name) => ensurePackages(name))]));
+const ensureBuilt = once(() => settleAll([build({ local: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((name) => ensurePackages(name))]));
 
 /** Versions of the tools that the parts have used so far. */
 const toolVersions = new Set([`Node ${process.versions.node}`]);
 
 async function ensureRust() {
-  const rust = await nativeRust();
-  toolVersions.add(rust.description);
-  return rust;
+  const rustTools = await ensureNativeRust();
+  toolVersions.add(rustTools.description);
+  return rustTools;
 }
 
 async function ensureWasmRust() {
-  const rust = await wasmRust();
-  toolVersions.add(`for WebAssembly ${rust.description}`);
-  return rust;
+  const rustTools = await wasmRust();
+  toolVersions.add(`for WebAssembly ${rustTools.description}`);
+  return rustTools;
 }
 
 const ensureTestBrowser = once(async () => {
@@ -58,42 +58,50 @@ const ensureTestBrowser = once(async () => {
 });
 
 /**
+ * Returns a job that runs a program.
+ *
  * @param {string[]} command
  * @param {Record<string, string>} [env]
  * @returns {Job}
  */
-const programJob = ([name, ...args], env) => () => run(name, args, { env, seconds: TIME_LIMIT });
+const createProgramJob = ([name, ...args], env) => () => run(name, args, { env, seconds: TIME_LIMIT_SECONDS });
 
 /**
+ * Returns a job that runs a script of a package.
+ *
  * @param {string} path of a script in node_modules
  * @param {string[]} args
  * @param {Record<string, string>} [env]
  */
-const npmJob = (path, args, env) => programJob([process.execPath, pathOf(join('node_modules', path)), ...args], env);
+const createNpmJob = (path, args, env) => createProgramJob([process.execPath, pathOf(join('node_modules', path)), ...args], env);
 
-/** @param {string} path of a script of this repository */
-const scriptJob = (path) => programJob([process.execPath, pathOf(path)]);
+/** Returns a job that runs a script of this repository. @param {string} path */
+const createScriptJob = (path) => createProgramJob([process.execPath, pathOf(path)]);
 
 /**
+ * Returns a job that runs cargo.
+ *
  * @param {import('./toolchain.mjs').Rust} rust
  * @param {string[]} args
  * @param {Record<string, string>} [env]
  */
-const cargoJob = ({ bin, env: environment }, args, env) => programJob([join(bin, 'cargo'), ...args], { ...environment, ...env });
+const createCargoJob = ({ bin, env: environment }, args, env) => createProgramJob([join(bin, 'cargo'), ...args], { ...environment, ...env });
 
 /**
+ * Returns a job that runs rustfmt or clippy.
+ *
  * @param {import('./toolchain.mjs').Rust} rust
  * @param {'fmt' | 'clippy'} name
  * @param {string[]} args
  */
-async function lintJob(rust, name, args) {
+async function createLintJob(rust, name, args) {
   await ensureLints(rust);
-  return programJob([join(rust.bin, `cargo-${name}`), name, ...args], rust.env);
+  return createProgramJob([join(rust.bin, `cargo-${name}`), name, ...args], rust.env);
 }
 
 const LINT_RULES = ['--', '-D', 'warnings'];
 
-/** Numbers of tests in the output of each program. @satisfies {Record<string, Record<keyof Tally, RegExp>>} */
+/** Patterns of the numbers of tests in the output of each program. @satisfies {Record<string, Record<keyof Tally, RegExp>>} */
 const COUNT_PATTERNS = {
   cargo: { passed: /^test result: .*?(\d+) passed/gm, failed: /^test result: .*?(\d+) failed/gm, skipped: /^test result: .*?(\d+) ignored/gm },
   node: { passed: /^# pass (\d+)$/gm, failed: /^# (?:fail|cancelled) (\d+)$/gm, skipped: /^# (?:skipped|todo) (\d+)$/gm },
@@ -101,14 +109,14 @@ const COUNT_PATTERNS = {
 };
 
 /** @type {Record<string, Part>} */
-const PARTS = {
+const TEST_PARTS = {
   rustfmt: {
-    prepare: async (programArgs) => lintJob(await ensureRust(), 'fmt', ['--check', ...programArgs, '--', ...filesOf('scripts/bind/src'), 'fuzz/main.rs']),
+    prepare: async (programArgs) => createLintJob(await ensureRust(), 'fmt', ['--check', ...programArgs, '--', ...filesOf('scripts/bind/src'), 'fuzz/main.rs']),
   },
   oxlint: {
     async prepare(programArgs) {
       await ensurePackages('tests');
-      return npmJob('oxlint/bin/oxlint', ['--deny-warnings', ...programArgs, '.']);
+      return createNpmJob('oxlint/bin/oxlint', ['--deny-warnings', ...programArgs, '.']);
     },
   },
   build: {
@@ -118,28 +126,28 @@ const PARTS = {
     async prepare(programArgs) {
       await ensureBuilt();
       // The nightly tier also needs the packages of the engines and of tests/package.
-      return npmJob('typescript/bin/tsc', ['-p', NIGHTLY ? 'tests/types.json' : '.', ...programArgs]);
+      return createNpmJob('typescript/bin/tsc', ['-p', IS_NIGHTLY ? 'tests/types.json' : '.', ...programArgs]);
     },
   },
   clippy: {
-    prepare: async (programArgs) => lintJob(await ensureRust(), 'clippy', ['--locked', '--all-targets', ...programArgs, ...LINT_RULES]),
+    prepare: async (programArgs) => createLintJob(await ensureRust(), 'clippy', ['--locked', '--all-targets', ...programArgs, ...LINT_RULES]),
   },
   'clippy-wasm': {
     async prepare(programArgs) {
       const rust = await ensureWasmRust();
       // Uses the profile of the tests, in which the macros are compiled already.
       const testOptions = ['--locked', '--profile', 'web', '--lib', '--test', 'web', ...rust.target];
-      return lintJob(rust, 'clippy', [...testOptions, ...programArgs, ...LINT_RULES]);
+      return createLintJob(rust, 'clippy', [...testOptions, ...programArgs, ...LINT_RULES]);
     },
   },
   docs: {
-    prepare: async (programArgs) => cargoJob(await ensureRust(), ['doc', '--locked', '--no-deps', ...programArgs], { RUSTDOCFLAGS: '-D warnings' }),
+    prepare: async (programArgs) => createCargoJob(await ensureRust(), ['doc', '--locked', '--no-deps', ...programArgs], { RUSTDOCFLAGS: '-D warnings' }),
   },
   rust: {
     async prepare(programArgs) {
       // Incremental compilation makes the first compilation 18 % slower in processor time.
       const env = existsSync(pathOf('target/debug')) ? undefined : { CARGO_INCREMENTAL: '0' };
-      return cargoJob(await ensureRust(), ['test', '--locked', '--no-fail-fast', ...programArgs, ...(NIGHTLY ? ['--', '--include-ignored'] : [])], env);
+      return createCargoJob(await ensureRust(), ['test', '--locked', '--no-fail-fast', ...programArgs, ...(IS_NIGHTLY ? ['--', '--include-ignored'] : [])], env);
     },
     counts: COUNT_PATTERNS.cargo,
   },
@@ -147,37 +155,37 @@ const PARTS = {
     async prepare(programArgs) {
       const rust = await ensureWasmRust();
       const testOptions = ['--locked', '--profile', 'web', '--test', 'web', ...rust.target];
-      return cargoJob(rust, ['test', ...testOptions, ...programArgs], browserEnvironment(await testRunnerProgram(), await ensureTestBrowser()));
+      return createCargoJob(rust, ['test', ...testOptions, ...programArgs], browserEnvironment(await ensureTestRunner(), await ensureTestBrowser()));
     },
     counts: COUNT_PATTERNS.cargo,
   },
   node: {
     async prepare(programArgs) {
-      const command = nodeTestCommand('tests/node', programArgs);
+      const command = nodeTestCommandFor('tests/node', programArgs);
       await ensureBuilt();
-      return programJob(command);
+      return createProgramJob(command);
     },
     counts: COUNT_PATTERNS.node,
   },
   package: {
     async prepare(programArgs) {
-      const command = nodeTestCommand('tests/package', programArgs);
+      const command = nodeTestCommandFor('tests/package', programArgs);
       await ensureBuilt();
-      return programJob(command, { CHROME: (await ensureTestBrowser()).chrome });
+      return createProgramJob(command, { CHROME: (await ensureTestBrowser()).chrome });
     },
     counts: COUNT_PATTERNS.node,
   },
   browser: {
     async prepare(programArgs) {
       await ensureBuilt();
-      const tierOptions = NIGHTLY ? [] : ['--grep-invert', '@nightly'];
-      return npmJob('@playwright/test/cli.js', ['test', ...tierOptions, ...programArgs], { CHROME: (await ensureTestBrowser()).chrome });
+      const tierOptions = IS_NIGHTLY ? [] : ['--grep-invert', '@nightly'];
+      return createNpmJob('@playwright/test/cli.js', ['test', ...tierOptions, ...programArgs], { CHROME: (await ensureTestBrowser()).chrome });
     },
     counts: COUNT_PATTERNS.playwright,
   },
   // Nightly: Firefox and WebKit, and projects that embed the package.
-  engines: { prepare: async () => scriptJob('tests/engines/run.mjs') },
-  embeddings: { prepare: async () => scriptJob('tests/embeddings/run.mjs') },
+  engines: { prepare: async () => createScriptJob('tests/engines/run.mjs') },
+  embeddings: { prepare: async () => createScriptJob('tests/embeddings/run.mjs') },
 };
 
 /**
@@ -185,46 +193,50 @@ const PARTS = {
  * lane run one after the other. Cargo waits by itself for a directory that another part writes.
  */
 const PART_LANES = [
-  ['build', 'browser', ...(NIGHTLY ? ['engines', 'embeddings'] : [])],
-  ['rustfmt', 'rust', 'clippy', ...(NIGHTLY ? ['docs'] : [])],
-  ['wasm', ...(NIGHTLY ? ['clippy-wasm'] : [])],
+  ['build', 'browser', ...(IS_NIGHTLY ? ['engines', 'embeddings'] : [])],
+  ['rustfmt', 'rust', 'clippy', ...(IS_NIGHTLY ? ['docs'] : [])],
+  ['wasm', ...(IS_NIGHTLY ? ['clippy-wasm'] : [])],
   ['oxlint', 'tsc', 'node', 'package'],
 ];
 
 /**
+ * Runs one part or all, and returns true if they pass.
+ *
  * @param {string[]} args of the command line
- * @returns {Promise<boolean>} whether all is well
+ * @returns {Promise<boolean>}
  */
 async function runParts(args) {
   const [partName, ...moreArguments] = args.filter((argument) => argument !== '--all');
-  if (partName !== undefined && !Object.hasOwn(PARTS, partName)) {
-    throw new UserError(`"${partName}" is no part of the tests: \`npm test -- PART\` takes ${Object.keys(PARTS).join(', ')}.`);
+  if (partName !== undefined && !Object.hasOwn(TEST_PARTS, partName)) {
+    throw new UserError(`"${partName}" is no part of the tests: \`npm test -- PART\` takes ${Object.keys(TEST_PARTS).join(', ')}.`);
   }
   rmSync(pathOf('test-results'), { recursive: true, force: true });
   mkdirSync(pathOf('test-results'));
-  if (partName !== undefined) return summarize([await outcomeOf(partName, moreArguments)]);
+  if (partName !== undefined) return summarize([await runPart(partName, moreArguments)]);
 
   // Installation starts now, because some lanes need the tools late. A part that needs a missing one reports it.
-  for (const tool of [ensureTestBrowser, testRunnerProgram]) tool().catch(() => {});
+  for (const tool of [ensureTestBrowser, ensureTestRunner]) tool().catch(() => {});
   /** @type {Outcome[]} */
   const outcomes = [];
   await Promise.all(
     PART_LANES.map(async (names) => {
-      for (const name of names) outcomes.push(await withCollectedOutput(() => outcomeOf(name, [])));
+      for (const name of names) outcomes.push(await withCollectedOutput(() => runPart(name, [])));
     }),
   );
   return summarize(outcomes);
 }
 
 /**
+ * Runs a part.
+ *
  * @param {string} name of a part
  * @param {string[]} programArgs
  * @returns {Promise<Outcome>}
  */
-async function outcomeOf(name, programArgs) {
-  const { prepare, counts } = PARTS[name];
+async function runPart(name, programArgs) {
+  const { prepare, counts } = TEST_PARTS[name];
   let startTime = Date.now();
-  const seconds = () => (Date.now() - startTime) / 1000;
+  const elapsedSeconds = () => (Date.now() - startTime) / 1000;
   try {
     const job = await prepare(programArgs);
     printStep(name);
@@ -233,11 +245,11 @@ async function outcomeOf(name, programArgs) {
     const totalOf = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, count]) => sum + Number(count), 0);
     const tally = counts && { passed: totalOf(counts.passed), failed: totalOf(counts.failed), skipped: totalOf(counts.skipped) };
     const ranNoTest = tally !== undefined && tally.passed + tally.failed === 0;
-    const note = timedOut ? `ended after ${TIME_LIMIT} s` : ranNoTest ? 'no test ran' : undefined;
-    return { name, ok: ok && !ranNoTest && !tally?.failed, seconds: seconds(), output, tally, note };
+    const note = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : ranNoTest ? 'no test ran' : undefined;
+    return { name, ok: ok && !ranNoTest && !tally?.failed, seconds: elapsedSeconds(), output, tally, note };
   } catch (error) {
     printStep(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
-    return { name, ok: false, seconds: seconds(), note: 'not run: see above' };
+    return { name, ok: false, seconds: elapsedSeconds(), note: 'not run: see above' };
   }
 }
 
@@ -266,44 +278,46 @@ function browserEnvironment(runner, { chrome, driver }) {
  * @param {string} directory
  * @param {string[]} programArgs files or options
  */
-function nodeTestCommand(directory, programArgs) {
-  const files = filesOf(directory).filter((path) => /\.test\.[jt]s$/.test(path) && (NIGHTLY || !path.endsWith('.nightly.test.js')));
-  const namedFiles = files.filter((path) => programArgs.some((argument) => !argument.startsWith('-') && path.includes(argument)));
-  const unknownName = programArgs.find((argument, i) => !argument.startsWith('-') && !programArgs[i - 1]?.startsWith('-') && !files.some((path) => path.includes(argument)));
-  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is in no name of a test file; ${directory} has ${files.map((path) => path.slice(directory.length + 1)).join(', ')}.`);
+function nodeTestCommandFor(directory, programArgs) {
+  const testFiles = filesOf(directory).filter((path) => /\.test\.[jt]s$/.test(path) && (IS_NIGHTLY || !path.endsWith('.nightly.test.js')));
+  const namedFiles = testFiles.filter((path) => programArgs.some((argument) => !argument.startsWith('-') && path.includes(argument)));
+  const unknownName = programArgs.find((argument, i) => !argument.startsWith('-') && !programArgs[i - 1]?.startsWith('-') && !testFiles.some((path) => path.includes(argument)));
+  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is in no name of a test file; ${directory} has ${testFiles.map((path) => path.slice(directory.length + 1)).join(', ')}.`);
   const nodeOptions = programArgs.filter((argument) => !namedFiles.some((path) => path.includes(argument)));
   // Node runs every test of a parent that matches, and the parent of all is called "<root>".
-  const tierOptions = NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
+  const tierOptions = IS_NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
   // With its default number of processes a core stays idle.
-  return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tierOptions, ...nodeOptions, ...(namedFiles.length > 0 ? namedFiles : files)];
+  return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tierOptions, ...nodeOptions, ...(namedFiles.length > 0 ? namedFiles : testFiles)];
 }
 
 /** Number of last lines of a failed program's output that are shown again below the summary, because its errors are there. */
-const LAST_LINES = 60;
+const SHOWN_ERROR_LINES = 60;
 
 /**
+ * Prints the outcomes, and returns true if all parts passed.
+ *
  * @param {Outcome[]} outcomes
- * @returns {boolean} whether all is well
+ * @returns {boolean}
  */
 function summarize(outcomes) {
   printStep('Summary');
   console.log(`${[...toolVersions].join('; ')}\n`);
-  let passed = 0;
-  let failed = 0;
+  let passedCount = 0;
+  let failedCount = 0;
   for (const { name, ok, seconds, tally, note } of outcomes) {
     const countTexts = tally === undefined ? [] : [`${tally.passed} passed`, `${tally.failed} failed`];
     if (tally?.skipped) countTexts.push(`${tally.skipped} skipped`);
     if (note !== undefined) countTexts.push(note);
     console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${countTexts.join(', ')}`);
-    passed += tally?.passed ?? 0;
+    passedCount += tally?.passed ?? 0;
     // A part that fails without a failed test counts as one failed test.
-    failed += ok ? 0 : Math.max(1, tally?.failed ?? 0);
+    failedCount += ok ? 0 : Math.max(1, tally?.failed ?? 0);
   }
   for (const { name, ok, output } of outcomes) {
-    if (!ok && output && outcomes.length > 1) console.log(`\n${name}: …\n${output.trimEnd().split('\n').slice(-LAST_LINES).join('\n')}`);
+    if (!ok && output && outcomes.length > 1) console.log(`\n${name}: …\n${output.trimEnd().split('\n').slice(-SHOWN_ERROR_LINES).join('\n')}`);
   }
-  console.log(`\n${passed} passed, ${failed} failed`);
-  return failed === 0;
+  console.log(`\n${passedCount} passed, ${failedCount} failed`);
+  return failedCount === 0;
 }
 
 await runAsScript(import.meta.url, async () => {

@@ -29,7 +29,7 @@ export const CACHE_DIRECTORY = join(
 const npmQueue = taskQueue();
 
 /** @type {Map<string, Promise<void>>} */
-const installations = new Map();
+const installationByWorkspace = new Map();
 
 /**
  * Installs the npm packages of the root, and those of a workspace, unless the versions of package-lock.json are already installed.
@@ -40,28 +40,28 @@ const installations = new Map();
 export async function ensurePackages(workspace) {
   if (workspace) await ensurePackages();
   const workspaceKey = workspace ?? 'root';
-  if (!installations.has(workspaceKey)) installations.set(workspaceKey, npmQueue(() => installPackages(workspaceKey)));
-  return installations.get(workspaceKey);
+  if (!installationByWorkspace.has(workspaceKey)) installationByWorkspace.set(workspaceKey, npmQueue(() => installPackages(workspaceKey)));
+  return installationByWorkspace.get(workspaceKey);
 }
 
-/** @param {string} key a workspace, or "root" */
+/** Installs the packages of a workspace. @param {string} key a workspace, or "root" */
 async function installPackages(key) {
   const lockHash = createHash('sha256').update(readFileSync(join(ROOT, 'package-lock.json'))).digest('hex');
-  const name = `motion-widgets-${key.replace('/', '-')}`;
-  const stampFile = join(ROOT, `node_modules/.installed-${name}`);
+  const workspaceName = `motion-widgets-${key.replace('/', '-')}`;
+  const stampFile = join(ROOT, `node_modules/.installed-${workspaceName}`);
   if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === lockHash) return;
   printStep(`Installing npm packages${key === 'root' ? '' : ` of ${key}`}`);
   // No package's install script is needed. `npm ci` would remove those of the other workspaces.
   await mustRun(
     'The npm packages could not be installed: check that this machine reaches its npm registry and start again.',
     'npm',
-    ['install', '--no-save', '--ignore-scripts', '--no-audit', '--no-fund', key === 'root' ? '--workspaces=false' : `--workspace=${name}`],
+    ['install', '--no-save', '--ignore-scripts', '--no-audit', '--no-fund', key === 'root' ? '--workspaces=false' : `--workspace=${workspaceName}`],
     { seconds: 600 },
   );
   writeFileSync(stampFile, lockHash);
 }
 
-/** Locks of apt and of rustup, so that neither runs twice at the same time. */
+/** Queues of apt and of rustup, so that neither runs twice at the same time. */
 const [aptQueue, rustupQueue] = [taskQueue(), taskQueue()];
 
 /**
@@ -81,8 +81,8 @@ async function aptInstallNow(packages, sentence) {
   const [command, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
   await run(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
   // Apt must not remove an installed package, above all no other Rust.
-  const options = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
-  await mustRun(sentence, command, [...firstArguments, 'install', ...options, ...packages], { seconds: 900 });
+  const aptOptions = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
+  await mustRun(sentence, command, [...firstArguments, 'install', ...aptOptions, ...packages], { seconds: 900 });
 }
 
 /** Ensures that Python and its pip are installed, which build the Python package. */
@@ -100,7 +100,7 @@ export async function ensurePip() {
  */
 
 /** Finds or installs Rust for this machine: by rustup, or from Debian if rustup's server cannot be reached. */
-export const nativeRust = once(/** @returns {Promise<Rust>} */ async () => {
+export const ensureNativeRust = once(/** @returns {Promise<Rust>} */ async () => {
   let cargo = findProgram('cargo', [RUSTUP_BIN]);
   if (cargo === undefined) {
     if (!(await installRustup())) {
@@ -113,20 +113,20 @@ export const nativeRust = once(/** @returns {Promise<Rust>} */ async () => {
     await aptInstall(['gcc', 'libc6-dev'], `A C compiler, which Rust links with, is missing: ${installHint} and start again.`);
   }
   const bin = dirname(cargo);
-  const env = bin === DEBIAN_BIN ? debianEnvironment() : environmentWithPath(bin);
-  const version = await requireVersion(bin, env, 'run `rustup update stable`');
+  const env = bin === DEBIAN_BIN ? createDebianEnvironment() : createEnvironment(bin);
+  const version = await requireRustVersion(bin, env, 'run `rustup update stable`');
   return { bin, env, target: [], description: version };
 });
 
-/** @returns {Promise<boolean>} */
+/** Installs Rust by rustup, and returns true if that succeeded. @returns {Promise<boolean>} */
 async function installRustup() {
   printStep('Installing Rust by rustup');
-  const script = join(tmpdir(), `rustup-init-${process.pid}.sh`);
-  const download = ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', '-o', script, 'https://sh.rustup.rs'];
-  const options = ['-y', '--no-modify-path', '--profile', 'default', '--target', WASM_TARGET];
+  const scriptPath = join(tmpdir(), `rustup-init-${process.pid}.sh`);
+  const curlArguments = ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', '-o', scriptPath, 'https://sh.rustup.rs'];
+  const rustupArguments = ['-y', '--no-modify-path', '--profile', 'default', '--target', WASM_TARGET];
   const isInstalled =
-    (await run('curl', download)).ok && (await run('sh', [script, ...options], { seconds: 600 })).ok;
-  rmSync(script, { force: true });
+    (await run('curl', curlArguments)).ok && (await run('sh', [scriptPath, ...rustupArguments], { seconds: 600 })).ok;
+  rmSync(scriptPath, { force: true });
   return isInstalled;
 }
 
@@ -135,7 +135,7 @@ async function installRustup() {
  * compiler builds that library from Debian's sources.
  */
 export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
-  const nativeToolchain = await nativeRust();
+  const nativeToolchain = await ensureNativeRust();
   if (nativeToolchain.bin !== DEBIAN_BIN && (await rustupQueue(() => hasTarget(nativeToolchain)))) {
     return { ...nativeToolchain, target: ['--target', WASM_TARGET], description: `${nativeToolchain.description}, ${WASM_TARGET} of rustup` };
   }
@@ -147,8 +147,8 @@ export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
     await aptInstall(['rustc-web', 'cargo-web', 'rust-web-src', 'lld'], missingMessage);
   }
   // Tests abort on panic like the published module, and so share its compiled library.
-  const env = { ...debianEnvironment(), CARGO_UNSTABLE_PANIC_ABORT_TESTS: 'true' };
-  const version = await requireVersion(DEBIAN_BIN, env, 'run `sudo apt-get update && sudo apt-get install rustc-web`');
+  const env = { ...createDebianEnvironment(), CARGO_UNSTABLE_PANIC_ABORT_TESTS: 'true' };
+  const version = await requireRustVersion(DEBIAN_BIN, env, 'run `sudo apt-get update && sudo apt-get install rustc-web`');
   return {
     bin: DEBIAN_BIN,
     env,
@@ -164,10 +164,10 @@ export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
  * @returns {Promise<boolean>}
  */
 async function hasTarget({ bin, env }) {
-  const sysroot = await run(join(bin, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
-  if (existsSync(join(sysroot.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
-  const program = findProgram('rustup', [bin]);
-  if (program === undefined) return false;
+  const sysrootRun = await run(join(bin, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });
+  if (existsSync(join(sysrootRun.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
+  const rustupPath = findProgram('rustup', [bin]);
+  if (rustupPath === undefined) return false;
   // Behind some firewalls rustup never returns. A probe, once a day, finds that out; it waits longer if Debian's packages cannot replace
   // it.
   const unreachableMark = join(CACHE_DIRECTORY, 'rustup-unreachable');
@@ -175,7 +175,7 @@ async function hasTarget({ bin, env }) {
   const dayInMs = 24 * 3600 * 1000;
   if (canFallBack && existsSync(unreachableMark) && Date.now() - statSync(unreachableMark).mtimeMs < dayInMs) return false;
   printStep(`Asking rustup for ${WASM_TARGET}`);
-  const addTarget = () => run(program, ['target', 'add', WASM_TARGET], { env, seconds: canFallBack ? 60 : 600 });
+  const addTarget = () => run(rustupPath, ['target', 'add', WASM_TARGET], { env, seconds: canFallBack ? 60 : 600 });
   const { ok, timedOut } = canFallBack && (await isServerSilent()) ? { ok: false, timedOut: true } : await addTarget();
   if (ok) return true;
   if (timedOut) {
@@ -200,9 +200,9 @@ async function isServerSilent() {
 }
 
 /** Returns the environment of Debian's stable compiler, with the unstable features that `-Zbuild-std` needs. */
-function debianEnvironment() {
+function createDebianEnvironment() {
   return {
-    ...environmentWithPath(DEBIAN_BIN),
+    ...createEnvironment(DEBIAN_BIN),
     RUSTC: join(DEBIAN_BIN, 'rustc'),
     RUSTC_BOOTSTRAP: '1',
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER: 'wasm-ld',
@@ -214,18 +214,20 @@ function debianEnvironment() {
  *
  * @param {string} bin
  */
-function environmentWithPath(bin) {
+function createEnvironment(bin) {
   return { PATH: bin + delimiter + process.env.PATH, CARGO: join(bin, 'cargo') };
 }
 
 /**
+ * Returns rustc's description of itself. Throws if rustc is too old.
+ *
  * @param {string} bin
  * @param {Record<string, string>} env
  * @param {string} remedy
- * @returns {Promise<string>} rustc's description of itself
+ * @returns {Promise<string>}
  */
-async function requireVersion(bin, env, remedy) {
-  const requiredVersion = manifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
+async function requireRustVersion(bin, env, remedy) {
+  const requiredVersion = readManifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
   const { stdout } = await run(join(bin, 'rustc'), ['--version'], { env, quiet: true });
   const [, major, minor] = stdout.match(/^rustc (\d+)\.(\d+)/) ?? ['', '0', '0'];
   const [minMajor, minMinor] = requiredVersion.split('.').map(Number);
@@ -238,23 +240,23 @@ async function requireVersion(bin, env, remedy) {
 /** Ensures that rustfmt and clippy are installed for a cargo. @param {Rust} rust */
 export async function ensureLints({ bin, env }) {
   const hasLints = async () => {
-    const versions = ['cargo-fmt', 'cargo-clippy'].map((name) => run(join(bin, name), ['--version'], { env, quiet: true }));
-    return (await Promise.all(versions)).every(({ ok }) => ok);
+    const versionRuns = ['cargo-fmt', 'cargo-clippy'].map((name) => run(join(bin, name), ['--version'], { env, quiet: true }));
+    return (await Promise.all(versionRuns)).every(({ ok }) => ok);
   };
   if (await hasLints()) return;
   const missingMessage = 'rustfmt or clippy is missing: run `rustup component add rustfmt clippy` and start again.';
   if (bin === DEBIAN_BIN) {
     await aptInstall(['rustfmt-web', 'rust-web-clippy'], missingMessage);
   } else {
-    const program = findProgram('rustup', [bin]);
-    if (program === undefined) throw new UserError(missingMessage);
-    await rustupQueue(() => mustRun(missingMessage, program, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
+    const rustupPath = findProgram('rustup', [bin]);
+    if (rustupPath === undefined) throw new UserError(missingMessage);
+    await rustupQueue(() => mustRun(missingMessage, rustupPath, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
   }
   if (!(await hasLints())) throw new UserError(missingMessage);
 }
 
 /** Returns the part of a file that the group of a pattern matches. @param {string} file @param {RegExp} pattern */
-export function manifestValue(file, pattern) {
+export function readManifestValue(file, pattern) {
   const match = readFileSync(join(ROOT, file), 'utf8').match(pattern);
   if (match === null) throw new Error(`${file} has nothing like ${pattern}`);
   return match[1];

@@ -4,7 +4,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../www/settings.js';
-import { classComments, descriptionOf, oneLine, pascalCase, typeOf, unionType, widgets } from './declarations.mjs';
+import { readClassComments, descriptionOf, joinLines, toPascalCase, typeTextOf, unionTypeOf, describeWidgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 
@@ -16,18 +16,18 @@ const HEADER = '// Generated from the declarations: not to be edited.\n';
 const DISPOSABLE_LIBRARY = '/// <reference lib="esnext.disposable" />\n';
 
 /** Frameworks with typed templates: module and interface that are extended by the tags, type of the attributes of any element, prefix of properties. */
-const TEMPLATE_TYPES = {
+const TEMPLATE_FRAMEWORKS = {
   solid: { module: 'solid-js', namespace: 'namespace JSX { interface IntrinsicElements extends Tags {} }', any: "import('solid-js').JSX.HTMLAttributes", prefix: 'prop:' },
   svelte: { module: 'svelte/elements', namespace: 'interface SvelteHTMLElements extends Tags {}', any: "import('svelte/elements').HTMLAttributes", prefix: '' },
 };
 
 /** Writes all declaration files. */
 export async function writeTypes() {
-  const allWidgets = await widgets();
-  const core = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
-  writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, HEADER, ...groupTypes(), ...Object.keys(settings).map(settingTypes), core].join('\n'));
-  writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEADER, importLine(allWidgets), await figureType(allWidgets), ...(await Promise.all(allWidgets.map(elementTypes))), tagNames(allWidgets)].join('\n'));
-  for (const [name, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_TYPES)) {
+  const widgetDescriptions = await describeWidgets();
+  const coreTypes = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
+  writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, HEADER, ...groupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
+  writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEADER, importLineOf(widgetDescriptions), await figureTypes(widgetDescriptions), ...(await Promise.all(widgetDescriptions.map(elementTypesOf))), tagTypesOf(widgetDescriptions)].join('\n'));
+  for (const [name, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {
     writeFileSync(
       join(ROOT, `build/${name}.d.ts`),
       `${HEADER}
@@ -44,92 +44,92 @@ declare module '${module}' {
 }
 
 /** Returns the interfaces of groups. A group of one name has to be equal in all widgets. */
-function groupTypes() {
+function groupInterfaces() {
   /** @type {Map<string, string>} */
-  const groups = new Map();
-  for (const [tag, declared] of Object.entries(settings)) {
-    for (const { key, type } of declared) {
+  const interfaceByGroup = new Map();
+  for (const [tag, declaredSettings] of Object.entries(settings)) {
+    for (const { key, type } of declaredSettings) {
       if (type !== 'group') continue;
-      const partFields = declared.filter((part) => part.in === key).map((part) => fieldOf({ ...part, key: part.field ?? part.key }));
-      const text = asInterface(pascalCase(key), partFields);
-      if ((groups.get(key) ?? text) !== text) throw new Error(`${tag}: ${key} is not the group that it is in another widget; call it otherwise.`);
-      groups.set(key, text);
+      const partFields = declaredSettings.filter((part) => part.in === key).map((part) => fieldOf({ ...part, key: part.field ?? part.key }));
+      const interfaceText = asInterface(toPascalCase(key), partFields);
+      if ((interfaceByGroup.get(key) ?? interfaceText) !== interfaceText) throw new Error(`${tag}: ${key} is not the group that it is in another widget; call it otherwise.`);
+      interfaceByGroup.set(key, interfaceText);
     }
   }
-  return groups.values();
+  return interfaceByGroup.values();
 }
 
-/** @param {string} tag */
-function settingTypes(tag) {
-  return asInterface(`${pascalCase(tag)}Settings`, settings[tag].filter((declaration) => !declaration.in && !declaration.of).map(fieldOf));
+/** Returns the interface of a widget's settings. @param {string} tag */
+function settingsInterfaceOf(tag) {
+  return asInterface(`${toPascalCase(tag)}Settings`, settings[tag].filter((declaration) => !declaration.in && !declaration.of).map(fieldOf));
 }
 
-/** @param {import('../www/settings.js').Declaration} declaration */
+/** Returns a setting as a field. @param {import('../www/settings.js').Declaration} declaration */
 function fieldOf(declaration) {
-  return { name: declaration.field ?? declaration.key, type: typeOf(declaration), description: descriptionOf(declaration) };
+  return { name: declaration.field ?? declaration.key, type: typeTextOf(declaration), description: descriptionOf(declaration) };
 }
 
 /** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} widgets */
-async function figureType([{ attributes }]) {
+async function figureTypes([{ attributes }]) {
   const { COMMON_ATTRS } = await importTypeScript('www/figure/attributes.ts');
-  const { classes } = await classComments();
+  const { classes } = await readClassComments();
   /** @type {any[]} */
-  const members = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
+  const publicMembers = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
   /** Replaces the type of any widget by a type parameter. @param {{ type: { text: string } }} [typedItem] */
-  const typeIn = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
-  const fields = members.map(({ kind, name, description, parameters = [], type, return: result, readonly }) => {
-    const parameterTexts = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeIn(parameter)}`);
-    return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeIn(kind === 'method' ? result : { type }), description: oneLine(description), readonly };
+  const typeTextIn = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
+  const memberFields = publicMembers.map(({ kind, name, description, parameters = [], type, return: result, readonly }) => {
+    const parameterTexts = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeTextIn(parameter)}`);
+    return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeTextIn(kind === 'method' ? result : { type }), description: joinLines(description), readonly };
   });
   const commonFields = attributes.filter(({ name }) => name in COMMON_ATTRS).map(({ property, ...rest }) => ({ ...rest, name: property ?? rest.name }));
-  const events = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
+  const eventFields = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
     const text = type?.text ?? 'Event';
-    return { name, type: text === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : text, description: oneLine(description) };
+    return { name, type: text === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : text, description: joinLines(description) };
   });
   return (
-    `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its class. */\n${asInterface('FigureEvents<Stats>', events)}\n` +
+    `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its class. */\n${asInterface('FigureEvents<Stats>', eventFields)}\n` +
     '/** Members of every element. */\n' +
-    asInterface('FigureElement<State extends FigureState, Stats>', [...commonFields, ...fields, ...LISTENER_FIELDS], 'HTMLElement')
+    asInterface('FigureElement<State extends FigureState, Stats>', [...commonFields, ...memberFields, ...LISTENER_FIELDS], 'HTMLElement')
   );
 }
 
-/** Listeners get the events of a figure, and those that every element has. @type {Field[]} */
+/** Methods that add and remove listeners: for the events of a figure, and for those of every element. @type {Field[]} */
 const LISTENER_FIELDS = ['add', 'remove'].flatMap((verb) => {
-  const options = `options?: boolean | ${verb === 'add' ? 'AddEventListenerOptions' : 'EventListenerOptions'}`;
-  const listenerType = (/** @type {string} */ events) =>
-    `${verb}EventListener<Type extends keyof ${events}>(type: Type, listener: (this: FigureElement<State, Stats>, event: ${events}[Type]) => unknown, ${options})`;
-  const overloads = [listenerType('FigureEvents<Stats>'), listenerType('HTMLElementEventMap'), `${verb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${options})`];
+  const optionsParameter = `options?: boolean | ${verb === 'add' ? 'AddEventListenerOptions' : 'EventListenerOptions'}`;
+  const listenerOverload = (/** @type {string} */ events) =>
+    `${verb}EventListener<Type extends keyof ${events}>(type: Type, listener: (this: FigureElement<State, Stats>, event: ${events}[Type]) => unknown, ${optionsParameter})`;
+  const overloads = [listenerOverload('FigureEvents<Stats>'), listenerOverload('HTMLElementEventMap'), `${verb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${optionsParameter})`];
   return overloads.map((name) => ({ name, type: 'void', description: '' }));
 });
 
-/** @param {import('./declarations.mjs').Widget} widget */
-async function elementTypes({ tag, className, attributes, properties, state }) {
+/** Returns the types of an element and of its state. @param {import('./declarations.mjs').Widget} widget */
+async function elementTypesOf({ tag, className, attributes, properties, state }) {
   const { COMMON_ATTRS } = await importTypeScript('www/figure/attributes.ts');
-  const element = `FigureElement<${className}State, ${className}['stats']>`;
+  const baseType = `FigureElement<${className}State, ${className}['stats']>`;
   const widgetField = { name: 'widget', type: `'${tag}'`, description: '' };
   // Members of every figure are in FigureElement.
   const ownFields = attributes.filter(({ name }) => !(name in COMMON_ATTRS)).map((attribute) => ({ ...attribute, isText: true }));
   return (
     `${asInterface(`${className}State`, [widgetField, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +
-    asInterface(`${className}Element`, [...ownFields, ...properties], element)
+    asInterface(`${className}Element`, [...ownFields, ...properties], baseType)
   );
 }
 
-/** @param {import('./declarations.mjs').Widget[]} widgets */
-function importLine(widgets) {
-  const types = widgets.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
-  const neededNames = new Set(['FigureState', ...widgets.map(({ className }) => className), ...types]);
+/** Returns the import of the types that the elements use. @param {import('./declarations.mjs').Widget[]} widgets */
+function importLineOf(widgets) {
+  const typeNames = widgets.flatMap(({ properties, state }) => [...properties, ...state]).flatMap(({ type }) => type.match(/\b[A-Z]\w*/g) ?? []);
+  const neededNames = new Set(['FigureState', ...widgets.map(({ className }) => className), ...typeNames]);
   const importedNames = [...neededNames].filter((name) => !(name in globalThis));
   return `import type { ${importedNames.sort().join(', ')} } from '../www/types.d.ts';\n`;
 }
 
-/** @param {import('./declarations.mjs').Widget[]} widgets */
-function tagNames(widgets) {
+/** Returns the types of the elements by tag. @param {import('./declarations.mjs').Widget[]} widgets */
+function tagTypesOf(widgets) {
   const mapLines = widgets.map(({ tag, className }) => `    '${tag}': ${className}Element;\n`);
   const tagLines = widgets.map(({ tag, className, attributes, properties }) => {
-    const fields = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
-    return `  '${tag}': TemplateValues<${className}Element, ${unionType(fields)}>;\n`;
+    const propertyNames = [...attributes.map(({ name, property = name }) => property), ...properties.filter(({ readonly }) => !readonly).map(({ name }) => name)];
+    return `  '${tag}': TemplateValues<${className}Element, ${unionTypeOf(propertyNames)}>;\n`;
   });
   return `/** Values that a template gives to an element: numbers and lists also as text, as attributes have them. */
 type TemplateValues<Element, Names extends keyof Element> = { [Name in Names]?: Element[Name] | string | null } & { 'heading-level'?: string };

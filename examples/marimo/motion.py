@@ -8,20 +8,20 @@ def _():
     import marimo as mo
     from motion_widgets import BananaMachine
 
-    simulation = mo.ui.anywidget(BananaMachine(omega=0.8, samples=20000))
-    simulation
-    return simulation, mo
+    machine = mo.ui.anywidget(BananaMachine(omega=0.8, samples=20000))
+    machine
+    return machine, mo
 
 
 @app.cell
-def _(simulation, mo):
-    mo.md(f"turn rate {simulation.value['omega']} rad/s")
+def _(machine, mo):
+    mo.md(f"turn rate {machine.value['omega']} rad/s")
     return
 
 
 @app.cell
-def _(simulation, mo):
-    mo.ui.button(label="Hard arc", on_click=lambda _: setattr(simulation, "preset", "hard"))
+def _(machine, mo):
+    mo.ui.button(label="Hard arc", on_click=lambda _: setattr(machine, "preset", "hard"))
     return
 
 

@@ -3,7 +3,7 @@
 import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { UserError, findProgram, isProgram, mustRun, printStep, run } from '../../scripts/process.mjs';
-import { CACHE_DIRECTORY, aptInstall, nativeRust } from '../../scripts/toolchain.mjs';
+import { CACHE_DIRECTORY, aptInstall, ensureNativeRust } from '../../scripts/toolchain.mjs';
 
 const FIREFOX_NAMES = ['firefox-esr', 'firefox'];
 const FIREFOX_MISSING_MESSAGE =
@@ -30,7 +30,7 @@ async function ensureGeckodriver() {
   const findGeckodriver = () => findProgram('geckodriver', [...(GECKOWEBDRIVER ? [GECKOWEBDRIVER] : []), bin]);
   const presentDriver = findGeckodriver();
   if (presentDriver !== undefined) return presentDriver;
-  const rustTools = await nativeRust();
+  const rustTools = await ensureNativeRust();
   printStep('Compiling geckodriver, once');
   const cargoArguments = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE_DIRECTORY, 'geckodriver')];
   await mustRun(FIREFOX_MISSING_MESSAGE, join(rustTools.bin, 'cargo'), cargoArguments, { env: rustTools.env, seconds: 1200 });

@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import { test } from 'node:test';
-import { pascalCase } from '../../scripts/declarations.mjs';
+import { toPascalCase } from '../../scripts/declarations.mjs';
 import { findDifferences, computeDigest, resultFunctions } from '../digest/digest.js';
 
 const DIST_DIRECTORY = new URL('../../dist/', import.meta.url);
@@ -19,8 +19,8 @@ for (const tag of Object.keys(resultFunctions)) {
     assert.equal(moduleNames.length, 1, `one module for ${tag}`);
     const { default: instantiate } = await import(`../../build/${tag}.js`);
     const core = await instantiate(new WebAssembly.Module(readFileSync(new URL(`chunks/${moduleNames[0]}`, DIST_DIRECTORY))));
-    const simulationNames = Object.keys(resultFunctions).map(pascalCase).filter((name) => name in core);
-    assert.deepEqual(simulationNames, [pascalCase(tag)]);
+    const simulationNames = Object.keys(resultFunctions).map(toPascalCase).filter((name) => name in core);
+    assert.deepEqual(simulationNames, [toPascalCase(tag)]);
     const goldenDigestOfTag = goldenDigest.split('\n').filter((line) => line.startsWith(`${tag}/`)).map((line) => `${line}\n`).join('');
     assert.deepEqual(findDifferences(goldenDigestOfTag, await computeDigest(core, configurations, [tag])), []);
   });

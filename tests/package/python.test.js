@@ -7,7 +7,7 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, renameSync, rmSync 
 import { tmpdir } from 'node:os';
 import { delimiter, join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { pythonName, scriptName } from '../../scripts/names.mjs';
+import { pythonNameOf, checkScriptName } from '../../scripts/names.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { CACHE_DIRECTORY, ensurePip } from '../../scripts/toolchain.mjs';
 
@@ -115,8 +115,8 @@ test('settings that were not given are None', () => {
 });
 
 test('names of generated code are those that its language allows', () => {
-  assert.deepEqual(['reverseAware', 'lambda', 'log'].map(pythonName), ['reverse_aware', 'lambda_', 'log_']);
-  assert.throws(() => pythonName('2d'), /2d cannot be the name of a trait/);
-  assert.equal(scriptName('From'), 'From');
-  for (const name of ['Map', 'class', '2d']) assert.throws(() => scriptName(name), { message: new RegExp(`^${name} `) });
+  assert.deepEqual(['reverseAware', 'lambda', 'log'].map(pythonNameOf), ['reverse_aware', 'lambda_', 'log_']);
+  assert.throws(() => pythonNameOf('2d'), /2d cannot be the name of a trait/);
+  assert.equal(checkScriptName('From'), 'From');
+  for (const name of ['Map', 'class', '2d']) assert.throws(() => checkScriptName(name), { message: new RegExp(`^${name} `) });
 });

@@ -27,25 +27,25 @@ class Figure(anywidget.AnyWidget):
     ).tag(sync=True)
     error = t.Unicode("", read_only=True, help="Message if the figure refused the last change; else empty.").tag(sync=True)
 
-    # Number of changes by Python.
+    # Number of changes by Python so far.
     _asked = t.Int(0).tag(sync=True)
-    # Settings that the figure shows, and the number of changes by Python that it had received by then.
+    # Latest report of the figure: the settings that it shows, and the number of changes by Python that it had received by then.
     _shown = t.Dict({"heard": 0, "settings": {}}).tag(sync=True)
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
-        settings = {name: each for name, each in vars(cls).items() if isinstance(each, t.TraitType) and not each.read_only}
+        settings = {name: trait for name, trait in vars(cls).items() if isinstance(trait, t.TraitType) and not trait.read_only}
         cls._settings |= settings.keys()
         for trait in settings.values():
             trait.tag(sync=True)
 
     def __init__(self, **settings: Any) -> None:
-        unknown = sorted(set(settings) - set(self.trait_names()))
-        if unknown:
-            raise TypeError(f"{unknown[0]} is no setting of {type(self).__name__}; it has {', '.join(sorted(self._settings))}")
+        unknown_names = sorted(set(settings) - set(self.trait_names()))
+        if unknown_names:
+            raise TypeError(f"{unknown_names[0]} is no setting of {type(self).__name__}; it has {', '.join(sorted(self._settings))}")
         # Number of the latest change of each setting by Python.
         self._asked_at: dict[str, int] = {}
-        # Settings that the figure is reporting.
+        # Settings of the report that is being applied.
         self._reported: dict[str, Any] = {}
         super().__init__(**settings)
 
@@ -66,10 +66,10 @@ class Figure(anywidget.AnyWidget):
         All settings in ``_shown`` are of one moment. The single traits in ``sync_data`` may be of different moments. Only the latter are
         set, because a page takes an echo of a trait that it did not send for a change by Python.
         """
-        shown = sync_data.get("_shown", {"heard": 0, "settings": {}})
-        self._reported = {name: value for name, value in shown["settings"].items() if self._asked_at.get(name, 0) <= shown["heard"]}
-        known = [name for name in sync_data if name not in self._settings or name in self._reported]
+        report = sync_data.get("_shown", {"heard": 0, "settings": {}})
+        self._reported = {name: value for name, value in report["settings"].items() if self._asked_at.get(name, 0) <= report["heard"]}
+        applied_names = [name for name in sync_data if name not in self._settings or name in self._reported]
         try:
-            super().set_state({name: self._reported.get(name, sync_data[name]) for name in known})
+            super().set_state({name: self._reported.get(name, sync_data[name]) for name in applied_names})
         finally:
             self._reported = {}

@@ -8,28 +8,28 @@ from typing import Any, Optional, Union
 
 import traitlets as t
 
-Real = Union[float, int]
+RealNumber = Union[float, int]
 
 
-class Number(t.Float[Optional[float], Optional[Real]]):
+class Number(t.Float[Optional[float], Optional[RealNumber]]):
     """Number in a range, also one of NumPy."""
 
     def __init__(self, min: float, max: float) -> None:
         super().__init__(None, allow_none=True, min=min, max=max)  # type: ignore[misc]
 
     def validate(self, obj: Any, value: Any) -> float:
-        return self.part(self.name, value)
+        return self.validate_part(self.name, value)
 
-    def part(self, name: str, value: Any) -> float:
-        """Returns a value of this trait, or of a part of another one; ``name`` is that of the part."""
+    def validate_part(self, name: str, value: Any) -> float:
+        """Returns a valid value of this trait, or of a part of another trait whose name is ``name``."""
         is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
         if not is_number or not self.min <= value <= self.max:
             raise t.TraitError(f"{name} is {value!r}; allowed is a number from {self.min:.15g} to {self.max:.15g}")
         return float(value)
 
 
-class Whole(t.Int[Optional[int], Optional[Real]]):
-    """Whole number in a range. 1e6 is one."""
+class Whole(t.Int[Optional[int], Optional[RealNumber]]):
+    """Whole number in a range; 1e6 is a whole number."""
 
     def __init__(self, min: int, max: Optional[int] = None) -> None:
         super().__init__(None, allow_none=True, min=min, max=max)  # type: ignore[misc]
@@ -37,8 +37,8 @@ class Whole(t.Int[Optional[int], Optional[Real]]):
     def validate(self, obj: Any, value: Any) -> int:
         is_whole = isinstance(value, numbers.Real) and not isinstance(value, bool) and value % 1 == 0
         if not is_whole or value < self.min or (self.max is not None and value > self.max):
-            end = "" if self.max is None else f" to {self.max}"
-            raise t.TraitError(f"{self.name} is {value!r}; allowed is a whole number from {self.min}{end}")
+            upper_limit = "" if self.max is None else f" to {self.max}"
+            raise t.TraitError(f"{self.name} is {value!r}; allowed is a whole number from {self.min}{upper_limit}")
         return int(value)
 
 
@@ -49,10 +49,10 @@ class Word(t.Enum[Optional[str]]):
         super().__init__(words, None, allow_none=True)
 
     def validate(self, obj: Any, value: Any) -> str:
-        return self.part(self.name, str(value) if isinstance(value, int) else value)
+        return self.validate_part(self.name, str(value) if isinstance(value, int) else value)
 
-    def part(self, name: str, value: Any) -> str:
-        """Returns a value of this trait, or of a part of another one; ``name`` is that of the part."""
+    def validate_part(self, name: str, value: Any) -> str:
+        """Returns a valid value of this trait, or of a part of another trait whose name is ``name``."""
         if value not in self.values:
             raise t.TraitError(f"{name} is {value!r}; allowed is one of {', '.join(self.values)}")
         return value
@@ -67,11 +67,11 @@ class Sequence(t.List[Any]):
         super().__init__(trait, None, allow_none=True)
 
     def validate_elements(self, obj: Any, value: Any) -> Any:
-        return [self._trait.part(f"{self.name}[{i}]", each) for i, each in enumerate(value)]
+        return [self._trait.validate_part(f"{self.name}[{i}]", item) for i, item in enumerate(value)]
 
 
 class Group(t.Dict):  # type: ignore[type-arg]
-    """Numbers by name; a figure takes all of them."""
+    """Numbers by name, all of which a figure needs."""
 
     def __init__(self, **parts: Number) -> None:
         super().__init__(default_value=None, allow_none=True)
@@ -80,4 +80,4 @@ class Group(t.Dict):  # type: ignore[type-arg]
     def validate_elements(self, obj: Any, value: Mapping[str, Any]) -> dict[str, float]:
         if set(value) != set(self.parts):
             raise t.TraitError(f"{self.name} has {', '.join(map(repr, value)) or 'nothing'}; it needs {', '.join(map(repr, self.parts))}")
-        return {name: part.part(f"{self.name}[{name!r}]", value[name]) for name, part in self.parts.items()}
+        return {name: part.validate_part(f"{self.name}[{name!r}]", value[name]) for name, part in self.parts.items()}

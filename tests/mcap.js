@@ -80,7 +80,6 @@ const COMPRESSORS = {
  * @property {string} [schema] name of another type that is recorded for it
  * @property {any} message
  * @property {number} t time at which it was recorded, s
- * @property {string} [node] that publishes it
  *
  * @param {Iterable<Message>} messages
  * @param {object} [options]
@@ -110,12 +109,12 @@ export async function recordingOf(messages, { compression = 'none', index = true
   /** @type {Map<string, { id: number, writer: MessageWriter }>} */
   const channels = new Map();
   let sequenceNumber = 0;
-  for (const { topic, type, schema = type, message, t, node = '' } of messages) {
-    const key = [topic, type, node].join(' ');
+  for (const { topic, type, schema = type, message, t } of messages) {
+    const key = [topic, type, schema].join(' ');
     let channel = channels.get(key);
     if (!channel) {
       const schemaId = await writer.registerSchema({ name: schema, encoding: 'ros2msg', data: Buffer.from(`# ${schema}`) });
-      const id = await writer.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map(node ? [['callerid', node]] : []) });
+      const id = await writer.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map() });
       const typeDefinitions = Object.entries(MESSAGE_DEFINITIONS).map(([name, definitions]) => ({ name, definitions }));
       const messageDefinition = typeDefinitions.find(({ name }) => name === type);
       channel = { id, writer: new MessageWriter(messageDefinition ? [messageDefinition, ...typeDefinitions] : typeDefinitions) };

@@ -160,13 +160,12 @@ test('two logs get one start, and none in common is noted', async () => {
   assert.equal(summarySentences(disjointDrive.reference, german.found).length, summarySentences(overlappingDrive.reference, german.found).length + 1);
 });
 
-test('names of a localizer, and swapped ones, are noted', async () => {
+test('the name of a localizer is noted', async () => {
   const noteNamesOf = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
     const recordings = await openRecordings([odometry, reference].map((name, k) => new File([straightTableOf((i) => (i * (k + 1)) / 100)], name)));
     const [drive] = await readDrives(planDrives(recordings, { roles: new Map([[recordings[0], 'odometry'], [recordings[1], 'reference']]) }));
     return drive.reference.summary.notes.map(({ name }) => name);
   };
-  assert.deepEqual(await noteNamesOf('truth.csv', 'wheels.csv'), ['swapped']);
   assert.deepEqual(await noteNamesOf('odom.csv', 'amcl_pose.csv'), ['localizer']);
   const [{ odometry, reference }] = await drivesOf({ 'odom.csv': straightTableOf((i) => i / 90), 'truth.csv': straightTableOf((i) => i / 80) });
   const notesWithFrame = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
@@ -174,30 +173,7 @@ test('names of a localizer, and swapped ones, are noted', async () => {
   for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await noteNamesOf(one, other), [], one);
 });
 
-test('one path given as both logs is refused, in another frame and in other files too', async () => {
-  const curveRowAt = (/** @type {number} */ i, dx = 0, turn = 0) => {
-    const [x, y] = [Math.sin(i / 50), 1 - Math.cos(i / 50)];
-    return [i / 20, dx + x * Math.cos(turn) - y * Math.sin(turn), x * Math.sin(turn) + y * Math.cos(turn), i / 50 + turn];
-  };
-  const refusalText = await refusalSentenceOf(drivesOf({ 'odom.csv': poseTableOf(400, (i) => curveRowAt(i)), 'truth.csv': poseTableOf(400, (i) => curveRowAt(i, 3, 1).map((value) => Number(value.toFixed(6)))) }));
-  assert.equal(refusalText, 'truth.csv: it has the same motion as odom.csv; give two independent measurements of one drive.');
-  const spiralRowAt = (/** @type {number} */ i, scale = 1) => [i / 20, scale * i * 0.08 * Math.cos(i / 50), scale * i * 0.08 * Math.sin(i / 50), 0];
-  const filesWithRounding = (/** @type {number} */ decimals, scale = 1, size = 1) => ({ 'odom.csv': poseTableOf(400, (i) => spiralRowAt(i, size)), 'truth.csv': poseTableOf(400, (i) => spiralRowAt(i, size * scale).map((value) => Number(value.toFixed(decimals)))) });
-  for (const decimals of [2, 3, 4]) assert.equal(await refusalSentenceOf(drivesOf(filesWithRounding(decimals))), refusalText);
-  // Paths that differ by more than the rounding, unrounded paths and short ones are not refused.
-  for (const [decimals, scale, size] of [[2, 1.001], [9, 1.0001], [2, 1, 0.1]]) assert.equal((await drivesOf(filesWithRounding(decimals, scale, size))).length, 1);
-  const commandTable = ['t,x,y,yaw,v,omega', ...Array.from({ length: 99 }, (_, i) => `${i / 20},${i / 40},0,0,0.5,0`)].join('\n');
-  const [one, other] = await openRecordings([new File([commandTable], 'log.csv'), new File([commandTable], 'log.csv')]);
-  assert.match(await refusalSentenceOf(readDrives(planDrives([one, other], { kind: 'commands', roles: new Map([[one, 'odometry'], [other, 'reference']]) }))), /^log\.csv: it is given twice;/);
-  assert.equal(
-    await refusalSentenceOf(drivesOf({ 'odom1.csv': poseTableOf(400, (i) => curveRowAt(i)), 'odom2.csv': poseTableOf(400, (i) => curveRowAt(i)), 'truth1.csv': straightTableOf((i) => i / 90), 'truth2.csv': straightTableOf((i) => i / 80) })),
-    'odom2.csv: it is the drive of odom1.csv; give each drive once.',
-  );
-  // Differences of a millimetre make two paths different.
-  assert.equal((await drivesOf({ 'odom.csv': poseTableOf(400, (i) => curveRowAt(i)), 'truth.csv': poseTableOf(400, (i) => curveRowAt(i).with(1, curveRowAt(i)[1] + (i % 7) / 1000)) })).length, 1);
-});
-
-test('a frozen reference is left out while the odometry moves on, and kept while it stands', async () => {
+test('a frozen reference has breaks while the odometry moves on, and none while it stands', async () => {
   const odometryXAt = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
   const movingOdometryTable = straightTableOf(odometryXAt);
   const referenceXAt = (/** @type {number} */ i) => 1.01 * odometryXAt(i);
@@ -205,7 +181,7 @@ test('a frozen reference is left out while the odometry moves on, and kept while
   assert.deepEqual([(await readReference(straightTableOf(referenceXAt))).summary.dropped, (await readReference(straightTableOf(referenceXAt))).summary.used], [{}, 400]);
   const frozenTable = straightTableOf((i) => referenceXAt(i >= 200 && i < 300 ? 200 : i));
   const { data, summary } = await readReference(frozenTable);
-  assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [301, [201], 301, { held: { count: 99, first: 0 } }]);
+  assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [400, Array.from({ length: 100 }, (_, i) => 201 + i), 301, { held: { count: 99, first: 0 } }]);
   assert.equal(await refusalSentenceOf(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // A pause of two seconds, or one in which the odometry moves by five centimetres, does not count as lost.
   const droppedCountDuring = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
@@ -218,34 +194,6 @@ test('a frozen reference is left out while the odometry moves on, and kept while
   assert.equal((await readReference(frozenTable, commandTable)).summary.dropped.held?.count, 99);
 });
 
-test('a log that does not follow the other one names the correction that makes it follow', async () => {
-  const headings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
-  const pathPoints = [[0, 0]];
-  for (const [i, heading] of headings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(heading) / 40, pathPoints[i][1] + Math.sin(heading) / 40]);
-  const tableWithChange = (/** @type {(row: number[]) => number[]} */ change) => poseTableOf(1200, (i) => change([i / 20, ...pathPoints[i], headings[i]]).map((value) => Number(value.toFixed(6))));
-  const distortRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
-  const radPerDegree = Math.PI / 180;
-  for (const [changeRow, expectedMessage, what] of /** @type {[(row: number[]) => number[], RegExp, string?][]} */ ([
-    [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored relative to its heading and to /],
-    [([t, x, y, yaw]) => [t, -x, y, yaw], /its x axis is mirrored /],
-    // A compass heading is clockwise from north.
-    [([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw], /its heading has the wrong sign,/],
-    [([t, x, y, yaw]) => [t, y, x, yaw], /its x and y are swapped;/],
-    [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
-    [([t, x, y, yaw]) => [t, x, y, yaw * radPerDegree], /its headings are in radians and were read as degrees;/, 'angleUnit'],
-    [([t, x, y, yaw]) => [t, 10 * x, 10 * y, yaw], /: multiplied by 0\.098, its lengths match those of odom\.csv;/, 'lengthUnit'],
-  ])) {
-    const refusalError = await refusalErrorOf(drivesOf({ 'odom.csv': tableWithChange((row) => row), 'truth.csv': tableWithChange((row) => changeRow(distortRow(row))) }));
-    assert.match(refusalError.message, expectedMessage);
-    assert.match(refusalError.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
-    assert.equal(refusalError.ask?.what, what);
-  }
-  // A reference that is mounted backwards is not taken for a mirrored axis, even if the robot hardly turns.
-  const drivesOfBackwardReference = await drivesOf({ 'odom.csv': poseTableOf(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTableOf(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
-  assert.equal(drivesOfBackwardReference.length, 1);
-  assert.match(await refusalSentenceOf(drivesOf({ 'odom.csv': tableWithChange(([t, x, y, yaw]) => [t, x, -y, yaw]), 'truth.csv': tableWithChange(distortRow) })), /^odom\.csv: its y axis is mirrored/);
-});
-
 test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {
   const tableRows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
   const [{ reference }] = await drivesOf({ 'odom.csv': straightTableOf((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...tableRows].join('\n') });
@@ -253,6 +201,5 @@ test('a summary has the distance driven, units and how they were judged, dropped
   assert.deepEqual(summarySentences(reference, english.found), [
     '199 of 200 rows, 12.9 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m, yaw in degrees (by name)',
     'left out: 1 row, line 11: a value that is not finite', 'gaps: 1, the first 5.00 s after the start, the longest of 3.05 s',
-    'notes: 5.00 s after the start the times jump by 3.1 s, and the robot drives on from where it was, as if the clock had been set: cut the log there, or use times of another clock',
   ]);
 });

@@ -34,8 +34,6 @@ export interface Group {
   timeColumns: Column[];
   /** Clock of the rows, and a fallback clock for times that are mostly 0, or never change. */
   clocks: Clock[];
-  /** Column and cell that identify the rows of the group, in a file with rows of several topics or robots. */
-  source?: { at: number; name: string };
 }
 
 /** Patterns of the fields of ROS messages that contain a pose, a twist and a stamp. */
@@ -53,11 +51,11 @@ const FIELD_PATTERNS: [Field, string[]][] = [
   ['source', ['(?:topic|robot|agent|vehicle|(?:rigid\\.?)?body|subject|tracker)(?:\\.?(?:id|name))?']],
   ['subseconds', [`${HEADER_PREFIX}(?:time\\.?)?stamp\\.n(?:ano)?(?:secs?|seconds?)`, '(?:n(?:ano)?|micro|u|m(?:illi)?)(?:secs?|seconds?)']],
   ['seconds', [`${HEADER_PREFIX}(?:time\\.?)?stamp\\.(?:secs?|seconds?)`, '(?:secs?|seconds?)']],
-  ['t', [`${HEADER_PREFIX}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time|zeit)|millis|micros|nanos', 't']],
+  ['t', [`${HEADER_PREFIX}stamp`, '(?:ros|bag|rosbag|msg|epoch|unix)?\\.?time\\.?stamp', '(?:ros|bag|epoch|unix|elapsed|log|recv)?\\.?(?:time|date\\.?time)|millis|micros|nanos', 't']],
   ...Array.from('xyzw', (axis): [Field, string[]] => [`q${axis}` as Field, [`q\\..*\\.${axis}`, `${POSE_PREFIX}(?:orientation|rotation|quaternion|quat|rot|q)\\.?${axis}`]]),
   ['omega', [`${TWIST_PREFIX}(?:angular|ang)\\.(?:vel(?:ocity)?\\.)?z`, 'omega(?:\\.z)?|ω', '(?:yaw|turn|heading)\\.?(?:rate|vel(?:ocity)?)|wz?', '(?:angular|ang)(?:\\.?(?:vel(?:ocity)?|speed|rate))?', 'vel(?:ocity)?\\.(?:yaw|theta)']],
   ['v', [`${TWIST_PREFIX}(?:linear|lin)\\.(?:vel(?:ocity)?\\.)?x`, 'vx?', '(?:linear|lin|forward|fwd)?\\.?(?:vel(?:ocity)?|speed)(?:\\.x)?|linear|lin']],
-  ['yaw', [`${POSE_PREFIX}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading|gier(?:winkel)?)(?:\\.angle)?`, 'θ|ψ|psi|phi|orientation']],
+  ['yaw', [`${POSE_PREFIX}(?:(?:orientation|rotation|euler|rpy|rot)\\.)?(?:yaw|theta|heading)(?:\\.angle)?`, 'θ|ψ|psi|phi|orientation']],
   ['x', ['east(?:ing)?']], ['y', ['north(?:ing)?']],
   ...Array.from('xyz', (axis): [Field, string[]] => [axis as Field, [`p\\..*\\.${axis}`, `${POSE_PREFIX}(?:position|translation|location|pos|loc|trans|[pt])\\.?${axis}`, `${POSE_PREFIX}${axis}(?:\\.?pos(?:ition)?)?`]]),
 ];
@@ -84,7 +82,7 @@ const UNIT_WORDS: [RegExp, ParsedUnit['quantity'], ParsedUnit['unit']][] = [
   [/^(cm|centimet(er|re)s?)$/, 'length', 'cm'],
   [/^(mm|millimet(er|re)s?)$/, 'length', 'mm'],
   [/^(rad|radians?)$/, 'angle', 'rad'],
-  [/^(deg|degrees?|°|grad)$/, 'angle', 'deg'],
+  [/^(deg|degrees?|°)$/, 'angle', 'deg'],
 ];
 
 /** Division by a second: "m/s", "m s^-1", "m_s", "mps". */

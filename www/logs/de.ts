@@ -1,6 +1,5 @@
 /** Sentences about logs, in German. */
 
-import type { Correction } from './corrections.ts';
 import { REPAIR_COMMANDS } from './en.ts';
 import type { Words } from './log-error.ts';
 import type { UnitBasis, DropCause, Summary } from './log.ts';
@@ -26,7 +25,6 @@ const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (nach dem Namen)',
 const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
 
 const DROP_REASONS: Record<DropCause, string> = {
-  damaged: 'beschädigte Nachrichten',
   notFinite: 'keine endliche Zahl',
   noRotation: 'ein Quaternion, das keine Drehung ist',
   short: 'zu wenige Felder',
@@ -34,8 +32,6 @@ const DROP_REASONS: Record<DropCause, string> = {
   noStamp: 'der Zeitstempel 0',
   duplicate: 'die Zeit der Zeile davor',
   repeated: 'eine Pose, die öfter wiederholt ist, als sie gemessen wurde',
-  stray: 'eine Zeit fern von allen anderen',
-  setBack: 'Zeiten einer zurückgestellten Uhr',
   held: 'die Pose steht, während die Odometrie weitergeht',
 };
 
@@ -53,17 +49,6 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
   lz4: 'mit LZ4 komprimiert; mit „unlz4“ dekomprimieren und das Ergebnis angeben.',
   hdf5: 'eine HDF5- oder MATLAB-Datei; Zeiten und Posen als CSV exportieren.',
   parquet: 'eine Parquet-Tabelle; als CSV exportieren.',
-};
-
-const CORRECTION_TEXTS: Record<Correction['name'], (other: string, factor: number) => string> = {
-  mirroredX: (other) => `ihre x-Achse ist gegenüber ihrer Richtung und ${other} gespiegelt; x negieren`,
-  mirroredY: (other) => `ihre y-Achse ist gegenüber ihrer Richtung und ${other} gespiegelt; y negieren`,
-  mirroredYaw: (other) => `ihre Richtung hat das falsche Vorzeichen, verglichen mit ihrer Bahn und ${other}; die Richtung negieren: Sie wächst gegen den Uhrzeigersinn`,
-  swappedAxes: () => 'ihr x und y sind vertauscht; die beiden Spalten tauschen',
-  leftHanded: (other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren`,
-  degrees: () => 'ihre Richtungen sind in Grad und wurden als Radiant gelesen; die Einheit der Winkel angeben',
-  radians: () => 'ihre Richtungen sind in Radiant und wurden als Grad gelesen; die Einheit der Winkel angeben',
-  lengths: (other, factor) => `multipliziert mit ${factor.toPrecision(2).replace('.', ',')} passen ihre Längen zu denen von ${other}; die Längeneinheit von beiden angeben`,
 };
 
 export const german: Words = {
@@ -91,6 +76,7 @@ export const german: Words = {
     kitti: 'Zeilen mit 12 Zahlen sind Posen von KITTI, die keine Zeiten haben; diese aus times.txt mit kitti_poses_and_timestamps_to_trajectory.py von evo ergänzen und die TUM-Datei angeben, die es schreibt.',
     euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
     tilted: 'die Posen drehen sich nicht um eine senkrechte Z-Achse; erwartet werden Quaternionen in der Reihenfolge des Kopfs auf einer Ebene mit Z nach oben. Mit Z nach oben exportieren, oder die Spalten auswählen.',
+    mirrored: 'die Richtungen drehen sich anders herum als die Bahn; erwartet werden Richtungen, die gegen den Uhrzeigersinn wachsen, von x nach y: die Richtungen oder y negieren, oder x und y tauschen.',
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${frames}); nur die eines davon behalten.`,
     unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird s, ms, us oder ns, m, cm oder mm, und rad oder deg.`,
     turns: (metres) => `Posen zweier Wege wechseln sich ab, ${withDecimalComma(metres, 2)} m auseinander: Sie sind von zwei Robotern, oder von zwei Knoten, die auf einem Topic senden; nur die eines davon behalten.`,
@@ -99,9 +85,7 @@ export const german: Words = {
     rows: (max) => `es sind mehr Zeilen; erwartet werden höchstens ${max}.`,
     far: (value, max, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-max} bis ${max}, in m, rad und s.`,
     setBack: (seconds, message) =>
-      `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, oder nur eine Aufzeichnung angeben.`,
-    unpadded: (time) =>
-      `in ${time} und anderen Zeiten fehlen die führenden Nullen nach dem Punkt; Sekunden und Nanosekunden in zwei Spalten schreiben, oder als %d.%09d.`,
+      `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück; dort die Datei teilen, oder ihre Zeilen nach der Zeit sortieren.`,
     sameTimes: (count, rows, message) =>
       `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation oder ein Format wie %.9e kann sie gerundet haben).`,
     few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${DROP_REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,
@@ -110,9 +94,8 @@ export const german: Words = {
     lengthUnit: (speed, unit, choices) =>
       `in ${unit} führe der Roboter ${speed.toPrecision(3)} m/s; die Einheit der Längen angeben: ${choices.join(' oder ')}.`,
     angleUnit: (turn, unit, choices) =>
-      `Richtungen in ${unit} drehten sich mit ${turn.toPrecision(3)} rad/s und passen nicht zur Bahn oder zu ihrem Bereich; ihre Einheit angeben: ${choices.join(' oder ')}.`,
-    damaged: (reason) => `keine der Nachrichten lässt sich lesen (${reason}); erwartet wird eine unbeschädigte Aufzeichnung.`,
-    incomplete: (format) => `sie ist unvollständig und endet vor ihrem ersten ganzen Block von Nachrichten; noch einmal vom Roboter kopieren, oder „${REPAIR_COMMANDS[format]}“ versuchen, wenn sie auch dort so endet.`,
+      `Richtungen in ${unit} drehten sich mit ${turn.toPrecision(3)} rad/s; ihre Einheit angeben: ${choices.join(' oder ')}.`,
+    damaged: (reason, format) => `sie ist beschädigt oder unvollständig (${reason}); noch einmal vom Roboter kopieren${format ? `, oder „${REPAIR_COMMANDS[format]}“ versuchen` : ''}.`,
     largeFile: (command, max) => `sie hat dekomprimiert mehr als ${max} Bytes; mit „${command}“ dekomprimieren und das Ergebnis angeben.`,
     noRosbag2: 'das ist eine SQLite-Datenbank ohne die Tabellen „topics“ und „messages“ von rosbag2; erwartet wird eine Aufzeichnung von „ros2 bag record“.',
     notRosbag2: 'sie steht in der metadata.yaml einer Aufzeichnung und ist keine; erwartet wird eine MCAP- oder .db3-Datei.',
@@ -127,7 +110,6 @@ export const german: Words = {
     type: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${MESSAGE_TYPES[neededType]}.`,
     encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr von ROS 2, oder ros1.`,
     types: (types) => `seine Nachrichten haben die Typen ${types}; erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
-    publishers: (nodes) => `mehrere Knoten senden abwechselnd darauf (${nodes}); erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
     message: (number, reason) => `die Nachricht ${number} lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
     frames: (knownFrames) => `zu nennen sind ein äußerer und ein innerer Frame, verbunden durch ${knownFrames || 'Transformationen, von denen es keine gibt'}.`,
     noChain: (frames, knownFrames) =>
@@ -135,16 +117,13 @@ export const german: Words = {
     constant: (frames, others) =>
       `die Transformation ${frames} ändert sich nie und ist daher keine Bahn eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
     noMessages: 'es sind weniger als 2 Nachrichten; erwartet werden mindestens 2.',
-    same: (other) => `sie hat dieselbe Bewegung wie ${other}; gebraucht werden zwei unabhängige Messungen einer Fahrt.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     ownReference: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
-    correction: (name, other, score, factor) => `${CORRECTION_TEXTS[name](other, factor)}. Damit stimmen die Bewegungen überein (Korrelation ${withDecimalComma(score, 2)}).`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; Namen wie odom1.csv, truth1.csv, odom2.csv, … sagen es, oder eine Auswahl.',
     unpaired: (odometry, reference) => `die Odometrie ist in ${odometry || 'keiner Datei'}, und die Referenz in ${reference || 'keiner Datei'}; gebraucht wird je eines für eine Fahrt.`,
     noGroup: (groups) => `es ist eine Tabelle, und keine Gruppe ihrer Spalten heißt so; sie hat ${groups}.`,
     noPoses: (series) => `es gibt nur Befehle, ${series}; eine Referenz braucht Posen.`,
-    sameDrive: (other) => `es ist die Fahrt von ${other}; gebraucht wird jede Fahrt nur einmal.`,
     noTransforms: (series) => `es gibt keine Transformationen zwischen Frames; es gibt ${series}.`,
   },
   choose: {
@@ -177,16 +156,10 @@ export const german: Words = {
     jumps: (count, first) => `${count}, der erste ${withDecimalComma(first, 2)} s nach dem Start`,
     recorded: 'die der Aufzeichnung, da die Header keine oder immer dieselben haben',
     notes: {
-      missing: (files) => `die Dateien ${files} der Aufzeichnung fehlen`,
-      damaged: (count, reason) => `${countWithNoun(count, 'beschädigter Block', 'beschädigte Blöcke')} übersprungen (${reason})`,
       cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
       noZone: 'Datumsangaben ohne Zeitzone gelten als UTC',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
-      clockSet: (time, seconds) => `${withDecimalComma(time, 2)} s nach dem Beginn springen die Zeiten um ${withDecimalComma(seconds, 2)} s, und der Roboter fährt von derselben Stelle weiter, als wäre die Uhr gestellt worden: das Log dort teilen, oder Zeiten einer anderen Uhr verwenden`,
-      rollover: (line) => `die Uhr beginnt in Zeile ${line} wieder bei 0; Zeiten ab dort setzen die vorigen fort`,
       sorted: (count) => `${countWithNoun(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
-      swapped: (odometry, by) =>
-        `${by === 'name' ? `sie heißt wie eine Odometrie, und ${odometry} nicht` : `sie wiederholt im Stand genau ihre Pose, wie die Odometrie von Rädern, und ${odometry} nicht`}: Ist die Odometrie als Referenz angegeben?`,
       apart: (name, period, otherPeriod) => `keine Zeit gemeinsam mit ${name} (${period}, und ${otherPeriod}): Die Uhren werden nach den Drehungen des Roboters gestellt`,
       localizer: 'die Schätzung eines Lokalisierers, deren Fehler der Odometrie folgen: Die Referenz muss unabhängig gemessen sein',
     },

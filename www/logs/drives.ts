@@ -3,7 +3,7 @@
 import { GOAL_NAMES, findCandidates, isTable, likeliestFrames, seriesNamesFor, roleByName, seriesNamed, readableSeries } from './candidates.ts';
 import { LogError, listNames } from './log-error.ts';
 import { ROLES, framesOption, framesText, type LogChoice, type FramePair, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
-import { isSamePath, pairLogs, matchLogs, withStart, type Drive } from './pairs.ts';
+import { pairLogs, matchLogs, withStart, type Drive } from './pairs.ts';
 
 export type { Drive };
 
@@ -195,10 +195,5 @@ export async function readDrives({ drives, unpaired }: Pick<LogPlan, 'drives' | 
   ];
   const pairedDrives = logPairs.map(([odometry, reference]) => pairLogs(odometry, reference));
   const [{ odometry: { start } }] = pairedDrives;
-  const drivesFromStart = pairedDrives.map(({ odometry, reference }) => ({ odometry: withStart(odometry, start), reference: withStart(reference, start) }));
-  for (const [i, { odometry }] of drivesFromStart.entries()) {
-    const samePathDrive = drivesFromStart.slice(0, i).find((other) => isSamePath(other.odometry, odometry));
-    if (samePathDrive) throw new LogError({ file: odometry.name }, (say) => say.sameDrive(samePathDrive.odometry.name));
-  }
-  return drivesFromStart;
+  return pairedDrives.map(({ odometry, reference }) => ({ odometry: withStart(odometry, start), reference: withStart(reference, start) }));
 }

@@ -1,6 +1,5 @@
 /** Sentences about logs, in English. */
 
-import type { Correction } from './corrections.ts';
 import type { UnitBasis, DropCause, Recording, Role, Summary } from './log.ts';
 
 /** Fields of a table, as labels and sentences name them. */
@@ -23,7 +22,6 @@ const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { ra
 
 /** Reasons for leaving rows out. */
 const DROP_REASONS = {
-  damaged: 'damaged messages',
   notFinite: 'a value that is not finite',
   noRotation: 'a quaternion that is no rotation',
   short: 'too few cells',
@@ -31,21 +29,7 @@ const DROP_REASONS = {
   noStamp: 'a stamp of 0',
   duplicate: 'the time of the row before',
   repeated: 'a pose repeated at a higher rate than it was measured',
-  stray: 'a time far from all others',
-  setBack: 'times of a clock that was set back',
   held: 'the pose stands still while the odometry moves on',
-};
-
-/** Errors of a log and their corrections, found by comparing it with the other log. */
-const CORRECTION_TEXTS: Record<Correction['name'], (other: string, factor: number) => string> = {
-  mirroredX: (other) => `its x axis is mirrored relative to its heading and to ${other}; negate x`,
-  mirroredY: (other) => `its y axis is mirrored relative to its heading and to ${other}; negate y`,
-  mirroredYaw: (other) => `its heading has the wrong sign, compared with its path and ${other}; negate it: headings increase counterclockwise`,
-  swappedAxes: () => 'its x and y are swapped; swap the two columns',
-  leftHanded: (other) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one`,
-  degrees: () => 'its headings are in degrees and were read as radians; state the unit of angles',
-  radians: () => 'its headings are in radians and were read as degrees; state the unit of angles',
-  lengths: (other, factor) => `multiplied by ${factor.toPrecision(2)}, its lengths match those of ${other}; state the unit of lengths of both`,
 };
 
 /** Formats that are recognized but not read, each with a remedy. */
@@ -97,6 +81,7 @@ export const english = {
     kitti: 'rows of 12 numbers are poses of KITTI, which have no times; add them from its times.txt with kitti_poses_and_timestamps_to_trajectory.py of evo, and give the TUM file that it writes.',
     euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
     tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or choose the columns.',
+    mirrored: 'the headings turn the other way than the path; expected are headings that grow counterclockwise, from x to y: negate the headings or y, or swap x and y.',
     mixed: (frames: string) => `the rows are of several frames, topics or robots (${frames}); keep those of one.`,
     unknownUnit: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is s, ms, us or ns, m, cm or mm, and rad or deg.`,
     turns: (metres: number) => `poses of two paths alternate, ${metres.toPrecision(2)} m apart: they are of two robots, or of two nodes that publish one topic; keep those of one.`,
@@ -106,9 +91,7 @@ export const english = {
     far: (value: number, max: number, message: number) =>
       `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-max} to ${max}, in m, rad and s.`,
     setBack: (seconds: number, message: number) =>
-      `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only.`,
-    unpadded: (time: string) =>
-      `in ${time} and other times the digits after the point lack their leading zeros; write seconds and nanoseconds in two columns, or as %d.%09d.`,
+      `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''}; split the file there, or sort its rows by time.`,
     sameTimes: (count: number, rows: number, message: number) =>
       `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet, or a format such as %.9e, may have rounded them).`,
     few: (kept: number, rows: number, reason: DropCause | undefined) =>
@@ -118,10 +101,9 @@ export const english = {
     lengthUnit: (speed: number, unit: string, choices: string[]) =>
       `in ${unit}, the robot would drive at ${speed.toPrecision(3)} m/s; state the unit of lengths: ${choices.join(' or ')}.`,
     angleUnit: (turn: number, unit: string, choices: string[]) =>
-      `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s, and do not agree with the path or with their range; state their unit: ${choices.join(' or ')}.`,
+      `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s; state their unit: ${choices.join(' or ')}.`,
     /** Errors of recordings. */
-    damaged: (reason: string) => `none of its messages can be read (${reason}); expected is an undamaged recording.`,
-    incomplete: (format: Recording['format']) => `it is incomplete and ends before its first whole block of messages; copy it again from the robot, or try “${REPAIR_COMMANDS[format]}” if it ends there too.`,
+    damaged: (reason: string, format?: Recording['format']) => `it is damaged or incomplete (${reason}); copy it again from the robot${format ? `, or try “${REPAIR_COMMANDS[format]}”` : ''}.`,
     largeFile: (command: string, max: number) => `it has more than ${max} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
     noRosbag2: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
     notRosbag2: 'it is listed in the metadata.yaml of a recording, and is none; expected is an MCAP or .db3 file.',
@@ -136,7 +118,6 @@ export const english = {
     type: (type: string, neededType: keyof typeof MESSAGE_TYPES) => `its type is “${type}”; expected is ${MESSAGE_TYPES[neededType]}.`,
     encoding: (value: string) => `its messages are encoded as “${value}”; expected is cdr of ROS 2, or ros1.`,
     types: (types: string) => `its messages have the types ${types}; expected is one: rename the topic of one node, and record again.`,
-    publishers: (nodes: string) => `several nodes publish it in turns (${nodes}); expected is one: rename the topic of one node, and record again.`,
     message: (number: number, reason: string) =>
       `message ${number} cannot be read (${reason}); expected is one of the topic's type.`,
     frames: (knownFrames: string) => `give a parent and a child frame, connected by ${knownFrames || 'transforms, of which there are none'}.`,
@@ -146,17 +127,14 @@ export const english = {
       `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
     noMessages: 'it has fewer than 2 messages; expected are at least 2.',
     /** Errors of two logs. */
-    same: (other: string) => `it has the same motion as ${other}; give two independent measurements of one drive.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
-    correction: (name: Correction['name'], other: string, score: number, factor: number) => `${CORRECTION_TEXTS[name](other, factor)}. The motions then agree (correlation ${score.toFixed(2)}).`,
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
     /** Errors of several recordings. */
     noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
     unpaired: (odometry: string, reference: string) => `the odometry is in ${odometry || 'no file'}, and the reference in ${reference || 'no file'}; give one of each for a drive.`,
     noGroup: (groups: string) => `it is a table, and no group of its columns has this name; it has ${groups}.`,
     noPoses: (series: string) => `it has commands only, ${series}; a reference needs poses.`,
-    sameDrive: (other: string) => `it is the drive of ${other}; give each drive once.`,
     noTransforms: (series: string) => `it has no transforms between frames; it has ${series}.`,
   },
   /** Choosers of what is read. */
@@ -193,16 +171,10 @@ export const english = {
     jumps: (count: number, first: number) => `${count}, the first ${first.toFixed(2)} s after the start`,
     recorded: 'when messages were recorded, as their headers have no stamps, or all the same one',
     notes: {
-      missing: (files: string) => `the files ${files} of the recording are missing`,
-      damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,
       cutShort: 'the file is incomplete: it ends in the middle of a row or record',
       noZone: 'dates without a time zone are taken as UTC',
       upAxis: (axis: string) => `${axis} is the vertical axis`,
-      clockSet: (time: number, seconds: number) => `${time.toFixed(2)} s after the start the times jump by ${seconds.toPrecision(2)} s, and the robot drives on from where it was, as if the clock had been set: cut the log there, or use times of another clock`,
-      rollover: (line: number) => `the clock begins at 0 again in line ${line}; times from there on continue those before`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
-      swapped: (odometry: string, by: 'name' | 'rest') =>
-        `${by === 'name' ? `its name is that of odometry, and ${odometry} is not` : `at rest it repeats its pose exactly, like wheel odometry, and ${odometry} does not`}: was the odometry given as the reference?`,
       apart: (name: string, period: string, otherPeriod: string) =>
         `no time in common with ${name} (${period}, and ${otherPeriod}): the clocks are aligned by the turns of the robot`,
       localizer: 'a localizer’s own estimate, whose errors follow the odometry: measure the reference independently',

@@ -45,13 +45,6 @@ const ROS2_LAYOUTS = [
   ]),
 ];
 
-/** Records of CARMEN's logs. The columns of FLASER follow the readings of the laser. */
-const CARMEN_RECORDS: [tag: string, series: string, names: string[]][] = [
-  ['ODOM', 'ODOM', ['-', 'x', 'y', 'theta', 'v', 'omega', '-', 't']],
-  ['TRUEPOS', 'TRUEPOS', ['-', 'x', 'y', 'theta', '-', '-', '-', 't']],
-  ['FLASER', 'FLASER', ['-', 'x', 'y', 'theta', '-', '-', '-', 't']],
-];
-
 /** Number of columns of rows without times: poses of KITTI, and geometry_msgs/Twist. */
 const [KITTI_WIDTH, TWIST_WIDTH] = [12, 6];
 
@@ -60,11 +53,7 @@ const NON_TABLE_PATTERNS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]
 
 /** Splits a line into cells. May return only the first `needed` cells. A separator in quotes does not count. */
 export function splitCells(line: string, separator: string, needed = Infinity): string[] {
-  if (separator === ' ') {
-    const lineWords = line.trim().split(/[ \t]+/);
-    // A FLASER record begins with the number of laser readings and the readings, which are not columns.
-    return lineWords[0] === 'FLASER' ? [lineWords[0], ...lineWords.slice(2 + Number(lineWords[1]))] : lineWords;
-  }
+  if (separator === ' ') return line.trim().split(/[ \t]+/);
   if (!line.includes('"')) {
     // A loop takes half as long as `split`.
     const plainCells: string[] = [];
@@ -120,8 +109,6 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   if (textLines.length === 0) throw new LogError({ file }, (say) => say.empty);
   const [, notation] = NON_TABLE_PATTERNS.find(([pattern]) => pattern.test(textLines[0].line)) ?? [];
   if (notation !== undefined) throw new LogError({ file }, (say) => say.noTable(notation));
-  const carmenRecords = CARMEN_RECORDS.filter(([tag]) => textLines.some(({ line }) => line.startsWith(`${tag} `)));
-  if (carmenRecords.length > 0 && textLines.every(({ line }) => /^[A-Z_0-9]+ /.test(line))) return carmenFormat(carmenRecords, filledLines[0].number);
 
   const separator = separatorOf([...textLines.slice(0, SAMPLED_LINES), ...textLines.slice(-SAMPLED_LINES)].map(({ line }) => line.trim()));
   const cells = (line: string) => splitCells(line, separator);
@@ -151,7 +138,7 @@ export function detectTableFormat(lines: string[], file: string, columns: string
     const names = withUnits(header.names, preambleLines.flatMap((text) => (text.number > number ? [cells(text.line)] : [])));
     // Rows with decimal commas between commas have more cells than the header.
     if (rowWidth > names.length) throw new LogError({ file, line: firstRowLine?.number }, (say) => say.wide(rowWidth, names.length, number));
-    const groups = columnGroups(names, rows[0]).flatMap((group) => groupsBySource(group, rows));
+    const groups = columnGroups(names, rows[0]);
     if (!firstRowLine && groups.every(({ kind }) => kind === null)) throw noLogError();
     return { ...commonFormat, names, header: lines[number - 1], groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
   }
@@ -162,15 +149,6 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   if (rowWidth === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(errorPlace, (say) => say.twists);
   const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
   throw new LogError(errorPlace, (say) => say.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
-}
-
-/** Splits a group whose rows come from several topics or robots. */
-function groupsBySource(group: Group, rows: string[][]): Group[] {
-  const { source: { at } = { at: -1 }, x, v } = group.columns;
-  // In a row of another topic the cells of this one are empty.
-  const rowsOfGroup = rows.filter((row) => row[(x ?? v)?.at ?? at]?.trim());
-  const sourceNames = [...new Set(rowsOfGroup.map((row) => row[at]?.trim() ?? ''))].filter(Boolean);
-  return sourceNames.length > 1 ? sourceNames.map((name) => ({ ...group, name: group.name ? `${name}/${group.name}` : name, source: { at, name } })) : [group];
 }
 
 const unitWithoutBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
@@ -219,12 +197,6 @@ function columnsByContent(rows: string[][]): string[] | undefined {
     const orientationIndex = names.indexOf('pose.orientation.x');
     return row.length === names.length && /^\d+$/.test(row[0].trim()) && /^\d{1,9}$/.test(row[1].trim()) && !isNumber(row[2]) && (orientationIndex < 0 || isQuaternion(orientationIndex));
   });
-}
-
-/** Returns the format of a CARMEN log, with a group for each kind of record. */
-function carmenFormat(tags: typeof CARMEN_RECORDS, firstLine: number): Format {
-  const groups = tags.flatMap(([tag, name, names]) => groupColumns(names).map((group) => ({ ...group, source: { at: 0, name: tag }, name })));
-  return { name: 'csv', separator: ' ', hasDecimalCommas: false, firstLine, names: tags.map(([tag]) => tag), groups, isSparse: false };
 }
 
 /** Returns the format of a Motive export, with a group for each rigid body. Throws a LogError for Euler angles. */

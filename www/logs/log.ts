@@ -109,17 +109,17 @@ export interface Log {
 }
 
 /** Reason for dropping a row. */
-export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'stray' | 'setBack' | 'held';
+export type DropCause = 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
 
 /** Evidence for a unit: a name, the size of the numbers, rate and speed, the format, dates, an option, or (`usage`) only that it is usual. */
 export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Notes that make the α's doubtful even if all checks pass. */
-export type Warning = Extract<Note['name'], 'localizer' | 'swapped' | 'clockSet'>;
+export type Warning = Extract<Note['name'], 'localizer'>;
 
 /** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
 export interface Note {
-  name: 'cutShort' | 'damaged' | 'missing' | 'rollover' | 'clockSet' | 'sorted' | 'noZone' | 'upAxis' | 'swapped' | 'apart' | 'localizer';
+  name: 'cutShort' | 'sorted' | 'noZone' | 'upAxis' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 

@@ -10,12 +10,6 @@ const DECIMAL_NUMBER = /^\s*([+-]?)(\d+)(?:\.(\d*))?(?:[eE]([+-]?\d{1,3}))?\s*$/
 
 const ISO_DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
 
-/** Date in German spreadsheets. Dates with slashes are not read, because the order of day and month is ambiguous. */
-const GERMAN_DATE = /^\s*(\d{1,2})\.(\d{1,2})\.(\d{4})(?=\s|$)/;
-
-/** Duration in seconds, as MATLAB prints it ("1.5 sec"). */
-const SECONDS_TEXT = /^\s*(\d+)(?:[.,](\d+))?\s*s(?:ec(?:onds?)?)?\s*$/i;
-
 /** Duration as printed by pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
 const DURATION_TEXT = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
@@ -52,7 +46,7 @@ export function parseTime(cell: string, power: number): SplitTime | undefined {
 
 /** Parses an ISO 8601 date or a duration; undefined for any other text. A date without a time zone is in UTC. */
 export function parseDate(cell: string): { time: SplitTime; hasZone: boolean } | undefined {
-  const dateMatch = ISO_DATE.exec(cell.replace(GERMAN_DATE, '$3-$2-$1'));
+  const dateMatch = ISO_DATE.exec(cell);
   if (dateMatch) {
     const [, year, month, day, hour = '0', minute = '0', second = '0', fraction = '', zone] = dateMatch;
     const [sign, hours, minutes] = /^([+-])(\d{2}):?(\d{2})?$/.exec(zone ?? '')?.slice(1) ?? ['+', '0', '0'];
@@ -60,8 +54,6 @@ export function parseDate(cell: string): { time: SplitTime; hasZone: boolean } |
     const seconds = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute), Number(second)) / 1000 - zoneOffset;
     return { time: [seconds, Number(`.${fraction}0`)], hasZone: zone !== undefined };
   }
-  const [secondsText, wholeSeconds, fractionDigits = ''] = SECONDS_TEXT.exec(cell) ?? [];
-  if (secondsText !== undefined) return { time: [Number(wholeSeconds), Number(`.${fractionDigits}0`)], hasZone: true };
   const durationMatch = DURATION_TEXT.exec(cell);
   if (!durationMatch) return undefined;
   const [days = '0', hours, minutes, seconds, fraction = ''] = durationMatch.slice(1);

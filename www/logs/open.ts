@@ -55,10 +55,10 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
     await reportSkipped(async () => {
       const { listedFiles, joinedContainer } = await import('./formats/folder.ts');
       formatByFile.delete(metadata);
-      const { name, found, missingFiles } = await listedFiles(metadata, openedSources);
-      const partContainers = Promise.all(found.map((source) => openContainer(source, formatByFile.get(source))));
-      for (const source of found) formatByFile.delete(source);
-      const container = joinedContainer(await partContainers, missingFiles);
+      const { name, files: listed } = await listedFiles(metadata, openedSources);
+      const partFormats = listed.map((source) => formatByFile.get(source));
+      for (const source of listed) formatByFile.delete(source);
+      const container = joinedContainer(await Promise.all(listed.map((source, i) => openContainer(source, partFormats[i]))));
       recordings.push(await (await import('./topics.ts')).recordingOf(name, container, optionsOf(name)));
     });
   }

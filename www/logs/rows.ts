@@ -1,9 +1,8 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
-import { max, min, range, sum } from 'd3-array';
+import { max, min, range } from 'd3-array';
 import { LogError, type ErrorPlace } from './log-error.ts';
 import type { DropCause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
-import { LATE, SET_BACK, STRAY, rowsPerPose, sortRows } from './order.ts';
 import { wrapAngle } from './path.ts';
 import { quantile, sampleEvenly } from './quantile.ts';
 import { distanceOf } from './summary.ts';
@@ -32,14 +31,11 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
-/** Number of rows of a motion. Two motions before a gap and two after it show whether the robot drove on steadily. */
-const MOTION_ROWS = 4;
+/** Maximum delay of a late row behind the rows before it, in median steps, and maximum fraction of late rows. */
+const [MAX_LATE_STEPS, MAX_LATE_FRACTION] = [20, 0.1];
 
-/** Periods (s) after which clocks wrap around: a day, a GPS week, and 2³² counts of 1 s, 1 ms or 1 µs. */
-const CLOCK_PERIODS = [86_400, 604_800, 2 ** 32, 2 ** 32 / 1e3, 2 ** 32 / 1e6];
-
-/** Minimum period of a clock that wraps around, in median steps of its times. A clock that was set back might match a shorter period by chance. */
-const MIN_PERIOD_STEPS = 500;
+/** Minimum number of different poses that show how often a table repeats each. */
+const MIN_POSES = 20;
 
 /**
  * Limits for two paths whose poses alternate: minimum distance (m) of the paths, and minimum number of steps between them. Shorter steps may
@@ -56,10 +52,13 @@ const MIN_MOVING_SPEED = 0.01;
 /** Minimum time (s) that counts as a time since 1970: in 1973. Smaller times are relative to the start of a program. */
 const MIN_EPOCH_TIME = 1e8;
 
-/** Minimum fraction of rows in the largest part of a log whose clock was set back, and of rows that do not contradict another row of their time. */
-const MIN_KEPT_FRACTION = 0.6;
+/** Maximum fraction of rows that have the time of another row and other values. */
+const MAX_CONTRADICTING_FRACTION = 0.4;
 
-/** Offsets of the numbers of a row. A time is stored as its whole seconds and, at the next offset, the fraction. */
+/**
+ * Offsets of the numbers of a row. A time is stored as its whole seconds and, at the next offset, the fraction. IS_BROKEN is 1 if the path before
+ * the row is unknown.
+ */
 const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, IS_BROKEN, ROW_WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
 
 export class Rows {
@@ -97,7 +96,7 @@ export class Rows {
    * @param b y, or omega
    * @param c heading, or 0
    * @param line or number of the message
-   * @param otherSeconds whole part of the time by the other clock, which is used if the first one is mostly 0, or never changes
+   * @param otherSeconds whole part of the time by the other clock, which is used if the first one stands still
    * @param otherRest of the time by the other clock
    */
   add(seconds: number, rest: number, a: number, b: number, c: number, line: number, otherSeconds = 0, otherRest = 0): void {
@@ -135,81 +134,34 @@ export class Rows {
    * @throws {LogError} if the remaining rows are no log, or their units are in doubt
    */
   end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
-    if (clocks[1] !== undefined) this.#sortByOtherClock();
-    const usesOtherClock = this.#chooseClock(clocks[1] !== undefined);
-    const rolloverLine = this.#continueClock();
-    const { rows, lateCount, causes, ...times } = this.#sortAndFilter(kind);
-    const brokenRows = this.#brokenRows(causes);
-    const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
+    const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
+    if (usesOtherClock) this.#clock = OTHER_SECONDS;
+    const stampedRows = this.#withoutUnsetTimes();
+    const start = min(stampedRows, (row) => this.#wholeSecond(row)) ?? 0;
+    const { sortedRows, lateCount } = this.#sort(stampedRows, start);
+    const rowsOfDistinctTime = this.#withoutEqualTimes(sortedRows, start);
+    const rows = kind === 'poses' ? this.#withoutRepeatedPoses(rowsOfDistinctTime) : rowsOfDistinctTime;
     const { count } = this;
     if (rows.length < 2) {
       const [cause, firstDrop] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
       throw new LogError(this.#placeOf(firstDrop?.first ?? 0), (say) => say.few(rows.length, count, cause));
     }
-    const columns = { ...times, a, b, c };
+    const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
+    const columns = { start, t: this.#column(rows, (row) => this.#time(row, start)), a, b, c };
     const units = judgeUnits(this.#logPlace, kind, columns, assumed, options);
-    const { start, t } = columns;
+    const { t } = columns;
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (say) => say.turns(pathDistance));
-    const { breaks, jumpRows, clockSet, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => brokenRows.has(rows[i]));
+    const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#number(rows[i], IS_BROKEN) === 1);
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
-    const notes = [
-      ...decisions.notes,
-      ...(clockSet ? [{ name: 'clockSet' as const, values: clockSet }] : []),
-      ...(rolloverLine > 0 ? [{ name: 'rollover' as const, values: [rolloverLine] }] : []),
-      ...(lateCount > 0 ? [{ name: 'sorted' as const, values: [lateCount] }] : []),
-    ];
+    const notes = [...decisions.notes, ...(lateCount > 0 ? [{ name: 'sorted' as const, values: [lateCount] }] : [])];
     const seconds = t[t.length - 1] - t[0];
     const clock = clocks[usesOtherClock ? 1 : 0] ?? '';
     const summary = {
       rows: count, used: t.length, dropped: this.#dropped, seconds, distance: distanceOf(data, jumpRows), ...foundGaps,
       ...decisions, ...(decisions.columns && { columns: { ...decisions.columns, t: clock } }), units, clock, notes,
     };
-    return { name, kind, start, data, summary };
-  }
-
-  /** Sorts the rows by the other clock, the time of recording. Blocks of a file may be out of order. */
-  #sortByOtherClock(): void {
-    const numbers = this.#numbers;
-    const compareTimes = (one: number, other: number) =>
-      this.#number(one, OTHER_SECONDS) - this.#number(other, OTHER_SECONDS) || this.#number(one, OTHER_REST) - this.#number(other, OTHER_REST);
-    let row = 1;
-    while (row < this.#addedCount && compareTimes(row - 1, row) <= 0) row += 1;
-    if (row >= this.#addedCount) return;
-    const order = this.#rows.sort(compareTimes);
-    this.#numbers = new Float64Array(numbers.length);
-    for (const [rank, from] of order.entries()) this.#numbers.set(numbers.subarray(ROW_WIDTH * from, ROW_WIDTH * (from + 1)), ROW_WIDTH * rank);
-  }
-
-  /** Switches to the other clock if the first one is mostly 0, or never changes. Returns true if it did. */
-  #chooseClock(hasOther: boolean): boolean {
-    const isFrozen = () => this.#rows.every((row) => this.#time(row, 0) === this.#time(0, 0));
-    if (!hasOther || (2 * this.#rows.filter((row) => this.#isUnset(row)).length <= this.#addedCount && !isFrozen())) return false;
-    this.#clock = OTHER_SECONDS;
-    return true;
-  }
-
-  /**
-   * Unwraps a clock that begins at 0 again after a period. Returns the line or message number of the first row after a wrap; 0 if there is
-   * none.
-   */
-  #continueClock(): number {
-    const numbers = this.#numbers;
-    const timeSteps = new Float64Array(this.#addedCount).map((_, row) => (row > 0 ? this.#time(row, this.#number(row - 1, this.#clock)) - this.#number(row - 1, this.#clock + 1) : 0));
-    const medianStep = quantile(sampleEvenly(timeSteps.length - 1, (i) => Math.abs(timeSteps[i + 1])), 0.5);
-    const periods = CLOCK_PERIODS.filter((period) => period > MIN_PERIOD_STEPS * medianStep);
-    let [passedTime, firstLine] = [0, 0];
-    for (const [row, step] of timeSteps.entries()) {
-      // A late row from before the wrap is a forward step, and subtracts the period again.
-      const period = step < 0 || passedTime > 0 ? periods.find((clockPeriod) => Math.abs(Math.abs(step) - clockPeriod) <= MIN_GAP_STEPS * medianStep) : undefined;
-      if (period) {
-        passedTime -= Math.sign(step) * period;
-        firstLine ||= this.#number(row, LINE);
-      }
-      numbers[ROW_WIDTH * row + this.#clock] += Math.floor(passedTime);
-      numbers[ROW_WIDTH * row + this.#clock + 1] += passedTime - Math.floor(passedTime);
-    }
-    return firstLine;
+    return { name, kind, start: columns.start, data, summary };
   }
 
   /** Returns the indices of all rows that were added. */
@@ -231,8 +183,15 @@ export class Rows {
     return this.#number(row, this.#clock) - start + this.#number(row, this.#clock + 1);
   }
 
-  #isUnset(row: number): boolean {
-    return this.#number(row, this.#clock) === 0 && this.#number(row, this.#clock + 1) === 0;
+  #wholeSecond(row: number): number {
+    const seconds = this.#number(row, this.#clock);
+    return Math.floor(seconds) + Math.floor(seconds - Math.floor(seconds) + this.#number(row, this.#clock + 1));
+  }
+
+  /** Returns true if most rows have the time of the row before: stamps may be 0, or always that of the start. */
+  #isClockStill(): boolean {
+    const rows = this.#rows;
+    return 2 * rows.filter((row) => row > 0 && this.#time(row, 0) === this.#time(row - 1, 0)).length > rows.length;
   }
 
   /** Checks whether two rows have the same values. */
@@ -240,74 +199,75 @@ export class Rows {
     return this.#number(one, A) === this.#number(other, A) && this.#number(one, B) === this.#number(other, B) && this.#number(one, C) === this.#number(other, C);
   }
 
-  /** Returns the kept rows in the order of their times, the number of late rows, and the causes for dropping rows. */
-  #sortAndFilter(kind: LogKind): { start: number; t: Float64Array; rows: Uint32Array; lateCount: number; causes: Map<number, DropCause> } {
-    const causes = new Map<number, DropCause>();
-    // If all other times are since 1970, a stamp of 0 was not set.
-    const rowsWithStamp = this.#rows.filter((row) => !this.#isUnset(row));
-    const isSince1970 = rowsWithStamp.every((row) => this.#number(row, this.#clock) > MIN_EPOCH_TIME);
-    const usedRows = isSince1970 ? rowsWithStamp : this.#rows;
-    const baseSecond = Math.floor(this.#number(usedRows[0], this.#clock));
-    const times = this.#column(usedRows, (row) => this.#time(row, baseSecond));
-    const { order, rowClasses, firstSetBackRow, largestPartSize } = sortRows(times, (one, other) => this.#isSame(usedRows[one], usedRows[other]));
-    if (firstSetBackRow >= 0 && largestPartSize < MIN_KEPT_FRACTION * times.length) {
-      const line = this.#number(usedRows[firstSetBackRow], LINE);
-      throw new LogError(this.#placeOf(line), (say) => say.setBack(times[firstSetBackRow - 1] - times[firstSetBackRow], this.#messageNumber(line)));
-    }
-
-    // The start is computed from the first row in time. A difference to the first row in the file might be too large to be exact.
-    const sortedRows = order.map((i) => usedRows[i]);
-    const [seconds, fraction] = [this.#clock, this.#clock + 1].map((index) => this.#number(sortedRows[0], index));
-    const start = Math.floor(seconds) + Math.floor(seconds - Math.floor(seconds) + fraction);
-    let [last, differentRows] = [-Infinity, 0];
-    let rows = sortedRows.filter((row, i) => {
-      const time = this.#time(row, start);
-      if (i === 0 || time > last) {
-        last = time;
-        return true;
-      }
-      causes.set(row, 'duplicate');
-      if (!this.#isSame(sortedRows[i - 1], row)) differentRows += 1;
-      return false;
-    });
-    if (sortedRows.length > 3 && differentRows > (1 - MIN_KEPT_FRACTION) * sortedRows.length) {
-      const line = this.#number(min(causes.keys()) as number, LINE);
-      throw new LogError(this.#placeOf(line), (say) => say.sameTimes(differentRows, sortedRows.length, this.#messageNumber(line)));
-    }
-    const timesOf = (chosen: Uint32Array) => this.#column(chosen, (row) => this.#time(row, start));
-    const rowsOfDistinctTime = rows;
-    const isRepeated = (i: number) => i > 0 && this.#isSame(rowsOfDistinctTime[i - 1], rowsOfDistinctTime[i]);
-    const repeatsPerPose = kind === 'poses' ? rowsPerPose(timesOf(rowsOfDistinctTime), isRepeated) : 1;
-    let repeatCount = 0;
-    // Every `repeatsPerPose`-th of repeated poses is kept, so that the log has the same rate while the robot stands.
-    if (repeatsPerPose > 1) {
-      rows = rowsOfDistinctTime.filter((row, i) => {
-        repeatCount = isRepeated(i) ? repeatCount + 1 : 0;
-        if (repeatCount % repeatsPerPose !== 0) causes.set(row, 'repeated');
-        return repeatCount % repeatsPerPose === 0;
-      });
-    }
-    usedRows.forEach((row, i) => {
-      if (rowClasses[i] === STRAY || rowClasses[i] === SET_BACK) causes.set(row, rowClasses[i] === STRAY ? 'stray' : 'setBack');
-    });
-    if (usedRows.length < this.#addedCount) for (const row of this.#rows) if (this.#isUnset(row)) causes.set(row, 'noStamp');
-    return { start, t: timesOf(rows), rows, lateCount: rowClasses.reduce((count, rowClass) => count + Number(rowClass === LATE), 0), causes };
+  /** Returns all rows, but those whose stamp was not set: it is 0, and all other times are since 1970. */
+  #withoutUnsetTimes(): Uint32Array {
+    const isUnset = (row: number) => this.#time(row, 0) === 0;
+    const isSince1970 = this.#rows.every((row) => isUnset(row) || this.#number(row, this.#clock) > MIN_EPOCH_TIME);
+    return isSince1970 ? this.#without(this.#rows, 'noStamp', isUnset) : this.#rows;
   }
 
-  /** Returns the rows before which the path is unknown: after unusable rows, and where the clock was set back. Counts the dropped rows. */
-  #brokenRows(causes: Map<number, DropCause>): Set<number> {
-    const rowsAfterBreak = new Set<number>();
-    let isAfterBreak = false;
-    for (let row = 0; row < this.#addedCount; row++) {
-      const cause = causes.get(row);
-      isAfterBreak ||= this.#number(row, IS_BROKEN) === 1 || cause === 'setBack';
-      if (cause) this.#countDropped(cause, this.#number(row, LINE));
-      else if (isAfterBreak) {
-        rowsAfterBreak.add(row);
-        isAfterBreak = false;
-      }
+  /** Returns the rows in the order of their times, and the number of late rows. Throws a LogError if the clock was set back. */
+  #sort(rows: Uint32Array, start: number): { sortedRows: Uint32Array; lateCount: number } {
+    const times = this.#column(rows, (row) => this.#time(row, start));
+    let newestTime = -Infinity;
+    const delays = times.map((time) => (newestTime = Math.max(newestTime, time)) - time);
+    const lateCount = delays.reduce((count, delay) => count + Number(delay > 0), 0);
+    if (lateCount === 0) return { sortedRows: rows, lateCount };
+    const medianStep = quantile(sampleEvenly(times.length - 1, (i) => Math.abs(times[i + 1] - times[i])).filter((step) => step > 0), 0.5);
+    const maxDelay = lateCount > MAX_LATE_FRACTION * rows.length ? 0 : MAX_LATE_STEPS * medianStep;
+    const firstTooLate = delays.findIndex((delay) => delay > maxDelay);
+    if (firstTooLate >= 0) {
+      const line = this.#number(rows[firstTooLate], LINE);
+      throw new LogError(this.#placeOf(line), (say) => say.setBack(delays[firstTooLate], this.#messageNumber(line)));
     }
-    return rowsAfterBreak;
+    return { sortedRows: rows.map((_, i) => i).sort((one, other) => times[one] - times[other] || one - other).map((i) => rows[i]), lateCount };
+  }
+
+  /** Returns the rows, of which only the first one of each time is kept. Throws a LogError if many rows contradict another one of their time. */
+  #withoutEqualTimes(rows: Uint32Array, start: number): Uint32Array {
+    let [lastTime, contradictions] = [-Infinity, 0];
+    const distinctRows = this.#without(rows, 'duplicate', (row, i) => {
+      const time = this.#time(row, start);
+      const isEqual = time <= lastTime;
+      if (isEqual && !this.#isSame(rows[i - 1], row)) contradictions += 1;
+      lastTime = time;
+      return isEqual;
+    });
+    if (rows.length > 3 && contradictions > MAX_CONTRADICTING_FRACTION * rows.length) {
+      const line = this.#dropped.duplicate?.first ?? 0;
+      throw new LogError(this.#placeOf(line), (say) => say.sameTimes(contradictions, rows.length, this.#messageNumber(line)));
+    }
+    return distinctRows;
+  }
+
+  /**
+   * Returns the rows, of which each pose of a moving robot is kept once: a table with topics of different rates repeats the poses of the slower
+   * ones. While the robot stands, as many rows are dropped.
+   */
+  #withoutRepeatedPoses(rows: Uint32Array): Uint32Array {
+    const isRepeated = (i: number) => i > 0 && this.#isSame(rows[i - 1], rows[i]);
+    const rowsPerPose: number[] = [];
+    for (let i = 0; i < rows.length; i++) {
+      if (isRepeated(i)) rowsPerPose[rowsPerPose.length - 1] += 1;
+      else rowsPerPose.push(1);
+    }
+    const usualRowsPerPose = rowsPerPose.length < MIN_POSES ? 1 : quantile(sampleEvenly(rowsPerPose.length, (i) => rowsPerPose[i]), 0.5);
+    if (usualRowsPerPose === 1) return rows;
+    let repeatCount = 0;
+    return this.#without(rows, 'repeated', (_, i) => {
+      repeatCount = isRepeated(i) ? repeatCount + 1 : 0;
+      return repeatCount % usualRowsPerPose !== 0;
+    });
+  }
+
+  /** Returns the rows that are not dropped. A break before a dropped row is moved to the next row. */
+  #without(rows: Uint32Array, cause: DropCause, isDropped: (row: number, i: number) => boolean): Uint32Array {
+    return rows.filter((row, i) => {
+      if (!isDropped(row, i)) return true;
+      this.#countDropped(cause, this.#number(row, LINE));
+      if (this.#number(row, IS_BROKEN) === 1 && i + 1 < rows.length) this.#numbers[ROW_WIDTH * rows[i + 1] + IS_BROKEN] = 1;
+      return false;
+    });
   }
 
   /** Returns the rate, the gaps, the jumps, and the breaks: rows before which the path is unknown. */
@@ -320,13 +280,10 @@ export class Rows {
       if (isJump(i)) jumpRows.push(i);
       if (jumpRows.at(-1) === i || isBroken(i)) breaks.push(i);
     }
-    // Several such gaps are not a clock: some localizers publish only while the robot moves.
-    const [setRow, ...moreRows] = kind === 'poses' ? gapRows.filter((i) => isSetForward(t, a, b, i, medianStep)) : [];
     return {
       rate: 1 / medianStep, breaks: Uint32Array.from(breaks), jumpRows,
       gaps: { count: gapRows.length, longest: max(gapRows, (i) => t[i] - t[i - 1]) ?? 0, first: t[gapRows[0] - 1] - t[0] },
       jumps: { count: jumpRows.length, first: t[jumpRows[0]] - t[0] },
-      clockSet: moreRows.length === 0 && setRow !== undefined && [t[setRow - 1] - t[0], t[setRow] - t[setRow - 1]],
     };
   }
 
@@ -356,18 +313,6 @@ function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): num
   const hasReturnedAfter = (rows: number) => countLongSteps(rows) < MAX_LONG_FRACTION * countLongSteps(1);
   const maxRows = Math.min(MAX_RETURN_ROWS, (MAX_RETURN_SECONDS * t.length) / (t[t.length - 1] - t[0]));
   return longStep > MIN_PATH_DISTANCE && countLongSteps(1) >= MIN_LONG_STEPS && range(2, maxRows + 1).some(hasReturnedAfter) ? longStep : 0;
-}
-
-/** Returns true if the clock was set forward in a gap: after it a robot drives on steadily from its last pose. */
-function isSetForward(t: Float64Array, x: Float64Array, y: Float64Array, i: number, medianStep: number): boolean {
-  const motion = (from: number, to: number) => [x[to] - x[from], y[to] - y[from]];
-  const motions = [i - 1 - 2 * MOTION_ROWS, i - 1 - MOTION_ROWS, i, i + MOTION_ROWS].map((from) => motion(from, from + MOTION_ROWS));
-  const motionLengths = motions.map(([dx, dy]) => Math.hypot(dx, dy));
-  const minLength = Math.min(...motionLengths);
-  const isStraight = Math.hypot(sum(motions, ([dx]) => dx), sum(motions, ([, dy]) => dy)) > 0.95 * sum(motionLengths);
-  const isSteady = minLength > 0.7 * Math.max(...motionLengths);
-  // After delayed messages, the next rows would follow in quick succession.
-  return isStraight && isSteady && MOTION_ROWS * Math.hypot(...motion(i - 1, i)) < 2 * minLength && t[i + MOTION_ROWS] - t[i] > 0.5 * MOTION_ROWS * medianStep;
 }
 
 /** Returns a function that checks for a jump between a row and the one before it. */

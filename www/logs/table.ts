@@ -17,7 +17,7 @@ const BLOCK_BYTES = 2 ** 22;
 /** Number of first bytes, with a preamble and some rows, from which the format is detected. */
 const HEAD_BYTES = 2 ** 18;
 
-/** Number of first characters that must not contain a NUL. Later NULs are a block that was never written to disk. */
+/** Number of first characters that must not contain a NUL. */
 const CHECKED_CHARACTERS = 4096;
 
 /** Maximum number of characters of a line. A row of a thousand columns is shorter. */
@@ -26,28 +26,22 @@ const MAX_LINE_LENGTH = 2 ** 16;
 /** Maximum fraction of damaged rows. Above it, the log is refused. */
 const MAX_DAMAGED_FRACTION = 0.1;
 
-/** Minimum number of short fractions ending in 0 from which fractions count as nanoseconds without leading zeros. */
-const MIN_UNPADDED_TIMES = 5;
-
 type ErrorReason = ConstructorParameters<typeof LogError>[1];
 
-/** Maximum number of frames that a sentence lists. */
-const MAX_LISTED_FRAMES = 4;
+/** Maximum number of names of frames, topics or robots that a sentence lists. */
+const MAX_LISTED_NAMES = 4;
 
-/** Maximum spread of the cosine of the tilt. Above it, the assumed vertical axis is wrong. */
+/** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
 const MAX_TILT_SPREAD = 0.5;
 
 /** Opens a table; rejects with a LogError. */
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
   const encoding = await detectEncoding(source);
-  const headText = collapseNuls(new TextDecoder(encoding).decode(await readBytes(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true }));
+  const headText = new TextDecoder(encoding).decode(await readBytes(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true });
   if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
-  const lineEnd = lineEndOf(headText);
-  const headLines = headText.split(lineEnd);
+  const headLines = headText.split('\n');
   // The last line may be incomplete. It is dropped unless it is the only one.
   if (source.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
-  const longLineIndex = headLines.findIndex((line) => line.length > MAX_LINE_LENGTH);
-  if (longLineIndex >= 0) throw new LogError({ file: source.name, line: longLineIndex + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
   const format = detectTableFormat(headLines, source.name, options.columns);
   const readableGroups = format.groups.filter(({ kind }) => kind !== null);
   const headerPlace = { file: source.name, line: Math.max(1, format.firstLine - 1) };
@@ -74,11 +68,11 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
         return format.hasUnknownAxis ? [readerOf(withYAxisUp(chosenGroup), 'Y'), readerOf(chosenGroup, 'Z')] : [readerOf(chosenGroup)];
       });
       const allReaders = readersOfChoices.flat();
-      await readLines(source, encoding, lineEnd, format.firstLine, onProgress, (line, number, isUnterminated) => {
+      await readLines(source, encoding, format.firstLine, onProgress, (line, number, isUnterminated) => {
         for (const reader of allReaders) reader.addLine(line, number, isUnterminated);
       });
-      // The vertical axis is the one about which the robot turns, and along which it hardly moves.
-      return readersOfChoices.map((readers) => (least(readers.filter(({ isTilted }) => !isTilted), ({ heightSpread }) => heightSpread) ?? readers[0]).end());
+      // The vertical axis is the one about which the robot turns.
+      return readersOfChoices.map((readers) => (least(readers, ({ tiltSpread }) => tiltSpread) as LogReader).end());
     },
   };
 }
@@ -99,14 +93,8 @@ async function detectEncoding(source: Source): Promise<string> {
   }
 }
 
-/** Replaces each block of NULs by a single one, which makes its row damaged. A file has such a block after a loss of power. */
-const collapseNuls = (text: string) => (text.includes('\0') ? text.replaceAll(/\0+/g, '\0') : text);
-
-/** Returns the character that ends lines: a line feed, or in files of old spreadsheets a carriage return. */
-const lineEndOf = (text: string) => (text.includes('\n') || !text.includes('\r') ? '\n' : '\r');
-
 /** Calls `addLine` for each line from number `from` on. `isUnterminated` is true for text after the last line feed: the file may be cut off there. */
-async function readLines(source: Source, encoding: string, end: string, from: number, onProgress: ((share: number) => void) | undefined, addLine: (line: string, number: number, isUnterminated: boolean) => void) {
+async function readLines(source: Source, encoding: string, from: number, onProgress: ((share: number) => void) | undefined, addLine: (line: string, number: number, isUnterminated: boolean) => void) {
   const decoder = new TextDecoder(encoding);
   let [incompleteLine, number] = ['', 0];
   const passLine = (line: string, isUnterminated: boolean) => {
@@ -115,8 +103,8 @@ async function readLines(source: Source, encoding: string, end: string, from: nu
   };
   for (let at = 0; at < source.size; at += BLOCK_BYTES) {
     onProgress?.(at / source.size);
-    const text = incompleteLine + collapseNuls(decoder.decode(await readBytes(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true }));
-    const lines = text.split(end);
+    const text = incompleteLine + decoder.decode(await readBytes(source, at, Math.min(at + BLOCK_BYTES, source.size)), { stream: true });
+    const lines = text.split('\n');
     incompleteLine = lines.pop() ?? '';
     for (const line of lines) passLine(line, false);
     if (incompleteLine.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
@@ -139,12 +127,6 @@ class ClockReader {
   by: Summary['units']['time']['by'];
   /** False for dates without a time zone. */
   hasZone = true;
-  /** True if a fraction of a second begins with 0. */
-  #hasLeadingZero = false;
-  /** Number of digits of the longest fraction. */
-  #maxDigits = 0;
-  /** Examples of times whose fractions end in 0, by the number of digits of the fraction. */
-  #endingInZero = new Map<number, string[]>();
 
   /** @param textOf returns the text of a cell with a decimal point */
   constructor(clock: Clock, stated: TimeUnit | undefined, textOf: (cell: string) => string) {
@@ -176,29 +158,7 @@ class ClockReader {
         if (epochTimeUnitOf(timeNumber)) this.by = 'size';
       }
     }
-    this.#noteFraction(text);
     return parseTime(text, UNIT_EXPONENTS[this.unit ?? 's']);
-  }
-
-  #noteFraction(text: string): void {
-    const pointIndex = text.indexOf('.');
-    const digitCount = text.length - pointIndex - 1;
-    if (pointIndex < 0 || digitCount < 2) return;
-    this.#maxDigits = Math.max(this.#maxDigits, digitCount);
-    if (text[pointIndex + 1] === '0') this.#hasLeadingZero = true;
-    if (!text.endsWith('0')) return;
-    const timesWithSameDigits = this.#endingInZero.get(digitCount) ?? [];
-    if (timesWithSameDigits.length === 0) this.#endingInZero.set(digitCount, timesWithSameDigits);
-    if (timesWithSameDigits.length < MIN_UNPADDED_TIMES) timesWithSameDigits.push(text);
-  }
-
-  /**
-   * Example of a time whose nanoseconds were written after the point without leading zeros ("5.70" for 5 s and 70 ns); undefined if there is
-   * none. Its evidence is short fractions that end in 0. A program that drops trailing zeros would not write them.
-   */
-  get unpaddedTime(): string | undefined {
-    if (this.#hasLeadingZero) return undefined;
-    return [...this.#endingInZero].find(([digits, { length }]) => digits < this.#maxDigits && length === MIN_UNPADDED_TIMES)?.[1][0];
   }
 }
 
@@ -207,7 +167,6 @@ class LogReader {
   #name: string;
   #place: ErrorPlace;
   #format: Format;
-  #group: Group;
   #layout: Layout;
   #options: OpenOptions;
   /** Vertical axis, if the format does not define it. */
@@ -221,35 +180,33 @@ class LogReader {
   /** Number of damaged rows, and the line and the reason of the first. */
   #damagedRows = 0;
   #firstDamaged: [number, ErrorReason] | undefined;
-  #frames = new Set<string>();
-  /** Cosines of the robot's tilt. They are near 1 if it drives on a plane. */
+  /** Columns that name the frames, topic or robot of a row, and names in them. */
+  #nameColumns: { at: number }[];
+  #rowNames = new Set<string>();
+  /** Cosines of the robot's tilt against the assumed vertical axis. */
   #tiltCosines: number[] = [];
-  #robotHeights: number[] = [];
 
   constructor(name: string, file: string, format: Format, group: Group, layout: Layout, options: OpenOptions, upAxis?: 'Y' | 'Z') {
     this.#name = name;
     this.#place = { file };
     this.#format = format;
-    this.#group = group;
     this.#layout = layout;
     this.#options = options;
     this.#upAxis = upAxis;
     this.#rows = new Rows(this.#place);
     this.#textOf = format.hasDecimalCommas ? withDecimalPoint : (cell) => cell;
     this.#clocks = layout.clocks.map((clock, i) => new ClockReader(clock, i === 0 ? options.timeUnit : undefined, this.#textOf));
-    const { z, frame, child, source } = group.columns;
-    const neededColumns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...[upAxis && z, frame, child, source].filter((column) => column !== undefined)];
+    const { frame, child, source } = group.columns;
+    this.#nameColumns = [source, frame, child].filter((column) => column !== undefined);
+    const neededColumns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...this.#nameColumns];
     this.#neededCells = Math.max(...neededColumns.map(({ at }) => at)) + 1;
   }
 
   addLine(line: string, number: number, isUnterminated: boolean): void {
-    if (line.length > MAX_LINE_LENGTH) this.#refuse(number, (say) => say.longLine(MAX_LINE_LENGTH));
     const { separator, isSparse, header } = this.#format;
-    const { source } = this.#group;
     if (/^\s*(?:[#%]|$)/.test(line)) return;
     if (line === header) return this.#rows.drop('text', number);
     const cells = splitCells(line, separator, this.#neededCells);
-    if (source && cells[source.at]?.trim() !== source.name) return;
     if (cells.length < this.#neededCells) {
       if (!isUnterminated) return this.#dropDamaged('short', number, (say) => say.cells(cells.length, this.#neededCells));
       this.#notes.push({ name: 'cutShort', values: [] });
@@ -274,15 +231,13 @@ class LogReader {
       if (value === undefined) return this.#dropText(line, name, cells[at]);
       values.push(value);
     }
-    const { frame, child = this.#group.columns.source, z } = this.#group.columns;
-    if ((frame || child) && this.#frames.size <= MAX_LISTED_FRAMES) this.#frames.add([frame, child].flatMap((column) => (column ? [cells[column.at].trim()] : [])).join(' to '));
+    if (this.#nameColumns.length > 0 && this.#rowNames.size <= MAX_LISTED_NAMES) this.#rowNames.add(this.#nameColumns.map(({ at }) => cells[at].trim()).join(' to '));
     const [x, y] = values;
     let heading = values[2] ?? 0;
     if (fields.at(-1) === 'qw') {
       const [qx, qy, qz, qw] = fields.length === 6 ? values.slice(2) : [0, 0, ...values.slice(2)];
       if (!isRotation(qx, qy, qz, qw)) return this.#rows.drop('noRotation', line);
       this.#tiltCosines.push(1 - 2 * (qx * qx + qy * qy));
-      if (this.#upAxis && z) this.#robotHeights.push(parseNumber(this.#textOf(cells[z.at])) ?? NaN);
       heading = headingOf(qx, qy, qz, qw);
     }
     const [[seconds, fraction], [otherSeconds, otherFraction] = [0, 0]] = times;
@@ -300,14 +255,10 @@ class LogReader {
     this.#dropDamaged('text', line, (say) => say.number(truncate(name), truncate(cell.trim())));
   }
 
-  /** Returns true if the robot does not drive on a plane. */
-  get isTilted(): boolean {
-    return quantileSpread(this.#tiltCosines) > MAX_TILT_SPREAD;
-  }
-
-  /** Spread of the robot's heights. It is small along the vertical axis. */
-  get heightSpread(): number {
-    return quantileSpread(this.#robotHeights);
+  /** Difference of the 95 % and the 5 % quantile of the cosine of the tilt. It is small if the assumed vertical axis is right. */
+  get tiltSpread(): number {
+    const [low, high] = [0.05, 0.95].map((fraction) => quantile(sampleEvenly(this.#tiltCosines.length, (i) => this.#tiltCosines[i]), fraction));
+    return high - low || 0;
   }
 
   end(): Log {
@@ -317,10 +268,8 @@ class LogReader {
       const [line, reason] = this.#firstDamaged;
       this.#refuse(line, (say) => [reason(say), ...(this.#damagedRows > 1 && this.#damagedRows < this.#rows.count ? [say.manyBad(this.#damagedRows, this.#rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])].join(' '));
     }
-    if (this.#frames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listNames([...this.#frames])));
-    const { unpaddedTime } = this.#clocks[0];
-    if (unpaddedTime !== undefined) throw new LogError(this.#place, (say) => say.unpadded(truncate(unpaddedTime)));
-    if (this.isTilted) throw new LogError(this.#place, (say) => say.tilted, { what: 'columns', choices: [], columns: this.#format.names });
+    if (this.#rowNames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listNames([...this.#rowNames])));
+    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#place, (say) => say.tilted, { what: 'columns', choices: [], columns: this.#format.names });
     if (this.#upAxis) this.#notes.push({ name: 'upAxis', values: [this.#upAxis] });
     const [{ unit = 's', by, hasZone }] = this.#clocks;
     if (!(unit in UNIT_EXPONENTS)) throw new LogError(this.#place, (say) => say.unknownUnit(truncate(unit)));
@@ -345,9 +294,3 @@ class LogReader {
 
 /** Replaces a decimal comma by a point. A cell that also has a point is ambiguous, and is made invalid by a question mark. */
 const withDecimalPoint = (cell: string) => (cell.includes('.') && !cell.includes(':') && /^\s*[+-]?[\d.]+,?\d*\s*$/.test(cell) ? `${cell}?` : cell.replace(',', '.'));
-
-/** Returns the difference of the 95 % and the 5 % quantile. */
-const quantileSpread = (values: number[]) => {
-  const sampledValues = sampleEvenly(values.length, (i) => values[i]).filter(Number.isFinite);
-  return quantile(sampledValues, 0.95) - quantile(sampledValues, 0.05);
-};

@@ -5,25 +5,18 @@ import { Chain, FrameTree } from './frames.ts';
 import { LogError, truncate, listNames, reasonOf, type Words } from './log-error.ts';
 import { LOG_TIME, framesOption, framesText, type LogChoice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
 import { readTransforms, isReadable, logKindOfType, poseReader, type Sample } from './messages.ts';
-import { MAX_VALUE, Rows } from './rows.ts';
+import { Rows } from './rows.ts';
 
 /** Maximum number of messages with transforms that are read to find the frames. */
 const MAX_FRAME_MESSAGES = 2000;
-
-/**
- * Maximum number of returns to an earlier publisher of a topic. More returns mean that two nodes publish at the same time. A restarted node
- * counts as a new publisher.
- */
-const MAX_ALTERNATIONS = 2;
 
 /** Returns true for a topic of static transforms. */
 const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => logKindOfType(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
 /** Returns a recording whose logs are read from the messages of a container. */
 export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
-  const { format, isCutShort, damage, channels } = container;
-  const [reason] = damage.values();
-  if (channels.every(({ count }) => count === 0)) throw new LogError({ file: name }, (say) => (reason ? say.damaged(reason) : isCutShort ? say.incomplete(format) : say.noMessages));
+  const { format, cutReason, channels } = container;
+  if (channels.every(({ count }) => count === 0)) throw new LogError({ file: name }, (say) => (cutReason ? say.damaged(cutReason, format) : say.noMessages));
   const series = await listSeries(container);
   return { name, format, series, read };
 
@@ -80,16 +73,7 @@ class TopicReader {
   #chain: Chain | undefined;
   /** Number of messages so far. */
   #messageCount = 0;
-  /** Number of unreadable messages, and the reason why the first one is unreadable. */
-  #damagedCount = 0;
-  #reason = '';
   #readers = new Map<Channel, (message: Message) => void>();
-  /** Nodes in the order of their first messages. */
-  #publishers: string[] = [];
-  /** Node of the latest message. */
-  #publisher = '';
-  /** Number of times that a node published again after another one. */
-  #alternations = 0;
 
   constructor(file: string, container: Container, choice: LogChoice, series: Series[]) {
     this.#file = file;
@@ -137,12 +121,9 @@ class TopicReader {
       readMessage(message);
     } catch (error) {
       if (error instanceof LogError) throw error;
-      return this.#drop(this.#messageCount, reasonOf(error));
+      const number = this.#messageCount;
+      this.#refuse((say) => say.message(number, reasonOf(error)));
     }
-    if (channel.publisher === this.#publisher || this.#chain) return;
-    this.#publisher = channel.publisher;
-    if (this.#publishers.includes(channel.publisher)) this.#alternations += 1;
-    else this.#publishers.push(channel.publisher);
   }
 
   #readerOf(channel: Channel): (message: Message) => void {
@@ -158,33 +139,17 @@ class TopicReader {
   }
 
   #add({ seconds, nanoseconds, a, b, c, isRotation }: Sample, recorded: Pick<Message, 'seconds' | 'nanoseconds'>, number: number): void {
-    if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) return this.#drop(number, 'a value is out of range');
     if (!isRotation) return this.#rows.drop('noRotation', number);
     this.#rows.add(seconds, nanoseconds / 1e9, a, b, c, number, recorded.seconds, recorded.nanoseconds / 1e9);
-  }
-
-  /** Drops a damaged message. */
-  #drop(number: number, reason: string): void {
-    this.#damagedCount += 1;
-    this.#reason ||= reason;
-    this.#rows.drop('damaged', number);
   }
 
   /** Returns the log; throws a LogError if the messages do not form a log. */
   end(options: OpenOptions): Log {
     const { series, frames } = this.#choice;
-    const { damage, isCutShort, missingFiles } = this.#container;
-    const [reason] = damage.values();
-    if (this.#messageCount === 0) this.#refuse((say) => (reason ? say.damaged(reason) : say.noMessages));
-    if (this.#alternations > MAX_ALTERNATIONS) this.#refuse((say) => say.publishers(listNames(this.#publishers)));
+    if (this.#messageCount === 0) this.#refuse((say) => say.noMessages);
     if (this.#chain) this.#addPoses(this.#chain);
-    if (this.#damagedCount === this.#messageCount) this.#refuse((say) => say.message(1, this.#reason));
     const kind = this.#kind === 'commands' ? 'commands' : 'poses';
-    const notes: Note[] = [
-      ...(missingFiles.length ? [{ name: 'missing' as const, values: [listNames(missingFiles)] }] : []),
-      ...(damage.size ? [{ name: 'damaged' as const, values: [damage.size, reason] }] : []),
-      ...(isCutShort ? [{ name: 'cutShort' as const, values: [] }] : []),
-    ];
+    const notes: Note[] = this.#container.cutReason ? [{ name: 'cutShort', values: [] }] : [];
     return this.#rows.end(`${this.#file}, ${series}${frames ? ` (${framesText(frames)})` : ''}`, kind, {
       units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: kind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
       clocks: ['header.stamp', LOG_TIME],
@@ -195,7 +160,6 @@ class TopicReader {
 
   #addPoses(chain: Chain): void {
     const frames = this.#choice.frames as NonNullable<LogChoice['frames']>;
-    if (this.#damagedCount === this.#messageCount) return;
     if (!chain.isConnected) this.#refuse((say) => say.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
     const hasChanged = chain.poses((pose, { message, number }) => this.#add(pose, message, number));
     if (!hasChanged) this.#refuse((say) => say.constant(framesText(frames), listNames(chain.tree.findPoseFrames().map(framesText))));

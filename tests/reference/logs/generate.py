@@ -115,18 +115,17 @@ class Messages:
 ROS1, ROS2 = Messages(get_typestore(Stores.ROS1_NOETIC)), Messages(get_typestore(Stores.ROS2_HUMBLE))
 
 
-def bag(path, messages, compression=None, nodes=('/base',)):
+def bag(path, messages, compression=None):
     writer = Bag(path)
     writer.chunk_threshold = 16384
     if compression:
         writer.set_compression(compression)
     with writer:
         connections = {}
-        for i, (topic, kind, message, time) in enumerate(messages):
-            node = nodes[i // 2 % len(nodes)]
-            if (topic, node) not in connections:
-                connections[topic, node] = writer.add_connection(topic, kind, typestore=ROS1.store, callerid=node)
-            writer.write(connections[topic, node], time, ROS1.store.serialize_ros1(message, kind))
+        for topic, kind, message, time in messages:
+            if topic not in connections:
+                connections[topic] = writer.add_connection(topic, kind, typestore=ROS1.store, callerid='/base')
+            writer.write(connections[topic], time, ROS1.store.serialize_ros1(message, kind))
 
 
 def rosbag2(path, messages, storage, mode=None):
@@ -238,7 +237,6 @@ with tempfile.TemporaryDirectory() as folder:
     for name, compression in (('none', None), ('bz2', Bag.CompressionFormat.BZ2), ('lz4', Bag.CompressionFormat.LZ4)):
         bag(WORK / f'{name}.bag', ROS1.logs(), compression)
     bag(WORK / 'types.bag', ROS1.others())
-    bag(WORK / 'nodes.bag', ROS1.logs(), None, ('/base', '/simulator'))
     small_bag(WORK / 'small.bag')
     small_database(WORK / 'small.db3')
     rosbag2(WORK / 'sqlite', ROS2.logs(), StoragePlugin.SQLITE3)

@@ -10,8 +10,6 @@ export interface Channel {
   type: string;
   /** Serialization: "cdr" of ROS 2, "ros1", or another. */
   encoding: string;
-  /** Name of the node, or a number that the container assigns. */
-  publisher: string;
   /** Number of messages. */
   count: number;
 }
@@ -34,21 +32,19 @@ export type OnMessage = (message: Message) => void;
 export interface Container {
   format: Recording['format'];
   channels: Channel[];
-  /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
-  damage: Map<number, string>;
-  /** True if the end of the file is missing. */
-  isCutShort: boolean;
-  /** Names of missing split files of the recording. */
-  missingFiles: string[];
-  /** Passes on the messages of channels, block by block. Stops after a block if `onProgress` returns true. */
+  /** Reason why the end of the file cannot be read; undefined for a complete file. */
+  cutReason: string | undefined;
+  /**
+   * Passes on the messages of channels, block by block. Stops after a block if `onProgress` returns true. Rejects with a LogError if a block is
+   * damaged, unless it is at the end of a file that was not closed.
+   */
   read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void>;
 }
 
 /** Base class of files of messages, with their channels by id. */
 export abstract class MessageFile<Id> {
-  readonly damage = new Map<number, string>();
-  readonly missingFiles = [];
-  isCutShort = false;
+  abstract readonly format: Recording['format'];
+  cutReason: string | undefined;
   protected readonly source: Source;
   protected readonly channelsById = new Map<Id, Channel>();
 
@@ -60,56 +56,35 @@ export abstract class MessageFile<Id> {
     return [...this.channelsById.values()];
   }
 
-  /** Notes the damage of a block. Throws the error again if the file itself cannot be read. */
-  protected noteDamage(position: number, error: unknown): void {
+  /** Returns the error of a damaged block. An error of reading the file itself stays. */
+  protected damagedError(error: unknown): LogError {
+    return error instanceof LogError ? error : new LogError({ file: this.source.name }, (say) => say.damaged(reasonOf(error), this.format));
+  }
+
+  /** Notes the damage at which a file ends that was not closed. An error of reading the file itself is thrown again. */
+  protected noteEnd(error: unknown): void {
     if (error instanceof LogError) throw error;
-    this.damage.set(position, reasonOf(error));
+    this.cutReason = reasonOf(error);
   }
 }
 
 /** Maximum size of a block in bytes. Recorders write one to four million. */
 export const MAX_BLOCK_BYTES = 2 ** 26;
 
-/** Size of the pieces that are read at once, and number of pieces that are read in advance. */
-const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
+/** Size of the pieces that are read at once, bytes. */
+const PIECE_BYTES = 2 ** 22;
 
-/**
- * Returns a function that reads bytes of a source. Positions must increase from call to call. During sequential reads the next pieces are
- * requested in advance.
- */
-export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
-  const pieces = new Map<number, Uint8Array | Promise<Uint8Array>>();
-  let lastPiece = -1;
-  const requestPiece = (i: number) => {
-    if (pieces.has(i) || i * PIECE_BYTES >= source.size) return;
-    const bytes = readBytes(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
-    pieces.set(i, bytes);
-    // An error of reading is reported only when the piece is needed.
-    bytes.then((read) => pieces.has(i) && pieces.set(i, read), () => {});
-  };
+/** Returns a function that reads bytes of a source in pieces. Most positions must increase from call to call. */
+export function readInPieces(source: Source): (from: number, to: number) => Promise<Uint8Array> {
+  let piece = new Uint8Array();
+  let pieceStart = 0;
   return async (from, to) => {
-    const firstPiece = Math.floor(from / PIECE_BYTES);
-    const piecesAhead = firstPiece <= lastPiece + 1 ? PIECES_AHEAD : 0;
-    lastPiece = Math.max(firstPiece, Math.floor((to - 1) / PIECE_BYTES));
-    for (const i of pieces.keys()) if (i < firstPiece) pieces.delete(i);
-    for (let i = firstPiece; i <= lastPiece + piecesAhead; i++) requestPiece(i);
-    let bytes: Uint8Array = new Uint8Array();
-    for (let i = firstPiece; i <= lastPiece; i++) {
-      const piece = pieces.get(i) ?? bytes;
-      const pieceStart = i * PIECE_BYTES;
-      // Awaiting a piece that has already been read would take longer than reading a record.
-      const pieceBytes = (piece instanceof Uint8Array ? piece : await piece).subarray(Math.max(from - pieceStart, 0), to - pieceStart);
-      bytes = i === firstPiece ? pieceBytes : joinBytes(bytes, pieceBytes);
+    if (from < pieceStart || to > pieceStart + piece.length) {
+      piece = await readBytes(source, from, Math.min(Math.max(to, from + PIECE_BYTES), source.size));
+      pieceStart = from;
     }
-    return bytes;
+    return piece.subarray(from - pieceStart, to - pieceStart);
   };
-}
-
-function joinBytes(first: Uint8Array, second: Uint8Array): Uint8Array {
-  const bytes = new Uint8Array(first.length + second.length);
-  bytes.set(first);
-  bytes.set(second, first.length);
-  return bytes;
 }
 
 export const dataViewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);

@@ -3,7 +3,7 @@
 import { load } from 'js-yaml';
 import { LogError, readBytes, listNames, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import type { Channel, Container, Message } from './container.ts';
+import type { Container } from './container.ts';
 
 /** Maximum size of a metadata.yaml, bytes. */
 const MAX_METADATA_BYTES = 2 ** 24;
@@ -12,8 +12,7 @@ const MAX_METADATA_BYTES = 2 ** 24;
 interface Folder {
   name: string;
   /** Files in the order of recording. */
-  found: Source[];
-  missingFiles: string[];
+  files: Source[];
 }
 
 const folderOf = ({ path = '' }: Source) => path.replace(/[^/]*$/, '');
@@ -34,26 +33,21 @@ export async function listedFiles(metadata: Source, sources: Source[]): Promise<
   const filesInFolder = sources.filter((source) => folderOf(source) === folderOf(metadata));
   // A decompressed file has no ".zstd" at the end of its name.
   const files = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
-  const foundFiles = files.filter((file) => file !== undefined);
   const missingNames = fileNames.filter((_, i) => !files[i]);
-  if (foundFiles.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listNames(fileNames)));
+  if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listNames(missingNames)));
   const folder = baseName(folderOf(metadata).replace(/\/$/, ''));
-  return { name: folder || foundFiles[0].name, found: foundFiles, missingFiles: missingNames };
+  return { name: folder || fileNames[0], files: files as Source[] };
 }
 
 /** Returns a container with the messages of several containers, one after the other. */
-export function joinedContainer(parts: Container[], missingFiles: string[]): Container {
+export function joinedContainer(parts: Container[]): Container {
   return {
     format: parts[0].format,
     channels: parts.flatMap(({ channels }) => channels),
-    missingFiles,
-    get damage() {
-      return new Map(parts.flatMap(({ damage }, i) => [...damage].map(([position, reason]) => [2 ** 48 * i + position, reason])));
+    get cutReason() {
+      return parts.find(({ cutReason }) => cutReason)?.cutReason;
     },
-    get isCutShort() {
-      return parts.some(({ isCutShort }) => isCutShort);
-    },
-    async read(isWanted: (channel: Channel) => boolean, onMessage: (message: Message) => void, onProgress?: (share: number) => boolean | void) {
+    async read(isWanted, onMessage, onProgress) {
       for (const [i, part] of parts.entries()) {
         let isStopped = false;
         await part.read(isWanted, onMessage, (share) => (isStopped = onProgress?.((i + share) / parts.length) === true));

@@ -4,7 +4,7 @@ import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, stampAt, uint53, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readInPieces, stampAt, uint53, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
@@ -15,7 +15,7 @@ const RECORD_HEAD_BYTES = 9;
 /** Number of bytes before the first record. */
 const MAGIC_BYTES = 8;
 
-/** Opens a recording by its index. Without an index it is read from its start up to its end or damage. */
+/** Opens a recording by its index. Without an index it is read from its start up to its end, or to damage. */
 export async function openMcap(source: Source): Promise<Container> {
   await loadZstd();
   const size = BigInt(source.size);
@@ -50,58 +50,54 @@ class Mcap extends MessageFile<number> implements Container {
     for (const channel of channelsById.values()) this.#addChannel(channel, Number(statistics?.channelMessageCounts.get(channel.id) ?? 0));
   }
 
-  #addChannel({ id, topic, schemaId, messageEncoding, metadata }: McapIndexedReader['channelsById'] extends ReadonlyMap<number, infer C> ? C : never, count = 0): void {
-    const publisher = metadata.get('callerid') ?? `${id}`;
-    if (!this.channelsById.has(id)) this.channelsById.set(id, { topic, type: this.#types.get(schemaId) ?? '', encoding: messageEncoding, publisher, count });
+  #addChannel({ id, topic, schemaId, messageEncoding }: McapIndexedReader['channelsById'] extends ReadonlyMap<number, infer C> ? C : never, count = 0): void {
+    if (!this.channelsById.has(id)) this.channelsById.set(id, { topic, type: this.#types.get(schemaId) ?? '', encoding: messageEncoding, count });
   }
 
   async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     if (!this.#chunks) return this.#readFromStart(isWanted, onMessage, onProgress);
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wantedIds.has(id)));
-    const readBytesAt = readAhead(this.source);
+    const readBytesAt = readInPieces(this.source);
     for (const [i, { chunkStartOffset, chunkLength }] of wantedChunks.entries()) {
       const from = Number(chunkStartOffset);
-      await this.#skipIfDamaged(from, async () => {
+      try {
         if (chunkLength > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${chunkLength} bytes`);
         const bytes = await readBytesAt(from, from + Number(chunkLength));
         if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
         this.#readRecords(await recordsOf(bytes.subarray(RECORD_HEAD_BYTES)), isWanted, onMessage);
-      });
+      } catch (error) {
+        throw this.damagedError(error);
+      }
       if (onProgress?.((i + 1) / wantedChunks.length)) return;
     }
   }
 
   async #readFromStart(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.source;
-    const readBytesAt = readAhead(this.source);
-    this.isCutShort = true;
-    for (let at = MAGIC_BYTES, nextReport = 0; at + RECORD_HEAD_BYTES <= size; ) {
-      const recordHead = await readBytesAt(at, at + RECORD_HEAD_BYTES);
-      const recordLength = uint53(dataViewOf(recordHead), 1);
-      const nextRecord = at + RECORD_HEAD_BYTES + recordLength;
-      if (nextRecord > size) return;
-      if (recordHead[0] === DATA_END) {
-        this.isCutShort = false;
-        return;
-      }
-      if ([SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(recordHead[0])) {
-        await this.#skipIfDamaged(at, async () => {
+    const readBytesAt = readInPieces(this.source);
+    this.cutReason = undefined;
+    try {
+      for (let at = MAGIC_BYTES, nextReport = 0; ; ) {
+        if (at + RECORD_HEAD_BYTES > size) throw new RangeError('it ends without an index');
+        const recordHead = await readBytesAt(at, at + RECORD_HEAD_BYTES);
+        const recordLength = uint53(dataViewOf(recordHead), 1);
+        const nextRecord = at + RECORD_HEAD_BYTES + recordLength;
+        if (recordHead[0] === DATA_END) return;
+        if (nextRecord > size) throw new RangeError('a record is cut short');
+        if ([SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(recordHead[0])) {
           if (recordLength > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${recordLength} bytes`);
           const record = await readBytesAt(at, nextRecord);
           this.#readRecords(recordHead[0] === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
-        });
+        }
+        at = nextRecord;
+        if (at < nextReport) continue;
+        if (onProgress?.(at / size)) return;
+        nextReport = at + size / 100;
       }
-      at = nextRecord;
-      if (at < nextReport) continue;
-      if (onProgress?.(at / size)) return;
-      nextReport = at + size / 100;
+    } catch (error) {
+      this.noteEnd(error);
     }
-  }
-
-  /** Runs work on a block. Damage is recorded, and the rest of the block is skipped. */
-  async #skipIfDamaged(position: number, work: () => Promise<void>): Promise<void> {
-    await work().catch((error) => this.noteDamage(position, error));
   }
 
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {

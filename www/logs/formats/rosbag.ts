@@ -2,7 +2,7 @@
 
 import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readInPieces, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 
 /** Values of the field "op" of records. */
@@ -14,7 +14,7 @@ const MAGIC_BYTES = 13;
 /** Number of bytes of a header that are read at first. Headers with a long topic are longer. */
 const HEADER_BYTES = 4096;
 
-/** Opens a bag by its index. Without an index it is read from its start up to its end or damage. */
+/** Opens a bag by its index. Without an index it is read from its start up to its end, or to damage. */
 export async function openRosbag(source: Source): Promise<Container> {
   const bag = new Rosbag(source);
   if (!(await bag.readIndex())) await bag.read(() => true, ({ channel }) => (channel.count += 1));
@@ -33,10 +33,6 @@ class HeaderFields {
     this.#view = view;
     this.#from = from;
     this.#to = to;
-  }
-
-  has(name: string): boolean {
-    return this.#find(name)[0] > 0;
   }
 
   /** Returns a field; throws a RangeError if there is none, as the methods below do. */
@@ -127,44 +123,39 @@ class Rosbag extends MessageFile<number> implements Container {
   #addConnection(fields: HeaderFields, data: Uint8Array): void {
     const id = fields.uint32('conn');
     if (this.channelsById.has(id)) return;
-    const connectionFields = new HeaderFields(data);
-    const publisher = connectionFields.has('callerid') ? connectionFields.text('callerid') : `${id}`;
-    this.channelsById.set(id, { topic: fields.text('topic'), type: connectionFields.text('type'), encoding: 'ros1', publisher, count: 0 });
+    this.channelsById.set(id, { topic: fields.text('topic'), type: new HeaderFields(data).text('type'), encoding: 'ros1', count: 0 });
   }
 
   async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.source;
-    const readBytesAt = readAhead(this.source);
+    const readBytesAt = readInPieces(this.source);
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wantedIds.has(id)));
-    this.isCutShort = !wantedChunks;
-    for (let i = 0, at = MAGIC_BYTES; wantedChunks ? i < wantedChunks.length : at + 8 <= size; i++) {
-      if (wantedChunks) at = wantedChunks[i].position;
-      const recordStart = at;
-      try {
+    this.cutReason = undefined;
+    try {
+      for (let i = 0, at = MAGIC_BYTES; wantedChunks ? i < wantedChunks.length : at < size; i++) {
+        if (wantedChunks) at = wantedChunks[i].position;
+        if (at + 8 > size) throw new RangeError('a record is cut short');
         let recordHead = await readBytesAt(at, Math.min(at + HEADER_BYTES, size));
-        const length = dataViewOf(recordHead).getUint32(0, true);
-        if (length > MAX_BLOCK_BYTES) throw new RangeError('a header is damaged');
-        // The last record of a bag that was not closed is incomplete.
-        if (at + length + 8 > size && !wantedChunks) return;
-        if (length + 8 > recordHead.length) recordHead = await readBytesAt(at, Math.min(at + length + 8, size));
-        const bytes = dataViewOf(recordHead).getUint32(4 + length, true);
-        const from = at + 8 + length;
-        at = from + bytes;
-        if (at > size && !wantedChunks) return;
-        const fields = new HeaderFields(recordHead.subarray(4, 4 + length));
+        const headerLength = dataViewOf(recordHead).getUint32(0, true);
+        if (headerLength > MAX_BLOCK_BYTES || at + headerLength + 8 > size) throw new RangeError('a header is damaged or cut short');
+        if (headerLength + 8 > recordHead.length) recordHead = await readBytesAt(at, Math.min(at + headerLength + 8, size));
+        const dataLength = dataViewOf(recordHead).getUint32(4 + headerLength, true);
+        const from = at + 8 + headerLength;
+        at = from + dataLength;
+        if (at > size) throw new RangeError('a record is cut short');
+        const fields = new HeaderFields(recordHead.subarray(4, 4 + headerLength));
         const op = fields.byte('op');
         if (op === CONNECTION) this.#addConnection(fields, await readBytesAt(from, at));
         if (op === CHUNK) {
-          if (Math.max(bytes, fields.uint32('size')) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
+          if (Math.max(dataLength, fields.uint32('size')) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
           await this.#readChunk(fields, await readBytesAt(from, at), isWanted, onMessage);
         } else if (wantedChunks) throw new RangeError('no chunk is there');
-      } catch (error) {
-        this.noteDamage(recordStart, error);
-        // Without an index and without a length, the next record cannot be found.
-        if (at === recordStart && !wantedChunks) return;
+        if (onProgress?.(wantedChunks ? (i + 1) / wantedChunks.length : at / size)) return;
       }
-      if (onProgress?.(wantedChunks ? (i + 1) / wantedChunks.length : at / size)) return;
+    } catch (error) {
+      if (wantedChunks) throw this.damagedError(error);
+      this.noteEnd(error);
     }
   }
 

@@ -2,7 +2,7 @@
 
 import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MessageFile, readAhead, dataViewOf, type Channel, type Container, type Message } from './container.ts';
+import { MessageFile, readInPieces, dataViewOf, type Channel, type Container, type Message } from './container.ts';
 import { loadZstd } from './zstd.ts';
 
 /** Types of the pages of a table's B-tree. */
@@ -10,9 +10,6 @@ const [INTERIOR_PAGE, LEAF_PAGE] = [5, 13];
 
 /** Number of bytes of the database's header, on the first page. */
 const HEADER_BYTES = 100;
-
-/** Maximum number of levels of a B-tree. Tables with 2³² pages have fewer. */
-const MAX_DEPTH = 20;
 
 /** Maximum size of a row, bytes. The largest messages are point clouds and images. */
 const MAX_ROW_BYTES = 2 ** 28;
@@ -42,9 +39,9 @@ const decodeText = (value: SqliteValue) => (value instanceof Uint8Array ? new Te
 
 export async function openSqlite(source: Source): Promise<Container> {
   await loadZstd();
-  const container = new Rosbag2(source);
-  await container.open();
-  return container;
+  const database = new Rosbag2(source);
+  await database.open();
+  return database;
 }
 
 class Rosbag2 extends MessageFile<SqliteValue> implements Container {
@@ -53,18 +50,18 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
   /** Bytes of a page without those reserved at its end. */
   #usableBytes = 0;
   #messages: Table = { root: 0, columns: [] };
-  #readBytesAt = readAhead(this.source);
+  #readBytesAt = readInPieces(this.source);
 
   async open(): Promise<void> {
     const view = dataViewOf(await readBytes(this.source, 0, HEADER_BYTES));
     const notRosbag2 = () => new LogError({ file: this.source.name }, (say) => say.noRosbag2);
-    this.isCutShort = view.byteLength < HEADER_BYTES;
-    if (this.isCutShort) return;
+    if (view.byteLength < HEADER_BYTES) throw this.damagedError(new RangeError('its header is cut short'));
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
     this.#usableBytes = this.#pageSize - view.getUint8(20);
     if (this.#usableBytes < 480) throw notRosbag2();
-    // The header states the number of pages. Pages beyond it belong to an unfinished transaction.
-    this.isCutShort = view.getUint32(28) > 0 && view.getUint32(28) * this.#pageSize !== this.source.size;
+    // Pages beyond the number in the header belong to an unfinished transaction.
+    const pageCount = view.getUint32(28);
+    if (pageCount > 0 && pageCount * this.#pageSize !== this.source.size) throw this.damagedError(new RangeError('the recorder did not close it'));
     const tablesByName = new Map<string, Table>();
     await this.#eachRow({ root: 1, columns: [] }, async (row) => {
       const bytes = await this.#wholeRow(row);
@@ -73,15 +70,12 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
       tablesByName.set(decodeText(name), { root: Number(root), columns });
     });
     const [topics, messages] = ['topics', 'messages'].map((name) => tablesByName.get(name));
-    if (!topics || !messages) {
-      if (this.isCutShort) return;
-      throw notRosbag2();
-    }
+    if (!topics || !messages) throw notRosbag2();
     this.#messages = messages;
     await this.#eachRow(topics, async (row) => {
       const bytes = await this.#wholeRow(row);
       const [topic, type, encoding] = ['name', 'type', 'serialization_format'].map((column) => decodeText(columnValueOf(bytes, topics.columns.indexOf(column))));
-      this.channelsById.set(row.id, { topic, type, encoding, publisher: `${row.id}`, count: 0 });
+      this.channelsById.set(row.id, { topic, type, encoding, count: 0 });
     });
     const topicId = messages.columns.indexOf('topic_id');
     await this.#eachRow(messages, ({ bytes }) => {
@@ -105,56 +99,40 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     }, onProgress);
   }
 
-  /** Calls `onRow` for the rows of a table in the order of their ids. Damaged pages are skipped. */
+  /** Calls `onRow` for the rows of a table in the order of their ids. */
   async #eachRow({ root }: Table, onRow: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
-    // In an incomplete file interior pages may be missing, so all pages are tried. Pages of other tables then fail without a note.
-    const searchesAllPages = this.isCutShort && root === this.#messages.root;
-    const leafPages = searchesAllPages ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
-    for (const [i, number] of leafPages.entries()) {
-      if (!this.#hasPage(number)) continue;
-      try {
+    try {
+      const leafPages = await this.#leavesOf(root);
+      for (const [i, number] of leafPages.entries()) {
         const pageBytes = await this.#page(number);
         for (const cell of cellPositionsOf(pageBytes, number, LEAF_PAGE)) {
           const pendingRow = onRow(this.#rowAt(pageBytes, cell));
           if (pendingRow) await pendingRow;
         }
-      } catch (error) {
-        if (!searchesAllPages || error instanceof LogError) this.noteDamage(number, error);
+        if (onProgress?.((i + 1) / leafPages.length)) return;
       }
-      if (onProgress?.((i + 1) / leafPages.length)) return;
+    } catch (error) {
+      throw this.damagedError(error);
     }
   }
 
   /** Returns the numbers of a table's leaf pages, which have its rows, in the order of the rows. */
   async #leavesOf(root: number): Promise<number[]> {
-    const { size } = this.source;
     let pagesOfLevel = [root];
-    for (let depth = 0; depth < MAX_DEPTH; depth++) {
+    while (pagesOfLevel.length * this.#pageSize <= this.source.size) {
       const pagesOfNextLevel: number[] = [];
-      for (const number of pagesOfLevel.filter((page) => this.#hasPage(page))) {
-        // Interior pages are far from each other, so that reading ahead would be slow.
+      for (const number of pagesOfLevel) {
+        // Interior pages are far from each other, so that reading larger pieces would be slow.
         const page = await readBytes(this.source, (number - 1) * this.#pageSize, number * this.#pageSize);
-        if (page.length === this.#pageSize && page[number === 1 ? HEADER_BYTES : 0] === LEAF_PAGE && pagesOfNextLevel.length === 0) return pagesOfLevel;
-        try {
-          const view = dataViewOf(page);
-          for (const cell of cellPositionsOf(page, number, INTERIOR_PAGE)) pagesOfNextLevel.push(view.getUint32(cell));
-          pagesOfNextLevel.push(view.getUint32((number === 1 ? HEADER_BYTES : 0) + 8));
-        } catch (error) {
-          this.noteDamage(number, error);
-        }
+        const start = number === 1 ? HEADER_BYTES : 0;
+        if (page[start] === LEAF_PAGE) return pagesOfLevel;
+        const view = dataViewOf(page);
+        for (const cell of cellPositionsOf(page, number, INTERIOR_PAGE)) pagesOfNextLevel.push(view.getUint32(cell));
+        pagesOfNextLevel.push(view.getUint32(start + 8));
       }
-      // A file that was cut short has no pages behind its end.
-      pagesOfLevel = pagesOfNextLevel.filter((number) => number * this.#pageSize <= size);
-      if (pagesOfLevel.length * this.#pageSize > 2 * size) break;
+      pagesOfLevel = pagesOfNextLevel;
     }
-    return [];
-  }
-
-  /** Returns true if the file has a page. Otherwise the file was cut short. */
-  #hasPage(number: number): boolean {
-    const hasPage = number * this.#pageSize <= this.source.size;
-    this.isCutShort ||= !hasPage;
-    return hasPage;
+    throw new RangeError('its pages form a circle');
   }
 
   async #page(number: number): Promise<Uint8Array> {

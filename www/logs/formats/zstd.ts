@@ -48,7 +48,7 @@ function contentSize(frame: Uint8Array): number {
   }
 }
 
-/** Returns a decompressed file with the same name. Of a damaged file, the contents before the damage are kept. */
+/** Returns a decompressed file with the same name. */
 export async function unzstdFile(source: Source): Promise<Source> {
   await loadZstd();
   const tooLargeError = () => new LogError({ file: source.name }, (say) => say.largeFile('zstd -d', MAX_FILE_BYTES));
@@ -67,7 +67,7 @@ export async function unzstdFile(source: Source): Promise<Source> {
     }
   } catch (error) {
     if (error instanceof LogError) throw error;
-    if (size === 0) throw new LogError({ file: source.name }, (say) => say.damaged(reasonOf(error)));
+    throw new LogError({ file: source.name }, (say) => say.damaged(reasonOf(error)));
   }
   const decompressedFile = new Blob(outputParts);
   return { name: source.name, path: source.path, size: decompressedFile.size, slice: (from, to) => decompressedFile.slice(from, to) };

@@ -92,7 +92,7 @@ const READABLE_TABLES = [
   { name: 'pandas: an index without a name', text: pandasTableOf('index') },
   { name: 'pandas: dates of UTC', start: EPOCH_SECONDS, text: pandasTableOf('utc') },
   { name: 'pandas: dates of Berlin', start: EPOCH_SECONDS, text: pandasTableOf('berlin') },
-  { name: 'pandas: dates without a zone', start: EPOCH_SECONDS, text: pandasTableOf('naive'), says: /UTC/ },
+  { name: 'pandas: dates without a zone', start: EPOCH_SECONDS, text: pandasTableOf('naive') },
   { name: 'pandas: durations', text: pandasTableOf('timedelta') },
   { name: 'pandas: decimal commas in UTF-16', text: utf16BytesOf(pandasTableOf('german')) },
   { name: 'pandas: nanoseconds in quotes', start: EPOCH_SECONDS, text: pandasTableOf('nanoseconds') },

@@ -213,36 +213,13 @@ function parseArguments(args: string[]) {
   try {
     return parseArgs({ args, options: OPTIONS, allowPositionals: true });
   } catch (error) {
-    const { code, message } = error as NodeJS.ErrnoException;
-    const name = /'(?:-\w, )?--?([^' ]*)/.exec(message)?.[1] ?? '';
-    const givenOption = args.find((arg) => arg.replace(/=.*/, '') === `--${name}`) ?? args.find((arg) => /^-[^-]/.test(arg) && arg.includes(name)) ?? '';
-    const value = /=(.*)/.exec(givenOption)?.[1] ?? args[args.indexOf(givenOption) + 1] ?? '';
-    if (code === 'ERR_PARSE_ARGS_INVALID_OPTION_VALUE') {
-      const dashHint = /^-[^-]/.test(value) ? `; one that begins with a dash follows “=”, as in --${name}=${shellQuoted(value)}` : '';
-      throw new UsageError(message.includes('does not take') ? `--${name} takes no value.` : `--${name} needs a value${dashHint}.`);
-    }
-    const givenName = givenOption.replace(/^-+|=.*/g, '');
-    const nameHint = givenName.length === 1 ? 'options have whole names, as in --rule nav2, ' : nearestOptions(givenName);
-    throw new UsageError(`unknown option ${truncate(givenOption.replace(/=.*/, ''))}; ${nameHint || (isPath(value) ? `files need no option, as in calibrate ${shellQuoted(value)}, ` : '')}--help lists all.`);
+    const reason = (error as Error).message.replace(/ To specify a positional.*/, '').replaceAll('\n', ' ').replace(/\.$/, '');
+    throw new UsageError(`${reason}. --help lists all options.`);
   }
 }
 
 /** Returns true if an argument has an extension or is in a folder. */
 const isPath = (argument = '') => /\.\w+$|\//.test(argument);
-
-/** Returns a text with the options that are most similar to a name: they begin or end with it, or share most pairs of letters with it. */
-function nearestOptions(name: string): string {
-  const letterPairs = (word: string) => Array.from(word, (letter, i) => letter + (word[i + 1] ?? ''));
-  const pairsOfName = letterPairs(name);
-  const optionScores = Object.keys(OPTIONS).map((option) => {
-    const optionPairs = letterPairs(option);
-    const commonFraction = pairsOfName.filter((pair) => optionPairs.includes(pair)).length / Math.max(pairsOfName.length, optionPairs.length);
-    return { option, score: option.startsWith(name) ? 1 + commonFraction : option.endsWith(`-${name}`) ? 1 : commonFraction };
-  });
-  const bestScore = Math.max(0.4, ...optionScores.map(({ score }) => score));
-  const closestOptions = optionScores.filter(({ score }) => score === bestScore).map(({ option }) => `--${option}`);
-  return closestOptions.length ? `the nearest ${closestOptions.length > 1 ? 'are' : 'is'} ${new Intl.ListFormat('en').format(closestOptions)}, ` : '';
-}
 
 function parseFrames(name: string, value: string | undefined): FramePair | undefined {
   if (value === undefined) return undefined;

@@ -157,7 +157,6 @@ export const german: Words = {
     recorded: 'die der Aufzeichnung, da die Header keine oder immer dieselben haben',
     notes: {
       cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
-      noZone: 'Datumsangaben ohne Zeitzone gelten als UTC',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
       sorted: (count) => `${countWithNoun(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       apart: (name, period, otherPeriod) => `keine Zeit gemeinsam mit ${name} (${period}, und ${otherPeriod}): Die Uhren werden nach den Drehungen des Roboters gestellt`,

@@ -172,7 +172,6 @@ export const english = {
     recorded: 'when messages were recorded, as their headers have no stamps, or all the same one',
     notes: {
       cutShort: 'the file is incomplete: it ends in the middle of a row or record',
-      noZone: 'dates without a time zone are taken as UTC',
       upAxis: (axis: string) => `${axis} is the vertical axis`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       apart: (name: string, period: string, otherPeriod: string) =>

@@ -5,9 +5,6 @@ import { framesText, type FramePair } from './log.ts';
 import { sampleOfPose, withoutSlash, type StampedTransform, type Sample, type Transform } from './messages.ts';
 import { hamiltonProduct, rotateVector } from './quaternion.ts';
 
-/** Maximum number of links between frames: a robot has some dozens. */
-const MAX_LINKS = 10_000;
-
 /** Minimum motion (m) of a frame that counts as travelling. Frames of joints only turn, and those of suspensions move less. */
 const MIN_TRAVEL = 0.05;
 
@@ -32,7 +29,7 @@ export class FrameTree {
     const link = this.#links.get(framesText({ parent, child }));
     if (link) {
       link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
-    } else if (this.#links.size < MAX_LINKS) {
+    } else {
       const newLink = { parent, child, isStatic, origin: transform, maxDistance: 0 };
       this.#links.set(framesText(newLink), newLink);
       this.#linksByChild.set(child, [...(this.#linksByChild.get(child) ?? []), newLink]);
@@ -125,18 +122,14 @@ export class Chain {
    */
   poses(onPose: (reading: Sample, recordedTransform: RecordedTransform) => void): boolean {
     const transforms = new Map<string, Transform>();
-    const movingFrames = new Set<string>();
     const unseenLinks = new Set<string>();
     for (const { link, isStatic, stampedTransform: { transform } } of this.#samples) {
       const firstTransform = transforms.get(link);
       if (!firstTransform) transforms.set(link, transform);
-      else if (transform.some((value, i) => value !== firstTransform[i])) {
-        movingFrames.add(link);
-        if (!isStatic) unseenLinks.add(link);
-      }
+      // A static transform may be published again with other values, which is no motion.
+      else if (!isStatic && transform.some((value, i) => value !== firstTransform[i])) unseenLinks.add(link);
     }
-    // A static transform may be published again with other values. That is no motion, unless no other transform changes.
-    const nearestMovingLink = this.#links.findLast((link) => unseenLinks.has(link)) ?? this.#links.findLast((link) => movingFrames.has(link));
+    const nearestMovingLink = this.#links.findLast((link) => unseenLinks.has(link));
     if (nearestMovingLink === undefined) return false;
     const timeOf = ({ message: { seconds, nanoseconds } }: RecordedTransform) => seconds + nanoseconds / 1e9;
     let pendingTransform: RecordedTransform | undefined;

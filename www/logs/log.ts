@@ -119,7 +119,7 @@ export type Warning = Extract<Note['name'], 'localizer'>;
 
 /** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
 export interface Note {
-  name: 'cutShort' | 'sorted' | 'noZone' | 'upAxis' | 'apart' | 'localizer';
+  name: 'cutShort' | 'sorted' | 'upAxis' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 

@@ -179,11 +179,10 @@ function readerOf(channel: Channel, message: MessageBytes): MessageReader {
   return new MessageReader(channel, { block: dataViewOf(bytes), from: 0, to: bytes.length });
 }
 
-/** Returns a reader of poses or commands, which throws an error for bytes of another message type. */
-export function poseReader(channel: Channel): (message: MessageBytes) => Sample {
-  const type = ros1TypeName(channel.type);
-  const readSample = POSE_READERS[type] ?? COMMAND_READERS[type];
-  return (message) => readSample(readerOf(channel, message));
+/** Returns a reader of poses or commands of a type, which throws an error for bytes of another type. */
+export function poseReader(type: string): (message: Message) => Sample {
+  const readSample = POSE_READERS[ros1TypeName(type)] ?? COMMAND_READERS[ros1TypeName(type)];
+  return (message) => readSample(readerOf(message.channel, message));
 }
 
 /** Returns the name of a frame without the leading slash of the first tf. */

@@ -45,17 +45,17 @@ export function parseTime(cell: string, power: number): SplitTime | undefined {
 }
 
 /** Parses an ISO 8601 date or a duration; undefined for any other text. A date without a time zone is in UTC. */
-export function parseDate(cell: string): { time: SplitTime; hasZone: boolean } | undefined {
+export function parseDate(cell: string): SplitTime | undefined {
   const dateMatch = ISO_DATE.exec(cell);
   if (dateMatch) {
     const [, year, month, day, hour = '0', minute = '0', second = '0', fraction = '', zone] = dateMatch;
     const [sign, hours, minutes] = /^([+-])(\d{2}):?(\d{2})?$/.exec(zone ?? '')?.slice(1) ?? ['+', '0', '0'];
     const zoneOffset = (sign === '-' ? -60 : 60) * (60 * Number(hours) + Number(minutes ?? 0));
     const seconds = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute), Number(second)) / 1000 - zoneOffset;
-    return { time: [seconds, Number(`.${fraction}0`)], hasZone: zone !== undefined };
+    return [seconds, Number(`.${fraction}0`)];
   }
   const durationMatch = DURATION_TEXT.exec(cell);
   if (!durationMatch) return undefined;
   const [days = '0', hours, minutes, seconds, fraction = ''] = durationMatch.slice(1);
-  return { time: [((Number(days) * 24 + Number(hours)) * 60 + Number(minutes)) * 60 + Number(seconds), Number(`.${fraction}0`)], hasZone: true };
+  return [((Number(days) * 24 + Number(hours)) * 60 + Number(minutes)) * 60 + Number(seconds), Number(`.${fraction}0`)];
 }

@@ -4,7 +4,7 @@ import { least } from 'd3-array';
 import { type Clock, type Group, type Layout, logLayoutOf } from './columns.ts';
 import { type Format, splitCells, detectTableFormat } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace } from './log-error.ts';
-import type { Log, Note, OpenOptions, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
+import type { Log, Note, OpenOptions, Question, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
 import { type SplitTime, parseDate, parseNumber, parseTime } from './numbers.ts';
 import { quantile, sampleEvenly } from './quantile.ts';
 import { headingOf, isRotation } from './quaternion.ts';
@@ -62,17 +62,16 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
     async read(choices, onProgress) {
       const readersOfChoices = choices.map(({ series: seriesName, kind }) => {
         const chosenGroup = readableGroups.length === 1 && seriesName === '' ? readableGroups[0] : format.groups[allSeries.findIndex(({ name }) => name === seriesName)];
-        const layout = logLayoutOf(chosenGroup, format.names, headerPlace, kind);
         const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
-        const readerOf = (group: Group, upAxis?: 'Y' | 'Z') => new LogReader(name, source.name, format, group, upAxis ? logLayoutOf(group, format.names, headerPlace, kind) : layout, options, upAxis);
-        return format.hasUnknownAxis ? [readerOf(withYAxisUp(chosenGroup), 'Y'), readerOf(chosenGroup, 'Z')] : [readerOf(chosenGroup)];
+        const readerOf = (group: Group, upAxis?: 'Y' | 'Z') => logReader(name, { file: source.name }, format, group, logLayoutOf(group, format.names, headerPlace, kind), options, upAxis);
+        return format.hasUnknownAxis ? [readerOf(chosenGroup, 'Z'), readerOf(withYAxisUp(chosenGroup), 'Y')] : [readerOf(chosenGroup)];
       });
       const allReaders = readersOfChoices.flat();
       await readLines(source, encoding, format.firstLine, onProgress, (line, number, isUnterminated) => {
         for (const reader of allReaders) reader.addLine(line, number, isUnterminated);
       });
       // The vertical axis is the one about which the robot turns.
-      return readersOfChoices.map((readers) => (least(readers, ({ tiltSpread }) => tiltSpread) as LogReader).end());
+      return readersOfChoices.map((readers) => (least(readers, ({ tiltSpread }) => tiltSpread) ?? readers[0]).end());
     },
   };
 }
@@ -118,178 +117,137 @@ function withYAxisUp(group: Group): Group {
   return { ...group, columns: { ...group.columns, x: z, y: x, z: y, qx: qz, qy: qx, qz: qy } };
 }
 
-/** Reader of the times of a table. If no unit is stated, the first time that is not 0 determines it. */
-class ClockReader {
-  #clock: Clock;
-  #textOf: (cell: string) => string;
-  #isDate: boolean | undefined;
-  unit: TimeUnit | undefined;
-  by: Summary['units']['time']['by'];
-  /** False for dates without a time zone. */
-  hasZone = true;
-
-  /** @param textOf returns the text of a cell with a decimal point */
-  constructor(clock: Clock, stated: TimeUnit | undefined, textOf: (cell: string) => string) {
-    this.#clock = clock;
-    this.#textOf = textOf;
-    this.unit = stated ?? clock.unit;
-    this.by = stated ? 'option' : clock.unit ? 'name' : 'usage';
-  }
-
+/** Returns a reader of the times of a table. If no unit is stated, the first time that is not 0 determines it. */
+function clockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, textOf: (cell: string) => string) {
+  const judged: { unit?: TimeUnit; by: Summary['units']['time']['by'] } = { unit: statedUnit ?? namedUnit, by: statedUnit ? 'option' : namedUnit ? 'name' : 'usage' };
+  let isDate: boolean | undefined;
   /** Returns the time of a row; undefined if its cell is neither a number nor a date. */
-  read(cells: string[]): SplitTime | undefined {
-    const [{ at }, subseconds] = this.#clock.columns;
-    const text = this.#textOf(cells[at]);
+  const read = (cells: string[]): SplitTime | undefined => {
+    const text = textOf(cells[at]);
     if (subseconds) {
       const [seconds, rest] = [parseTime(text, 0), parseNumber(cells[subseconds.at])];
       return seconds && rest !== undefined ? [seconds[0], seconds[1] + rest / 10 ** UNIT_EXPONENTS[subseconds.unit as TimeUnit]] : undefined;
     }
     if (text.trim() === '') return [NaN, NaN];
-    if (this.#isDate === undefined) {
-      const dateTime = parseDate(cells[at]);
-      this.#isDate = dateTime !== undefined;
-      if (dateTime) [this.unit, this.by, this.hasZone] = ['s', 'date', dateTime.hasZone];
+    if (isDate === undefined) {
+      isDate = parseDate(cells[at]) !== undefined;
+      if (isDate) Object.assign(judged, { unit: 's', by: 'date' });
     }
-    if (this.#isDate) return parseDate(cells[at])?.time;
-    if (this.unit === undefined) {
+    if (isDate) return parseDate(cells[at]);
+    if (judged.unit === undefined) {
       const timeNumber = parseNumber(text);
-      if (timeNumber && Number.isFinite(timeNumber)) {
-        this.unit = epochTimeUnitOf(timeNumber) ?? 's';
-        if (epochTimeUnitOf(timeNumber)) this.by = 'size';
-      }
+      const epochUnit = timeNumber && epochTimeUnitOf(timeNumber);
+      if (epochUnit) Object.assign(judged, { unit: epochUnit, by: 'size' });
+      else if (timeNumber) judged.unit = 's';
     }
-    return parseTime(text, UNIT_EXPONENTS[this.unit ?? 's']);
-  }
+    return parseTime(text, UNIT_EXPONENTS[judged.unit ?? 's']);
+  };
+  return { judged, read };
 }
 
-/** Reader of the log of one series, line by line. */
-class LogReader {
-  #name: string;
-  #place: ErrorPlace;
-  #format: Format;
-  #layout: Layout;
-  #options: OpenOptions;
-  /** Vertical axis, if the format does not define it. */
-  #upAxis: 'Y' | 'Z' | undefined;
-  #rows: Rows;
-  #clocks: ClockReader[];
-  #textOf: (cell: string) => string;
-  /** Number of leading cells of a row that are needed. */
-  #neededCells: number;
-  #notes: Note[] = [];
-  /** Number of damaged rows, and the line and the reason of the first. */
-  #damagedRows = 0;
-  #firstDamaged: [number, ErrorReason] | undefined;
-  /** Columns that name the frames, topic or robot of a row, and names in them. */
-  #nameColumns: { at: number }[];
-  #rowNames = new Set<string>();
+/**
+ * Returns a reader of the log of one series, line by line.
+ *
+ * @param upAxis vertical axis, if the format does not define it
+ */
+function logReader(name: string, place: ErrorPlace, format: Format, group: Group, layout: Layout, options: OpenOptions, upAxis?: 'Y' | 'Z') {
+  const { separator, hasDecimalCommas, isSparse, header, names } = format;
+  const { clocks, columns, fields, kind, length, angle } = layout;
+  const rows = new Rows(place);
+  const notes: Note[] = upAxis ? [{ name: 'upAxis', values: [upAxis] }] : [];
+  const textOf = hasDecimalCommas ? withDecimalPoint : (cell: string) => cell;
+  const clockReaders = clocks.map((clock, i) => clockReader(clock, i === 0 ? options.timeUnit : undefined, textOf));
+  // Columns that name the frames, topic or robot of a row.
+  const nameColumns = [group.columns.source, group.columns.frame, group.columns.child].filter((column) => column !== undefined);
+  const neededCells = Math.max(...[...columns, ...clocks.flatMap((clock) => clock.columns), ...nameColumns].map(({ at }) => at)) + 1;
+  const rowNames = new Set<string>();
   /** Cosines of the robot's tilt against the assumed vertical axis. */
-  #tiltCosines: number[] = [];
+  const tiltCosines: number[] = [];
+  let [damagedRows, firstDamagedLine] = [0, 0];
+  let damageReason: ErrorReason | undefined;
 
-  constructor(name: string, file: string, format: Format, group: Group, layout: Layout, options: OpenOptions, upAxis?: 'Y' | 'Z') {
-    this.#name = name;
-    this.#place = { file };
-    this.#format = format;
-    this.#layout = layout;
-    this.#options = options;
-    this.#upAxis = upAxis;
-    this.#rows = new Rows(this.#place);
-    this.#textOf = format.hasDecimalCommas ? withDecimalPoint : (cell) => cell;
-    this.#clocks = layout.clocks.map((clock, i) => new ClockReader(clock, i === 0 ? options.timeUnit : undefined, this.#textOf));
-    const { frame, child, source } = group.columns;
-    this.#nameColumns = [source, frame, child].filter((column) => column !== undefined);
-    const neededColumns = [...layout.columns, ...layout.clocks.flatMap((clock) => clock.columns), ...this.#nameColumns];
-    this.#neededCells = Math.max(...neededColumns.map(({ at }) => at)) + 1;
-  }
+  const refuse = (reason: ErrorReason, ask?: Question): never => {
+    throw new LogError(place, reason, ask);
+  };
 
-  addLine(line: string, number: number, isUnterminated: boolean): void {
-    const { separator, isSparse, header } = this.#format;
-    if (/^\s*(?:[#%]|$)/.test(line)) return;
-    if (line === header) return this.#rows.drop('text', number);
-    const cells = splitCells(line, separator, this.#neededCells);
-    if (cells.length < this.#neededCells) {
-      if (!isUnterminated) return this.#dropDamaged('short', number, (say) => say.cells(cells.length, this.#neededCells));
-      this.#notes.push({ name: 'cutShort', values: [] });
-      return this.#rows.drop('short', number);
-    }
-    // A row of another topic has empty cells in the columns of this one.
-    if (isSparse && this.#layout.columns.every(({ at }) => Number.isNaN(parseNumber(cells[at])))) return;
-    this.#add(cells, number);
-  }
+  /** Drops a damaged row. If there are many, the log is refused with the reason of the first. */
+  const dropDamaged = (cause: 'short' | 'text', line: number, reason: ErrorReason) => {
+    damagedRows += 1;
+    if (damagedRows === 1) [firstDamagedLine, damageReason] = [line, reason];
+    rows.drop(cause, line);
+  };
+  const dropText = (line: number, columnName: string, cell: string) => dropDamaged('text', line, (say) => say.number(truncate(columnName), truncate(cell.trim())));
 
-  #add(cells: string[], line: number): void {
-    const { clocks, columns, fields } = this.#layout;
+  /** Adds a row, or drops it. */
+  const addCells = (cells: string[], line: number) => {
     const times: SplitTime[] = [];
     for (let i = 0; i < clocks.length; i++) {
-      const time = this.#clocks[i].read(cells);
-      if (!time) return this.#dropText(line, clocks[i].name, cells[clocks[i].columns[0].at]);
+      const time = clockReaders[i].read(cells);
+      if (!time) return dropText(line, clocks[i].name, cells[clocks[i].columns[0].at]);
       times.push(time);
     }
     const values: number[] = [];
-    for (const { at, name } of columns) {
-      const value = parseNumber(this.#textOf(cells[at]));
-      if (value === undefined) return this.#dropText(line, name, cells[at]);
+    for (const { at, name: columnName } of columns) {
+      const value = parseNumber(textOf(cells[at]));
+      if (value === undefined) return dropText(line, columnName, cells[at]);
       values.push(value);
     }
-    if (this.#nameColumns.length > 0 && this.#rowNames.size <= MAX_LISTED_NAMES) this.#rowNames.add(this.#nameColumns.map(({ at }) => cells[at].trim()).join(' to '));
+    if (nameColumns.length > 0 && rowNames.size <= MAX_LISTED_NAMES) rowNames.add(nameColumns.map(({ at }) => cells[at].trim()).join(' to '));
     const [x, y] = values;
     let heading = values[2] ?? 0;
     if (fields.at(-1) === 'qw') {
       const [qx, qy, qz, qw] = fields.length === 6 ? values.slice(2) : [0, 0, ...values.slice(2)];
-      if (!isRotation(qx, qy, qz, qw)) return this.#rows.drop('noRotation', line);
-      this.#tiltCosines.push(1 - 2 * (qx * qx + qy * qy));
+      if (!isRotation(qx, qy, qz, qw)) return rows.drop('noRotation', line);
+      tiltCosines.push(1 - 2 * (qx * qx + qy * qy));
       heading = headingOf(qx, qy, qz, qw);
     }
     const [[seconds, fraction], [otherSeconds, otherFraction] = [0, 0]] = times;
-    this.#rows.add(seconds, fraction, x, y, heading, line, otherSeconds, otherFraction);
-  }
+    rows.add(seconds, fraction, x, y, heading, line, otherSeconds, otherFraction);
+  };
 
-  /** Drops a damaged row. If there are many, the log is refused with the reason of the first. */
-  #dropDamaged(cause: 'short' | 'text', line: number, reason: ErrorReason): void {
-    this.#damagedRows += 1;
-    this.#firstDamaged ??= [line, reason];
-    this.#rows.drop(cause, line);
-  }
+  return {
+    addLine(line: string, number: number, isUnterminated: boolean): void {
+      if (/^\s*(?:[#%]|$)/.test(line)) return;
+      if (line === header) return rows.drop('text', number);
+      const cells = splitCells(line, separator, neededCells);
+      if (cells.length < neededCells) {
+        if (!isUnterminated) return dropDamaged('short', number, (say) => say.cells(cells.length, neededCells));
+        notes.push({ name: 'cutShort', values: [] });
+        return rows.drop('short', number);
+      }
+      // A row of another topic has empty cells in the columns of this one.
+      if (!(isSparse && columns.every(({ at }) => Number.isNaN(parseNumber(cells[at]))))) addCells(cells, number);
+    },
 
-  #dropText(line: number, name: string, cell: string): void {
-    this.#dropDamaged('text', line, (say) => say.number(truncate(name), truncate(cell.trim())));
-  }
+    /** Difference of the 95 % and the 5 % quantile of the cosine of the tilt. It is small if the assumed vertical axis is right. */
+    get tiltSpread(): number {
+      const [low, high] = [0.05, 0.95].map((fraction) => quantile(sampleEvenly(tiltCosines.length, (i) => tiltCosines[i]), fraction));
+      return high - low || 0;
+    },
 
-  /** Difference of the 95 % and the 5 % quantile of the cosine of the tilt. It is small if the assumed vertical axis is right. */
-  get tiltSpread(): number {
-    const [low, high] = [0.05, 0.95].map((fraction) => quantile(sampleEvenly(this.#tiltCosines.length, (i) => this.#tiltCosines[i]), fraction));
-    return high - low || 0;
-  }
-
-  end(): Log {
-    const { clocks, columns, fields, kind, length, angle } = this.#layout;
-    if (kind === 'positions') throw new LogError(this.#place, (say) => say.positions(listNames(columns.map(({ name }) => name))));
-    if (this.#firstDamaged && this.#damagedRows > MAX_DAMAGED_FRACTION * this.#rows.count) {
-      const [line, reason] = this.#firstDamaged;
-      this.#refuse(line, (say) => [reason(say), ...(this.#damagedRows > 1 && this.#damagedRows < this.#rows.count ? [say.manyBad(this.#damagedRows, this.#rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])].join(' '));
-    }
-    if (this.#rowNames.size > 1) throw new LogError(this.#place, (say) => say.mixed(listNames([...this.#rowNames])));
-    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#place, (say) => say.tilted, { what: 'columns', choices: [], columns: this.#format.names });
-    if (this.#upAxis) this.#notes.push({ name: 'upAxis', values: [this.#upAxis] });
-    const [{ unit = 's', by, hasZone }] = this.#clocks;
-    if (!(unit in UNIT_EXPONENTS)) throw new LogError(this.#place, (say) => say.unknownUnit(truncate(unit)));
-    if (!hasZone) this.#notes.push({ name: 'noZone', values: [] });
-    const isQuaternion = fields.at(-1) === 'qw';
-    return this.#rows.end(this.#name, kind, {
-      units: {
-        time: { unit, by },
-        length: { unit: length ?? 'm', by: length ? 'name' : 'usage' },
-        angle: isQuaternion ? { unit: 'quaternion', by: 'format' } : { unit: angle ?? 'rad', by: angle ? 'name' : 'usage' },
-      },
-      clocks: [clocks[0].name, clocks[1]?.name],
-      columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
-      notes: this.#notes,
-    }, this.#options);
-  }
-
-  #refuse(line: number, reason: ErrorReason): never {
-    throw new LogError({ ...this.#place, line }, reason);
-  }
+    end(): Log {
+      if (kind === 'positions') return refuse((say) => say.positions(listNames(columns.map((column) => column.name))));
+      if (damageReason && damagedRows > MAX_DAMAGED_FRACTION * rows.count) {
+        const reason = damageReason;
+        const isMixed = damagedRows > 1 && damagedRows < rows.count;
+        throw new LogError({ ...place, line: firstDamagedLine }, (say) => [reason(say), ...(isMixed ? [say.manyBad(damagedRows, rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])].join(' '));
+      }
+      if (rowNames.size > 1) refuse((say) => say.mixed(listNames([...rowNames])));
+      if (this.tiltSpread > MAX_TILT_SPREAD) refuse((say) => say.tilted, { what: 'columns', choices: [], columns: names });
+      const { unit = 's', by } = clockReaders[0].judged;
+      if (!(unit in UNIT_EXPONENTS)) refuse((say) => say.unknownUnit(truncate(unit)));
+      return rows.end(name, kind, {
+        units: {
+          time: { unit, by },
+          length: { unit: length ?? 'm', by: length ? 'name' : 'usage' },
+          angle: fields.at(-1) === 'qw' ? { unit: 'quaternion', by: 'format' } : { unit: angle ?? 'rad', by: angle ? 'name' : 'usage' },
+        },
+        clocks: [clocks[0].name, clocks[1]?.name],
+        columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
+        notes,
+      }, options);
+    },
+  };
 }
 
 /** Replaces a decimal comma by a point. A cell that also has a point is ambiguous, and is made invalid by a question mark. */

@@ -3,7 +3,7 @@
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
 import { LogError, truncate, listNames, reasonOf, type Words } from './log-error.ts';
-import { LOG_TIME, framesOption, framesText, type LogChoice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
+import { LOG_TIME, framesOption, framesText, type FramePair, type LogChoice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
 import { readTransforms, isReadable, logKindOfType, poseReader, type Sample } from './messages.ts';
 import { Rows } from './rows.ts';
 
@@ -22,7 +22,7 @@ export async function recordingOf(name: string, container: Container, options: O
 
   /** Reads several logs in one pass. */
   async function read(choices: LogChoice[], onProgress?: (share: number) => void): Promise<Log[]> {
-    const choiceReaders = choices.map((choice) => new TopicReader(name, container, choice, series));
+    const choiceReaders = choices.map((choice) => topicReader(name, container, choice, series));
     const readersByChannel = new Map(container.channels.map((channel) => [channel, choiceReaders.filter((reader) => reader.wants(channel))]));
     const passMessage = (message: Message) => {
       for (const reader of readersByChannel.get(message.channel) ?? []) reader.addMessage(message);
@@ -63,109 +63,74 @@ async function listSeries(container: Container): Promise<Series[]> {
   return series.sort((one, other) => (one.name < other.name ? -1 : 1));
 }
 
-/** Reader of one topic. For a topic of transforms it also reads the static transforms. */
-class TopicReader {
-  #file;
-  #container;
-  #choice;
-  #rows;
-  #kind: Series['kind'] = null;
-  #chain: Chain | undefined;
-  /** Number of messages so far. */
-  #messageCount = 0;
-  #readers = new Map<Channel, (message: Message) => void>();
-
-  constructor(file: string, container: Container, choice: LogChoice, series: Series[]) {
-    this.#file = file;
-    this.#container = container;
-    this.#choice = choice;
-    this.#rows = new Rows({ file, topic: choice.series });
-    this.#kind = this.#checkTypes();
-    if (this.#kind !== 'transforms') return;
-    const frameCandidates = series.find(({ name }) => name === choice.series)?.frames ?? [];
-    if (!choice.frames) {
-      const ask = { what: 'frames' as const, choices: frameCandidates.map(framesOption) };
-      this.#refuse((say) => say.frames(listNames(frameCandidates.map(framesText))), ask);
-    }
-    this.#chain = new Chain(choice.frames);
+/** Returns a reader of one topic. For a topic of transforms it also reads the static transforms. */
+function topicReader(file: string, container: Container, choice: LogChoice, series: Series[]) {
+  const { series: topic, frames } = choice;
+  const refuse: Refuse = (reason, ask) => {
+    throw new LogError({ file, topic }, reason, ask);
+  };
+  const type = readableTypeOf(container, choice, refuse);
+  const kind = logKindOfType(type);
+  if (kind === 'transforms' && !frames) {
+    const candidates = series.find(({ name }) => name === topic)?.frames ?? [];
+    refuse((say) => say.frames(listNames(candidates.map(framesText))), { what: 'frames', choices: candidates.map(framesOption) });
   }
+  const rows = new Rows({ file, topic });
+  const chain = frames && new Chain(frames);
+  const readSample = poseReader(type);
+  let messageCount = 0;
 
-  wants(channel: Channel): boolean {
-    if (logKindOfType(channel.type) !== this.#kind) return false;
-    return channel.topic === this.#choice.series || (this.#choice.frames !== undefined && isStaticTopic(channel));
-  }
+  const add = ({ seconds, nanoseconds, a, b, c, isRotation }: Sample, recorded: Pick<Message, 'seconds' | 'nanoseconds'>, number: number) => {
+    if (isRotation) rows.add(seconds, nanoseconds / 1e9, a, b, c, number, recorded.seconds, recorded.nanoseconds / 1e9);
+    else rows.drop('noRotation', number);
+  };
 
-  /** Checks that the topic has one type that can be read. */
-  #checkTypes(): Series['kind'] {
-    const { series, kind: wantedKind, frames } = this.#choice;
-    const channels = this.#container.channels.filter(({ topic }) => topic === series);
-    const isWantedType = ({ type }: Channel) => {
-      const kind = logKindOfType(type);
-      return frames ? kind === 'transforms' : kind !== null && !(wantedKind === 'poses' && kind === 'commands');
-    };
-    const fittingChannels = channels.filter(isWantedType);
-    const typeNames = [...new Set((fittingChannels.length ? fittingChannels : channels).map(({ type }) => type))];
-    if (fittingChannels.length === 0) this.#refuse((say) => say.type(truncate(typeNames.join(', ')), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
-    if (typeNames.length > 1) this.#refuse((say) => say.types(listNames(typeNames)));
-    if (logKindOfType(typeNames[0]) === 'positions') this.#refuse((say) => say.positions(typeNames[0]));
-    if (!isReadable(fittingChannels[0])) this.#refuse((say) => say.encoding(truncate(fittingChannels[0].encoding)));
-    return logKindOfType(typeNames[0]);
-  }
+  return {
+    wants: (channel: Channel) => logKindOfType(channel.type) === kind && (channel.topic === topic || (frames !== undefined && isStaticTopic(channel))),
 
-  addMessage(message: Message): void {
-    const { channel } = message;
-    let readMessage = this.#readers.get(channel);
-    if (!readMessage) this.#readers.set(channel, (readMessage = this.#readerOf(channel)));
-    this.#messageCount += 1;
-    try {
-      readMessage(message);
-    } catch (error) {
-      if (error instanceof LogError) throw error;
-      const number = this.#messageCount;
-      this.#refuse((say) => say.message(number, reasonOf(error)));
-    }
-  }
+    addMessage(message: Message): void {
+      messageCount += 1;
+      try {
+        if (!chain) return add(readSample(message), message, messageCount);
+        for (const transform of readTransforms(message)) chain.add(transform, isStaticTopic(message.channel), message, messageCount);
+      } catch (error) {
+        if (error instanceof LogError) throw error;
+        const number = messageCount;
+        refuse((say) => say.message(number, reasonOf(error)));
+      }
+    },
 
-  #readerOf(channel: Channel): (message: Message) => void {
-    const chain = this.#chain;
-    if (!chain) {
-      const readPose = poseReader(channel);
-      return (message) => this.#add(readPose(message), message, this.#messageCount);
-    }
-    const isStaticChannel = isStaticTopic(channel);
-    return (message) => {
-      for (const transform of readTransforms(message)) chain.add(transform, isStaticChannel, message, this.#messageCount);
-    };
-  }
+    /** Returns the log; throws a LogError if the messages do not form a log. */
+    end(options: OpenOptions): Log {
+      if (messageCount === 0) refuse((say) => say.noMessages);
+      if (chain && !chain.isConnected) refuse((say) => say.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
+      const hasChanged = chain?.poses((pose, { message, number }) => add(pose, message, number)) ?? true;
+      if (!hasChanged) refuse((say) => say.constant(framesText(frames as FramePair), listNames((chain as Chain).tree.findPoseFrames().map(framesText))));
+      const logKind = kind === 'commands' ? 'commands' : 'poses';
+      const notes: Note[] = container.cutReason ? [{ name: 'cutShort', values: [] }] : [];
+      return rows.end(`${file}, ${topic}${frames ? ` (${framesText(frames)})` : ''}`, logKind, {
+        units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: logKind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
+        clocks: ['header.stamp', LOG_TIME],
+        ...(frames && { frames }),
+        notes,
+      }, options);
+    },
+  };
+}
 
-  #add({ seconds, nanoseconds, a, b, c, isRotation }: Sample, recorded: Pick<Message, 'seconds' | 'nanoseconds'>, number: number): void {
-    if (!isRotation) return this.#rows.drop('noRotation', number);
-    this.#rows.add(seconds, nanoseconds / 1e9, a, b, c, number, recorded.seconds, recorded.nanoseconds / 1e9);
-  }
+type Refuse = (reason: (say: Words['refused']) => string, ask?: Question) => never;
 
-  /** Returns the log; throws a LogError if the messages do not form a log. */
-  end(options: OpenOptions): Log {
-    const { series, frames } = this.#choice;
-    if (this.#messageCount === 0) this.#refuse((say) => say.noMessages);
-    if (this.#chain) this.#addPoses(this.#chain);
-    const kind = this.#kind === 'commands' ? 'commands' : 'poses';
-    const notes: Note[] = this.#container.cutReason ? [{ name: 'cutShort', values: [] }] : [];
-    return this.#rows.end(`${this.#file}, ${series}${frames ? ` (${framesText(frames)})` : ''}`, kind, {
-      units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: kind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
-      clocks: ['header.stamp', LOG_TIME],
-      ...(frames && { frames }),
-      notes,
-    }, options);
-  }
-
-  #addPoses(chain: Chain): void {
-    const frames = this.#choice.frames as NonNullable<LogChoice['frames']>;
-    if (!chain.isConnected) this.#refuse((say) => say.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
-    const hasChanged = chain.poses((pose, { message, number }) => this.#add(pose, message, number));
-    if (!hasChanged) this.#refuse((say) => say.constant(framesText(frames), listNames(chain.tree.findPoseFrames().map(framesText))));
-  }
-
-  #refuse(reason: (say: Words['refused']) => string, ask?: Question): never {
-    throw new LogError({ file: this.#file, topic: this.#choice.series }, reason, ask);
-  }
+/** Returns the type of a topic, which must be the only one that can be read. */
+function readableTypeOf({ channels }: Container, { series, kind: wantedKind, frames }: LogChoice, refuse: Refuse): string {
+  const channelsOfTopic = channels.filter(({ topic }) => topic === series);
+  const fittingChannels = channelsOfTopic.filter(({ type }) => {
+    const kind = logKindOfType(type);
+    return frames ? kind === 'transforms' : kind !== null && !(wantedKind === 'poses' && kind === 'commands');
+  });
+  const typeNames = [...new Set((fittingChannels.length ? fittingChannels : channelsOfTopic).map(({ type }) => type))];
+  if (fittingChannels.length === 0) refuse((say) => say.type(truncate(typeNames.join(', ')), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
+  if (typeNames.length > 1) refuse((say) => say.types(listNames(typeNames)));
+  if (logKindOfType(typeNames[0]) === 'positions') refuse((say) => say.positions(typeNames[0]));
+  if (!isReadable(fittingChannels[0])) refuse((say) => say.encoding(truncate(fittingChannels[0].encoding)));
+  return typeNames[0];
 }

@@ -2,7 +2,7 @@
 
 import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readInPieces, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readInPieces, dataViewOf, uint53, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 
 /** Values of the field "op" of records. */
@@ -23,13 +23,11 @@ export async function openRosbag(source: Source): Promise<Container> {
 
 /** Fields of a record's header, which is a range of a block. Each field is "name=value" after its length. */
 class HeaderFields {
-  #bytes;
   #view;
   #from;
   #to;
 
-  constructor(bytes: Uint8Array, view = dataViewOf(bytes), from = 0, to = bytes.length) {
-    this.#bytes = bytes;
+  constructor(view: DataView, from = 0, to = view.byteLength) {
     this.#view = view;
     this.#from = from;
     this.#to = to;
@@ -37,48 +35,43 @@ class HeaderFields {
 
   /** Returns a field; throws a RangeError if there is none, as the methods below do. */
   text(name: string): string {
-    return new TextDecoder().decode(this.#bytes.subarray(this.#position(name), this.#find(name)[1]));
+    const [from, to] = this.#range(name);
+    return new TextDecoder().decode(new Uint8Array(this.#view.buffer, this.#view.byteOffset + from, to - from));
   }
 
   byte(name: string): number {
-    return this.#bytes[this.#position(name)];
+    return this.#view.getUint8(this.#range(name)[0]);
   }
 
   uint32(name: string, at = 0): number {
-    return this.#view.getUint32(this.#position(name) + at, true);
+    return this.#view.getUint32(this.#range(name)[0] + at, true);
   }
 
   uint64(name: string): number {
-    return Number(this.#view.getBigUint64(this.#position(name), true));
+    return uint53(this.#view, this.#range(name)[0]);
   }
 
-  #position(name: string): number {
-    const [from] = this.#find(name);
-    if (from === 0) throw new RangeError(`a record has no field ${name}`);
-    return from;
-  }
-
-  /** Returns start and end of the value of a field; zeros if there is none. */
-  #find(name: string): [number, number] {
-    const bytes = this.#bytes;
+  /** Returns start and end of the value of a field. */
+  #range(name: string): [number, number] {
+    const view = this.#view;
     for (let at = this.#from, end; at < this.#to; at = end) {
-      end = at + 4 + this.#view.getUint32(at, true);
-      const equalsSignIndex = at + 4 + name.length;
-      if (bytes[equalsSignIndex] !== 0x3d) continue;
+      end = at + 4 + view.getUint32(at, true);
+      const equalsSign = at + 4 + name.length;
+      if (equalsSign >= end || view.getUint8(equalsSign) !== 0x3d) continue;
       let matchingBytes = 0;
-      while (matchingBytes < name.length && bytes[at + 4 + matchingBytes] === name.charCodeAt(matchingBytes)) matchingBytes += 1;
-      if (matchingBytes === name.length) return [equalsSignIndex + 1, end];
+      while (matchingBytes < name.length && view.getUint8(at + 4 + matchingBytes) === name.charCodeAt(matchingBytes)) matchingBytes += 1;
+      if (matchingBytes === name.length) return [equalsSign + 1, end];
     }
-    return [0, 0];
+    throw new RangeError(`a record has no field ${name}`);
   }
 }
 
 /** Returns the header of a record and the range of its data, which ends at the next record. Throws a RangeError if it is cut short. */
-function recordAt(bytes: Uint8Array, view: DataView, at: number): { fields: HeaderFields; from: number; next: number } {
+function recordAt(view: DataView, at: number): { fields: HeaderFields; from: number; next: number } {
   const headerEnd = at + 4 + view.getUint32(at, true);
   const nextRecord = headerEnd + 4 + view.getUint32(headerEnd, true);
-  if (nextRecord > bytes.length) throw new RangeError('a record is cut short');
-  return { fields: new HeaderFields(bytes, view, at + 4, headerEnd), from: headerEnd + 4, next: nextRecord };
+  if (nextRecord > view.byteLength) throw new RangeError('a record is cut short');
+  return { fields: new HeaderFields(view, at + 4, headerEnd), from: headerEnd + 4, next: nextRecord };
 }
 
 class Rosbag extends MessageFile<number> implements Container {
@@ -90,15 +83,14 @@ class Rosbag extends MessageFile<number> implements Container {
   async readIndex(): Promise<boolean> {
     const { size } = this.source;
     try {
-      const bagHeader = await readBytes(this.source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES);
-      const { fields } = recordAt(bagHeader, dataViewOf(bagHeader), 0);
+      const { fields } = recordAt(dataViewOf(await readBytes(this.source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES)), 0);
       const [start, count] = [fields.uint64('index_pos'), fields.uint32('chunk_count')];
       if (fields.byte('op') !== BAG || start === 0 || start > size) return false;
       const bytes = await readBytes(this.source, start, size);
       const view = dataViewOf(bytes);
       const chunks = [];
       for (let at = 0; at < bytes.length; ) {
-        const { fields, from, next } = recordAt(bytes, view, at);
+        const { fields, from, next } = recordAt(view, at);
         if (fields.byte('op') === CONNECTION) this.#addConnection(fields, bytes.subarray(from, next));
         if (fields.byte('op') === CHUNK_INFO) {
           const idsWithCounts = Array.from({ length: fields.uint32('count') }, (_, i) => [0, 4].map((part) => view.getUint32(from + 8 * i + part, true)));
@@ -123,7 +115,7 @@ class Rosbag extends MessageFile<number> implements Container {
   #addConnection(fields: HeaderFields, data: Uint8Array): void {
     const id = fields.uint32('conn');
     if (this.channelsById.has(id)) return;
-    this.channelsById.set(id, { topic: fields.text('topic'), type: new HeaderFields(data).text('type'), encoding: 'ros1', count: 0 });
+    this.channelsById.set(id, { topic: fields.text('topic'), type: new HeaderFields(dataViewOf(data)).text('type'), encoding: 'ros1', count: 0 });
   }
 
   async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
@@ -144,7 +136,7 @@ class Rosbag extends MessageFile<number> implements Container {
         const from = at + 8 + headerLength;
         at = from + dataLength;
         if (at > size) throw new RangeError('a record is cut short');
-        const fields = new HeaderFields(recordHead.subarray(4, 4 + headerLength));
+        const fields = new HeaderFields(dataViewOf(recordHead), 4, 4 + headerLength);
         const op = fields.byte('op');
         if (op === CONNECTION) this.#addConnection(fields, await readBytesAt(from, at));
         if (op === CHUNK) {
@@ -163,7 +155,7 @@ class Rosbag extends MessageFile<number> implements Container {
     const bytes = await this.#decompress(chunk.text('compression'), compressed, chunk.uint32('size'));
     const view = dataViewOf(bytes);
     for (let at = 0; at < bytes.length; ) {
-      const { fields, from, next } = recordAt(bytes, view, at);
+      const { fields, from, next } = recordAt(view, at);
       const op = fields.byte('op');
       if (op === CONNECTION) this.#addConnection(fields, bytes.subarray(from, next));
       if (op === MESSAGE) {

@@ -1,4 +1,4 @@
-//! Tests of `ArcAnatomy`.
+//! JavaScript interface of `ArcAnatomy`.
 
 use crate::support::{Object, get};
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -6,9 +6,9 @@ use wasm_bindgen_test::wasm_bindgen_test;
 #[wasm_bindgen_test]
 fn paths_maps_and_errors_of_forms_are_arrays() {
     let it = Object::new("new motion.ArcAnatomy({ map: 'density' })");
-    let lines = "Object.entries(it.paths).filter(([, line]) => line instanceof Float64Array
+    let path_names = "Object.entries(it.paths).filter(([, line]) => line instanceof Float64Array
         && line.length >= 4).map(([name]) => name)";
-    assert_eq!(it.get::<Vec<String>>(lines), ["commanded", "inverted", "driven", "lie", "ticks"]);
+    assert_eq!(it.get::<Vec<String>>(path_names), ["commanded", "inverted", "driven", "lie", "ticks"]);
     it.assert(
         "(({ columns, rows, shades, prob, density }) =>
         shades instanceof Uint8Array && shades.length === columns * rows && Math.max(...shades) > 200

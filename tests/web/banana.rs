@@ -1,4 +1,4 @@
-//! Tests of `BananaMachine`.
+//! JavaScript interface of `BananaMachine`.
 
 use crate::support::Object;
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -56,11 +56,11 @@ fn a_cloud_made_in_blocks_equals_one_made_at_once() {
         [1, 101, 300]
     );
     assert!(are_equal());
-    let change = "{ command: { v: 1, omega: 1.2, dt: 1.4 }, samples: 120_000, seed: 5 }";
-    it.run(&format!("it.blocks.configureFirst({change}, Infinity)"));
+    let changed_settings = "{ command: { v: 1, omega: 1.2, dt: 1.4 }, samples: 120_000, seed: 5 }";
+    it.run(&format!("it.blocks.configureFirst({changed_settings}, Infinity)"));
     it.assert("it.blocks.shown === 25_000 && it.blocks.stats.n === 25_000");
     it.run("(() => { while (it.blocks.shown < 120_000) it.blocks.addSamples(it.blocks.block); })()");
-    it.run(&format!("it.whole.configure({change})"));
+    it.run(&format!("it.whole.configure({changed_settings})"));
     assert!(are_equal());
 }
 

@@ -1,4 +1,4 @@
-//! `calibrate` and `AlphaCalibrator`: logs as arguments, α's as results.
+//! JavaScript interface of `calibrate` and `AlphaCalibrator`: logs as arguments, α's as results.
 
 use crate::support::Object;
 use motion::geom::se2::SE2;
@@ -25,31 +25,32 @@ struct Columns {
     theta: Vec<f64>,
 }
 
-/// Returns logs of a drive: 400 legs of a second with ten rows each. The reference is simulated with `ALPHAS` and a mount yaw of 0.03 rad.
+/// Returns odometry and reference of 400 legs, each a second long with ten rows. The reference is simulated with `ALPHAS` and a mount yaw of
+/// 0.03 rad.
 fn simulated_logs() -> Object {
     let model = OdometryModel { alphas: OdomAlphas(ALPHAS), noise: NoiseKind::Normal };
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
     let (mut odometry_pose, mut true_pose) = (SE2::identity(), SE2::identity());
-    let (mut odometry, mut reference) = (Vec::new(), Vec::new());
+    let (mut odometry_poses, mut reference_poses) = (Vec::new(), Vec::new());
     for leg in 0..400 {
         let turn = 0.5 * libm::sin(0.7 * f64::from(leg));
         let twist = Vector3::new(0.3 + 0.1 * libm::sin(1.3 * f64::from(leg)), 0.0, turn);
-        let control = OdomDelta::from_poses(&SE2::identity(), &SE2::exp(&twist));
-        let executed_twist = model.sample(&control, &SE2::identity(), &mut rng).log();
+        let odom_delta = OdomDelta::from_poses(&SE2::identity(), &SE2::exp(&twist));
+        let executed_twist = model.sample(&odom_delta, &SE2::identity(), &mut rng).log();
         for row in 0..10 {
             let fraction = f64::from(row) / 10.0;
-            odometry.push(odometry_pose.boxplus(twist * fraction));
-            reference.push(true_pose.boxplus(executed_twist * fraction) * SE2::new(0.0, 0.0, 0.03));
+            odometry_poses.push(odometry_pose.boxplus(twist * fraction));
+            reference_poses.push(true_pose.boxplus(executed_twist * fraction) * SE2::new(0.0, 0.0, 0.03));
         }
         (odometry_pose, true_pose) = (odometry_pose.boxplus(twist), true_pose.boxplus(executed_twist));
     }
-    let columns = |poses: &[SE2]| Columns {
+    let columns_of = |poses: &[SE2]| Columns {
         t: (0..poses.len()).map(|row| row as f64 / 10.0).collect(),
         x: poses.iter().map(SE2::x).collect(),
         y: poses.iter().map(SE2::y).collect(),
         theta: poses.iter().map(SE2::theta).collect(),
     };
-    (&Logs { odometry: columns(&odometry), reference: columns(&reference) }).into()
+    (&Logs { odometry: columns_of(&odometry_poses), reference: columns_of(&reference_poses) }).into()
 }
 
 #[wasm_bindgen_test]
@@ -59,13 +60,16 @@ fn alphas_of_a_log_are_found_with_their_intervals() {
     let intervals: Vec<(f64, f64)> = it.get("it.found.intervals");
     let alphas: Vec<f64> = it.get("it.found.alphas");
     for ((alpha, (low, high)), truth) in alphas.iter().zip(&intervals).zip(ALPHAS) {
-        // Intervals of twice the width miss the truth in one of ten thousand logs.
+        // Intervals of twice the width miss the true value in one of ten thousand logs.
         assert!(low < alpha && alpha < high, "{low} {alpha} {high}");
         assert!(2.0 * low - alpha < truth && truth < 2.0 * high - alpha, "{low} {truth} {high}");
     }
-    let [legs, times, squares]: [usize; 3] =
+    let [leg_count, time_count, squared_count]: [usize; 3] =
         it.get("[it.found.legs.count, it.found.legs.times.length, it.found.legs.squared.length]");
-    assert!((390..=400).contains(&legs) && times == 2 * legs && squares == legs, "{legs} {times} {squares}");
+    assert!(
+        (390..=400).contains(&leg_count) && time_count == 2 * leg_count && squared_count == leg_count,
+        "{leg_count} {time_count} {squared_count}"
+    );
     assert_eq!(it.get::<Vec<Option<String>>>("it.found.notIdentifiable"), [None, None, None, None]);
     it.assert(
         "it.found.recommended.alphas.every((alpha, i) =>
@@ -136,11 +140,11 @@ fn the_figure_opens_with_a_log_of_known_alphas() {
         ),
         [0, 3, 0, 1, 2, 1]
     );
-    let lengths: [f64; 2] = it.get(
+    let length_checks: [f64; 2] = it.get(
         "(({ outcomes, outline, read, ended }) =>
         [outcomes.length % 3 + (outline.length % 2), read.length + ended.length])(it.leg(0))",
     );
-    assert_eq!(lengths, [0.0, 6.0]);
+    assert_eq!(length_checks, [0.0, 6.0]);
     assert_eq!(it.get::<Option<()>>("it.leg(it.count)"), None);
     assert_eq!(it.get::<i32>("it.nearest(1e6, 1e6, 1)"), -1);
 }
@@ -159,10 +163,10 @@ fn a_log_of_ones_own_replaces_it_and_its_fit_can_be_restored() {
         )
     );
     it.run("it.restored = motion.AlphaCalibrator.restored(it.simulation.config, it.simulation.save())");
-    let results = |name: &str| {
+    let results_of = |name: &str| {
         it.get::<String>(&format!("JSON.stringify([it.{name}.config, it.{name}.stats, it.{name}.count])"))
     };
-    assert_eq!(results("restored"), results("simulation"));
+    assert_eq!(results_of("restored"), results_of("simulation"));
     it.run("it.restored.configure({ rule: 'nav2' })");
     it.assert("it.restored.isPending && it.restored.fittedConfig.rule === 'thrun' && it.restored.fits === 1");
     it.run("it.simulation.configure({ rule: 'nav2' })");

@@ -1,4 +1,4 @@
-//! Tests of `OdometryDecomposer`.
+//! JavaScript interface of `OdometryDecomposer`.
 
 use crate::support::Object;
 use wasm_bindgen_test::wasm_bindgen_test;

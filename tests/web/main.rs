@@ -1,7 +1,7 @@
-//! The JavaScript interface of the core in a browser: values in and out, errors by class and message, memory freed.
+//! The JavaScript interface of the core in a browser: its arguments, results, errors and memory.
 //!
-//! Native tests check what the models and simulations compute. Here every class and function is called as by a page, and its results are
-//! compared with those of Rust.
+//! Native tests check the computations of models and simulations. These tests call every class and function as a page does, and compare
+//! results with those of Rust.
 #![cfg(target_arch = "wasm32")]
 #![allow(
     clippy::disallowed_methods,

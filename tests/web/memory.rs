@@ -1,4 +1,4 @@
-//! Memory of the module: the largest clouds fit, and freed memory is used again.
+//! Memory of the WebAssembly module: the largest clouds fit, and freed memory is used again.
 
 use crate::support::Object;
 use js_sys::{ArrayBuffer, WebAssembly};
@@ -9,12 +9,12 @@ use wasm_bindgen::JsCast;
 use wasm_bindgen_test::wasm_bindgen_test;
 
 /// Returns the number of bytes of the module's memory.
-fn memory_size() -> u32 {
+fn memory_byte_length() -> u32 {
     let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
     memory.buffer().unchecked_into::<ArrayBuffer>().byte_length()
 }
 
-/// Constructors, each with an expression of its object.
+/// Constructor calls, each with an expression that reads the object.
 const CLASSES: [(&str, &str); 8] = [
     ("BananaMachine({ samples: 20_000 })", "stats"),
     ("MapSqueeze({ samples: 20_000 })", "stats"),
@@ -33,12 +33,16 @@ fn a_freed_object_is_gone_with_its_memory() {
     for (class, expression) in CLASSES {
         let use_and_free = format!("[it.one = new motion.{class}, it.one.stats, it.one.free()]");
         it.run(&use_and_free);
-        let size_before = memory_size();
+        let byte_length_before = memory_byte_length();
         for _ in 0..10 {
             it.run(&use_and_free);
         }
-        // A cloud is larger than a page of memory.
-        assert!(memory_size() <= size_before + 65_536, "{class} left {} bytes", memory_size() - size_before);
+        // A cloud would take more than a page of memory.
+        assert!(
+            memory_byte_length() <= byte_length_before + 65_536,
+            "{class} left {} bytes",
+            memory_byte_length() - byte_length_before
+        );
         assert!(it.error(&format!("it.one.{expression}")).starts_with("Error: "), "{class}");
         it.run(&format!("[it.one = new motion.{class}, it.one[Symbol.dispose]()]"));
         assert!(it.error(&format!("it.one.{expression}")).starts_with("Error: "), "{class}");
@@ -61,12 +65,12 @@ fn the_largest_cloud_fits_and_outlives_refused_settings() {
 fn the_largest_cloud_fits_in_the_largest_plan() {
     let settings = squeeze::Settings { samples: squeeze::MAX_SAMPLES, ..Default::default() };
     let mut simulation = MapSqueeze::new(settings).expect("memory for the largest cloud");
-    let tally = *simulation.tally();
-    assert_eq!(tally.draws, settings.samples);
+    let tally_before = *simulation.tally();
+    assert_eq!(tally_before.draws, settings.samples);
     let wall = Segment { from: [0.0, 0.0], to: [12.0, 0.0] };
     let plan = FloorPlan::new(vec![wall; FloorPlan::MAX_WALLS], [0.0, 0.0, 12.0, 9.0]).expect("a valid plan");
     simulation.set_plan(plan);
-    assert!(simulation.tally().accepted > tally.accepted, "the other walls are gone");
+    assert!(simulation.tally().accepted > tally_before.accepted, "the other walls are gone");
 }
 
 #[wasm_bindgen_test]

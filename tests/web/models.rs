@@ -11,7 +11,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use wasm_bindgen_test::wasm_bindgen_test;
 
-/// Arguments of the tests in JavaScript. The constants and functions below have equal values in Rust.
+/// JavaScript values for the tests. The constants and functions below have equal values in Rust.
 const JS_VALUES: &str = "{
     start: { x: 1, y: -2, theta: 0.5 }, next: { x: 1.7, y: -1.3, theta: 1.2 },
     command: { v: 1, omega: 0.5, dt: 1 }, control: { rot1: 0.2, trans: 1, rot2: 0.3 },
@@ -30,7 +30,7 @@ const VELOCITY_MODEL: VelocityModel = VelocityModel {
 const ODOMETRY_MODEL: OdometryModel =
     OdometryModel { alphas: OdomAlphas([0.1, 0.05, 0.02, 0.03]), noise: NoiseKind::Normal };
 
-fn start() -> SE2 {
+fn start_pose() -> SE2 {
     SE2::new(1.0, -2.0, 0.5)
 }
 
@@ -42,20 +42,20 @@ fn pose_behind() -> SE2 {
     SE2::new(0.1, -2.4, 0.55)
 }
 
-fn coordinates(pose: &SE2) -> [f64; 3] {
+fn pose_coordinates(pose: &SE2) -> [f64; 3] {
     [pose.x(), pose.y(), pose.theta()]
 }
 
-fn draws<M: MotionModel>(model: &M, control: &M::Control) -> Vec<f64> {
+fn sampled_coordinates<M: MotionModel>(model: &M, control: &M::Control) -> Vec<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
-    (0..5).flat_map(|_| coordinates(&model.sample(control, &start(), &mut rng))).collect()
+    (0..5).flat_map(|_| pose_coordinates(&model.sample(control, &start_pose(), &mut rng))).collect()
 }
 
-fn scores<M: MotionModel>(model: &M, next: &SE2, control: &M::Control) -> (f64, Option<f64>) {
-    (model.prob(next, control, &start()), model.pose_density(next, control, &start()))
+fn prob_and_density<M: MotionModel>(model: &M, next: &SE2, control: &M::Control) -> (f64, Option<f64>) {
+    (model.prob(next, control, &start_pose()), model.pose_density(next, control, &start_pose()))
 }
 
-fn rows_of(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
+fn matrix_rows(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
@@ -63,30 +63,30 @@ fn rows_of(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
 fn poses_and_twists_are_those_of_rust() {
     let it = Object::new(JS_VALUES);
     let twist = Vector3::new(0.3, -0.1, 0.7);
-    let pose = |expression: &str| it.get::<[f64; 3]>(&format!("Object.values(motion.se2.{expression})"));
-    assert_eq!(pose("exp([0.3, -0.1, 0.7])"), coordinates(&SE2::exp(&twist)));
-    assert_eq!(pose("compose(it.start, it.next)"), coordinates(&(start() * next_pose())));
-    assert_eq!(pose("inverse(it.start)"), coordinates(&start().inverse()));
+    let pose_of = |expression: &str| it.get::<[f64; 3]>(&format!("Object.values(motion.se2.{expression})"));
+    assert_eq!(pose_of("exp([0.3, -0.1, 0.7])"), pose_coordinates(&SE2::exp(&twist)));
+    assert_eq!(pose_of("compose(it.start, it.next)"), pose_coordinates(&(start_pose() * next_pose())));
+    assert_eq!(pose_of("inverse(it.start)"), pose_coordinates(&start_pose().inverse()));
     assert_eq!(
-        pose("boxplus(it.start, new Float64Array([0.3, -0.1, 0.7]))"),
-        coordinates(&start().boxplus(twist))
+        pose_of("boxplus(it.start, new Float64Array([0.3, -0.1, 0.7]))"),
+        pose_coordinates(&start_pose().boxplus(twist))
     );
     assert_eq!(it.get::<Vec<f64>>("motion.se2.log(it.next)"), next_pose().log().as_slice());
     assert_eq!(
         it.get::<Vec<f64>>("motion.se2.boxminus(it.next, it.start)"),
-        next_pose().boxminus(&start()).as_slice()
+        next_pose().boxminus(&start_pose()).as_slice()
     );
-    let matrix = |expression: &str| it.get::<Vec<Vec<f64>>>(&format!("motion.se2.{expression}"));
-    assert_eq!(matrix("adjoint(it.start)"), rows_of(&start().adjoint()));
-    assert_eq!(matrix("rightJacobian([0.3, -0.1, 0.7])"), rows_of(&SE2::right_jacobian(&twist)));
+    let matrix_of = |expression: &str| it.get::<Vec<Vec<f64>>>(&format!("motion.se2.{expression}"));
+    assert_eq!(matrix_of("adjoint(it.start)"), matrix_rows(&start_pose().adjoint()));
+    assert_eq!(matrix_of("rightJacobian([0.3, -0.1, 0.7])"), matrix_rows(&SE2::right_jacobian(&twist)));
     assert_eq!(it.get::<Vec<String>>("Object.keys(motion.se2.inverse(it.start))"), ["x", "y", "theta"]);
 }
 
 #[wasm_bindgen_test]
 fn an_arc_is_inverted_and_two_poses_are_decomposed() {
     let it = Object::new(JS_VALUES);
-    let arc = invert_arc(&start(), &next_pose(), 2.0);
-    let [x, y] = arc.centre(&start()).expect("an arc");
+    let arc = invert_arc(&start_pose(), &next_pose(), 2.0);
+    let [x, y] = arc.centre(&start_pose()).expect("an arc");
     assert_eq!(
         it.get::<Vec<f64>>(
             "(({ vHat, omegaHat, gammaHat, center, radius, turn }) =>
@@ -107,66 +107,75 @@ fn an_arc_is_inverted_and_two_poses_are_decomposed() {
 #[wasm_bindgen_test]
 fn models_score_and_draw_as_in_rust() {
     let it = Object::new(JS_VALUES);
-    let [velocity, odometry, aware]: [(f64, Option<f64>); 3] = it.get(
+    let [velocity_scores, odometry_scores, reverse_aware_scores]: [(f64, Option<f64>); 3] = it.get(
         "[[it.velocity, it.next, it.command], [it.odometry, it.next, it.control], [it.aware, it.back,
             it.reverse]]
             .map(([model, next, control]) =>
                 [model.prob(next, control, it.start), model.poseDensity(next, control, it.start)])",
     );
-    assert_eq!(velocity, scores(&VELOCITY_MODEL, &next_pose(), &COMMAND));
-    assert_eq!(odometry, scores(&ODOMETRY_MODEL, &next_pose(), &READING));
-    let model = ReverseAware(ODOMETRY_MODEL);
-    assert_eq!(aware, scores(&model, &pose_behind(), &REVERSE_READING));
+    assert_eq!(velocity_scores, prob_and_density(&VELOCITY_MODEL, &next_pose(), &COMMAND));
+    assert_eq!(odometry_scores, prob_and_density(&ODOMETRY_MODEL, &next_pose(), &READING));
+    let reverse_aware_model = ReverseAware(ODOMETRY_MODEL);
+    assert_eq!(
+        reverse_aware_scores,
+        prob_and_density(&reverse_aware_model, &pose_behind(), &REVERSE_READING)
+    );
     assert!(
-        aware.0 > 10.0 * ODOMETRY_MODEL.prob(&pose_behind(), &REVERSE_READING, &start()),
+        reverse_aware_scores.0 > 10.0 * ODOMETRY_MODEL.prob(&pose_behind(), &REVERSE_READING, &start_pose()),
         "the option has an effect"
     );
 
     assert_eq!(
         it.get::<Vec<f64>>("it.velocity.sample(it.command, it.start, 5, 9)"),
-        draws(&VELOCITY_MODEL, &COMMAND)
+        sampled_coordinates(&VELOCITY_MODEL, &COMMAND)
     );
     assert_eq!(
         it.get::<Vec<f64>>("it.odometry.sample(it.control, it.start, 5, 9)"),
-        draws(&ODOMETRY_MODEL, &READING)
+        sampled_coordinates(&ODOMETRY_MODEL, &READING)
     );
     assert_eq!(
         it.get::<Vec<f64>>("it.aware.sample(it.reverse, it.start, 5, 9)"),
-        draws(&model, &REVERSE_READING)
+        sampled_coordinates(&reverse_aware_model, &REVERSE_READING)
     );
     it.assert("it.aware.sample(it.reverse, it.start, 5, 9) instanceof Float64Array");
-    // Without a last turn the poses lie on a surface, and have no density in space.
-    let flat = "new motion.VelocityModel({ alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] })";
-    assert_eq!(it.get::<Option<f64>>(&format!("{flat}.poseDensity(it.next, it.command, it.start)")), None);
+    // Without a last turn the poses lie on a surface, and have no density over x, y and θ.
+    let model_without_last_turn = "new motion.VelocityModel({ alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] })";
+    assert_eq!(
+        it.get::<Option<f64>>(&format!(
+            "{model_without_last_turn}.poseDensity(it.next, it.command, it.start)"
+        )),
+        None
+    );
 }
 
 #[wasm_bindgen_test]
 fn covariances_are_propagated_as_in_rust() {
-    let noise = TangentNoiseModel::from_velocity(&VELOCITY_MODEL, &COMMAND).expect("a covariance");
+    let noise_model = TangentNoiseModel::from_velocity(&VELOCITY_MODEL, &COMMAND).expect("a covariance");
     let twist = TangentNoiseModel::twist(&COMMAND);
     let it = Object::new(JS_VALUES);
-    for (word, order) in [
+    for (keyword, order) in [
         ("chapter", Compounding::Chapter),
         ("first-order", Compounding::FirstOrder),
         ("fourth-order", Compounding::FourthOrder),
     ] {
         let mut sigma = Matrix3::from_diagonal(&Vector3::new(0.01, 0.02, 0.03));
         for _ in 0..3 {
-            sigma = noise.propagate(&sigma, &twist, order);
+            sigma = noise_model.propagate(&sigma, &twist, order);
         }
         let options = format!(
             "{{ sigma: [[0.01, 0, 0], [0, 0.02, 0], [0, 0, 0.03]], command: it.command,
-                alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02], compounding: '{word}', steps: 3 }}"
+                alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02], compounding: '{keyword}', steps: 3 }}"
         );
         assert_eq!(
             it.get::<Vec<Vec<f64>>>(&format!("motion.propagate({options})")),
-            rows_of(&sigma),
-            "{word}"
+            matrix_rows(&sigma),
+            "{keyword}"
         );
     }
-    let call = "motion.propagate({ command: it.command, alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02] })";
-    let after_one_step = noise.propagate(&Matrix3::zeros(), &twist, Compounding::Chapter);
-    assert_eq!(it.get::<Vec<Vec<f64>>>(call), rows_of(&after_one_step));
+    let propagate_call =
+        "motion.propagate({ command: it.command, alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02] })";
+    let cov_after_one_step = noise_model.propagate(&Matrix3::zeros(), &twist, Compounding::Chapter);
+    assert_eq!(it.get::<Vec<Vec<f64>>>(propagate_call), matrix_rows(&cov_after_one_step));
 }
 
 #[wasm_bindgen_test]

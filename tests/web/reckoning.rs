@@ -1,4 +1,4 @@
-//! Tests of `DeadReckoning`.
+//! JavaScript interface of `DeadReckoning`.
 
 use crate::support::Object;
 use wasm_bindgen_test::wasm_bindgen_test;

@@ -1,17 +1,17 @@
-//! `MapSqueeze`: attempts, floor plans and maps.
+//! JavaScript interface of `MapSqueeze`: attempts, floor plans and maps.
 
 use crate::support::{Object, assert_near};
 use wasm_bindgen_test::wasm_bindgen_test;
 
-/// Map of 4 × 3 cells of half a metre, of which the lower left one is occupied: the fields of its YAML file, and its image as a PGM
-/// file.
-const MAP: &str = "({ simulation: new motion.MapSqueeze({ samples: 50, clearance: 0.1 }),
+/// Object with a simulation, the YAML fields and the PGM file of a map, and a function that makes images. The map has 4 × 3 cells of half a
+/// metre, and its lower left cell is occupied.
+const MAP_FILES_AND_SIMULATION: &str = "({ simulation: new motion.MapSqueeze({ samples: 50, clearance: 0.1 }),
     yaml: { image: 'map.pgm', resolution: 0.5, origin: [1, 2, 0], negate: 0, occupied_thresh: 0.65, free_thresh: 0.196 },
     pgm: new TextEncoder().encode('P2\\n# by hand\\n4 3\\n255\\n255 255 255 255\\n255 255 255 255\\n0 255 255 255\\n'),
     image: (greys, opacity = 255, width = 4, height = greys.length / width) =>
         new ImageData(new Uint8ClampedArray(greys.flatMap((grey) => [grey, grey, grey, opacity])), width, height),
 })";
-const STATE: &str = "[it.simulation.config, it.simulation.stats, it.simulation.plan, it.simulation.grid, [...it.simulation.verdicts]]";
+const SIMULATION_STATE: &str = "[it.simulation.config, it.simulation.stats, it.simulation.plan, it.simulation.grid, [...it.simulation.verdicts]]";
 
 #[wasm_bindgen_test]
 fn a_noise_level_sets_all_alphas() {
@@ -27,25 +27,25 @@ fn a_noise_level_sets_all_alphas() {
 #[wasm_bindgen_test]
 fn a_floor_plan_replaces_the_apartment_and_gives_way_to_it() {
     let it = Object::new("new motion.MapSqueeze({ samples: 100 })");
-    let accepted: usize = it.get("it.stats.accepted");
+    let accepted_before: usize = it.get("it.stats.accepted");
     it.run(
         "it.setPlan({ bounds: new Float64Array([0, 0, 12, 9]), walls: [[10, 8, 11, 8],
         new Float64Array([0, 0, 12, 0])] })",
     );
     assert_eq!(it.get::<[f64; 8]>("it.plan.walls"), [10.0, 8.0, 11.0, 8.0, 0.0, 0.0, 12.0, 0.0]);
-    assert!(it.get::<usize>("it.stats.accepted") > accepted);
+    assert!(it.get::<usize>("it.stats.accepted") > accepted_before);
     let plan: String = it.get("JSON.stringify(it.plan)");
     it.run("it.setPlan(it.plan)");
     assert_eq!(it.get::<String>("JSON.stringify(it.plan)"), plan);
     it.run("it.setPlan(undefined)");
-    assert_eq!(it.get::<[usize; 2]>("[it.plan.walls.length, it.stats.accepted]"), [72, accepted]);
+    assert_eq!(it.get::<[usize; 2]>("[it.plan.walls.length, it.stats.accepted]"), [72, accepted_before]);
 }
 
 #[wasm_bindgen_test]
 fn a_map_is_read_from_a_file_or_from_pixels() {
-    let it = Object::new(MAP);
+    let it = Object::new(MAP_FILES_AND_SIMULATION);
     it.run("it.simulation.setGrid(it.yaml, it.pgm)");
-    let plan: String = it.get("JSON.stringify(it.simulation.plan)");
+    let plan_json: String = it.get("JSON.stringify(it.simulation.plan)");
     assert_eq!(it.get::<[f64; 4]>("it.simulation.plan.bounds"), [1.0, 2.0, 3.0, 3.5]);
     assert_eq!(it.get::<Vec<f64>>("it.simulation.plan.walls.slice(0, 4)"), [1.0, 2.0, 1.5, 2.0]);
     let grid: (usize, usize, f64, [f64; 3]) =
@@ -61,12 +61,12 @@ fn a_map_is_read_from_a_file_or_from_pixels() {
          101, 255]).data }",
     ] {
         it.run(&format!("[it.simulation.setPlan(undefined), it.simulation.setGrid({call})]"));
-        assert_eq!(it.get::<String>("JSON.stringify(it.simulation.plan)"), plan, "{call}");
+        assert_eq!(it.get::<String>("JSON.stringify(it.simulation.plan)"), plan_json, "{call}");
     }
     it.run("it.simulation.setGrid({ ...it.yaml, origin: [1, 2, Math.PI / 2] }, it.pgm)");
     assert_near([it.get("it.simulation.plan.bounds[0]")], [-0.5], 1e-12);
 
-    // Free, unknown and occupied, in one row.
+    // The cells of a row are free, unknown and occupied.
     it.run(
         "it.simulation.setGrid({ resolution: 1, origin: [0, 0, 0], free_thresh: 0.196 }, it.image([255,
         205, 0, 255, 205, 0], 255, 3))",
@@ -83,9 +83,9 @@ fn a_map_is_read_from_a_file_or_from_pixels() {
 
 #[wasm_bindgen_test]
 fn a_refused_setting_changes_nothing() {
-    let it = Object::new(MAP);
+    let it = Object::new(MAP_FILES_AND_SIMULATION);
     it.assert_refused(
-        STATE,
+        SIMULATION_STATE,
         r#"
         it.simulation.configure({ seed: 9, clearance: -1 })
         RangeError: clearance is -1; allowed is a number from 0 to 10
@@ -103,9 +103,9 @@ fn a_refused_setting_changes_nothing() {
 
 #[wasm_bindgen_test]
 fn a_malformed_plan_or_map_is_explained_and_the_present_one_stays() {
-    let it = Object::new(MAP);
+    let it = Object::new(MAP_FILES_AND_SIMULATION);
     it.assert_refused(
-        STATE,
+        SIMULATION_STATE,
         r#"
         it.simulation.setPlan('apartment')
         TypeError: plan is "apartment"; allowed is an object with keys from bounds, walls

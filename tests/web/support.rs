@@ -3,7 +3,7 @@
 use serde::de::DeserializeOwned;
 use wasm_bindgen::prelude::*;
 
-// The test runner serves the bound module under this address.
+// The test runner serves the module with its bindings under this address.
 #[wasm_bindgen(inline_js = r#"
 import * as motion from '/wasm-bindgen-test';
 const pick = (object, ...keys) => keys.map((key) => object[key]);
@@ -15,8 +15,8 @@ extern "C" {
     fn evaluate_js(expression: &str, it: &JsValue) -> Result<JsValue, JsValue>;
 }
 
-/// JavaScript value, which expressions name `it`. In expressions, `motion` is the module of the interface, and `pick` returns some of an
-/// object's properties as an array.
+/// JavaScript value that expressions call `it`. In expressions, `motion` is the module under test, and `pick` returns some properties of an
+/// object as an array.
 pub struct Object(JsValue);
 
 impl Object {
@@ -40,7 +40,7 @@ impl Object {
         assert!(self.get::<bool>(expression), "{expression}");
     }
 
-    /// Returns class and message of the error that an expression throws.
+    /// Returns the class and message of the error that an expression throws.
     pub fn error(&self, expression: &str) -> String {
         match evaluate_js(expression, &self.0) {
             Ok(value) => panic!("{expression} is {value:?} and throws nothing"),
@@ -48,25 +48,25 @@ impl Object {
         }
     }
 
-    /// Asserts that each expression throws the error in the line below it, and that `state` stays as it was. A line with
-    /// more indentation than the first continues the line before it.
-    pub fn assert_refused(&self, state: &str, cases: &str) {
+    /// Asserts that each expression throws the error in the line below it and does not change the state. A line with more
+    /// indentation than the first continues the line before it.
+    pub fn assert_refused(&self, state_expression: &str, cases: &str) {
         let indentation = |line: &str| line.len() - line.trim_start().len();
         let base_indentation = cases.lines().find(|line| !line.trim().is_empty()).map_or(0, indentation);
-        let mut lines: Vec<String> = Vec::new();
+        let mut cases_and_errors: Vec<String> = Vec::new();
         for line in cases.lines().filter(|line| !line.trim().is_empty()) {
-            match lines.last_mut() {
+            match cases_and_errors.last_mut() {
                 Some(previous_line) if indentation(line) > base_indentation => {
                     *previous_line += &format!(" {}", line.trim())
                 }
-                _ => lines.push(line.trim().to_owned()),
+                _ => cases_and_errors.push(line.trim().to_owned()),
             }
         }
-        let state = format!("JSON.stringify({state})");
-        let state_before: String = self.get(&state);
-        for case in lines.chunks(2) {
+        let state_expression = format!("JSON.stringify({state_expression})");
+        let state_before: String = self.get(&state_expression);
+        for case in cases_and_errors.chunks(2) {
             assert_eq!(self.error(&case[0]), case[1], "{}", case[0]);
-            assert_eq!(self.get::<String>(&state), state_before, "{}", case[0]);
+            assert_eq!(self.get::<String>(&state_expression), state_before, "{}", case[0]);
         }
     }
 
@@ -81,12 +81,12 @@ impl<T: serde::Serialize> From<&T> for Object {
     }
 }
 
-/// Returns the value of a JavaScript expression that uses no `this`.
+/// Returns the value of a JavaScript expression that does not use `it`.
 pub fn get<T: DeserializeOwned>(expression: &str) -> T {
     Object(JsValue::UNDEFINED).get(expression)
 }
 
-/// Asserts that one or several numbers of JavaScript are as expected.
+/// Asserts that numbers are equal to within a tolerance.
 pub fn assert_near<const N: usize>(actual: [f64; N], expected: [f64; N], tolerance: f64) {
     for (number, expected_number) in actual.iter().zip(&expected) {
         assert!(

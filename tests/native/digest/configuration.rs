@@ -1,4 +1,4 @@
-//! Reads configurations.json: settings of simulations, and arguments of the methods whose results are digested.
+//! Reader of configurations.json, which has settings of simulations and arguments of the methods whose results are digested.
 
 use motion::sim::picture::{RAMP_STEPS, Ramp};
 use motion::sim::settings::{Rules, Setting};
@@ -29,7 +29,7 @@ pub fn configurations_of(document: &Value) -> impl Iterator<Item = Configuration
 }
 
 impl Configuration<'_> {
-    /// Returns the settings with the values of the configuration.
+    /// Returns the defaults with the settings of the configuration.
     pub fn settings<S: Rules>(&self, defaults: S) -> S {
         let given_settings = self.value["settings"].as_object().expect("settings");
         let unknown_key = given_settings.keys().find(|key| !S::KEYS.contains(&key.as_str()));
@@ -46,7 +46,7 @@ impl Configuration<'_> {
         settings
     }
 
-    /// Returns the preset that the configuration begins with.
+    /// Returns the preset on which the configuration is based.
     pub fn preset<'a, P>(&self, presets: &'a [P], name: impl Fn(&'a P) -> &'a str) -> Option<&'a P> {
         let preset_name = self.value.get("preset")?;
         Some(presets.iter().find(|preset| preset_name == name(preset)).expect("a preset of that name"))
@@ -55,8 +55,13 @@ impl Configuration<'_> {
     pub fn grid(&self) -> Grid {
         let bounds = self.value.get("bounds").unwrap_or(&self.document["widgets"][self.widget]["bounds"]);
         let [x_min, y_min, x_max, y_max] = numbers_of(bounds);
-        let size = |key| self.document["picture"][key].as_u64().expect("a size") as usize;
-        Grid { min: [x_min, y_min], max: [x_max, y_max], columns: size("columns"), rows: size("rows") }
+        let pixels_of = |key| self.document["picture"][key].as_u64().expect("a size") as usize;
+        Grid {
+            min: [x_min, y_min],
+            max: [x_max, y_max],
+            columns: pixels_of("columns"),
+            rows: pixels_of("rows"),
+        }
     }
 }
 
@@ -89,7 +94,7 @@ pub fn numbers_of<const N: usize>(value: &Value) -> [f64; N] {
     std::array::from_fn(|i| number_of(&value[i]))
 }
 
-/// Returns distinct colours, as digest.js does.
-pub fn ramp(number_of_ramp: usize) -> Ramp {
-    std::array::from_fn(|i| [i as u8, (RAMP_STEPS - 1 - i) as u8, 85 * number_of_ramp as u8, 255])
+/// Returns a colour ramp with the same distinct colours as in digest.js.
+pub fn test_ramp(ramp_index: usize) -> Ramp {
+    std::array::from_fn(|i| [i as u8, (RAMP_STEPS - 1 - i) as u8, 85 * ramp_index as u8, 255])
 }

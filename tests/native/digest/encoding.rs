@@ -1,15 +1,14 @@
-//! Digest of a simulation's results, from the same bytes as digest.js makes from the JavaScript results.
+//! Digest of the results of a simulation. The digested bytes equal those that digest.js makes from the JavaScript results.
 
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use sha2::{Digest, Sha256};
 
-/// Bits that are written for every NaN. IEEE 754 and WebAssembly leave sign and payload of a computed NaN open, and processors and
-/// engines differ in them.
+/// Bits that are written for every NaN, because IEEE 754 and WebAssembly leave the sign and payload of a computed NaN open.
 const NAN_BITS: u64 = 0x7ff8_0000_0000_0000;
 
-/// Encoding of values as doubles, in eight bytes each, the lowest byte first. A list begins with its length,
-/// a tuple has the fields of an object, and a missing value is NaN.
+/// Encoding of values as doubles of eight bytes, with the lowest byte first. A list begins with its length, a tuple stands
+/// for the fields of an object, and a missing value is NaN.
 pub trait Encode {
     fn encode(&self, bytes: &mut Vec<u8>);
 }
@@ -100,7 +99,7 @@ impl HashedPart {
     pub fn new(name: &'static str, results: impl Encode) -> Self {
         let mut bytes = Vec::new();
         results.encode(&mut bytes);
-        // With 64 bits, one change in 10¹⁹ would go unnoticed.
+        // Of the hash, 64 bits are kept. One change in 10¹⁹ would go unnoticed.
         Self(name, hex(&Sha256::digest(bytes))[..16].to_owned())
     }
 }

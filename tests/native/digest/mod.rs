@@ -1,5 +1,5 @@
-//! Equal seeds give equal bits: poses, statistics, outlines, pixels and fits of many configurations are compared with golden.txt.
-//! digest.js compares all results of all simulations of the JavaScript interface, in Node and in browsers.
+//! Results of many configurations, compared bit by bit with golden.txt, because equal seeds must give equal bits. digest.js compares the
+//! results of the JavaScript interface, in Node and in browsers.
 
 mod configuration;
 mod encoding;
@@ -8,15 +8,15 @@ mod simulations;
 use encoding::{HashedPart, hex};
 use sha2::{Digest, Sha256};
 
-const DIRECTORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/digest");
+const DIGEST_DIRECTORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/digest");
 
 #[test]
 fn the_same_seed_gives_the_same_bits() {
     let configurations = configuration::parsed_configurations();
-    let golden = std::fs::read_to_string(format!("{DIRECTORY}/golden.txt")).expect("golden.txt");
+    let golden_text = std::fs::read_to_string(format!("{DIGEST_DIRECTORY}/golden.txt")).expect("golden.txt");
     let mut differences = Vec::new();
     for configuration in configuration::configurations_of(&configurations) {
-        let parts = match configuration.widget {
+        let hashed_parts = match configuration.widget {
             "banana-machine" => simulations::banana_machine(&configuration),
             "map-squeeze" => simulations::map_squeeze(&configuration),
             "alpha-calibrator" => simulations::alpha_calibrator(&configuration),
@@ -24,12 +24,16 @@ fn the_same_seed_gives_the_same_bits() {
             _ => continue,
         };
         let name = format!("{}/{} ", configuration.widget, configuration.name);
-        let line = golden.lines().find_map(|line| line.strip_prefix(&name)).unwrap_or_default();
+        let golden_hashes = golden_text
+            .lines()
+            .find_map(|golden_hashes| golden_hashes.strip_prefix(&name))
+            .unwrap_or_default();
         let is_known = |HashedPart(part, hash): &HashedPart| {
-            line.split(' ').any(|known| known == format!("{part}:{hash}"))
+            golden_hashes.split(' ').any(|golden_hash| golden_hash == format!("{part}:{hash}"))
         };
-        differences
-            .extend(parts.iter().filter(|part| !is_known(part)).map(|part| format!("{name}{}", part.0)));
+        differences.extend(
+            hashed_parts.iter().filter(|part| !is_known(part)).map(|part| format!("{name}{}", part.0)),
+        );
     }
     assert!(
         differences.is_empty(),
@@ -39,17 +43,18 @@ fn the_same_seed_gives_the_same_bits() {
     );
 }
 
-/// A change of the digest affects users, because their seeds give other clouds. The changelog must therefore contain it.
+/// A changed digest affects users, because their seeds give other clouds. The changelog must therefore contain the digest.
 #[test]
 fn the_changelog_names_the_digest() {
-    let golden = std::fs::read(format!("{DIRECTORY}/golden.txt")).expect("golden.txt");
-    let digest = hex(&Sha256::digest(&golden));
+    let golden_bytes = std::fs::read(format!("{DIGEST_DIRECTORY}/golden.txt")).expect("golden.txt");
+    let digest = hex(&Sha256::digest(&golden_bytes));
     let changelog =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/CHANGELOG.md")).expect("a changelog");
     // The newest digest comes first.
-    let printed = changelog.split(|c: char| !c.is_ascii_hexdigit()).find(|word| word.len() == digest.len());
+    let printed_digest =
+        changelog.split(|c: char| !c.is_ascii_hexdigit()).find(|word| word.len() == digest.len());
     assert_eq!(
-        printed,
+        printed_digest,
         Some(digest.as_str()),
         "a line under the newest heading of CHANGELOG.md has to say what changed, and that the digest is now {digest}"
     );

@@ -1,6 +1,6 @@
-//! Digested values of each simulation, in the order of digest.js.
+//! Digested results of each simulation, in the order of digest.js.
 
-use super::configuration::{Configuration, number_of, numbers_of, ramp};
+use super::configuration::{Configuration, number_of, numbers_of, test_ramp};
 use super::encoding::HashedPart;
 use motion::calibrate::{Estimate, Recommendation, SystematicError};
 use motion::geom::se2::SE2;
@@ -24,7 +24,7 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
     let (reading, contours, table) = (simulation.reading(), simulation.contours(), simulation.table());
     let stats = *simulation.stats();
     let gain_fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
-    let values = |col: TableColumn| {
+    let column_values = |col: TableColumn| {
         (col.mean, col.cov, col.cross_track_skew, gain_fields(col.likelihood_gain), col.area_ratio)
     };
     let stats = (
@@ -36,17 +36,18 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
         (gain_fields(stats.likelihood_gain), gain_fields(stats.likelihood_gain_error)),
         stats.area_ratio,
     );
-    let columns = (values(table.linearized), values(table.exact), values(table.measured));
+    let table_columns =
+        (column_values(table.linearized), column_values(table.exact), column_values(table.measured));
     let outlines = (
-        flattened(&contours.command),
-        flattened(&contours.ellipse),
-        flattened(&contours.linearized),
-        flattened(&contours.exponential),
-        flattened(&contours.twist_ellipse),
-        flattened(&contours.additive),
+        flat_list(&contours.command),
+        flat_list(&contours.ellipse),
+        flat_list(&contours.linearized),
+        flat_list(&contours.exponential),
+        flat_list(&contours.twist_ellipse),
+        flat_list(&contours.additive),
     );
-    let mut picture = |view| flattened(simulation.paint(view, &configuration.grid(), &ramp(0)));
-    let [plane, twist] = [View::Plane, View::Twist].map(&mut picture);
+    let mut paint_view = |view| flat_list(simulation.paint(view, &configuration.grid(), &test_ramp(0)));
+    let [plane_pixels, twist_pixels] = [View::Plane, View::Twist].map(&mut paint_view);
     vec![
         HashedPart::new("poses", simulation.poses().flat_map(coordinates).collect::<Vec<_>>()),
         HashedPart::new("twists", simulation.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),
@@ -60,10 +61,10 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
                 stats,
             ),
         ),
-        HashedPart::new("table", (columns, table.tangent.map(|moments| (moments.mean, moments.cov)))),
+        HashedPart::new("table", (table_columns, table.tangent.map(|moments| (moments.mean, moments.cov)))),
         HashedPart::new("contours", outlines),
-        HashedPart::new("plane", plane),
-        HashedPart::new("twist", twist),
+        HashedPart::new("plane", plane_pixels),
+        HashedPart::new("twist", twist_pixels),
     ]
 }
 
@@ -78,18 +79,25 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
         match map.get("plan") {
             Some(plan) => simulation.set_plan(read_plan(plan)),
             None => simulation
-                .set_grid(read_map(map, &configuration.document["images"]))
+                .set_grid(read_grid(map, &configuration.document["images"]))
                 .expect("not too many walls"),
         }
     }
     let (plan, stats, noise) = (simulation.plan(), simulation.stats(), simulation.settings().noise());
     let attempts = simulation.attempts();
-    let walls: Vec<_> = plan.walls().iter().map(|Segment { from, to }| [*from, *to]).collect();
-    let grid = plan.grid().map(|grid| {
-        let [columns, rows] = grid.size();
-        let [occupied, unknown] = [Cell::Occupied, Cell::Unknown]
-            .map(|kind| grid.cells().map(|cell| cell == kind).collect::<Vec<_>>());
-        (columns, rows, grid.resolution(), coordinates(grid.origin()), occupied, unknown)
+    let wall_ends: Vec<_> = plan.walls().iter().map(|Segment { from, to }| [*from, *to]).collect();
+    let grid_fields = plan.grid().map(|grid_fields| {
+        let [columns, rows] = grid_fields.size();
+        let [are_occupied, are_unknown] = [Cell::Occupied, Cell::Unknown]
+            .map(|kind| grid_fields.cells().map(|cell| cell == kind).collect::<Vec<_>>());
+        (
+            columns,
+            rows,
+            grid_fields.resolution(),
+            coordinates(grid_fields.origin()),
+            are_occupied,
+            are_unknown,
+        )
     });
     let statistics = (
         (stats.attempts, stats.drawn, stats.accepted, stats.acceptance_rate),
@@ -97,7 +105,7 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
         (stats.draws_per_accepted, stats.wall_tests_per_accepted, stats.gave_up),
     );
     vec![
-        HashedPart::new("map", (plan.bounds(), flattened(walls.as_flattened()), grid)),
+        HashedPart::new("map", (plan.bounds(), flat_list(wall_ends.as_flattened()), grid_fields)),
         HashedPart::new(
             "poses",
             attempts.iter().flat_map(|attempt| coordinates(attempt.pose)).collect::<Vec<_>>(),
@@ -107,7 +115,10 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
             "statistics",
             (attempts.len(), simulation.is_start_free(), simulation.find_free_pose(), noise, statistics),
         ),
-        HashedPart::new("picture", flattened(simulation.paint(&configuration.grid(), &[0, 1, 2].map(ramp)))),
+        HashedPart::new(
+            "picture",
+            flat_list(simulation.paint(&configuration.grid(), &[0, 1, 2].map(test_ramp))),
+        ),
     ]
 }
 
@@ -146,18 +157,18 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
         HashedPart::new(
             "poses",
             (
-                flattened(simulation.poses(settings.step)),
+                flat_list(simulation.poses(settings.step)),
                 simulation.twists().flatten().collect::<Vec<_>>(),
-                flattened(simulation.poses(1)),
+                flat_list(simulation.poses(1)),
             ),
         ),
         HashedPart::new(
             "outlines",
             (
-                flattened(&outlines.ellipse),
-                flattened(&outlines.exponential),
-                flattened(&outlines.predicted),
-                flattened(&outlines.measured),
+                flat_list(&outlines.ellipse),
+                flat_list(&outlines.exponential),
+                flat_list(&outlines.predicted),
+                flat_list(&outlines.measured),
             ),
         ),
     ]
@@ -167,28 +178,29 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
     let settings = configuration.settings(alpha_calibrator::Settings::default());
     let simulation = AlphaCalibrator::new(settings).expect("a valid setting");
     let calibration = simulation.calibration();
-    let estimate = |Estimate { value, interval }: &Estimate| (*value, *interval);
-    let value = |error: SystematicError| {
+    let estimate_fields = |Estimate { value, interval }: &Estimate| (*value, *interval);
+    let error_value = |error: SystematicError| {
         calibration.systematic_stds[error as usize].map(|_| calibration.systematic.get(error))
     };
-    let interval = |error: SystematicError| calibration.interval_of(error);
-    let constant_and_corrected = |errors: &[SystematicError]| {
+    let error_interval = |error: SystematicError| calibration.interval_of(error);
+    let is_constant_and_corrected = |errors: &[SystematicError]| {
         let [constant, corrected] = [calibration.is_constant, calibration.is_corrected]
             .map(|mask| errors.iter().any(|error| mask[*error as usize]));
         (constant, corrected)
     };
-    let error_fields = |error| (value(error), interval(error), constant_and_corrected(&[error]));
+    let error_fields =
+        |error| (error_value(error), error_interval(error), is_constant_and_corrected(&[error]));
     let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
-    let systematic = (
-        // Number of the errors, because JavaScript has them as a list. The lever arm is one error with two coordinates.
+    let systematic_errors = (
+        // The number of errors comes first, because JavaScript has them as a list. The lever arm is one error with two coordinates.
         5usize,
         error_fields(SystematicError::ClockOffset),
         error_fields(SystematicError::MountYaw),
-        (lever_arm.map(value), lever_arm.map(interval), constant_and_corrected(&lever_arm)),
+        (lever_arm.map(error_value), lever_arm.map(error_interval), is_constant_and_corrected(&lever_arm)),
         error_fields(SystematicError::DistanceScale),
         error_fields(SystematicError::TurnScale),
     );
-    let noise = calibration.reference_noise.each_ref().map(estimate);
+    let reference_noise = calibration.reference_noise.each_ref().map(estimate_fields);
     let checks: Vec<_> = calibration
         .diagnostics
         .checks
@@ -209,14 +221,14 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
         let alphas = (truth.alphas, truth.clock_offset, truth.mount_yaw);
         (alphas, truth.lever_arm, truth.distance_scale, truth.turn_scale)
     });
-    let persistence = (estimate(&calibration.persistence.correlation), calibration.persistence.length);
+    let persistence = (estimate_fields(&calibration.persistence.correlation), calibration.persistence.length);
     vec![
         HashedPart::new(
             "alphas",
             (calibration.alphas.clone(), calibration.intervals.clone(), calibration.log_likelihood),
         ),
-        HashedPart::new("systematic", systematic),
-        HashedPart::new("noise", (noise, persistence)),
+        HashedPart::new("systematic", systematic_errors),
+        HashedPart::new("noise", (reference_noise, persistence)),
         HashedPart::new("diagnostics", (checks, windows, recommended)),
         HashedPart::new("truth", truth),
     ]
@@ -226,7 +238,7 @@ fn coordinates(pose: SE2) -> [f64; 3] {
     [pose.x(), pose.y(), pose.theta()]
 }
 
-fn flattened<T: Copy, const N: usize>(rows: &[[T; N]]) -> Vec<T> {
+fn flat_list<T: Copy, const N: usize>(rows: &[[T; N]]) -> Vec<T> {
     rows.as_flattened().to_vec()
 }
 
@@ -238,9 +250,10 @@ fn read_plan(plan: &Value) -> FloorPlan {
     FloorPlan::new(walls.collect(), numbers_of(&plan["bounds"])).expect("a valid plan")
 }
 
-fn read_map(map: &Value, images: &Value) -> OccupancyGrid {
-    let lines = images[map["image"].as_str().expect("a name")].as_array().expect("lines");
-    let text: String = lines.iter().map(|line| format!("{}\n", line.as_str().expect("a line"))).collect();
+fn read_grid(map: &Value, images: &Value) -> OccupancyGrid {
+    let image_lines = images[map["image"].as_str().expect("a name")].as_array().expect("lines");
+    let image_text: String =
+        image_lines.iter().map(|line| format!("{}\n", line.as_str().expect("a line"))).collect();
     let description = &map["description"];
     let [x, y, yaw] = numbers_of(&description["origin"]);
     let interpretation = Interpretation {
@@ -254,6 +267,6 @@ fn read_map(map: &Value, images: &Value) -> OccupancyGrid {
         occupied_thresh: number_of(&description["occupied_thresh"]),
         free_thresh: number_of(&description["free_thresh"]),
     };
-    let image = read_pgm(text.as_bytes()).expect("a PGM file");
+    let image = read_pgm(image_text.as_bytes()).expect("a PGM file");
     OccupancyGrid::new(&image, &interpretation, number_of(&description["resolution"]), SE2::new(x, y, yaw))
 }

@@ -1,4 +1,4 @@
-//! Contour lines of known fields, and those of the maps of Arc Anatomy.
+//! Contour lines of known fields, and of the heat maps of Arc Anatomy.
 
 use crate::common::{seeded_rng, uniform};
 use motion::geom::se2::SE2;
@@ -8,34 +8,34 @@ use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityModel};
 
 #[test]
 fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
-    for (level, low_cut_off) in [(0.4, true), (0.6, false)] {
+    for (level, are_low_corners_cut_off) in [(0.4, true), (0.6, false)] {
         let lines = level_set(&[1.0, 0.0, 0.0, 1.0], 2, level);
         assert_eq!(lines.len(), 2);
-        // Two lines that cut off the low corners, or the high ones.
+        // Two lines cut off either both low corners or both high corners.
         let is_cut_off = |corner: [f64; 2]| {
             lines
                 .iter()
                 .any(|line| line.iter().all(|[x, y]| (x - corner[0]).abs() + (y - corner[1]).abs() < 1.0))
         };
-        assert_eq!(is_cut_off([1.0, 0.0]) && is_cut_off([0.0, 1.0]), low_cut_off, "{lines:?}");
-        assert_eq!(is_cut_off([0.0, 0.0]) && is_cut_off([1.0, 1.0]), !low_cut_off, "{lines:?}");
+        assert_eq!(is_cut_off([1.0, 0.0]) && is_cut_off([0.0, 1.0]), are_low_corners_cut_off, "{lines:?}");
+        assert_eq!(is_cut_off([0.0, 0.0]) && is_cut_off([1.0, 1.0]), !are_low_corners_cut_off, "{lines:?}");
     }
 }
 
-/// In a field of noise each edge with a sign change is crossed once. Lines are closed or end at the rim, and successive points are at
-/// most a cell apart.
+/// In a field of noise, each edge between a value above the level and a value below it is crossed once. Lines are closed or end at the rim,
+/// and successive points are at most a cell apart.
 #[test]
 fn contours_of_noise_contain_every_crossing() {
     let mut rng = seeded_rng(21);
     let (columns, rows) = (23, 17);
-    let values: Vec<f64> = (0..columns * rows).map(|_| uniform(&mut rng, -1.0, 1.0)).collect();
-    let mut crossings = 0;
+    let field: Vec<f64> = (0..columns * rows).map(|_| uniform(&mut rng, -1.0, 1.0)).collect();
+    let mut crossing_count = 0;
     for i in 0..columns * rows {
-        let is_crossed = |k: usize| usize::from((values[i] > 0.2) != (values[k] > 0.2));
-        crossings += if i % columns + 1 < columns { is_crossed(i + 1) } else { 0 };
-        crossings += if i / columns + 1 < rows { is_crossed(i + columns) } else { 0 };
+        let is_crossed = |k: usize| usize::from((field[i] > 0.2) != (field[k] > 0.2));
+        crossing_count += if i % columns + 1 < columns { is_crossed(i + 1) } else { 0 };
+        crossing_count += if i / columns + 1 < rows { is_crossed(i + columns) } else { 0 };
     }
-    let lines = level_set(&values, columns, 0.2);
+    let lines = level_set(&field, columns, 0.2);
     let mut point_count = 0;
     for line in &lines {
         let is_closed = line.len() > 2 && line.first() == line.last();
@@ -47,36 +47,36 @@ fn contours_of_noise_contain_every_crossing() {
             assert!((ends[1][0] - ends[0][0]).abs().max((ends[1][1] - ends[0][1]).abs()) <= 1.0);
         }
     }
-    assert_eq!(point_count, crossings);
+    assert_eq!(point_count, crossing_count);
 }
 
 #[test]
 fn small_or_flat_fields_have_no_lines() {
-    for (values, columns) in [(vec![], 0), (vec![1.0], 1), (vec![1.0, 0.0], 2), (vec![1.0; 12], 4)] {
-        assert!(level_set(&values, columns, 0.5).is_empty());
+    for (field, columns) in [(vec![], 0), (vec![1.0], 1), (vec![1.0, 0.0], 2), (vec![1.0; 12], 4)] {
+        assert!(level_set(&field, columns, 0.5).is_empty());
     }
 }
 
-fn surface(settings: Settings) -> Surface {
+fn heat_map(settings: Settings) -> Surface {
     let simulation = ArcAnatomy::new(settings).expect("valid settings");
     simulation.surface([-0.5, -1.0], [2.0, 1.5]).expect("a map")
 }
 
-/// The heights of contour points are computed by the models. In a cell of h = 0.028 m, linear interpolation of log p has an error of h²/8
-/// times the second derivative. This is largest across the drive: at the distance d the arc's turn changes by 2/d per metre. From
-/// d = 0.7 m on, (2/d)² · (1/σ_ω² + 1/σ_γ²) is below 770, so the error of log p is at most 0.075.
+/// The models compute the densities at contour points. In a cell of h = 0.028 m, linear interpolation of log p has an error of h²/8 times the
+/// second derivative. The derivative is largest across the drive, where the arc's turn changes by 2/d per metre at the distance d. From
+/// d = 0.7 m on, (2/d)² · (1/σ_ω² + 1/σ_γ²) is below 770, so that the error of log p is at most 0.075.
 #[test]
 fn contours_lie_at_the_levels_of_the_models() {
     let settings = Settings { map: SurfaceKind::Density, ..Settings::default() };
-    let Surface { columns, rows, shades, prob, density } = surface(settings);
+    let Surface { columns, rows, shades, prob, density } = heat_map(settings);
     assert!(columns * rows == shades.len() && (5_000..=10_000).contains(&shades.len()));
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
-    let start = SE2::identity();
-    let value = |[x, y]: [f64; 2], kind: SurfaceKind| {
-        let next = SE2::new(x, y, settings.next.theta);
+    let origin = SE2::identity();
+    let density_at = |[x, y]: [f64; 2], kind: SurfaceKind| {
+        let next_pose = SE2::new(x, y, settings.next.theta);
         match kind {
-            SurfaceKind::Prob => model.prob(&next, &settings.command, &start),
-            _ => model.pose_density(&next, &settings.command, &start).expect("noise of full rank"),
+            SurfaceKind::Prob => model.prob(&next_pose, &settings.command, &origin),
+            _ => model.pose_density(&next_pose, &settings.command, &origin).expect("noise of full rank"),
         }
     };
     let cell_centre = |i: usize| {
@@ -84,26 +84,30 @@ fn contours_lie_at_the_levels_of_the_models() {
         [-0.5 + 2.5 * column / columns as f64, 1.5 - 2.5 * row / rows as f64]
     };
     for (lines, kind) in [(&prob, SurfaceKind::Prob), (&density, SurfaceKind::Density)] {
-        let maximum = (0..shades.len()).map(|i| value(cell_centre(i), kind)).fold(0.0, f64::max);
+        let max_density = (0..shades.len()).map(|i| density_at(cell_centre(i), kind)).fold(0.0, f64::max);
         assert!(lines.len() >= CONTOUR_LEVELS.len());
         for point in lines.iter().flatten().filter(|[x, y]| x.hypot(*y) > 0.7) {
-            let height = value(*point, kind) / maximum;
-            let level = CONTOUR_LEVELS
-                .into_iter()
-                .min_by(|a, b| (height / a).ln().abs().total_cmp(&(height / b).ln().abs()));
-            assert!((height / level.expect("a level") - 1.0).abs() < 0.078, "{point:?} {height}");
+            let relative_density = density_at(*point, kind) / max_density;
+            let nearest_level = CONTOUR_LEVELS.into_iter().min_by(|a, b| {
+                (relative_density / a).ln().abs().total_cmp(&(relative_density / b).ln().abs())
+            });
+            assert!(
+                (relative_density / nearest_level.expect("a level") - 1.0).abs() < 0.078,
+                "{point:?} {relative_density}"
+            );
         }
     }
-    let maximum = (0..shades.len()).map(|i| value(cell_centre(i), SurfaceKind::Density)).fold(0.0, f64::max);
+    let max_density =
+        (0..shades.len()).map(|i| density_at(cell_centre(i), SurfaceKind::Density)).fold(0.0, f64::max);
     for (i, shade) in shades.iter().enumerate() {
-        let expected = 255.0 * value(cell_centre(i), SurfaceKind::Density) / maximum;
-        assert!((f64::from(*shade) - expected).abs() <= 0.5 + 1e-9);
+        let expected_shade = 255.0 * density_at(cell_centre(i), SurfaceKind::Density) / max_density;
+        assert!((f64::from(*shade) - expected_shade).abs() <= 0.5 + 1e-9);
     }
 }
 
 #[test]
 fn a_heat_map_without_noise_is_empty() {
     let settings = Settings { alphas: [0.0; 6], map: SurfaceKind::Prob, ..Settings::default() };
-    let Surface { shades, prob, density, .. } = surface(settings);
+    let Surface { shades, prob, density, .. } = heat_map(settings);
     assert!(shades.iter().all(|shade| *shade == 0) && prob.is_empty() && density.is_empty());
 }

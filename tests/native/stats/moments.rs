@@ -14,53 +14,58 @@ use motion::{
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
-const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+const COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
-/// Share 1 − exp(−2²/2) of a two-dimensional Gaussian that lies within two standard deviations.
+/// Fraction 1 − exp(−2²/2) of a two-dimensional Gaussian that lies within two standard deviations.
 const TWO_SIGMA_FRACTION: f64 = 0.864_664_716_763_387_3;
 
-/// If ξ is a Gaussian of rank 2, its 2σ contour, mapped by exp, contains the same fraction of robots. The outline separates inside from
+/// If ξ is a Gaussian of rank 2, its 2σ contour contains the same fraction of robots after mapping by exp. The outline separates inside from
 /// outside.
 #[test]
 fn the_exponential_contour_covers_two_deviations() {
-    let start = SE2::new(2.0, -1.0, 0.8);
+    let start_pose = SE2::new(2.0, -1.0, 0.8);
     let alphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]);
     let model = VelocityModel { alphas, noise: NoiseKind::Normal };
     let mut rng = seeded_rng(134);
-    let poses: Vec<SE2> = (0..200_000).map(|_| model.sample(&U, &start, &mut rng)).collect();
+    let poses: Vec<SE2> = (0..200_000).map(|_| model.sample(&COMMAND, &start_pose, &mut rng)).collect();
     let fraction_inside = |moments: &ExponentialMoments| {
-        let contour = ExponentialContour::new(moments, &start);
+        let contour = ExponentialContour::new(moments, &start_pose);
         poses.iter().filter(|pose| contour.contains(pose)).count() as f64 / 200_000.0
     };
-    let error = (TWO_SIGMA_FRACTION * (1.0 - TWO_SIGMA_FRACTION) / 200_000.0).sqrt();
-    let exact =
-        ExponentialMoments { mean: TangentNoiseModel::twist(&U), cov: model.tangent_cov(&U).unwrap() };
+    let standard_error = (TWO_SIGMA_FRACTION * (1.0 - TWO_SIGMA_FRACTION) / 200_000.0).sqrt();
+    let exact_moments = ExponentialMoments {
+        mean: TangentNoiseModel::twist(&COMMAND),
+        cov: model.tangent_cov(&COMMAND).unwrap(),
+    };
     assert!(
-        (fraction_inside(&exact) - TWO_SIGMA_FRACTION).abs() < MAX_STANDARD_ERRORS * error,
+        (fraction_inside(&exact_moments) - TWO_SIGMA_FRACTION).abs() < MAX_STANDARD_ERRORS * standard_error,
         "{}",
-        fraction_inside(&exact)
+        fraction_inside(&exact_moments)
     );
-    let fitted_fraction = fraction_inside(&ExponentialMoments::from_poses(&poses, &start));
-    assert!((fitted_fraction - TWO_SIGMA_FRACTION).abs() < MAX_STANDARD_ERRORS * error, "{fitted_fraction}");
+    let fitted_fraction = fraction_inside(&ExponentialMoments::from_poses(&poses, &start_pose));
+    assert!(
+        (fitted_fraction - TWO_SIGMA_FRACTION).abs() < MAX_STANDARD_ERRORS * standard_error,
+        "{fitted_fraction}"
+    );
 
-    let contour = ExponentialContour::new(&exact, &start);
+    let contour = ExponentialContour::new(&exact_moments, &start_pose);
     let outline = contour.boundary(48);
     assert_eq!(outline.first(), outline.last());
     for &[x, y] in &outline {
         // In exponential coordinates the outline is the 2σ ellipse of (along, heading).
-        let inversion = motion::invert_arc(&start, &SE2::new(x, y, 0.0), 1.0);
-        let radius = ((inversion.v_hat - 1.0).powi(2) + (inversion.omega_hat - 0.5).powi(2)) / 0.025;
-        assert!((radius - 4.0).abs() < 1e-9, "{radius}");
+        let inversion = motion::invert_arc(&start_pose, &SE2::new(x, y, 0.0), 1.0);
+        let squared_sigmas = ((inversion.v_hat - 1.0).powi(2) + (inversion.omega_hat - 0.5).powi(2)) / 0.025;
+        assert!((squared_sigmas - 4.0).abs() < 1e-9, "{squared_sigmas}");
         for (scale, is_inside) in [(0.99, true), (1.01, false)] {
             let v = 1.0 + scale * (inversion.v_hat - 1.0);
             let turn = 0.5 + scale * (inversion.omega_hat - 0.5);
-            assert_eq!(contour.contains(&start.boxplus(Vector3::new(v, 0.0, turn))), is_inside);
+            assert_eq!(contour.contains(&start_pose.boxplus(Vector3::new(v, 0.0, turn))), is_inside);
         }
     }
 }
 
-/// The outline of an ellipsoid is nearly the edge of its projection. Among all ξ that lead to a point of the outline, with any heading,
-/// the nearest to the mean is two standard deviations away, or a little less. The test finds it by trying headings.
+/// The outline is nearly the edge of the ellipsoid's projection. Among all ξ that lead to a point of the outline, with any heading, the
+/// nearest to the mean is two standard deviations away, or a little less.
 #[test]
 fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
     let cases = [
@@ -71,19 +76,19 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
         (Vector3::new(1.4, 0.1, -1.2), Matrix3::new(0.05, 0.0, 0.01, 0.0, 0.02, 0.01, 0.01, 0.01, 0.1)),
     ];
     for (mean, cov) in cases {
-        let start = SE2::new(2.0, -1.0, 0.7);
+        let start_pose = SE2::new(2.0, -1.0, 0.7);
         let inverse_cov = cov.try_inverse().unwrap();
         let heading_std = f64::sqrt(cov[(2, 2)]);
-        for [x, y] in ExponentialContour::new(&ExponentialMoments { mean, cov }, &start).boundary(48) {
-            let distance = |heading: f64| {
-                let relative_pose = start.inverse() * SE2::new(x, y, start.theta() + heading);
+        for [x, y] in ExponentialContour::new(&ExponentialMoments { mean, cov }, &start_pose).boundary(48) {
+            let distance_with_heading = |heading: f64| {
+                let relative_pose = start_pose.inverse() * SE2::new(x, y, start_pose.theta() + heading);
                 let offset = relative_pose.log_near(heading) - mean;
                 offset.dot(&(inverse_cov * offset)).sqrt()
             };
-            // Minimizes the distance over 4001 headings within three standard deviations. The step is so small that the
-            // minimum is too large by less than 1e-5.
+            // The distance is minimized over 4001 headings within three standard deviations. Their spacing makes the minimum
+            // too large by less than 1e-5.
             let headings = (0..=4000).map(|i| mean.z + heading_std * 3.0 * (f64::from(i) / 2000.0 - 1.0));
-            let min_distance = headings.map(distance).fold(f64::INFINITY, f64::min);
+            let min_distance = headings.map(distance_with_heading).fold(f64::INFINITY, f64::min);
             assert!((1.9..2.0 + 1e-5).contains(&min_distance), "({x}, {y}): {min_distance}");
         }
     }
@@ -102,7 +107,7 @@ fn predicted_skews_match_the_references() {
 
 const MOMENT_COLUMNS: [&str; 8] = ["mx", "my", "sxx", "sxy", "syy", "sxt", "syt", "stt"];
 
-fn assert_exact(exact: &ExactMoments, row: &crate::common::Row<'_>) {
+fn assert_moments_of_row(exact: &ExactMoments, row: &crate::common::Row<'_>) {
     let computed = [
         exact.mean.x,
         exact.mean.y,
@@ -129,7 +134,7 @@ fn exact_moments_match_the_references() {
         let model = VelocityModel { alphas, noise: row.kind() };
         let exact = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt });
         assert!((exact.mean.z - wrap_angle(omega * dt)).abs() < 1e-15);
-        assert_exact(&exact, &row);
+        assert_moments_of_row(&exact, &row);
     }
     for row in Table::parse(include_str!("../../reference/odometry_moments.csv")).rows() {
         let [rot1, trans, rot2] = row.all(["rot1", "trans", "rot2"]);
@@ -137,11 +142,11 @@ fn exact_moments_match_the_references() {
             OdometryModel { alphas: OdomAlphas(row.all(["a1", "a2", "a3", "a4"])), noise: row.kind() };
         let exact = ExactMoments::of_odometry(&model, &OdomDelta { rot1, trans, rot2 });
         assert!((exact.mean.z - wrap_angle(rot1 + rot2)).abs() < 1e-15);
-        assert_exact(&exact, &row);
+        assert_moments_of_row(&exact, &row);
     }
 }
 
-/// In clouds without a spread the skew, its error and the correlation are NaN, and no robot is inside a contour.
+/// In clouds without a width, the skew, its error and the correlation are NaN, and no robot is inside a contour.
 #[test]
 fn degenerate_clouds_give_nan() {
     let poses_on_line = |heading: f64| {
@@ -154,9 +159,11 @@ fn degenerate_clouds_give_nan() {
             .collect::<Vec<_>>()
     };
     for cloud in [vec![], poses_on_line(2.0), poses_on_line(-0.3)] {
-        let stats = CrossTrack::from_poses(&cloud);
-        for value in [stats.skew, stats.skew_error, stats.rho_heading, cross_track_skew(&cloud)] {
-            assert!(value.is_nan(), "{stats:?}");
+        let cross_track = CrossTrack::from_poses(&cloud);
+        for value in
+            [cross_track.skew, cross_track.skew_error, cross_track.rho_heading, cross_track_skew(&cloud)]
+        {
+            assert!(value.is_nan(), "{cross_track:?}");
         }
         let cartesian = CartesianMoments::from_poses(&cloud);
         let exponential = ExponentialMoments::from_poses(&cloud, &SE2::identity());
@@ -167,12 +174,12 @@ fn degenerate_clouds_give_nan() {
         assert_eq!(ellipse.boundary(16).len(), 17);
         assert_eq!(ExponentialContour::new(&exponential, &SE2::identity()).boundary(16).len(), 17);
     }
-    // All pairs of poses have the same shape, so that their skew is undefined. Three poses have one.
+    // Two poses have no skew, because all pairs have the same shape. Three poses have one.
     let three_poses = [SE2::new(0.0, 0.1, 0.0), SE2::new(1.0, -0.1, 0.0), SE2::new(0.5, -0.1, 0.0)];
     assert!(cross_track_skew(&three_poses[..2]).is_nan());
     assert!((cross_track_skew(&three_poses) - 0.5f64.sqrt()).abs() < 1e-12, "residuals −1, −1 and 2");
     assert!(predicted_cross_track_skew(&Vector3::zeros(), &Matrix3::zeros()).is_nan());
-    // With a turn of π, the lateral coordinate moves the end along the heading, so that there is no spread across it.
+    // With a turn of π, the lateral coordinate moves the end along the heading, so that the cloud has no width across it.
     for turn in [PI, -PI] {
         let lateral_cov = Matrix3::from_diagonal(&Vector3::y());
         assert!(predicted_cross_track_skew(&Vector3::new(0.0, 0.0, turn), &lateral_cov).is_nan());
@@ -180,20 +187,20 @@ fn degenerate_clouds_give_nan() {
     let along_only_model =
         VelocityModel { alphas: VelocityAlphas([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
     let noise_free_model = VelocityModel { alphas: VelocityAlphas([0.0; 6]), ..along_only_model };
-    assert!(ExactMoments::of_velocity(&noise_free_model, &U).cross_track_skew.is_nan());
+    assert!(ExactMoments::of_velocity(&noise_free_model, &COMMAND).cross_track_skew.is_nan());
     assert!(
-        ExactMoments::of_velocity(&along_only_model, &VelocityCmd { omega: 0.0, ..U })
+        ExactMoments::of_velocity(&along_only_model, &VelocityCmd { omega: 0.0, ..COMMAND })
             .cross_track_skew
             .is_nan()
     );
 }
 
-/// A width of the size of rounding counts as 0, also if robots drive forward and in reverse so that their mean is at the start. Lengths
-/// have a standard deviation of a millimetre here, and turns of `turn`.
+/// A width of the size of rounding counts as 0, even if robots drive forward and in reverse so that their mean is at the start. The lengths
+/// of the drives have a standard deviation of a millimetre.
 #[test]
 fn a_width_of_the_size_of_rounding_counts_as_zero() {
     const TINY_SPEED: f64 = 1e-6;
-    let skews = |turn: f64| {
+    let reported_and_plain_skew = |turn: f64| {
         let turn_per_speed = turn / TINY_SPEED;
         let velocity_alphas = [1e6, 0.0, turn_per_speed * turn_per_speed, 0.0, 0.0, 0.0];
         let command = VelocityCmd { v: TINY_SPEED, omega: 0.0, dt: 1.0 };
@@ -203,23 +210,27 @@ fn a_width_of_the_size_of_rounding_counts_as_zero() {
         [simulation.stats().cross_track_skew, CrossTrack::from_poses(&poses).skew]
     };
     // The bearing is half the turn. The width of the cloud is therefore 5e-14 of its length.
-    assert!(skews(1e-13).into_iter().all(f64::is_nan));
-    let [reported, plain] = skews(1e-9);
-    assert!((reported - plain).abs() < 1e-9 && plain.is_finite(), "{reported}, not {plain}");
+    assert!(reported_and_plain_skew(1e-13).into_iter().all(f64::is_nan));
+    let [reported_skew, plain_skew] = reported_and_plain_skew(1e-9);
+    assert!(
+        (reported_skew - plain_skew).abs() < 1e-9 && plain_skew.is_finite(),
+        "{reported_skew}, not {plain_skew}"
+    );
 }
 
-/// A spread that is only rounding of a distant cloud counts as 0, too. At a kilometre, coordinates are rounded to 1e-13 m.
+/// If a distant cloud has only a width of the size of rounding, it counts as 0. At a kilometre, coordinates are rounded to 1e-13 m.
 #[test]
 fn a_width_of_the_size_of_position_rounding_counts_as_zero() {
     const TINY_WIDTH: f64 = 1e-10;
-    let skew = |[x, y]: [f64; 2]| {
+    let skew_around = |[x, y]: [f64; 2]| {
         let mut rng = seeded_rng(146);
-        let mut offset = || uniform(&mut rng, -TINY_WIDTH, TINY_WIDTH);
-        let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + offset(), y + offset(), 0.3)).collect();
+        let mut random_offset = || uniform(&mut rng, -TINY_WIDTH, TINY_WIDTH);
+        let poses: Vec<SE2> =
+            (0..100).map(|_| SE2::new(x + random_offset(), y + random_offset(), 0.3)).collect();
         cross_track_skew(&poses)
     };
     for centre in [[1e3, 0.0], [-1e3, 0.0], [0.0, 1e3], [1e3, -1e3]] {
-        assert!(skew(centre).is_nan(), "{centre:?}");
+        assert!(skew_around(centre).is_nan(), "{centre:?}");
     }
-    assert!(skew([0.0, 0.0]).is_finite() && skew([1.0, -1.0]).is_finite());
+    assert!(skew_around([0.0, 0.0]).is_finite() && skew_around([1.0, -1.0]).is_finite());
 }

@@ -1,6 +1,6 @@
 //! Targets of cargo-fuzz, run natively on a corpus (inputs that together reach all code) and on seeded mutations of it.
 //!
-//! `fuzz/src` holds the properties. A failure prints the bytes of its input. They become a test in `regressions!`.
+//! `fuzz/src` has the properties. A failure prints the bytes of its input, from which a test in `regressions!` is made.
 
 #[path = "../fuzz/src/lib.rs"]
 mod targets;

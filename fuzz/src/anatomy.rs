@@ -30,11 +30,11 @@ pub fn run(bytes: &[u8]) {
         }
     }
     assert_results(&simulation);
-    // Paths are checked rarely: they have a thousand points, each with a sine and a cosine.
+    // Paths are rarely checked, because each of their thousand points needs a sine and a cosine.
     if should_check_paths && is_selected_by_hash(4, bytes) {
         assert_paths(&simulation);
     }
-    // Maps are checked rarely: one takes as long as hundreds of other calls.
+    // Heat maps are rarely checked, because one takes as long as hundreds of other calls.
     if is_selected_by_hash(256, bytes) {
         assert_surface(&simulation, &mut input);
     }
@@ -124,7 +124,7 @@ fn assert_arc(label: &str, arc: &ArcWithCircle) {
     assertions::assert_finite(label, &arc.centre.unwrap_or_default());
 }
 
-/// Returns the position on the path of constant twist after a fraction of the time.
+/// Returns the position on the path with constant twist after a fraction of the time.
 fn position_at(simulation: &ArcAnatomy, fraction: f64) -> [f64; 2] {
     let poses = simulation.poses_at(fraction);
     poses.iter().for_each(|pose| assertions::assert_pose("poses_at", pose));

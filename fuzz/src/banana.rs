@@ -89,7 +89,7 @@ fn configure(simulation: &mut BananaMachine, input: &mut Input) {
     assertions::assert_same_numbers("after a refusal", &all_results(simulation), &results_before);
 }
 
-/// Asserts that samples added in blocks equal the samples of one call.
+/// Asserts that samples that are added in several blocks equal samples that are added in one call.
 fn assert_same_if_added_in_blocks(simulation: &mut BananaMachine, input: &mut Input) {
     let settings = with_changes(simulation.settings(), input);
     if !are_allowed(&settings) {
@@ -218,7 +218,7 @@ fn assert_executed_motion(simulation: &BananaMachine, index: usize) {
         assertions::assert_finite("legs", &[legs.rot1, legs.trans, legs.rot2]);
     }
     let [x, y] = *sample.path.last().expect("a path has an end");
-    // Paths use the scalar functions, poses the SIMD functions. They agree to 2e-15 of the length.
+    // Paths are computed by scalar functions, and poses by SIMD functions. They agree to 2e-15 of the length.
     let path_length = sample.path.windows(2).map(|ends| distance(ends[0], ends[1])).sum::<f64>();
     let command = simulation.settings().command;
     let commanded_path_length = (command.v * command.dt).abs();

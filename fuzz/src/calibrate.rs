@@ -139,7 +139,7 @@ fn edit_rows(rows: &mut Vec<LogRow>, input: &mut Input) {
 /// Returns the trajectory of the rows, with breaks before some rows. Returns None if a row is refused.
 fn trajectory_from_rows(rows: &[LogRow], input: &mut Input) -> Option<Trajectory> {
     let result = match input.next_choice(4) {
-        // The coordinates serve as commands.
+        // x and θ are used as speed and turn rate.
         0 => Trajectory::from_commands(rows.iter().map(|(time, pose)| (*time, pose.x(), pose.theta()))),
         _ => Trajectory::new(rows.iter().copied()),
     };

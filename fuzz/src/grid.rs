@@ -61,8 +61,8 @@ fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cells: UnknownCells) -> V
     cells.map(|(i, cell)| (middle_of(i), is_blocking(cell))).collect()
 }
 
-/// Asserts that each cell contains its middle, and that the outlines separate obstacles from other cells: the total
-/// length of the outlines equals the total length of the sides between obstacles and other cells.
+/// Asserts that each cell contains its middle, and that the total length of the outlines equals the total length of the
+/// sides between obstacles and other cells.
 fn assert_outlines(grid: &OccupancyGrid, unknown_cells: UnknownCells) {
     let middles_and_obstacles = middles_and_obstacles(grid, unknown_cells);
     for (middle, is_obstacle) in &middles_and_obstacles {

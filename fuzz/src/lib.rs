@@ -1,4 +1,4 @@
-//! Properties that hold for any input: a function for each fuzz target, called by cargo-fuzz and by the native tests.
+//! Properties that hold for any input. Each fuzz target is a function that cargo-fuzz and the native tests call.
 
 pub mod assertions;
 pub mod input;
@@ -8,7 +8,7 @@ macro_rules! targets {
     ($($name:ident),+) => {
         $(pub mod $name;)+
 
-        /// Names and properties of the targets.
+        /// Names and functions of the targets.
         pub const TARGETS: &[(&str, fn(&[u8]))] = &[$((stringify!($name), $name::run)),+];
     };
 }

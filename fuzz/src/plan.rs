@@ -144,7 +144,7 @@ pub fn assert_collision_verdicts(plan: &FloorPlan, input: &mut Input) {
     }
 }
 
-/// Returns the distance (m) of a point inside the map from its edge; negative outside.
+/// Returns the distance (m) of a point from the edge of the map, which is negative outside of the map.
 fn depth_inside(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
     let ([x, y], [left, bottom, right, top]) = match plan.grid() {
         None => ([x, y], plan.bounds()),

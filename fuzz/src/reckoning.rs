@@ -86,7 +86,7 @@ fn configure(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Se
     assert_eq!(all_results(simulation), results_before);
 }
 
-/// Asserts that robots added in blocks equal the robots of one call.
+/// Asserts that robots that are added in several blocks equal robots that are added in one call.
 fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let settings = with_changes(simulation.settings(), input);
     if !are_allowed(&settings) {
@@ -183,7 +183,7 @@ fn assert_covariance(label: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, u
     }
 }
 
-/// Returns the rounding error of a covariance computed as mean of products minus product of means.
+/// Returns the rounding error of a covariance that is computed as the mean of products minus the product of means.
 fn rounding_error_of_sums(MeasuredMoments { mean, cov, .. }: &MeasuredMoments) -> impl Fn(usize, usize) -> f64 + use<> {
     let [along, lateral, heading] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
     let magnitudes = [along + lateral, along + lateral, heading];
@@ -224,7 +224,7 @@ fn assert_outlines(simulation: &DeadReckoning, step: u32) {
     assert_eq!(measured.is_empty(), simulation.shown_count() < 2);
 }
 
-/// Asserts that the path of one robot has the poses that the steps show.
+/// Asserts that the poses along the path of one robot equal its poses in the clouds of the steps.
 fn assert_rollout(simulation: &DeadReckoning, index: usize) {
     let Some(path) = simulation.rollout(index) else {
         assert!(index >= simulation.shown_count());

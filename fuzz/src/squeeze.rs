@@ -103,7 +103,7 @@ fn configure(simulation: &mut MapSqueeze, input: &mut Input) {
     assert_eq!(simulation.attempts(), attempts_before);
 }
 
-/// Asserts that attempts made in several blocks equal the attempts of one call.
+/// Asserts that attempts that are added in several blocks equal attempts that are added in one call.
 fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut Input) {
     let settings = limit_size(with_changes(simulation.settings(), input), false);
     if !are_allowed(&settings) {

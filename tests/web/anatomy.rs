@@ -4,7 +4,7 @@ use crate::support::{Object, get};
 use wasm_bindgen_test::wasm_bindgen_test;
 
 #[wasm_bindgen_test]
-fn paths_maps_and_errors_of_forms_are_arrays() {
+fn paths_heat_maps_and_errors_of_arc_forms_are_arrays() {
     let it = Object::new("new motion.ArcAnatomy({ map: 'density' })");
     let path_names = "Object.entries(it.paths).filter(([, line]) => line instanceof Float64Array
         && line.length >= 4).map(([name]) => name)";
@@ -21,7 +21,7 @@ fn paths_maps_and_errors_of_forms_are_arrays() {
 }
 
 #[wasm_bindgen_test]
-fn what_is_refused_changes_nothing() {
+fn a_refused_call_changes_nothing() {
     let it = Object::new("new motion.ArcAnatomy()");
     it.assert_refused(
         "[it.config, it.stats]",

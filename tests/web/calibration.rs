@@ -89,7 +89,7 @@ fn alphas_of_a_log_are_found_with_their_intervals() {
 }
 
 #[wasm_bindgen_test]
-fn commands_have_six_alphas_and_a_drive_ahead_determines_no_turn() {
+fn commands_have_six_alphas_and_a_straight_drive_identifies_no_turn_alphas() {
     let it = simulated_logs();
     it.run(
         "it.commands = { t: it.odometry.t, v: it.odometry.t.map((t) => 0.3 + 0.1 * Math.sin(t)),
@@ -150,7 +150,7 @@ fn the_figure_opens_with_a_log_of_known_alphas() {
 }
 
 #[wasm_bindgen_test]
-fn a_log_of_ones_own_replaces_it_and_its_fit_can_be_restored() {
+fn another_log_replaces_the_simulated_log_and_its_fit_can_be_restored() {
     let it = simulated_logs();
     it.run("it.simulation = new motion.AlphaCalibrator({ outliers: 'keep', duration: 1 })");
     it.run("it.simulation.setLog(it.odometry, it.reference)");
@@ -174,7 +174,7 @@ fn a_log_of_ones_own_replaces_it_and_its_fit_can_be_restored() {
 }
 
 #[wasm_bindgen_test]
-fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
+fn errors_name_the_refused_value_and_what_is_allowed() {
     let it = simulated_logs();
     it.run("it.few = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] }");
     it.run("it.simulation = new motion.AlphaCalibrator()");

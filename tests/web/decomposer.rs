@@ -4,7 +4,7 @@ use crate::support::Object;
 use wasm_bindgen_test::wasm_bindgen_test;
 
 #[wasm_bindgen_test]
-fn what_is_refused_changes_nothing() {
+fn a_refused_call_changes_nothing() {
     let it = Object::new("new motion.OdometryDecomposer()");
     it.assert_refused(
         "[it.config, it.stats]",

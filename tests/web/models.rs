@@ -179,7 +179,7 @@ fn covariances_are_propagated_as_in_rust() {
 }
 
 #[wasm_bindgen_test]
-fn a_dragged_end_is_reached_and_seeds_are_random() {
+fn the_reaching_command_ends_at_its_target_and_seeds_are_random() {
     let reaching_command =
         "motion.commandReaching(0.958851077208406, 0.2448348762192546, { v: 2, omega: 0.1, dt: 1 })";
     assert_near(get(&format!("Object.values({reaching_command})")), [1.0, 0.5], 1e-12);
@@ -192,7 +192,7 @@ fn a_dragged_end_is_reached_and_seeds_are_random() {
 }
 
 #[wasm_bindgen_test]
-fn what_is_refused_is_named_with_its_value_and_what_is_allowed() {
+fn errors_name_the_refused_value_and_what_is_allowed() {
     let it = Object::new(JS_VALUES);
     it.assert_refused(
         "it",

@@ -11,7 +11,7 @@ fn a_step_after_the_last_has_no_outlines_and_no_poses() {
 }
 
 #[wasm_bindgen_test]
-fn what_is_refused_changes_nothing() {
+fn a_refused_call_changes_nothing() {
     let it = Object::new("new motion.DeadReckoning({ samples: 20 })");
     it.assert_refused(
         "[it.config, it.stats]",

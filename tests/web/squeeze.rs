@@ -25,7 +25,7 @@ fn a_noise_level_sets_all_alphas() {
 }
 
 #[wasm_bindgen_test]
-fn a_floor_plan_replaces_the_apartment_and_gives_way_to_it() {
+fn a_floor_plan_replaces_the_apartment_and_can_be_removed() {
     let it = Object::new("new motion.MapSqueeze({ samples: 100 })");
     let accepted_before: usize = it.get("it.stats.accepted");
     it.run(
@@ -82,7 +82,7 @@ fn a_map_is_read_from_a_file_or_from_pixels() {
 }
 
 #[wasm_bindgen_test]
-fn a_refused_setting_changes_nothing() {
+fn a_refused_call_changes_nothing() {
     let it = Object::new(MAP_FILES_AND_SIMULATION);
     it.assert_refused(
         SIMULATION_STATE,
@@ -102,7 +102,7 @@ fn a_refused_setting_changes_nothing() {
 }
 
 #[wasm_bindgen_test]
-fn a_malformed_plan_or_map_is_explained_and_the_present_one_stays() {
+fn a_malformed_plan_or_map_is_refused_with_a_reason_and_the_current_one_stays() {
     let it = Object::new(MAP_FILES_AND_SIMULATION);
     it.assert_refused(
         SIMULATION_STATE,

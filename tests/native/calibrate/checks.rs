@@ -41,7 +41,7 @@ fn assert_unusable(calibration: &Calibration, description: &str) {
     );
 }
 
-/// Returns a trajectory with other poses at the same times.
+/// Returns a trajectory whose poses are changed, and whose times are not.
 fn with_poses(log: &Trajectory, mut pose: impl FnMut(SE2) -> SE2) -> Trajectory {
     trajectory(log.samples().map(|(time, old)| (time, pose(old))))
 }
@@ -243,7 +243,7 @@ fn assert_not_constant(name: CheckName, error: SystematicError, calibration: &Ca
     assert!(!calibration.is_constant[error as usize] && !calibration.is_corrected[error as usize]);
 }
 
-/// The distance scale is 1 on straight legs and 0.85 on turning ones. Both estimates have a standard error of 0.01.
+/// The distance scale is 1 on straight legs and 0.85 on turning legs. Both estimates have a standard error of 0.01.
 #[test]
 fn a_distance_scale_that_differs_in_turns_is_no_constant() {
     let scales_at = |_, velocity: &Vector3<f64>| [if velocity.z.abs() > 0.05 { 0.85 } else { 1.0 }, 1.0];
@@ -292,7 +292,7 @@ fn noise_that_changes_is_not_covered_by_the_other_half() {
     assert_fails(HoldoutCovered, &calibrate_simulation(&sim));
 }
 
-/// Returns the number of consistent logs among `logs` simulated ones, and prints the checks that failed.
+/// Returns the number of consistent logs among `log_count` simulated logs, and prints the checks that failed.
 fn count_consistent(model: Model, log_count: u64) -> usize {
     let mut failing_checks = Vec::new();
     let calibration_of = |seed: u64| calibrate_simulation(&Simulation::of(model, 600, 3000 + seed));

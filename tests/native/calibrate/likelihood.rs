@@ -71,7 +71,7 @@ fn error_derivative(leg: &Leg, corrected: &Systematic, error: SystematicError) -
     let motion_error = |step: f64| {
         let mut changed_errors = *corrected;
         *changed_errors.get_mut(error) += step;
-        // The reference has the corrected errors, and its robot moves as the odometry says.
+        // The reference has the corrected errors, and its robot executes the odometry motion.
         let mount_pose = |e: &Systematic| SE2::new(e.lever_arm[0], e.lever_arm[1], e.mount_yaw);
         let reference_motion = mount_pose(corrected).inverse() * odometry_motion * mount_pose(corrected);
         let motion = changed_errors.base().inverse() * (reference_motion * changed_errors.base());
@@ -139,7 +139,7 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
     -0.5 * deviance
 }
 
-/// The relative error of Jacobians by central differences is 1e-9, and there are 120 residuals.
+/// The tolerance allows for 120 residuals, whose Jacobians by central differences have a relative error of 1e-9.
 #[test]
 fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
     let sim = simulation_of_bends(40);

@@ -38,7 +38,7 @@ fn legs_end_as_amcl_ends_them() {
         assert_eq!(leg.times[0], sample_times(&odometry)[5 * i]);
         assert_eq!(leg.follows, i > 0);
     }
-    // The limit is for each axis: 0.24 m along both is not enough, although the distance is 0.34 m.
+    // Each axis has its own limit. A motion of 0.24 m along both axes ends no leg, although its distance is 0.34 m.
     let diagonal_drive =
         trajectory([(0.0, 0.0), (0.1, 0.24), (0.2, 0.26)].map(|(t, x)| (t, SE2::new(x, x, 0.0))));
     assert_eq!(split_into_legs(&diagonal_drive, &diagonal_drive, AMCL_LEG, 0.0).0[0].times, [0.0, 0.2]);
@@ -90,7 +90,7 @@ fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
             legs.iter().find(|leg| leg.times[0] == sample_times(&drive)[ends]).expect("it goes on");
         assert_eq!(next_leg.follows, across_pauses == 0);
     }
-    // Both ends of the leg have a reference pose, although the reference has none in between.
+    // If the reference lacks rows between the ends of a leg, the leg is not lost.
     let (legs, lost_legs) = split_into_legs(&drive, &without_rows_between(&drive, 30, 35), AMCL_LEG, 0.0);
     assert_eq!((legs, lost_legs), split_into_legs(&drive, &drive, AMCL_LEG, 0.0));
 }
@@ -227,8 +227,8 @@ fn commands_are_integrated_along_arcs() {
     let trajectory =
         Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, 0.5, 1.0), (3.0, 0.0, -2.0), (4.0, 9.0, 9.0)]);
     let trajectory = trajectory.expect("times rise");
-    // The commands are a metre straight ahead, an arc of a metre that turns by 2 rad with radius ½, and a turn on the spot back
-    // to the first heading.
+    // The commands are a metre straight ahead, an arc of a metre that turns by 2 rad, and a turn on the spot back to the first
+    // heading. The radius of the arc is ½ m.
     let arc = SE2::new(1.0 + 0.5 * libm::sin(2.0), 0.5 * (1.0 - libm::cos(2.0)), 2.0);
     let expected_poses = [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc, SE2::new(arc.x(), arc.y(), 0.0)];
     for (time, expected_poses) in [0.0, 1.0, 3.0, 4.0].into_iter().zip(expected_poses) {

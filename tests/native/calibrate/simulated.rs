@@ -30,7 +30,7 @@ pub enum Violation {
     None,
     /// Student's t distribution with this number of degrees of freedom.
     HeavyTails(usize),
-    /// Autocorrelated noise: this fraction of the noise of the previous leg, plus independent noise.
+    /// Autocorrelated noise, the sum of this fraction of the noise of the previous leg and independent noise.
     Autoregressive(f64),
     /// Standard deviation times this factor.
     Scaled(f64),

@@ -45,7 +45,7 @@ fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng)
     deviation.dot(&(inverse_covariance * deviation)) < CHI2_95
 }
 
-/// Returns the number of covered windows of a metre, and the number of all windows, in logs that were not used for the fit.
+/// Returns the number of covered windows and the number of all windows, in logs that were not used for the fit.
 fn count_covered_windows(model: Model, violation: Violation, log_count: u64) -> [usize; 2] {
     let mut rng = seeded_rng(log_count);
     let mut covered_and_all_counts = [0; 2];

@@ -18,11 +18,11 @@ use rand::{SeedableRng, rngs::SmallRng};
 const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 const ALPHAS: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]);
 const MODEL: VelocityModel = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
-const SAMPLES: usize = 200_000;
+const SAMPLE_COUNT: usize = 200_000;
 
 fn cloud_of(model: &VelocityModel) -> Vec<SE2> {
     let mut rng = SmallRng::seed_from_u64(7);
-    (0..SAMPLES).map(|_| model.sample(&U, &SE2::identity(), &mut rng)).collect()
+    (0..SAMPLE_COUNT).map(|_| model.sample(&U, &SE2::identity(), &mut rng)).collect()
 }
 
 /// Asserts that a value equals a number printed with `decimals` decimals.

@@ -1,7 +1,7 @@
 //! Integrals of pose densities, and their comparison with samples.
 //!
 //! The coordinates are polar, around the start of the motion: signed distance c, bearing β in a half circle, and
-//! the heading θ relative to `slope` · β, with dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start is smooth in
+//! heading θ relative to `slope` · β. Their volume element is dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start is smooth in
 //! them. The slope is 2 for arcs, which turn by twice their bearing, and 1 for odometry legs, so that cells lie along the cloud.
 
 use super::chi_square_limit;
@@ -26,23 +26,29 @@ pub struct PolarGrid {
     slope: f64,
     /// Middle of the box. β is within a quarter turn of its coordinate, and θ within half a turn.
     centre: [f64; 3],
-    step: [f64; 3],
-    cells: [usize; 3],
+    cell_size: [f64; 3],
+    cell_counts: [usize; 3],
 }
 
 impl PolarGrid {
     /// Returns the box around the pose `middle` that extends by `half_extent` to either side.
-    pub fn new(start: &SE2, middle: &SE2, slope: f64, half_extent: [f64; 3], cells: [usize; 3]) -> Self {
+    pub fn new(
+        start: &SE2,
+        middle: &SE2,
+        slope: f64,
+        half_extent: [f64; 3],
+        cell_counts: [usize; 3],
+    ) -> Self {
         let (dx, dy) = (middle.x() - start.x(), middle.y() - start.y());
         let bearing = if dx.hypot(dy) > 0.0 { dy.atan2(dx) } else { start.theta() };
         let centre = [dx.hypot(dy), bearing, middle.theta() - slope * bearing];
-        let step = [0, 1, 2].map(|axis| 2.0 * half_extent[axis] / cells[axis] as f64);
-        Self { start: *start, slope, centre, step, cells }
+        let cell_size = [0, 1, 2].map(|axis| 2.0 * half_extent[axis] / cell_counts[axis] as f64);
+        Self { start: *start, slope, centre, cell_size, cell_counts }
     }
 
     /// Returns the box of all poses within `radius` of the start.
-    pub fn around_start(start: &SE2, slope: f64, radius: f64, cells: [usize; 3]) -> Self {
-        Self::new(start, start, slope, [radius, PI / 2.0, PI], cells)
+    pub fn around_start(start: &SE2, slope: f64, radius: f64, cell_counts: [usize; 3]) -> Self {
+        Self::new(start, start, slope, [radius, PI / 2.0, PI], cell_counts)
     }
 
     /// Returns c, β and θ of a pose.
@@ -61,19 +67,20 @@ impl PolarGrid {
 
     /// Returns the lower bound of a cell along an axis.
     fn lower_bound(&self, axis: usize, index: usize) -> f64 {
-        self.centre[axis] + (index as f64 - 0.5 * self.cells[axis] as f64) * self.step[axis]
+        self.centre[axis] + (index as f64 - 0.5 * self.cell_counts[axis] as f64) * self.cell_size[axis]
     }
 
     /// Returns the probability mass of each cell, by an 8 × 8 × 8 Gauss rule in each cell.
     pub fn cell_masses(&self, density: impl Fn(&SE2) -> f64) -> Vec<f64> {
         let nodes_and_weights = |axis: usize, index: usize| {
-            let (low, step) = (self.lower_bound(axis, index), self.step[axis]);
-            GAUSS_LEGENDRE_RULE.map(|(node, weight)| (low + 0.5 * (1.0 + node) * step, 0.5 * weight * step))
+            let (low, cell_size) = (self.lower_bound(axis, index), self.cell_size[axis]);
+            GAUSS_LEGENDRE_RULE
+                .map(|(node, weight)| (low + 0.5 * (1.0 + node) * cell_size, 0.5 * weight * cell_size))
         };
-        let mut cell_masses = Vec::with_capacity(self.cells.iter().product());
-        for i in 0..self.cells[0] {
-            for j in 0..self.cells[1] {
-                for k in 0..self.cells[2] {
+        let mut cell_masses = Vec::with_capacity(self.cell_counts.iter().product());
+        for i in 0..self.cell_counts[0] {
+            for j in 0..self.cell_counts[1] {
+                for k in 0..self.cell_counts[2] {
                     let mut cell_mass = 0.0;
                     for (c, wc) in nodes_and_weights(0, i) {
                         for (beta, wb) in nodes_and_weights(1, j) {
@@ -98,15 +105,15 @@ impl PolarGrid {
 
     /// Returns the number of poses in each cell.
     fn pose_counts(&self, poses: &[SE2]) -> Vec<f64> {
-        let mut pose_counts = vec![0.0; self.cells.iter().product()];
+        let mut pose_counts = vec![0.0; self.cell_counts.iter().product()];
         for pose in poses {
             let mut flat_index = Some(0);
             for (axis, coordinate) in self.coordinates(pose).into_iter().enumerate() {
-                let cell_index = ((coordinate - self.lower_bound(axis, 0)) / self.step[axis]).floor();
-                let is_inside = cell_index >= 0.0 && cell_index < self.cells[axis] as f64;
+                let cell_index = ((coordinate - self.lower_bound(axis, 0)) / self.cell_size[axis]).floor();
+                let is_inside = cell_index >= 0.0 && cell_index < self.cell_counts[axis] as f64;
                 flat_index = flat_index
                     .filter(|_| is_inside)
-                    .map(|flat_index| flat_index * self.cells[axis] + cell_index as usize);
+                    .map(|flat_index| flat_index * self.cell_counts[axis] + cell_index as usize);
             }
             if let Some(flat_index) = flat_index {
                 pose_counts[flat_index] += 1.0;

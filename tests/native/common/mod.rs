@@ -14,7 +14,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 pub const NOISE_KINDS: [NoiseKind; 2] = [NoiseKind::Normal, NoiseKind::Triangular];
 
 /// Sample size of the distribution tests.
-pub const SAMPLES: usize = 100_000;
+pub const SAMPLE_COUNT: usize = 100_000;
 
 /// Maximum deviation of an estimate in standard errors. With random seeds one comparison in 150 000 would fail.
 pub const MAX_STANDARD_ERRORS: f64 = 4.5;
@@ -37,8 +37,8 @@ pub fn signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
 
 /// Returns the largest difference in x, y and heading (on the circle).
 pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
-    let turn = (a.theta() - b.theta()).sin().atan2((a.theta() - b.theta()).cos());
-    (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(turn.abs())
+    let heading_difference = (a.theta() - b.theta()).sin().atan2((a.theta() - b.theta()).cos());
+    (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(heading_difference.abs())
 }
 
 /// Returns the derivative of a pose with respect to three unit noises, by central differences.
@@ -56,7 +56,7 @@ pub fn derivative_by_noise(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> 
 }
 
 /// Returns the settings of the Banana Machine with one of its presets.
-pub fn preset(name: &str) -> Settings {
+pub fn settings_of_preset(name: &str) -> Settings {
     let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
     Settings { command: preset.command, velocity_alphas: preset.alphas, ..Settings::default() }
 }
@@ -77,17 +77,17 @@ pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
 // ------------------------------------------------------------------------------------------- reference tables
 
 /// A table of tests/reference, written by generate.py.
-pub struct Table {
+pub struct ReferenceTable {
     columns: Vec<&'static str>,
     rows: Vec<Vec<&'static str>>,
 }
 
 pub struct Row<'a> {
-    table: &'a Table,
+    table: &'a ReferenceTable,
     cells: &'a [&'static str],
 }
 
-impl Table {
+impl ReferenceTable {
     pub fn parse(text: &'static str) -> Self {
         let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
         let columns = lines.next().expect("a header");

@@ -13,7 +13,7 @@ pub struct PrintedNumber {
 
 impl PrintedNumber {
     /// Asserts that the printed number equals a computed one, to within `error`.
-    pub fn assert(&self, computed: f64, error: f64) {
+    pub fn assert_near(&self, computed: f64, error: f64) {
         let deviation = (computed - self.value).abs();
         assert!(
             deviation <= self.rounding * (1.0 + 1e-9) + error,
@@ -24,7 +24,7 @@ impl PrintedNumber {
 
     /// Asserts that a printed percentage equals a computed fraction.
     pub fn assert_percent(&self, share: f64, error: f64) {
-        self.assert(100.0 * share, 100.0 * error);
+        self.assert_near(100.0 * share, 100.0 * error);
     }
 }
 
@@ -33,7 +33,7 @@ const THIN_SPACE: char = '\u{202f}';
 
 impl Text {
     /// Returns the text of a page without its markup.
-    pub fn on_page(html: &str) -> Self {
+    pub fn of_page(html: &str) -> Self {
         let mut text = String::new();
         for markup_and_text in html.split('<') {
             // The first part has no markup before it.
@@ -42,10 +42,10 @@ impl Text {
         for (entity, character) in [("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
             text = text.replace(entity, character);
         }
-        Self::in_document(&text)
+        Self::of_document(&text)
     }
 
-    pub fn in_document(text: &str) -> Self {
+    pub fn of_document(text: &str) -> Self {
         Self(text.split([' ', '\n', '\t']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" "))
     }
 
@@ -63,15 +63,15 @@ impl Text {
     }
 
     /// Asserts that the printed numbers equal computed ones.
-    pub fn assert<const N: usize>(&self, sentence: &str, computed: [f64; N]) {
+    pub fn assert_numbers<const N: usize>(&self, sentence: &str, computed: [f64; N]) {
         self.numbers::<N>(sentence)
             .iter()
             .zip(computed)
-            .for_each(|(printed, computed)| printed.assert(computed, 0.0));
+            .for_each(|(printed, computed)| printed.assert_near(computed, 0.0));
     }
 
     /// Asserts that the text contains a sentence exactly once.
-    pub fn assert_says(&self, sentence: &str) {
+    pub fn assert_contains(&self, sentence: &str) {
         let [] = self.numbers(sentence);
     }
 }

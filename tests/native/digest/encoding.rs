@@ -99,7 +99,7 @@ impl HashedPart {
     pub fn new(name: &'static str, results: impl Encode) -> Self {
         let mut bytes = Vec::new();
         results.encode(&mut bytes);
-        // Of the hash, 64 bits are kept. One change in 10¹⁹ would go unnoticed.
+        // 64 bits of the hash are enough: one change in 10¹⁹ would go unnoticed.
         Self(name, hex(&Sha256::digest(bytes))[..16].to_owned())
     }
 }

@@ -1,5 +1,5 @@
-//! Results of many configurations, compared bit by bit with golden.txt, because equal seeds must give equal bits. digest.js compares the
-//! results of the JavaScript interface, in Node and in browsers.
+//! Results of many configurations, whose hashes are compared with golden.txt, because equal seeds must give equal bits. digest.js compares
+//! the results of the JavaScript interface, in Node and in browsers.
 
 mod configuration;
 mod encoding;

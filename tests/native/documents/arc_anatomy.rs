@@ -2,7 +2,7 @@
 
 use super::page;
 use crate::common::text::PrintedNumber;
-use crate::simulations::arc_anatomy::{preset, stats};
+use crate::simulations::arc_anatomy::{settings_of_preset, stats};
 use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Settings, Stats, SurfaceKind};
 
 /// Returns settings with the final pose turned until the wedge disappears.
@@ -13,31 +13,31 @@ fn without_wedge(settings: Settings) -> Settings {
 
 #[test]
 fn the_last_turn_explains_the_low_probability() {
-    let [sigma_count, factor_share, product_share] = page().numbers(
+    let [printed_sigma_count, printed_factor_percentage, printed_product_percentage] = page().numbers(
         "The last turn is off by # standard deviations: that factor alone leaves # % of its peak, all three leave # %.",
     );
     let Stats { factors, weakest, share, .. } = stats(Settings::default());
     assert_eq!(weakest, 2);
-    sigma_count.assert(factors[2].deviations, 0.0);
-    factor_share.assert_percent(factors[2].share, 0.0);
-    product_share.assert_percent(share, 0.0);
-    let [remaining_share] =
+    printed_sigma_count.assert_near(factors[2].deviations, 0.0);
+    printed_factor_percentage.assert_percent(factors[2].share, 0.0);
+    printed_product_percentage.assert_percent(share, 0.0);
+    let [printed_remaining_percentage] =
         page().numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
     let Stats { factors, share, .. } = stats(without_wedge(Settings::default()));
-    remaining_share.assert_percent(share, 0.0);
+    printed_remaining_percentage.assert_percent(share, 0.0);
     assert!((factors[2].share - 1.0).abs() < 1e-12);
 }
 
 #[test]
-fn the_printed_table_loses_p_for_centres_to_the_right() {
+fn the_printed_table_gives_no_probability_to_centres_on_the_right() {
     let [printed_speed]: [PrintedNumber; 1] =
         page().numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
     for name in ["right", "reverse"] {
-        let settings = Settings { printed: true, ..preset(name) };
+        let settings = Settings { printed: true, ..settings_of_preset(name) };
         let Stats { factors, share, inverted, .. } = stats(settings);
         assert!(inverted.radius < 0.0 && share < 1e-15);
         // The estimated speed has the opposite sign of the command.
-        printed_speed.assert(-factors[0].estimate.abs(), 0.0);
+        printed_speed.assert_near(-factors[0].estimate.abs(), 0.0);
         assert!(factors[0].estimate * settings.command.v < 0.0);
         // With the unsigned radius of the printed table, contours of equal score stay near the start. With the signed radius they do not.
         let max_distance = |settings: Settings| {
@@ -48,7 +48,7 @@ fn the_printed_table_loses_p_for_centres_to_the_right() {
             surface.prob.iter().flatten().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
         };
         assert!(
-            max_distance(settings) < 0.5 && max_distance(preset(name)) > 1.0,
+            max_distance(settings) < 0.5 && max_distance(settings_of_preset(name)) > 1.0,
             "{}",
             max_distance(settings)
         );

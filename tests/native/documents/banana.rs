@@ -2,13 +2,13 @@
 
 use super::page;
 use crate::common::text::{PrintedNumber, Text};
-use crate::common::{MAX_STANDARD_ERRORS, preset, winds_around};
+use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset, winds_around};
 use crate::simulations::banana::simulation;
 use motion::VelocityCmd;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 
 fn statistics_document() -> Text {
-    Text::in_document(include_str!("../../../doc/statistics.md"))
+    Text::of_document(include_str!("../../../doc/statistics.md"))
 }
 
 #[test]
@@ -23,7 +23,7 @@ fn the_presets_are_those_in_the_document() {
     ] {
         let printed: [PrintedNumber; 9] =
             statistics_document().numbers(&format!("| {label} | #, #, # | #, #, #, #, #, # |"));
-        let Settings { command: c, velocity_alphas: [a1, a2, a3, a4, a5, a6], .. } = preset(name);
+        let Settings { command: c, velocity_alphas: [a1, a2, a3, a4, a5, a6], .. } = settings_of_preset(name);
         assert_eq!(
             printed.map(|number| number.value),
             [c.v, c.omega, c.dt, a1, a2, a3, a4, a5, a6],
@@ -37,13 +37,14 @@ fn the_presets_are_those_in_the_document() {
 fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     const ROBOT_COUNT: usize = 300_000;
     let coverage_error = MAX_STANDARD_ERRORS * (0.117 / ROBOT_COUNT as f64).sqrt();
-    let simulation_of = |name| simulation(Settings { samples: ROBOT_COUNT, ..preset(name) });
-    let assert_row = |simulation: &BananaMachine, [floor, area, ellipse, skew]: [PrintedNumber; 4]| {
+    let simulation_of = |name| simulation(Settings { samples: ROBOT_COUNT, ..settings_of_preset(name) });
+    let assert_row = |simulation: &BananaMachine, printed_row: [PrintedNumber; 4]| {
+        let [printed_floor_gain, printed_area_ratio, printed_ellipse_percentage, printed_skew] = printed_row;
         let exact_column = simulation.table().exact;
-        floor.assert(exact_column.likelihood_gain.floor, 0.0);
-        area.assert(exact_column.area_ratio, 0.0);
-        ellipse.assert_percent(simulation.stats().coverage.ellipse, coverage_error);
-        skew.assert(exact_column.cross_track_skew, 1e-12);
+        printed_floor_gain.assert_near(exact_column.likelihood_gain.floor, 0.0);
+        printed_area_ratio.assert_near(exact_column.area_ratio, 0.0);
+        printed_ellipse_percentage.assert_percent(simulation.stats().coverage.ellipse, coverage_error);
+        printed_skew.assert_near(exact_column.cross_track_skew, 1e-12);
         exact_column
     };
     let worked_row =
@@ -55,38 +56,38 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
         ("banana", "| 1, 0, 2; (0.002, 0.002, 0.1, 0.1, 0.002, 0.002)"),
     ]
     .map(|(name, row_start)| {
-        let [pose, floor, area, ellipse, skew] =
+        let [printed_pose_gain, printed_row @ ..]: [PrintedNumber; 5] =
             statistics_document().numbers(&format!("{row_start} | # | # | # | # % | # |"));
         let simulation = simulation_of(name);
-        let exact_column = assert_row(&simulation, [floor, area, ellipse, skew]);
-        pose.assert(exact_column.likelihood_gain.pose, 0.0);
+        let exact_column = assert_row(&simulation, printed_row);
+        printed_pose_gain.assert_near(exact_column.likelihood_gain.pose, 0.0);
         (exact_column, simulation)
     });
-    let [ellipse, outline_share, skew, gaussian_skew] = page().numbers(
+    let [printed_ellipse_percentage, printed_outline_percentage, printed_skew, printed_gaussian_skew] = page().numbers(
         "do not give the ellipse away, # % and # %. The cross-track skew, the lopsidedness across the path, does: #, \
          where any Gaussian in (x, y) has #, and so has the banana.",
     );
-    ellipse.assert_percent(hard_simulation.stats().coverage.ellipse, coverage_error);
-    outline_share.assert_percent(hard_simulation.stats().coverage.exponential, coverage_error);
-    skew.assert(hard_exact.cross_track_skew, 0.0);
-    gaussian_skew.assert(hard_simulation.table().linearized.cross_track_skew, 0.0);
+    printed_ellipse_percentage.assert_percent(hard_simulation.stats().coverage.ellipse, coverage_error);
+    printed_outline_percentage.assert_percent(hard_simulation.stats().coverage.exponential, coverage_error);
+    printed_skew.assert_near(hard_exact.cross_track_skew, 0.0);
+    printed_gaussian_skew.assert_near(hard_simulation.table().linearized.cross_track_skew, 0.0);
     assert!(banana_exact.cross_track_skew.abs() < 1e-9);
     let [banana_gain, gentle_gain, hard_gain] =
         [&banana_exact, &gentle_exact, &hard_exact].map(|exact_column| exact_column.likelihood_gain.pose);
-    page().assert(
+    page().assert_numbers(
         "The ellipse covers # times the floor of the green outline: where it alone lies, robots stop a seventh as \
          densely as where the outline alone does. The Gaussian in ξ fits better: a log-likelihood gain of # nats a robot \
          (# nat is a factor of e); on the gentle arc it is #, on the hard one #.",
         [banana_exact.area_ratio, banana_gain, 1.0, gentle_gain, hard_gain],
     );
-    assert_eq!(Settings::default(), preset("banana"));
+    assert_eq!(Settings::default(), settings_of_preset("banana"));
     let opening_simulation = simulation(Settings::default());
-    statistics_document().assert(
+    statistics_document().assert_numbers(
         "α₁₋₄ = 0.02, α₅,₆ = 0: skew #; the Gentle arc's α = (0.05, 0.05, 0.05, 0.09, 0.01, 0.01): #.",
-        [simulation(preset("worked")), simulation(preset("gentle"))]
+        [simulation(settings_of_preset("worked")), simulation(settings_of_preset("gentle"))]
             .map(|simulation| simulation.exact_moments().cross_track_skew),
     );
-    statistics_document().assert(
+    statistics_document().assert_numbers(
         "The widget opens with # robots. They give the skew of the Banana to ±#.",
         [opening_simulation.settings().samples as f64, opening_simulation.stats().cross_track_skew_error],
     );
@@ -95,10 +96,10 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
 /// With 300,000 robots, the densities in the areas that only one of the outlines encloses have relative errors of 2 %.
 #[test]
 fn the_ellipse_covers_floor_where_few_robots_stop() {
-    page().assert_says(
+    page().assert_contains(
         "where it alone lies, robots stop a seventh as densely as where the outline alone does.",
     );
-    let simulation = simulation(Settings { samples: 300_000, ..preset("banana") });
+    let simulation = simulation(Settings { samples: 300_000, ..settings_of_preset("banana") });
     let contours = simulation.contours();
     let are_inside = |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
     const CELL_SIZE: f64 = 0.02;
@@ -118,9 +119,10 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
 
 #[test]
 fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
-    page()
-        .assert_says("In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:");
-    let long_drive = preset("gentle");
+    page().assert_contains(
+        "In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:",
+    );
+    let long_drive = settings_of_preset("gentle");
     let short_drive = Settings {
         command: VelocityCmd { dt: long_drive.command.dt / 10.0, ..long_drive.command },
         ..long_drive
@@ -143,7 +145,7 @@ fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
 fn the_predicted_skew_misses_under_the_odometry_model() {
     let [robot_count, min_standard_errors] =
         page().numbers("and the prediction misses: with # robots by more than # standard errors.");
-    let settings = Settings { samples: robot_count.value as usize, ..preset("gentle") };
+    let settings = Settings { samples: robot_count.value as usize, ..settings_of_preset("gentle") };
     let mut velocity_alphas = settings.velocity_alphas;
     velocity_alphas[4..].fill(0.0);
     let miss_in_standard_errors = |settings| {
@@ -160,9 +162,10 @@ fn the_predicted_skew_misses_under_the_odometry_model() {
 
 #[test]
 fn a_hundred_times_the_robots_leave_a_tenth_of_the_error() {
-    page().assert_says("A hundred times the robots leave a tenth of the standard error.");
-    let skew_error =
-        |samples| simulation(Settings { samples, ..preset("gentle") }).stats().cross_track_skew_error;
+    page().assert_contains("A hundred times the robots leave a tenth of the standard error.");
+    let skew_error = |samples| {
+        simulation(Settings { samples, ..settings_of_preset("gentle") }).stats().cross_track_skew_error
+    };
     let error_ratio = skew_error(2000) / skew_error(200_000);
     assert!((error_ratio - 10.0).abs() < 1.0, "{error_ratio}");
 }

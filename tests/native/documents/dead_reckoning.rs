@@ -46,30 +46,30 @@ fn printed_losses_of_variance_equal_those_of_the_simulation() {
     printed_loss.assert_percent(-comparison.misses[0].end, 0.0);
     printed_loss
         .assert_percent(1.0 - ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, 0)[19], 0.0);
-    let [along_loss, lateral_loss]: [PrintedNumber; 2] = page().numbers(
+    let [printed_along_loss, printed_lateral_loss]: [PrintedNumber; 2] = page().numbers(
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
     );
-    for (printed_loss, axis) in [(along_loss, 0), (lateral_loss, 1)] {
+    for (printed_loss, axis) in [(printed_along_loss, 0), (printed_lateral_loss, 1)] {
         printed_loss.assert_percent(-comparison.misses[axis].end, 0.0);
         printed_loss.assert_percent(
             1.0 - ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, axis)[19],
             0.0,
         );
     }
-    page().assert_says("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
+    page().assert_contains("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
     assert_eq!(comparison.ratios[0].y, 0.0);
     assert!(initial_simulation.measured_moments()[0].cov[(1, 1)] > 0.0);
-    let [ratio_at_2, ratio_at_5]: [PrintedNumber; 2] =
+    let [printed_ratio_at_2, printed_ratio_at_5]: [PrintedNumber; 2] =
         page().numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
     for ratios in [
         ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, 1),
         comparison.ratios.iter().map(|ratio| ratio.y).collect(),
     ] {
-        ratio_at_2.assert(ratios[1], 0.0);
-        ratio_at_5.assert(ratios[4], 0.0);
+        printed_ratio_at_2.assert_near(ratios[1], 0.0);
+        printed_ratio_at_5.assert_near(ratios[4], 0.0);
     }
-    page().assert_says(
+    page().assert_contains(
         "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
     );
     for order in [Compounding::FirstOrder, Compounding::FourthOrder] {
@@ -89,7 +89,7 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
         let ratios_of =
             |order| [0, 1, 2].map(|axis| ratios_to_fourth_order(&simulations[0], order, axis)[k - 1]);
         let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(ratios_of);
-        document.assert(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
+        document.assert_numbers(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
     }
     let first_missed_steps = simulations.map(|simulation| {
         let tolerance = MAX_STANDARD_ERRORS * (2.3 / simulation.settings().samples as f64).sqrt();
@@ -106,12 +106,12 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
         );
         f64::from(first_missed_step)
     });
-    document.assert(
+    document.assert_numbers(
         "off by more than 5 % from step # on. With the heading's standard deviation doubled (α₃ to α₆ four times as \
          large) it is from step # on",
         first_missed_steps,
     );
-    page().assert(
+    page().assert_numbers(
         "it is off by more than 5 % from step # on, and with the heading σ doubled from step # on, which is earlier, \
          but not by half.",
         first_missed_steps,
@@ -136,19 +136,21 @@ fn the_crossing_times_are_those_of_exercise_2() {
     let crossing_times =
         [&growth, &doubled_simulation.straight_growth()].map(|growth| growth.crossing.expect("a crossing"));
     let document = exercises_document();
-    page()
-        .assert("along the track with the power #, across it with the power #. They cross", growth_exponents);
-    document.assert("grows with the power # of Δt, across it with #. ", growth_exponents);
-    page().assert("They cross after # s; with the heading σ doubled, after # s.", crossing_times);
-    document.assert(
+    page().assert_numbers(
+        "along the track with the power #, across it with the power #. They cross",
+        growth_exponents,
+    );
+    document.assert_numbers("grows with the power # of Δt, across it with #. ", growth_exponents);
+    page().assert_numbers("They cross after # s; with the heading σ doubled, after # s.", crossing_times);
+    document.assert_numbers(
         "with α₁ = α₃ after # s, and with the heading's σ doubled (α₃ four times as large) after # s",
         crossing_times,
     );
 }
 
 #[test]
-fn two_hundred_steps_miss_for_half_a_second() {
-    page().assert_says(
+fn with_two_hundred_steps_the_recursion_misses_for_half_a_second() {
+    page().assert_contains(
         "In 200 steps nothing along the track is off by 5 %, and the lateral variance for half a second instead of three:",
     );
     let [chapter_drive, fine_drive] = ["chapter", "fine"].map(simulation_of_preset);

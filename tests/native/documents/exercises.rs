@@ -2,7 +2,7 @@
 
 use super::exercises_document;
 use crate::common::text::PrintedNumber;
-use crate::common::{derivative_by_noise, preset, seeded_rng, unit_cdf};
+use crate::common::{derivative_by_noise, seeded_rng, settings_of_preset, unit_cdf};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::Sampler;
@@ -41,7 +41,7 @@ fn rms_error_of_arc_form(omega: f64, dt: f64) -> f64 {
 fn exercise_1_prints_the_errors_of_the_straight_line_branch() {
     let dt = 0.1;
     let line_error = |omega: f64| 0.5 * omega * dt * dt;
-    // The error varies strongly with ω. Its mean over a tenth of a decade is compared.
+    // The error varies strongly with ω. Its geometric mean over a tenth of a decade is therefore compared.
     let error_ratio = |omega: f64| {
         let turn_rates = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
         (turn_rates.map(|omega| (rms_error_of_arc_form(omega, dt) / line_error(omega)).ln()).sum::<f64>()
@@ -52,17 +52,17 @@ fn exercise_1_prints_the_errors_of_the_straight_line_branch() {
         (0..400).map(|i| 1e-9 * 10f64.powf(f64::from(i) / 100.0)).find(|omega| error_ratio(*omega) < 1.0);
     let [printed_crossover, printed_estimate]: [PrintedNumber; 2] =
         exercises_document().numbers("below |ω̂| = # × 10⁻⁷ rad/s, where the estimate √(2ε)/Δt says # × 10⁻⁷");
-    printed_crossover.assert(crossover_turn_rate.expect("a crossover") / 1e-7, 0.0);
-    printed_estimate.assert((2.0 * f64::EPSILON).sqrt() / dt / 1e-7, 0.0);
+    printed_crossover.assert_near(crossover_turn_rate.expect("a crossover") / 1e-7, 0.0);
+    printed_estimate.assert_near((2.0 * f64::EPSILON).sqrt() / dt / 1e-7, 0.0);
     let [printed_line_error, printed_arc_error, printed_ratio]: [PrintedNumber; 3] = exercises_document()
         .numbers(
             "the straight line is off by # nm, and the arc form by # nm. Switching so early costs # times",
         );
     let (line_error, arc_error) = (line_error(1e-6), rms_error_of_arc_form(1e-6, dt));
-    printed_line_error.assert(line_error / 1e-9, 0.0);
-    printed_arc_error.assert(arc_error / 1e-9, 0.0);
-    printed_ratio.assert(line_error / arc_error, 0.0);
-    exercises_document().assert_says("up to half a micrometre where Δt is a second");
+    printed_line_error.assert_near(line_error / 1e-9, 0.0);
+    printed_arc_error.assert_near(arc_error / 1e-9, 0.0);
+    printed_ratio.assert_near(line_error / arc_error, 0.0);
+    exercises_document().assert_contains("up to half a micrometre where Δt is a second");
     let arc_end = Arc { start: SE2::identity(), length: 1.0, turn: 1e-6 }.end();
     assert!(((arc_end.x() - 1.0).hypot(arc_end.y()) - 0.5e-6).abs() < 1e-12, "{arc_end:?}");
 }
@@ -78,7 +78,7 @@ fn exercise_3_prints_the_jacobian_determinant() {
     let stds = model.variances(&U).map(|variance| variance.0.sqrt());
     let noise_jacobian = derivative_by_noise([0.0; 3], |unit| model.apply_noise(&U, &x, unit));
     let determinant = noise_jacobian.determinant() / stds.iter().product::<f64>();
-    printed_determinant.assert(determinant, 0.0);
+    printed_determinant.assert_near(determinant, 0.0);
     let prob_ratio = model.prob(&noise_free_end, &U, &x)
         / model.pose_density(&noise_free_end, &U, &x).expect("noise of full rank");
     assert!((prob_ratio / determinant - 1.0).abs() < 1e-8, "{prob_ratio} {determinant}");
@@ -96,12 +96,13 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
     let exact_and_is_one_pose = |index: usize, command: VelocityCmd| {
         let mut alphas = [0.0; 6];
         alphas[index] = 0.09;
-        let settings = Settings { command, velocity_alphas: alphas, samples: 1000, ..preset("straight") };
+        let settings =
+            Settings { command, velocity_alphas: alphas, samples: 1000, ..settings_of_preset("straight") };
         let simulation = BananaMachine::new(settings).expect("valid settings");
         let first_pose = simulation.poses().next();
         (simulation.table().exact, simulation.poses().all(|pose| Some(pose) == first_pose))
     };
-    let straight_command = preset("straight").command;
+    let straight_command = settings_of_preset("straight").command;
     assert_eq!(straight_command.omega, 0.0);
     assert!([3, 5].iter().all(|i| exact_and_is_one_pose(*i, straight_command).1));
     let turning_command = VelocityCmd { omega: 0.5, ..straight_command };
@@ -114,9 +115,9 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
     assert_eq!(printed_alpha.value, 0.09);
     let [exact_with_alpha4, exact_with_alpha6] =
         [3, 5].map(|index| exact_and_is_one_pose(index, turning_command).0);
-    printed_variance.assert(exact_with_alpha4.cov[(2, 2)], 0.0);
-    printed_variance.assert(exact_with_alpha6.cov[(2, 2)], 0.0);
-    printed_skew.assert(exact_with_alpha4.cross_track_skew, 0.0);
+    printed_variance.assert_near(exact_with_alpha4.cov[(2, 2)], 0.0);
+    printed_variance.assert_near(exact_with_alpha6.cov[(2, 2)], 0.0);
+    printed_skew.assert_near(exact_with_alpha4.cross_track_skew, 0.0);
     assert_eq!(exact_with_alpha6.cov.fixed_rows::<2>(0).amax(), 0.0);
 }
 
@@ -144,7 +145,7 @@ fn exercise_5_prints_the_fractions_through_walls() {
             printed.assert_percent(stats_of(settings).through_wall_rate, 0.0);
         }
     }
-    exercises_document().assert_says("Noise alone, up to 0.4, never gets it to 40 %.");
+    exercises_document().assert_contains("Noise alone, up to 0.4, never gets it to 40 %.");
     for i in [8, 24, 40, 56, 80] {
         let stats = stats_of(settings_with(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
         assert!(stats.through_wall_rate < 0.4, "{i}: {}", stats.through_wall_rate);
@@ -158,12 +159,12 @@ fn exercise_5_prints_the_fractions_through_walls() {
     .map(|sentence| exercises_document().numbers::<1>(sentence)[0]);
     let stats_of_sampler = |sampler| stats_of(settings_with(0.12, 0.6, sampler));
     let whole_arc_stats = stats_of_sampler(Sampler::WholeArc);
-    printed_arc_draws.assert(whole_arc_stats.draws_per_accepted, 0.0);
+    printed_arc_draws.assert_near(whole_arc_stats.draws_per_accepted, 0.0);
     assert_eq!(whole_arc_stats.through_wall, 0);
     let [quarters_stats, eighths_stats] = [4, 8].map(|parts| stats_of_sampler(Sampler::SubStepped(parts)));
-    printed_quarters_draws.assert(quarters_stats.draws_per_accepted, 0.0);
+    printed_quarters_draws.assert_near(quarters_stats.draws_per_accepted, 0.0);
     printed_quarters_percentage.assert_percent(quarters_stats.through_wall_rate, 0.0);
-    printed_eighths_draws.assert(eighths_stats.draws_per_accepted, 0.0);
+    printed_eighths_draws.assert_near(eighths_stats.draws_per_accepted, 0.0);
     let [draws_per_second]: [PrintedNumber; 1] =
         exercises_document().numbers("at 20 Hz that is # draws a second");
     // The number is printed in thousands.
@@ -175,7 +176,7 @@ fn exercise_6_prints_the_skew_of_the_triangular_sampler() {
     let heading_variance = Variance(0.025);
     let [printed_limit, printed_tail]: [PrintedNumber; 2] =
         exercises_document().numbers("√6·b is # rad for the heading, beyond which # % of normal draws are");
-    printed_limit.assert((6.0 * heading_variance.0).sqrt(), 0.0);
+    printed_limit.assert_near((6.0 * heading_variance.0).sqrt(), 0.0);
     let sampled_poses = |noise| {
         let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]), noise };
         let mut rng = seeded_rng(7);
@@ -189,8 +190,8 @@ fn exercise_6_prints_the_skew_of_the_triangular_sampler() {
     let printed_skews: [PrintedNumber; 2] =
         exercises_document().numbers("the skew is # with normal noise and # with triangular noise");
     for (printed_skew, noise) in printed_skews.into_iter().zip([NoiseKind::Normal, NoiseKind::Triangular]) {
-        let simulation =
-            BananaMachine::new(Settings { noise, samples: 10, ..preset("worked") }).expect("valid settings");
-        printed_skew.assert(simulation.table().exact.cross_track_skew, 0.0);
+        let simulation = BananaMachine::new(Settings { noise, samples: 10, ..settings_of_preset("worked") })
+            .expect("valid settings");
+        printed_skew.assert_near(simulation.table().exact.cross_track_skew, 0.0);
     }
 }

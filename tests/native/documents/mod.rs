@@ -11,13 +11,13 @@ use crate::common::text::Text;
 
 /// Returns the text of the page without markup.
 fn page() -> Text {
-    Text::on_page(include_str!("../../../www/index.html"))
+    Text::of_page(include_str!("../../../www/index.html"))
 }
 
 fn exercises_document() -> Text {
-    Text::in_document(include_str!("../../../doc/exercises.md"))
+    Text::of_document(include_str!("../../../doc/exercises.md"))
 }
 
 fn model_document() -> Text {
-    Text::in_document(include_str!("../../../doc/model.md"))
+    Text::of_document(include_str!("../../../doc/model.md"))
 }

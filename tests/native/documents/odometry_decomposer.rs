@@ -17,11 +17,12 @@ fn the_lever_grows_faster_than_the_drive() {
     );
     let settings = settings_of_preset("all");
     let stats = simulation(settings).stats();
-    printed_rot1_std.assert(noise_of(settings, Table).deviations[0], 0.0);
-    printed_lateral_std.assert(stats.exact_cross_track, 0.0);
+    printed_rot1_std.assert_near(noise_of(settings, Table).deviations[0], 0.0);
+    printed_lateral_std.assert_near(stats.exact_cross_track, 0.0);
     let OdometryPose([x, y, theta]) = settings.to;
     let long_drive = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
-    printed_growth.assert(simulation(long_drive).stats().exact_cross_track / stats.exact_cross_track, 0.0);
+    printed_growth
+        .assert_near(simulation(long_drive).stats().exact_cross_track / stats.exact_cross_track, 0.0);
 }
 
 #[test]
@@ -30,12 +31,12 @@ fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
         page().numbers("adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.");
     let deviations_of = |rule| noise_of(settings_of_preset("reverse"), rule).deviations;
     let [rot1_std, _, rot2_std, _] = deviations_of(Table);
-    printed_table_std.assert(rot1_std, 0.0);
+    printed_table_std.assert_near(rot1_std, 0.0);
     assert!(rot2_std > rot1_std);
     for rule in [Nav2, Beluga] {
         let [rot1_std, _, rot2_std, _] = deviations_of(rule);
-        printed_localizer_std.assert(rot1_std, 0.0);
-        printed_localizer_std.assert(rot2_std, 0.0);
+        printed_localizer_std.assert_near(rot1_std, 0.0);
+        printed_localizer_std.assert_near(rot2_std, 0.0);
     }
 }
 
@@ -44,8 +45,8 @@ fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
     let [printed_min_std, printed_max_std] =
         page().numbers("No outcome moves, and the standard deviation of the heading goes from # to # rad.");
     let simulation_with = |correlation| simulation(Settings { correlation, ..settings_of_preset("all") });
-    printed_min_std.assert(simulation_with(-1.0).stats().exact_heading, 0.0);
-    printed_max_std.assert(simulation_with(1.0).stats().exact_heading, 0.0);
+    printed_min_std.assert_near(simulation_with(-1.0).stats().exact_heading, 0.0);
+    printed_max_std.assert_near(simulation_with(1.0).stats().exact_heading, 0.0);
     for (a, b) in simulation_with(-1.0).poses().iter().zip(simulation_with(1.0).poses()) {
         assert_eq!((a.x(), a.y()), (b.x(), b.y()));
     }
@@ -60,7 +61,7 @@ fn the_variances_of_the_rules_are_those_in_the_document() {
         presets.into_iter().flat_map(|preset| rules.map(|rule| (preset, rule)))
     {
         let stds = noise_of(settings_of_preset(preset), rule).deviations;
-        model_document().assert(&format!("| {row_name} | {rule_name} | # | # | # | # |"), stds);
+        model_document().assert_numbers(&format!("| {row_name} | {rule_name} | # | # | # | # |"), stds);
         if rule == Nav2 {
             assert_eq!(noise_of(settings_of_preset(preset), Beluga).deviations, stds);
         }
@@ -71,9 +72,9 @@ fn the_variances_of_the_rules_are_those_in_the_document() {
 fn encoders_at_rest_are_noisy_by_the_table_alone() {
     let [printed_heading_std] =
         page().numbers("the heading of a robot that has not moved is uncertain by ± # rad,");
-    page().assert_says("The encoders have jittered by half a centimetre.");
+    page().assert_contains("The encoders have jittered by half a centimetre.");
     let settings_at_rest = settings_of_preset("rest");
     assert_eq!((1000.0 * settings_at_rest.to.0[0].hypot(settings_at_rest.to.0[1])).round(), 5.0);
     let stats = simulation(settings_at_rest).stats();
-    printed_heading_std.assert(stats.exact_heading, 0.0);
+    printed_heading_std.assert_near(stats.exact_heading, 0.0);
 }

@@ -10,7 +10,7 @@ use motion::noise::centred_uniform;
 use motion::sim::squeeze::{MapSqueeze, PRESETS, Settings, alphas_of_noise_level};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
-/// Indices in `PRESETS` of the presets that start at the doorway, the wall and in the corridor.
+/// Indices in `PRESETS` of the starts at the doorway, at the wall and in the corridor.
 const DOORWAY: usize = 0;
 const WALL: usize = 1;
 const CORRIDOR: usize = 2;
@@ -81,7 +81,7 @@ fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
 
 #[test]
 #[ignore = "nightly: 30 clouds of 100,000"]
-fn shares_through_walls_by_substeps_are_those_in_the_documents() {
+fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
     let printed_fractions = model_document().numbers(
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
@@ -139,7 +139,7 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     assert_eq!((printed_first_parts.value, printed_last_parts.value), (2.0, 8.0));
     assert_printed(fractions[0], printed_first_fraction);
     assert_printed(fractions[2], printed_last_fraction);
-    page().assert_says(
+    page().assert_contains(
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
     assert_eq!(printed_wedged_parts.value, 16.0);
@@ -152,10 +152,10 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     }
 }
 
-/// Compares the fraction of motions whose collision result along the geodesic differs from the one along the arc.
+/// Compares the fraction of motions for which the collision tests of the geodesic and of the arc differ.
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
-fn judging_the_geodesic_changes_the_documented_share_of_verdicts() {
+fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
     let [min_percent, max_percent, doorway_min, doorway_max] = model_document().numbers(
         "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \
          # to # %)",

@@ -3,7 +3,7 @@
 //! The laws hold up to rounding. Every law below composes at most four maps, each accurate to a few units in the last place of the
 //! largest coordinate. `LAW_TOLERANCE` allows 32 units.
 
-use crate::common::{Table, pose_distance, seeded_rng, uniform};
+use crate::common::{ReferenceTable, pose_distance, seeded_rng, uniform};
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -56,7 +56,7 @@ fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
 /// The reference covers the ranges of |ω| in which series or closed forms can lose digits.
 #[test]
 fn exp_and_jacobians_match_the_references() {
-    let table = Table::parse(include_str!("../../reference/group.csv"));
+    let table = ReferenceTable::parse(include_str!("../../reference/group.csv"));
     for row in table.rows() {
         let twist = Vector3::from(row.all(["a", "b", "w"]));
         let tolerance = RELATIVE_ACCURACY * twist.norm().max(1.0);
@@ -87,7 +87,7 @@ fn exp_and_jacobians_match_the_references() {
 
 #[test]
 fn log_matches_the_references() {
-    for row in Table::parse(include_str!("../../reference/log.csv")).rows() {
+    for row in ReferenceTable::parse(include_str!("../../reference/log.csv")).rows() {
         let pose = SE2::new(row.get("x"), row.get("y"), row.get("w"));
         let twist = pose.log();
         let tolerance =

@@ -70,7 +70,7 @@ fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     assert!(log_prob < 0.0, "{log_prob}");
 }
 
-/// The search for a free pose divides also the shorter side of these plans into squares, although the longer side is over 256 times as
+/// The search for a free pose must also divide the shorter side of these plans into squares, although the longer side is over 256 times as
 /// long.
 #[test]
 fn a_narrow_plan_has_a_free_pose() {

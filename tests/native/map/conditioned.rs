@@ -22,8 +22,7 @@ fn conditioned_model(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
 }
 
 fn start_of_preset(name: &str) -> SE2 {
-    let (_, [x, y, theta]) =
-        PRESETS.into_iter().find(|start_of_preset| start_of_preset.0 == name).expect("a preset");
+    let (_, [x, y, theta]) = PRESETS.into_iter().find(|preset| preset.0 == name).expect("a preset");
     SE2::new(x, y, theta)
 }
 

@@ -15,7 +15,7 @@ fn clamped_wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
     Segment { from: [x0, y0], to: [x1, y1] }
 }
 
-/// Returns names and walls of plans with many walls in one place, on one line, through one point, around one point, or nearly equal.
+/// Returns names and walls of plans. Their many walls are in one place, on one line, through one point, around one point, or nearly equal.
 fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     let mut rng = seeded_rng(9800);
     let walls_from =

@@ -145,7 +145,7 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
 }
 
 #[test]
-fn touching_is_not_free() {
+fn touching_a_wall_is_not_free() {
     let plan = FloorPlan::new(vec![wall(1.0, 2.0, 9.0, 2.0)], ROOM).expect("a valid plan");
     assert!(!plan.test_point([5.0, 2.25], 0.25).free);
     assert!(plan.test_point([5.0, 2.25], 0.2499).free);

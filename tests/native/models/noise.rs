@@ -1,7 +1,8 @@
 //! `sample(b²)` and `prob(a, b²)` of both kinds of noise, compared with the exact distributions.
 
 use crate::common::{
-    MAX_KOLMOGOROV_SMIRNOV, NOISE_KINDS, SAMPLES, Table, kolmogorov_smirnov, seeded_rng, unit_cdf,
+    MAX_KOLMOGOROV_SMIRNOV, NOISE_KINDS, ReferenceTable, SAMPLE_COUNT, kolmogorov_smirnov, seeded_rng,
+    unit_cdf,
 };
 use motion::{NoiseKind, Variance};
 
@@ -14,7 +15,7 @@ fn sample_of_noise(kind: NoiseKind, variance: f64, count: usize, seed: u64) -> V
 fn samples_follow_the_exact_distribution() {
     for kind in NOISE_KINDS {
         for (seed, variance) in [(1, 1.0), (2, 0.025), (3, 1e-8), (4, 400.0)] {
-            let sample = sample_of_noise(kind, variance, SAMPLES, seed);
+            let sample = sample_of_noise(kind, variance, SAMPLE_COUNT, seed);
             let ks_statistic = kolmogorov_smirnov(sample, |a| unit_cdf(kind, a / variance.sqrt()));
             assert!(
                 ks_statistic < MAX_KOLMOGOROV_SMIRNOV,
@@ -85,7 +86,7 @@ fn with_zero_variance_samples_are_zero_and_prob_is_zero_or_one() {
 
 #[test]
 fn quantiles_match_references_to_1e_15() {
-    for row in Table::parse(include_str!("../../reference/quantile.csv")).rows() {
+    for row in ReferenceTable::parse(include_str!("../../reference/quantile.csv")).rows() {
         let q = row.get("q");
         for (kind, column) in [(NoiseKind::Normal, "normal"), (NoiseKind::Triangular, "triangular")] {
             let z = kind.quantile(q);

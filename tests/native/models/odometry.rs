@@ -1,7 +1,7 @@
 //! The odometry model: decomposition, scoring, density and sampler, and the option for robots that reverse.
 
 use crate::common::density::PolarGrid;
-use crate::common::{NOISE_KINDS, SAMPLES, derivative_by_noise, seeded_rng, uniform};
+use crate::common::{NOISE_KINDS, SAMPLE_COUNT, derivative_by_noise, seeded_rng, uniform};
 use motion::geom::se2::SE2;
 use motion::{
     MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot, Variance,
@@ -162,7 +162,7 @@ fn sampler_and_density_agree() {
         for kind in NOISE_KINDS {
             let model = model(kind);
             let mut rng = seeded_rng(seed);
-            let poses: Vec<SE2> = (0..SAMPLES).map(|_| model.sample(&u, &x, &mut rng)).collect();
+            let poses: Vec<SE2> = (0..SAMPLE_COUNT).map(|_| model.sample(&u, &x, &mut rng)).collect();
             let (chi_square, chi_square_limit) = box_around(&u, &x, table_variances(&u, f64::abs))
                 .chi_square(&poses, |pose| model.pose_density(pose, &u, &x).unwrap());
             assert!(
@@ -195,7 +195,7 @@ fn reverse_aware_noise_excludes_half_turns() {
         let (unaware_model, aware_model) = (model(kind), ReverseAware(model(kind)));
         let mut rng = seeded_rng(110);
         let cloud: Vec<SE2> =
-            (0..SAMPLES).map(|_| aware_model.sample(&backward_reading, &x, &mut rng)).collect();
+            (0..SAMPLE_COUNT).map(|_| aware_model.sample(&backward_reading, &x, &mut rng)).collect();
         let (chi_square, chi_square_limit) =
             box_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle))
                 .chi_square(&cloud, |pose| aware_model.pose_density(pose, &backward_reading, &x).unwrap());

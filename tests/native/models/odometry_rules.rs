@@ -1,7 +1,7 @@
 //! The rules by which localizers compute variances from an odometry reading, compared with cases computed by hand. The exact variances of
 //! outcomes are compared with quadrature and samples.
 
-use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, SAMPLES, seeded_rng};
+use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, SAMPLE_COUNT, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::models::{LegVariances, MAX_SPIN_DISTANCE, OdometryRule, RuleAlphas};
 use motion::noise::centred_uniform;
@@ -118,7 +118,7 @@ fn exact_variances_match_samples() {
             let start_pose = SE2::new(0.4, -0.2, 1.0);
             let bearing = start_pose.theta() + legs.rot1;
             let correlation: f64 = -0.6;
-            let outcomes: Vec<[f64; 2]> = (0..SAMPLES)
+            let outcomes: Vec<[f64; 2]> = (0..SAMPLE_COUNT)
                 .map(|_| {
                     let [a, b, c] = [draw_unit_noise(), draw_unit_noise(), draw_unit_noise()];
                     let executed_motion = leg_variances.executed_motion(
@@ -138,11 +138,11 @@ fn exact_variances_match_samples() {
             ];
             for (k, exact_variances) in exact_variances.into_iter().enumerate() {
                 let mean_power = |power| {
-                    outcomes.iter().map(|outcome| outcome[k].powi(power)).sum::<f64>() / SAMPLES as f64
+                    outcomes.iter().map(|outcome| outcome[k].powi(power)).sum::<f64>() / SAMPLE_COUNT as f64
                 };
                 let (mean_square, mean_fourth_power) = (mean_power(2), mean_power(4));
                 let standard_error =
-                    ((mean_fourth_power - mean_square * mean_square) / SAMPLES as f64).sqrt();
+                    ((mean_fourth_power - mean_square * mean_square) / SAMPLE_COUNT as f64).sqrt();
                 assert!(
                     (mean_square - exact_variances).abs() < MAX_STANDARD_ERRORS * standard_error,
                     "{kind:?} {rule:?} {reading:?} {k}: {mean_square} ± {standard_error}, exactly {exact_variances}"

@@ -1,8 +1,8 @@
 //! Gaussian noise in exponential coordinates: density, sampler, and covariances propagated along a path.
 
 use crate::common::{
-    MAX_KOLMOGOROV_SMIRNOV, SAMPLES, Table, chi_square_limit, kolmogorov_smirnov, seeded_rng, uniform,
-    unit_cdf,
+    MAX_KOLMOGOROV_SMIRNOV, ReferenceTable, SAMPLE_COUNT, chi_square_limit, kolmogorov_smirnov, seeded_rng,
+    uniform, unit_cdf,
 };
 use motion::geom::se2::SE2;
 use motion::{
@@ -123,7 +123,7 @@ fn sampler_and_density_agree() {
     let mut rng = seeded_rng(122);
     let inverse_cov_root = full_cov().cholesky().unwrap().l().try_inverse().unwrap();
     let tau = Vector3::new(1.0, 0.0, 0.5);
-    let whitened_samples: Vec<Vector3<f64>> = (0..SAMPLES)
+    let whitened_samples: Vec<Vector3<f64>> = (0..SAMPLE_COUNT)
         .map(|_| inverse_cov_root * (model.sample(&U, &x, &mut rng).boxminus(&x) - tau))
         .collect();
     for axis in 0..3 {
@@ -139,7 +139,7 @@ fn sampler_and_density_agree() {
         sample_counts
             [4 * octant + QUARTILES.iter().filter(|quartile| w.norm_squared() > **quartile).count()] += 1.0;
     }
-    let expected_count = SAMPLES as f64 / 32.0;
+    let expected_count = SAMPLE_COUNT as f64 / 32.0;
     let chi_square: f64 =
         sample_counts.iter().map(|count| (count - expected_count).powi(2) / expected_count).sum();
     assert!(chi_square < chi_square_limit(32), "χ² = {chi_square}");
@@ -206,7 +206,7 @@ fn cov_after_twenty_steps(model: &TangentNoiseModel, order: Compounding) -> Matr
 #[test]
 fn twenty_steps_match_the_references() {
     let model = TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &STEP_COMMAND).unwrap();
-    let table = Table::parse(include_str!("../../reference/compounding.csv"));
+    let table = ReferenceTable::parse(include_str!("../../reference/compounding.csv"));
     for (row, order) in
         table.rows().zip([Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder])
     {

@@ -14,7 +14,7 @@ pub fn stats(settings: Settings) -> Stats {
     simulation(settings).stats()
 }
 
-pub fn preset(name: &str) -> Settings {
+pub fn settings_of_preset(name: &str) -> Settings {
     let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
     Settings { command: preset.command, next: preset.next, ..Settings::default() }
 }
@@ -142,7 +142,7 @@ fn p_is_the_product_of_the_factors_and_that_of_the_model() {
 
 #[test]
 fn without_noise_a_residual_is_zero_or_infinite() {
-    let settings = Settings { alphas: [0.0; 6], ..preset("straight") };
+    let settings = Settings { alphas: [0.0; 6], ..settings_of_preset("straight") };
     let Stats { factors, prob, share, density, weakest, .. } = stats(settings);
     assert_eq!(factors.map(|factor| factor.deviations), [f64::NEG_INFINITY, 0.0, f64::INFINITY]);
     assert_eq!((prob, share, density, weakest), (0.0, 0.0, None, 0));

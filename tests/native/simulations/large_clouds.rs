@@ -1,6 +1,6 @@
 //! Statistics of up to ten million robots, compared with sums in twice the precision.
 
-use crate::common::preset;
+use crate::common::settings_of_preset;
 use crate::simulations::banana::simulation;
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, MAX_SAMPLES, ModelKind, Settings, Stats};
@@ -131,7 +131,11 @@ fn assert_exact_stats(simulation: &BananaMachine) {
 #[ignore = "nightly: 10 million robots"]
 fn ten_million_agree_with_exact_sums() {
     let command = VelocityCmd { v: 1.0, omega: 1.2, dt: 1.4 };
-    assert_exact_stats(&simulation(Settings { command, samples: MAX_SAMPLES, ..preset("gentle") }));
+    assert_exact_stats(&simulation(Settings {
+        command,
+        samples: MAX_SAMPLES,
+        ..settings_of_preset("gentle")
+    }));
 }
 
 /// In some of these clouds robots turn by more than a full circle, or end far from the noise-free pose.
@@ -146,8 +150,14 @@ fn small_and_unusual_clouds_agree_with_exact_sums() {
                     let [v, omega, dt] = command;
                     let command = VelocityCmd { v, omega, dt };
                     let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
-                    let settings =
-                        Settings { model, noise, command, odometry_alphas, samples, ..preset("gentle") };
+                    let settings = Settings {
+                        model,
+                        noise,
+                        command,
+                        odometry_alphas,
+                        samples,
+                        ..settings_of_preset("gentle")
+                    };
                     let simulation = simulation(settings);
                     assert_exact_stats(&simulation);
                     let poses: Vec<SE2> = simulation.poses().collect();

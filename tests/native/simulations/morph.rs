@@ -1,6 +1,6 @@
 //! The morph of a cloud from positions on the floor to exponential coordinates.
 
-use crate::common::{preset, winds_around};
+use crate::common::{settings_of_preset, winds_around};
 use crate::simulations::banana::simulation;
 use motion::VelocityCmd;
 use motion::geom::se2::SE2;
@@ -29,11 +29,11 @@ fn end_of_constant_twist([vx, vy, omega]: [f64; 3]) -> [f64; 2] {
 #[test]
 fn nearest_finds_robots_at_their_morphed_positions() {
     for settings in [
-        preset("banana"),
-        preset("hard"),
-        preset("pivot"),
-        Settings { model: ModelKind::Odometry, ..preset("hard") },
-        Settings { command: VelocityCmd { v: 1.0, omega: 2.4, dt: 1.5 }, ..preset("banana") },
+        settings_of_preset("banana"),
+        settings_of_preset("hard"),
+        settings_of_preset("pivot"),
+        Settings { model: ModelKind::Odometry, ..settings_of_preset("hard") },
+        Settings { command: VelocityCmd { v: 1.0, omega: 2.4, dt: 1.5 }, ..settings_of_preset("banana") },
     ] {
         let simulation = simulation(Settings { samples: 103, ..settings });
         for (index, (pose, twist)) in simulation.poses().zip(simulation.twists()).enumerate() {
@@ -57,7 +57,7 @@ fn nearest_finds_robots_at_their_morphed_positions() {
 #[test]
 fn robots_move_smoothly() {
     const MORPH_STEP: f64 = 1e-3;
-    let simulation = simulation(Settings { samples: 200, ..preset("banana") });
+    let simulation = simulation(Settings { samples: 200, ..settings_of_preset("banana") });
     for twist in simulation.twists() {
         let max_speed = twist.y.abs() + twist.z.abs() * (1.0 + twist.x.abs() + twist.y.abs());
         for morph in (0..1000).map(|i| f64::from(i) * MORPH_STEP) {
@@ -74,8 +74,12 @@ fn the_same_robots_stay_inside_an_outline() {
     let alphas = [0.002, 0.002, 0.1, 0.1, 0.0, 0.0];
     for omega in [0.0, 0.4] {
         let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
-        let simulation =
-            simulation(Settings { command, velocity_alphas: alphas, samples: 5000, ..preset("banana") });
+        let simulation = simulation(Settings {
+            command,
+            velocity_alphas: alphas,
+            samples: 5000,
+            ..settings_of_preset("banana")
+        });
         let contour = ExponentialContour::new(&simulation.stats().exponential, &SE2::identity());
         let are_robots_inside = |morph: f64| {
             let ellipse = unbend_line(&simulation.contours().ellipse, omega * 2.0, morph);
@@ -104,7 +108,7 @@ fn the_same_robots_stay_inside_an_outline() {
 /// At both ends of the morph, the outline of the Gaussian in exponential coordinates equals the outline of that view, even with a last turn γ̂.
 #[test]
 fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
-    let simulation = simulation(Settings { samples: 5000, ..preset("hard") });
+    let simulation = simulation(Settings { samples: 5000, ..settings_of_preset("hard") });
     let stats = simulation.stats();
     let contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
     assert_eq!(contour.morphed_boundary(OUTLINE_SEGMENTS, 0.0), simulation.contours().exponential);
@@ -144,7 +148,7 @@ fn find_arc_inverts_the_morph() {
 
 #[test]
 fn gaps_are_inside_the_ellipse_only_and_contain_no_robot() {
-    let simulation = simulation(preset("banana"));
+    let simulation = simulation(settings_of_preset("banana"));
     let (gaps, contours) = (simulation.gaps(), simulation.contours());
     assert_eq!(gaps.len(), 2);
     for gap in gaps {
@@ -152,6 +156,6 @@ fn gaps_are_inside_the_ellipse_only_and_contain_no_robot() {
         assert_eq!(simulation.nearest(View::Plane, gap, [0.03; 2]), None, "{gap:?}");
     }
     for name in ["straight", "gentle", "hard", "pivot", "worked"] {
-        assert!(self::simulation(preset(name)).gaps().is_empty(), "{name}");
+        assert!(self::simulation(settings_of_preset(name)).gaps().is_empty(), "{name}");
     }
 }

@@ -1,6 +1,6 @@
 //! Density images, in which every pixel has the colour of the samples in its cell.
 
-use crate::common::preset;
+use crate::common::settings_of_preset;
 use motion::sim::View;
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::sim::picture::{RAMP_STEPS, Ramp};
@@ -34,7 +34,7 @@ fn ramp_step(count: u32, max_count: u32) -> u8 {
 
 #[test]
 fn pixels_show_the_density_of_the_cloud() {
-    let settings = Settings { samples: 3000, ..preset("gentle") };
+    let settings = Settings { samples: 3000, ..settings_of_preset("gentle") };
     let mut simulation = BananaMachine::new(settings).expect("a valid setting");
     let positions: Vec<[f64; 2]> = simulation.poses().map(|pose| [pose.x(), pose.y()]).collect();
     let twists: Vec<[f64; 2]> = simulation.twists().map(|twist| [twist.x, twist.z]).collect();

@@ -1,7 +1,7 @@
 //! Coverage of the reported standard errors and intervals over thousands of seeds.
 
 use crate::common::text::Text;
-use crate::common::{MAX_STANDARD_ERRORS, preset};
+use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
@@ -61,9 +61,9 @@ const STATISTIC_NAMES: [&str; 3] = ["skew", "gain of poses", "gain on the floor"
 #[ignore = "nightly: thousands of clouds"]
 fn standard_errors_of_small_clouds_cover_95_percent() {
     for (cloud_name, settings) in [
-        ("gentle arc", preset("gentle")),
-        ("hard arc", Settings { noise: NoiseKind::Triangular, ..preset("hard") }),
-        ("odometry", Settings { model: ModelKind::Odometry, ..preset("gentle") }),
+        ("gentle arc", settings_of_preset("gentle")),
+        ("hard arc", Settings { noise: NoiseKind::Triangular, ..settings_of_preset("hard") }),
+        ("odometry", Settings { model: ModelKind::Odometry, ..settings_of_preset("gentle") }),
     ] {
         let settings = Settings { samples: ROBOT_COUNT, ..settings };
         for (statistic, fraction) in
@@ -78,7 +78,8 @@ fn standard_errors_of_small_clouds_cover_95_percent() {
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn standard_errors_of_the_banana_preset_cover_95_percent() {
-    let coverage_fractions = fractions_within_standard_errors(preset("banana"), LARGE_CLOUD_REPETITION_COUNT);
+    let coverage_fractions =
+        fractions_within_standard_errors(settings_of_preset("banana"), LARGE_CLOUD_REPETITION_COUNT);
     for (statistic, fraction) in STATISTIC_NAMES.into_iter().zip(coverage_fractions) {
         assert_covered(&format!("{statistic}, banana"), fraction, LARGE_CLOUD_REPETITION_COUNT);
     }
@@ -86,8 +87,8 @@ fn standard_errors_of_the_banana_preset_cover_95_percent() {
 
 #[test]
 #[ignore = "nightly: thousands of clouds"]
-fn small_clouds_hold_the_exact_skew_as_often_as_printed() {
-    let text = Text::in_document(include_str!("../../../doc/statistics.md"));
+fn intervals_of_small_clouds_contain_the_exact_skew_as_often_as_printed() {
+    let text = Text::of_document(include_str!("../../../doc/statistics.md"));
     let [small_cloud_percentage, small_cloud_size, larger_cloud_percentage, larger_cloud_size] = text
         .numbers(
             "1.96 errors hold the exact one in # of 100 clouds of #, in # of #, and in 95 of 5000 and more",
@@ -95,14 +96,14 @@ fn small_clouds_hold_the_exact_skew_as_often_as_printed() {
     for (printed_percentage, robot_count) in
         [(small_cloud_percentage, small_cloud_size), (larger_cloud_percentage, larger_cloud_size)]
     {
-        let settings = Settings { samples: robot_count.value as usize, ..preset("gentle") };
+        let settings = Settings { samples: robot_count.value as usize, ..settings_of_preset("gentle") };
         let [skew_fraction, ..] = fractions_within_standard_errors(settings, REPETITION_COUNT);
         printed_percentage.assert_percent(skew_fraction, 0.0);
     }
 }
 
-/// Returns the fraction of motions whose path is blocked among those whose end is free, as a sum over the noises of speed and turn rate. The
-/// turn after the arc does not change the position.
+/// Returns the fraction of motions whose path is blocked, among motions with a free end, by a sum over the noises of speed and turn rate.
+/// The turn after the arc does not matter, because it does not change the position.
 fn fraction_through_walls(settings: &squeeze::Settings) -> f64 {
     const NODE_COUNT: usize = 600;
     const MAX_SIGMAS: f64 = 6.0;

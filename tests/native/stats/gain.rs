@@ -1,6 +1,6 @@
 //! Likelihood gains and area ratios, compared with their definitions and with references. Degenerate clouds have none.
 
-use crate::common::{NOISE_KINDS, Table, mean, preset, variance};
+use crate::common::{NOISE_KINDS, ReferenceTable, mean, settings_of_preset, variance};
 use motion::geom::arc::{arc_with_turn_near, chord};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Preset, Settings, Stats};
@@ -118,8 +118,14 @@ fn the_gain_equals_its_definition_over_all_poses() {
                 for samples in [1, 3, 4, 257, 2048, 5_003] {
                     let command = VelocityCmd { v, omega, dt };
                     let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
-                    let settings =
-                        Settings { model, noise, command, odometry_alphas, samples, ..preset("gentle") };
+                    let settings = Settings {
+                        model,
+                        noise,
+                        command,
+                        odometry_alphas,
+                        samples,
+                        ..settings_of_preset("gentle")
+                    };
                     let simulation = BananaMachine::new(settings).expect("a valid setting");
                     let computed_gains = gains_with_errors(simulation.stats());
                     let case_name = format!("{model:?} {noise:?} {command:?} {samples}");
@@ -147,7 +153,7 @@ fn the_gain_equals_its_definition_over_all_poses() {
 /// the jump between two branches. Where an outline crosses itself, a chord may belong to either loop.
 #[test]
 fn exact_gains_match_the_references() {
-    for row in Table::parse(include_str!("../../reference/likelihood_gain.csv")).rows() {
+    for row in ReferenceTable::parse(include_str!("../../reference/likelihood_gain.csv")).rows() {
         let velocity_alphas = row.all(["a1", "a2", "a3", "a4", "a5", "a6"]);
         let [v, omega, dt] = row.all(["v", "omega", "dt"]);
         let command = VelocityCmd { v, omega, dt };
@@ -163,7 +169,6 @@ fn exact_gains_match_the_references() {
     }
 }
 
-/// The last turn γ̂ does not change the position.
 #[test]
 fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
     for Preset { command, .. } in PRESETS {
@@ -232,7 +237,7 @@ fn the_error_of_the_area_ratio_matches_its_deviation_over_clouds() {
             variance(&stats_of_clouds.iter().map(|cloud| cloud.area_ratio).collect::<Vec<_>>()).sqrt();
         let mean_error =
             mean(&stats_of_clouds.iter().map(|cloud| cloud.area_ratio_error).collect::<Vec<_>>());
-        // The relative standard error of a standard deviation is 1/√(2·CLOUDS).
+        // The relative standard error of a standard deviation is 1/√(2·CLOUD_COUNT).
         assert_close(name, mean_error / ratio_std, 0.94, 0.05 + 4.0 / (2.0 * CLOUD_COUNT as f64).sqrt());
     }
 }

@@ -1,6 +1,6 @@
 //! Moments, skews and contours of clouds, and exact moments of models.
 
-use crate::common::{MAX_STANDARD_ERRORS, Table, seeded_rng, uniform};
+use crate::common::{MAX_STANDARD_ERRORS, ReferenceTable, seeded_rng, uniform};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::stats::{
@@ -64,8 +64,8 @@ fn the_exponential_contour_covers_two_deviations() {
     }
 }
 
-/// The outline is nearly the edge of the ellipsoid's projection. Among all ξ that lead to a point of the outline, with any heading, the
-/// nearest to the mean is two standard deviations away, or a little less.
+/// The outline is nearly the edge of the ellipsoid's projection. Many ξ lead to a point of the outline, each with another
+/// heading. The nearest to the mean is two standard deviations away, or a little less.
 #[test]
 fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
     let cases = [
@@ -96,7 +96,7 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
 
 #[test]
 fn predicted_skews_match_the_references() {
-    for row in Table::parse(include_str!("../../reference/pushed_skew.csv")).rows() {
+    for row in ReferenceTable::parse(include_str!("../../reference/pushed_skew.csv")).rows() {
         let mean = Vector3::from(row.all(["a", "b", "w"]));
         let [aa, ab, aw, bb, bw, ww] = row.all(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
         let cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
@@ -128,7 +128,7 @@ fn assert_moments_of_row(exact: &ExactMoments, row: &crate::common::Row<'_>) {
 
 #[test]
 fn exact_moments_match_the_references() {
-    for row in Table::parse(include_str!("../../reference/velocity_moments.csv")).rows() {
+    for row in ReferenceTable::parse(include_str!("../../reference/velocity_moments.csv")).rows() {
         let alphas = VelocityAlphas(row.all(["a1", "a2", "a3", "a4", "a5", "a6"]));
         let [v, omega, dt] = row.all(["v", "omega", "dt"]);
         let model = VelocityModel { alphas, noise: row.kind() };
@@ -136,7 +136,7 @@ fn exact_moments_match_the_references() {
         assert!((exact.mean.z - wrap_angle(omega * dt)).abs() < 1e-15);
         assert_moments_of_row(&exact, &row);
     }
-    for row in Table::parse(include_str!("../../reference/odometry_moments.csv")).rows() {
+    for row in ReferenceTable::parse(include_str!("../../reference/odometry_moments.csv")).rows() {
         let [rot1, trans, rot2] = row.all(["rot1", "trans", "rot2"]);
         let model =
             OdometryModel { alphas: OdomAlphas(row.all(["a1", "a2", "a3", "a4"])), noise: row.kind() };
@@ -174,7 +174,7 @@ fn degenerate_clouds_give_nan() {
         assert_eq!(ellipse.boundary(16).len(), 17);
         assert_eq!(ExponentialContour::new(&exponential, &SE2::identity()).boundary(16).len(), 17);
     }
-    // Two poses have no skew, because all pairs have the same shape. Three poses have one.
+    // Two poses have no skew, because every pair has the same shape. Three poses have a skew.
     let three_poses = [SE2::new(0.0, 0.1, 0.0), SE2::new(1.0, -0.1, 0.0), SE2::new(0.5, -0.1, 0.0)];
     assert!(cross_track_skew(&three_poses[..2]).is_nan());
     assert!((cross_track_skew(&three_poses) - 0.5f64.sqrt()).abs() < 1e-12, "residuals −1, −1 and 2");

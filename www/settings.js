@@ -1,27 +1,27 @@
-// Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test native settings`: not to be edited.
+// Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test native settings`. Do not edit it.
 
 /**
  * Declaration of a setting.
  *
  * @typedef {object} Declaration
- * @property {string} key its name, as attribute, property and in states
- * @property {string} [in] the group or list that it is a part of
- * @property {string} [of] the setting that it sets, in another form
- * @property {number[]} [weights] the shares of it that the last numbers of that setting have
- * @property {string} [field] its name in that group, where another group has one of the same
- * @property {number} [index] its place in that list, from 0
+ * @property {string} key name of the setting as attribute, as property and in states
+ * @property {string} [in] key of the group or list that contains the setting
+ * @property {string} [of] key of another setting that this setting sets in another form
+ * @property {number[]} [weights] ratios of the last numbers of that other setting to this setting
+ * @property {string} [field] key in the group, if a field of another group has the same key
+ * @property {number} [index] index in the list, from 0
  * @property {'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group'} type
- * @property {string[]} [words] those that are allowed
- * @property {string[]} [fields] the keys of a group
+ * @property {string[]} [words] allowed words
+ * @property {string[]} [fields] keys of the fields of a group
  * @property {string} [unit]
- * @property {boolean} [nullable] whether it may be null
- * @property {number} [min] least value allowed, of a list that of each number
- * @property {number} [max] greatest value allowed
- * @property {string | number | boolean | number[] | null} [default] the value that the widget opens with
- * @property {string} sentence what it is
+ * @property {boolean} [nullable] true if the value may be null
+ * @property {number} [min] minimum of the number, or of each number of a list
+ * @property {number} [max] maximum of the number, or of each number of a list
+ * @property {string | number | boolean | number[] | null} [default] initial value
+ * @property {string} sentence description
  */
 
-/** @type {Record<string, Declaration[]>} settings of each widget, by its tag, in the order in which they are declared */
+/** @type {Record<string, Declaration[]>} declared settings of each widget by its tag, in order */
 export const settings = {
   'banana-machine': [
     { key: 'model', type: 'word', words: ['velocity', 'odometry'], default: 'velocity', sentence: 'Model of the noise; each model keeps its own alphas.' },
@@ -186,14 +186,14 @@ export const presets = {
   'alpha-calibrator': [],
 };
 
-/** The noise parameters that each model opens with. */
+/** Initial noise parameters of each model. */
 export const openingAlphas = { velocity: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], odometry: [0.05, 0.05, 0.05, 0.05] };
 
 /**
- * Limits of the core. `cells` and `bytes` are the largest numbers of cells of a grid or pixels of an image, and of bytes of its file.
- * `trial` limits samples times parts in a call of `MapSqueeze.trial`. `ramp` is the number of colours of a ramp.
+ * Limits of the core. `cells` is the maximum number of cells of a grid and of pixels of an image. `bytes` is the maximum size of an image
+ * file. `trial` is the maximum product of samples and parts in a call of `MapSqueeze.trial`. `ramp` is the number of colours of a ramp.
  */
 export const limits = { cells: 33554432, bytes: 201330688, trial: 100000, ramp: 256 };
 
-/** Bits of a verdict of Map Squeeze. */
+/** Bits of a verdict on an attempt of Map Squeeze. */
 export const verdict = { endFree: 1, pathFree: 2, accepted: 4 };

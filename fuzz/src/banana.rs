@@ -55,9 +55,9 @@ fn call_method(simulation: &mut BananaMachine, input: &mut Input) {
         1 => assert_same_if_added_in_blocks(simulation, input),
         2 => {
             let count_before = simulation.shown_count();
-            let count = input.next_choice(MAX_SAMPLES);
-            let count_after = simulation.add_samples(count);
-            assert_eq!(count_after, (count_before + count).min(simulation.settings().samples));
+            let added_count = input.next_choice(MAX_SAMPLES);
+            let count_after = simulation.add_samples(added_count);
+            assert_eq!(count_after, (count_before + added_count).min(simulation.settings().samples));
         }
         3 => {
             simulation.configure_first(*simulation.settings(), 0).expect("allowed");
@@ -97,10 +97,10 @@ fn assert_same_if_added_in_blocks(simulation: &mut BananaMachine, input: &mut In
     }
     let mut simulation_in_one_call = simulation.clone();
     simulation_in_one_call.configure(limit_samples(settings)).expect("allowed");
-    let count = 1 + usize::from(input.next_byte());
-    simulation.configure_first(limit_samples(settings), count).expect("allowed");
+    let block_size = 1 + usize::from(input.next_byte());
+    simulation.configure_first(limit_samples(settings), block_size).expect("allowed");
     while simulation.shown_count() < simulation.settings().samples {
-        simulation.add_samples(count);
+        simulation.add_samples(block_size);
     }
     assertions::assert_same_numbers("in blocks", &all_results(simulation), &all_results(&simulation_in_one_call));
 }
@@ -248,12 +248,12 @@ pub fn read_grid(input: &mut Input) -> Grid {
 
 fn assert_picture(simulation: &mut BananaMachine, input: &mut Input) {
     let (view, grid) = (input.one_of(&[View::Plane, View::Twist]), read_grid(input));
-    let counts = simulation.density(view, &grid);
-    assert_eq!(counts.len(), grid.columns * grid.rows);
-    assert!(counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{grid:?}: {counts:?}");
+    let cell_counts = simulation.density(view, &grid);
+    assert_eq!(cell_counts.len(), grid.columns * grid.rows);
+    assert!(cell_counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{grid:?}: {cell_counts:?}");
     let pixels = simulation.paint(view, &grid, &[[1; 4]; RAMP_STEPS]);
-    assert_eq!(pixels.len(), counts.len());
-    assert!(pixels.iter().zip(&counts).all(|(pixel, count)| (pixel[3] > 0) == (*count > 0)), "{grid:?}");
+    assert_eq!(pixels.len(), cell_counts.len());
+    assert!(pixels.iter().zip(&cell_counts).all(|(pixel, count)| (pixel[3] > 0) == (*count > 0)), "{grid:?}");
 }
 
 fn assert_nearest_pose(simulation: &BananaMachine, input: &mut Input) {

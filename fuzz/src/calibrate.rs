@@ -105,9 +105,9 @@ fn reference_rows(odometry: &[LogRow], input: &mut Input) -> Vec<LogRow> {
     let mut pose = SE2::new(1.0, 2.0, 3.0);
     let mut rows = vec![(odometry[0].0 + clock_offset, pose * mount_pose)];
     for (i, pair) in odometry.windows(2).enumerate() {
-        let motion = pair[1].1.boxminus(&pair[0].1);
-        let noise = Vector3::from_fn(|_, _| rng.random_range(-1.0..=1.0)) * relative_noise * motion.norm();
-        pose = pose.boxplus(motion + noise);
+        let odometry_motion = pair[1].1.boxminus(&pair[0].1);
+        let motion_noise = Vector3::from_fn(|_, _| rng.random_range(-1.0..=1.0)) * relative_noise * odometry_motion.norm();
+        pose = pose.boxplus(odometry_motion + motion_noise);
         if jump_interval > 0 && i % jump_interval == 0 {
             pose = SE2::new(0.5, 0.0, 0.0) * pose;
         }
@@ -138,12 +138,12 @@ fn edit_rows(rows: &mut Vec<LogRow>, input: &mut Input) {
 
 /// Returns the trajectory of the rows, with breaks before some rows. Returns None if a row is refused.
 fn trajectory_from_rows(rows: &[LogRow], input: &mut Input) -> Option<Trajectory> {
-    let result = match input.next_choice(4) {
+    let trajectory_or_error = match input.next_choice(4) {
         // x and θ are used as speed and turn rate.
         0 => Trajectory::from_commands(rows.iter().map(|(time, pose)| (*time, pose.x(), pose.theta()))),
         _ => Trajectory::new(rows.iter().copied()),
     };
-    match result {
+    match trajectory_or_error {
         Ok(trajectory) => {
             assert!(rows.is_sorted_by(|a, b| a.0 < b.0));
             let gap_count_before = trajectory.gaps();

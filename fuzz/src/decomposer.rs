@@ -40,8 +40,8 @@ fn call_method(simulation: &mut OdometryDecomposer, input: &mut Input) {
     match input.next_choice(7) {
         0 | 1 => configure(simulation, input),
         2 => {
-            let count = input.next_choice(MAX_SAMPLES);
-            assert_eq!(simulation.add_samples(count), (shown_count + count).min(simulation.settings().samples));
+            let added_count = input.next_choice(MAX_SAMPLES);
+            assert_eq!(simulation.add_samples(added_count), (shown_count + added_count).min(simulation.settings().samples));
         }
         3 => {
             simulation.configure_first(*simulation.settings(), 0).expect("allowed");

@@ -52,13 +52,13 @@ fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cells: UnknownCells) -> V
     }
     let is_blocking =
         |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown_cells == UnknownCells::Blocked);
-    let cells = grid.cells().enumerate();
+    let indexed_cells = grid.cells().enumerate();
     let middle_of = |i: usize| {
         let [u, v] = [i % columns, i / columns].map(|at| (at as f64 + 0.5) * cell_side);
         let middle = origin * SE2::new(u, v, 0.0);
         [middle.x(), middle.y()]
     };
-    cells.map(|(i, cell)| (middle_of(i), is_blocking(cell))).collect()
+    indexed_cells.map(|(i, cell)| (middle_of(i), is_blocking(cell))).collect()
 }
 
 /// Asserts that each cell contains its middle, and that the total length of the outlines equals the total length of the

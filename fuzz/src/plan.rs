@@ -130,8 +130,8 @@ pub fn assert_collision_verdicts(plan: &FloorPlan, input: &mut Input) {
         assert!(!is_clear, "refused for nothing: {description}");
     }
 
-    let end = arc.end();
-    let end_point = [end.x(), end.y()];
+    let end_pose = arc.end();
+    let end_point = [end_pose.x(), end_pose.y()];
     let wall_distance = plan.walls().iter().map(|wall| wall.distance_to_point(end_point)).fold(f64::INFINITY, f64::min);
     let is_free = plan.test_point(end_point, clearance).free;
     let is_in_obstacle = plan.grid().is_some_and(|grid| grid.is_blocked_at(end_point));

@@ -62,8 +62,8 @@ fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> 
         0 | 1 => configure(simulation, limit_size, input),
         2 | 3 => assert_same_if_added_in_blocks(simulation, limit_size, input),
         4 => {
-            let count = usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
-            assert_eq!(simulation.add_samples(count), (shown_count + count).min(simulation.settings().samples));
+            let added_count = usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
+            assert_eq!(simulation.add_samples(added_count), (shown_count + added_count).min(simulation.settings().samples));
         }
         5 => {
             simulation.configure_first(*simulation.settings(), 0).expect("allowed");
@@ -95,10 +95,10 @@ fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_size: &d
     let settings = limit_size(settings);
     let mut simulation_in_one_call = simulation.clone();
     simulation_in_one_call.configure(settings).expect("allowed");
-    let count = 1 + usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
-    simulation.configure_first(settings, count).expect("allowed");
+    let block_size = 1 + usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
+    simulation.configure_first(settings, block_size).expect("allowed");
     while simulation.shown_count() < settings.samples {
-        simulation.add_samples(count);
+        simulation.add_samples(block_size);
     }
     assert_eq!(all_results(simulation), all_results(&simulation_in_one_call));
     assert_results(simulation);

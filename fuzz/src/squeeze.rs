@@ -111,10 +111,10 @@ fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut Input
     }
     let mut simulation_in_one_call = simulation.clone();
     simulation_in_one_call.configure(settings).expect("allowed");
-    let count = 1 + input.next_choice(MAX_SAMPLES);
-    simulation.configure_first(settings, count).expect("allowed");
+    let block_size = 1 + input.next_choice(MAX_SAMPLES);
+    simulation.configure_first(settings, block_size).expect("allowed");
     while simulation.shown_count() < settings.samples && !simulation.gave_up() {
-        simulation.add_samples(count);
+        simulation.add_samples(block_size);
     }
     assert_eq!(simulation.attempts(), simulation_in_one_call.attempts());
 }

@@ -108,9 +108,9 @@ fn median(sorted: &[f64]) -> f64 {
 
 /// Returns the standard error of the median of normal numbers, estimated from the range of their middle 68 %.
 fn standard_error_of_median(sorted: &[f64]) -> f64 {
-    let count = sorted.len();
-    let [low, high] = [0.16, 0.84].map(|quantile| sorted[(quantile * count as f64) as usize]);
-    1.25 * 0.5 * (high - low) / (count as f64).sqrt()
+    let value_count = sorted.len();
+    let [low, high] = [0.16, 0.84].map(|quantile| sorted[(quantile * value_count as f64) as usize]);
+    1.25 * 0.5 * (high - low) / (value_count as f64).sqrt()
 }
 
 /// Returns three standard errors of a fraction that is estimated from `log_count` logs.

@@ -192,8 +192,8 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     let [odometry, reference] = sim.log();
     let jittered_odometry = |std: f64| {
         let mut rng = seeded_rng(12);
-        let mut noise = || NoiseKind::Normal.sample(Variance(std * std), &mut rng);
-        with_poses(&odometry, |pose| SE2::new(pose.x() + noise(), pose.y() + noise(), pose.theta()))
+        let mut draw_noise = || NoiseKind::Normal.sample(Variance(std * std), &mut rng);
+        with_poses(&odometry, |pose| SE2::new(pose.x() + draw_noise(), pose.y() + draw_noise(), pose.theta()))
     };
     let shifted_odometry = with_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));
     let result_of_sideways_check = |odometry: &Trajectory, model: Model| {

@@ -30,8 +30,8 @@ fn assert_recovers(calibration: &Calibration, error: SystematicError, truth: f64
 #[test]
 fn a_mount_yaw_of_any_size_and_a_lever_arm_are_found() {
     for (model, yaw) in MODELS.into_iter().zip([0.07, FRAC_PI_2, -2.6, PI, -FRAC_PI_2]) {
-        let errors = Systematic { mount_yaw: yaw, lever_arm: [0.3, -0.2], ..Systematic::NONE };
-        let calibration = calibrate_simulation(&simulation_with_errors(model, 500, errors));
+        let true_errors = Systematic { mount_yaw: yaw, lever_arm: [0.3, -0.2], ..Systematic::NONE };
+        let calibration = calibrate_simulation(&simulation_with_errors(model, 500, true_errors));
         assert_recovers(&calibration, SystematicError::MountYaw, yaw);
         assert_recovers(&calibration, SystematicError::LeverArmAhead, 0.3);
         assert_recovers(&calibration, SystematicError::LeverArmLeft, -0.2);
@@ -46,8 +46,8 @@ fn a_mount_yaw_of_any_size_and_a_lever_arm_are_found() {
 #[test]
 fn clocks_with_any_offset_are_aligned() {
     for offset in [-1.7e9, -4000.0, 0.12, 7.25, 15.12, 1.7e9] {
-        let errors = Systematic { clock_offset: offset, ..Systematic::NONE };
-        let calibration = calibrate_simulation(&simulation_with_errors(NAV2, 500, errors));
+        let true_errors = Systematic { clock_offset: offset, ..Systematic::NONE };
+        let calibration = calibrate_simulation(&simulation_with_errors(NAV2, 500, true_errors));
         assert_recovers(&calibration, SystematicError::ClockOffset, offset);
         assert!(calibration.legs.len() > 490, "{offset}: {}", calibration.legs.len());
     }
@@ -57,8 +57,8 @@ fn clocks_with_any_offset_are_aligned() {
 /// third covers only a fifth of the drive.
 #[test]
 fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
-    let errors = Systematic { clock_offset: 3.2, ..Systematic::NONE };
-    let simulation = simulation_with_errors(NAV2, 2000, errors);
+    let true_errors = Systematic { clock_offset: 3.2, ..Systematic::NONE };
+    let simulation = simulation_with_errors(NAV2, 2000, true_errors);
     let [odometry, reference] = simulation.log();
     let row_count = reference.samples().len();
     let mut rng = seeded_rng(2);
@@ -98,8 +98,8 @@ fn trajectories_without_a_common_time_are_refused() {
     );
     // Straight drives have no turns that could align the clocks. Their clocks are assumed equal, provided that the times overlap.
     let straight_drive = |start_time: f64| {
-        let rows = (0..1000).map(f64::from);
-        trajectory(rows.map(|row| (start_time + 0.1 * row, SE2::new(0.05 * row, 0.0, 0.0))))
+        let row_indices = (0..1000).map(f64::from);
+        trajectory(row_indices.map(|row| (start_time + 0.1 * row, SE2::new(0.05 * row, 0.0, 0.0))))
     };
     assert_eq!(
         calibration_result(&straight_drive(0.0), &straight_drive(70.0)).map(|fit| fit.clock_offset),
@@ -115,8 +115,9 @@ fn trajectories_without_a_common_time_are_refused() {
 fn too_few_legs_are_refused() {
     let simulation = Simulation::of(Model::Velocity, 7, 1);
     let [odometry, reference] = simulation.log();
-    let result = calibrate(&[Drive { odometry: &odometry, reference: &reference }], &simulation.options());
-    assert!(matches!(result, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
+    let calibration_result =
+        calibrate(&[Drive { odometry: &odometry, reference: &reference }], &simulation.options());
+    assert!(matches!(calibration_result, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
 }
 
 /// A mount yaw of 0.07 rad changes each rotation of a leg by 0.07 rad. On legs of a quarter of a metre this has the effect of an α₂ of 0.08,
@@ -201,8 +202,12 @@ fn errors_of_a_robot_without_noise_are_exact() {
 #[test]
 fn four_drives_are_as_informative_as_one_of_the_same_length() {
     let simulation_with_clock = |clock_offset: f64, count: usize, seed: u64| {
-        let errors = Systematic { clock_offset, ..Systematic::NONE };
-        Simulation { systematic_errors: errors, seed, ..simulation_with_errors(NAV2, count, errors) }
+        let true_errors = Systematic { clock_offset, ..Systematic::NONE };
+        Simulation {
+            systematic_errors: true_errors,
+            seed,
+            ..simulation_with_errors(NAV2, count, true_errors)
+        }
     };
     let logs: Vec<[Trajectory; 2]> = [0.0, 0.4, -3.0, 900.0]
         .into_iter()

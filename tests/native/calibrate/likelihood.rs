@@ -55,13 +55,13 @@ fn expected_motion(leg: &Leg, corrected: &Systematic) -> SE2 {
 
 /// Returns the Jacobian of the residuals with respect to the pose error of the reference at one end of a leg.
 fn pose_jacobian(leg: &Leg, corrected: &Systematic, end: usize) -> Matrix3<f64> {
-    let motion = |error: Vector3<f64>| {
+    let motion_with_pose_error = |error: Vector3<f64>| {
         let mut poses = leg.reference;
         poses[end] = poses[end] * SE2::new(error.x, error.y, error.z);
         let [start_pose, end_pose] = poses.map(|pose| pose * corrected.base());
         coordinates(&(start_pose.inverse() * end_pose))
     };
-    reading_jacobian(leg, corrected) * jacobian_of(motion)
+    reading_jacobian(leg, corrected) * jacobian_of(motion_with_pose_error)
 }
 
 /// Returns the derivative of the residuals with respect to a systematic error, for a leg without noise.
@@ -74,8 +74,8 @@ fn error_derivative(leg: &Leg, corrected: &Systematic, error: SystematicError) -
         // The reference has the corrected errors, and its robot executes the odometry motion.
         let mount_pose = |e: &Systematic| SE2::new(e.lever_arm[0], e.lever_arm[1], e.mount_yaw);
         let reference_motion = mount_pose(corrected).inverse() * odometry_motion * mount_pose(corrected);
-        let motion = changed_errors.base().inverse() * (reference_motion * changed_errors.base());
-        coordinates(&motion) - coordinates(&expected_motion(leg, &changed_errors))
+        let measured_motion = changed_errors.base().inverse() * (reference_motion * changed_errors.base());
+        coordinates(&measured_motion) - coordinates(&expected_motion(leg, &changed_errors))
     };
     reading_jacobian(leg, corrected) * (motion_error(H) - motion_error(-H)) / (2.0 * H)
 }

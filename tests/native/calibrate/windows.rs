@@ -27,8 +27,8 @@ fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng)
         |motions: &mut dyn Iterator<Item = SE2>| motions.fold(SE2::identity(), |pose, motion| pose * motion);
     let odom_motion = composed_motion(&mut legs.iter().map(odometry_motion));
     let mut sample_motion = |leg| {
-        let noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
-        executed_motion(model, alphas, &odometry_motion(leg), leg.duration(), noise)
+        let unit_noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
+        executed_motion(model, alphas, &odometry_motion(leg), leg.duration(), unit_noise)
     };
     let samples: Vec<Vector3<f64>> = (0..SAMPLES_PER_WINDOW)
         .map(|_| composed_motion(&mut legs.iter().map(&mut sample_motion)).boxminus(&odom_motion))

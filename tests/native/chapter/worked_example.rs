@@ -163,7 +163,7 @@ fn the_odometry_model_has_the_printed_names() {
     assert_relative_eq!(reading.rot1, 0.25, epsilon = 1e-6);
     assert_relative_eq!(reading.trans, 2.0 * 2.0 * 0.25f64.sin(), epsilon = 1e-6);
     assert_relative_eq!(reading.rot2, 0.25, epsilon = 1e-6);
-    let end = model.sample(&reading, &start_pose, &mut SmallRng::seed_from_u64(1));
-    assert_relative_eq!(end.x(), end_pose.x(), epsilon = 1e-15);
-    assert_relative_eq!(end.y(), end_pose.y(), epsilon = 1e-15);
+    let sampled_end = model.sample(&reading, &start_pose, &mut SmallRng::seed_from_u64(1));
+    assert_relative_eq!(sampled_end.x(), end_pose.x(), epsilon = 1e-15);
+    assert_relative_eq!(sampled_end.y(), end_pose.y(), epsilon = 1e-15);
 }

@@ -45,13 +45,14 @@ pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
 pub fn derivative_by_noise(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> Matrix3<f64> {
     const STEP: f64 = 1e-5;
     Matrix3::from_columns(&[0, 1, 2].map(|axis| {
-        let [after, before] = [STEP, -STEP].map(|step| {
+        let [pose_after, pose_before] = [STEP, -STEP].map(|step| {
             let mut noise = noise;
             noise[axis] += step;
             apply(noise)
         });
-        let heading_difference = wrap_angle(after.theta() - before.theta());
-        Vector3::new(after.x() - before.x(), after.y() - before.y(), heading_difference) / (2.0 * STEP)
+        let heading_difference = wrap_angle(pose_after.theta() - pose_before.theta());
+        Vector3::new(pose_after.x() - pose_before.x(), pose_after.y() - pose_before.y(), heading_difference)
+            / (2.0 * STEP)
     }))
 }
 

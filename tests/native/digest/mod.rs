@@ -23,16 +23,16 @@ fn the_same_seed_gives_the_same_bits() {
             "dead-reckoning" => simulations::dead_reckoning(&configuration),
             _ => continue,
         };
-        let name = format!("{}/{} ", configuration.widget, configuration.name);
+        let line_prefix = format!("{}/{} ", configuration.widget, configuration.name);
         let golden_hashes = golden_text
             .lines()
-            .find_map(|golden_hashes| golden_hashes.strip_prefix(&name))
+            .find_map(|golden_hashes| golden_hashes.strip_prefix(&line_prefix))
             .unwrap_or_default();
         let is_known = |HashedPart(part, hash): &HashedPart| {
             golden_hashes.split(' ').any(|golden_hash| golden_hash == format!("{part}:{hash}"))
         };
         differences.extend(
-            hashed_parts.iter().filter(|part| !is_known(part)).map(|part| format!("{name}{}", part.0)),
+            hashed_parts.iter().filter(|part| !is_known(part)).map(|part| format!("{line_prefix}{}", part.0)),
         );
     }
     assert!(

@@ -86,18 +86,11 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
     let (plan, stats, noise) = (simulation.plan(), simulation.stats(), simulation.settings().noise());
     let attempts = simulation.attempts();
     let wall_ends: Vec<_> = plan.walls().iter().map(|Segment { from, to }| [*from, *to]).collect();
-    let grid_fields = plan.grid().map(|grid_fields| {
-        let [columns, rows] = grid_fields.size();
+    let grid_fields = plan.grid().map(|grid| {
+        let [columns, rows] = grid.size();
         let [are_occupied, are_unknown] = [Cell::Occupied, Cell::Unknown]
-            .map(|kind| grid_fields.cells().map(|cell| cell == kind).collect::<Vec<_>>());
-        (
-            columns,
-            rows,
-            grid_fields.resolution(),
-            coordinates(grid_fields.origin()),
-            are_occupied,
-            are_unknown,
-        )
+            .map(|kind| grid.cells().map(|cell| cell == kind).collect::<Vec<_>>());
+        (columns, rows, grid.resolution(), coordinates(grid.origin()), are_occupied, are_unknown)
     });
     let statistics = (
         (stats.attempts, stats.drawn, stats.accepted, stats.acceptance_rate),

@@ -163,36 +163,37 @@ fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
     assert_eq!(max_percent.value, doorway_max.value);
     let plan = FloorPlan::apartment();
     for (place, [x, y, theta]) in PRESETS {
-        let start = SE2::new(x, y, theta);
+        let start_pose = SE2::new(x, y, theta);
         for (n, omega) in [(0.12, 0.0), (0.12, 0.5), (0.12, 1.0), (0.2, 0.0), (0.2, 0.5), (0.2, 1.0)] {
             let model =
                 VelocityModel { alphas: VelocityAlphas(alphas_of_noise_level(n)), noise: NoiseKind::Normal };
             let conditioned =
                 MapConditioned { model, plan: &plan, clearance: 0.13, sampler: Sampler::Endpoint };
             let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
-            let draw_tester = conditioned.draw_tester(&command, &start);
+            let draw_tester = conditioned.draw_tester(&command, &start_pose);
             let mut rng = seeded_rng(93);
             let (mut accepted_count, mut differing_count) = (0u32, 0u32);
             for _ in 0..40_000 {
-                let noise = std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(&mut rng)));
-                let draw = draw_tester.test_draw(noise);
+                let unit_noise =
+                    std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(&mut rng)));
+                let draw = draw_tester.test_draw(unit_noise);
                 if !draw.end.free {
                     continue;
                 }
                 // The geodesic exp(s·ξ), 0 ≤ s ≤ 1, is also an arc. It starts in the direction of (ξ along, ξ lateral).
-                let xi = draw.pose.boxminus(&start);
+                let xi = draw.pose.boxminus(&start_pose);
                 let geodesic_start = SE2::new(x, y, theta + xi.y.atan2(xi.x));
                 let geodesic = Arc { start: geodesic_start, length: xi.xy().norm(), turn: xi.z };
                 accepted_count += 1;
                 differing_count += u32::from(plan.test_arc(&geodesic, 0.13).free != draw.path.free);
             }
             let fraction = f64::from(differing_count) / f64::from(accepted_count);
-            let error =
+            let tolerance =
                 MAX_STANDARD_ERRORS * (fraction * (1.0 - fraction) / f64::from(accepted_count)).sqrt();
             let min_percent = if place == "doorway" { doorway_min } else { min_percent };
             let (min_percent, max_percent) = (min_percent.value / 100.0, max_percent.value / 100.0);
             assert!(
-                fraction + error > min_percent && fraction - error < max_percent,
+                fraction + tolerance > min_percent && fraction - tolerance < max_percent,
                 "{place}, n = {n}, ω = {omega}: {fraction}"
             );
         }

@@ -13,7 +13,7 @@ const LAW_TOLERANCE: f64 = 32.0 * f64::EPSILON;
 /// Maximum error of exp, log and both Jacobians for |ω| ≤ π, relative to the size of the twist if that exceeds 1.
 const RELATIVE_ACCURACY: f64 = 4e-16;
 
-fn assert_same(a: &SE2, b: &SE2, tolerance: f64, law: &str) {
+fn assert_same_pose(a: &SE2, b: &SE2, tolerance: f64, law: &str) {
     assert!(pose_distance(a, b) <= tolerance, "{law}: {a:?} and {b:?} differ by more than {tolerance:e}");
 }
 
@@ -21,7 +21,7 @@ fn assert_same(a: &SE2, b: &SE2, tolerance: f64, law: &str) {
 #[test]
 fn composition_places_the_second_pose_in_the_frame_of_the_first() {
     let turned_pose = SE2::new(2.0, 1.0, PI / 2.0);
-    assert_same(
+    assert_same_pose(
         &(turned_pose * SE2::new(3.0, 0.5, 0.25)),
         &SE2::new(1.5, 4.0, PI / 2.0 + 0.25),
         LAW_TOLERANCE,
@@ -29,7 +29,7 @@ fn composition_places_the_second_pose_in_the_frame_of_the_first() {
     );
     let facing_north = SE2::new(5.0, 5.0, PI / 2.0);
     let pose_ahead = facing_north.boxplus(Vector3::x());
-    assert_same(&pose_ahead, &SE2::new(5.0, 6.0, PI / 2.0), 16.0 * LAW_TOLERANCE, "in its frame");
+    assert_same_pose(&pose_ahead, &SE2::new(5.0, 6.0, PI / 2.0), 16.0 * LAW_TOLERANCE, "in its frame");
 }
 
 /// The given turn selects the branch, so that the logarithm inverts exp beyond half a turn. Its coordinates grow towards a full turn.

@@ -90,10 +90,10 @@ proptest! {
     /// The inverse Jacobian diverges at a full turn. This law is tested up to half a turn.
     #[test]
     fn jacobians_have_inverses(twist in twists(PI)) {
-        let (jacobian, inverse) = (SE2::right_jacobian(&twist), SE2::right_jacobian_inverse(&twist));
+        let (jacobian, inverse_jacobian) = (SE2::right_jacobian(&twist), SE2::right_jacobian_inverse(&twist));
         let twist_extent = twist.x.abs() + twist.y.abs();
-        assert_close(&(jacobian * inverse), &Matrix3::identity(), twist_extent)?;
-        assert_close(&(inverse * jacobian), &Matrix3::identity(), twist_extent)?;
+        assert_close(&(jacobian * inverse_jacobian), &Matrix3::identity(), twist_extent)?;
+        assert_close(&(inverse_jacobian * jacobian), &Matrix3::identity(), twist_extent)?;
         let half_sinc = sinc(0.5 * twist.z);
         let determinant = jacobian[(0, 0)] * jacobian[(1, 1)] - jacobian[(0, 1)] * jacobian[(1, 0)];
         prop_assert!((determinant - half_sinc * half_sinc).abs() <= TOLERANCE_UNITS * f64::EPSILON);
@@ -112,10 +112,10 @@ proptest! {
 fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, size: f64) -> Result<(), TestCaseError> {
     for i in 0..3 {
         for j in 0..3 {
-            let scale = if j == 2 { 1.0 + size } else { 1.0 };
+            let tolerance_scale = if j == 2 { 1.0 + size } else { 1.0 };
             let difference = (a[(i, j)] - b[(i, j)]).abs();
             prop_assert!(
-                difference <= TOLERANCE_UNITS * f64::EPSILON * scale,
+                difference <= TOLERANCE_UNITS * f64::EPSILON * tolerance_scale,
                 "{} {}: off by {:e}",
                 a,
                 b,

@@ -46,7 +46,7 @@ fn odometry_readings() -> impl Strategy<Value = OdomDelta> {
 
 /// Returns possible values of a uniform draw: odd multiples of 2⁻⁵⁴. The smallest and largest absolute values are frequent.
 fn uniform_draws() -> impl Strategy<Value = f64> {
-    let scale = 1.0 / (1u64 << 53) as f64;
+    let spacing = 1.0 / (1u64 << 53) as f64;
     prop_oneof![
         any::<i64>().prop_map(|bits| bits >> 11),
         (0i64..64).prop_map(|i| (1 << 52) - 1 - i),
@@ -54,7 +54,7 @@ fn uniform_draws() -> impl Strategy<Value = f64> {
         -64i64..64,
         (0u32..53, any::<i64>()).prop_map(|(shift, bits)| bits >> 11 >> shift),
     ]
-    .prop_map(move |mantissa| (mantissa as f64 + 0.5) * scale)
+    .prop_map(move |mantissa| (mantissa as f64 + 0.5) * spacing)
 }
 
 proptest! {
@@ -64,8 +64,8 @@ proptest! {
     fn quantiles_are_odd_and_finite_and_rise(kind in noise_kinds(), a in uniform_draws(), b in uniform_draws()) {
         let quantile = |q: f64| kind.quantile(q);
         prop_assert_eq!(quantile(-a).to_bits(), (-quantile(a)).to_bits());
-        let limit = if kind == NoiseKind::Normal { 8.5 } else { 6f64.sqrt() };
-        prop_assert!(quantile(a).abs() <= limit && (quantile(a) > 0.0) == (a > 0.0), "{}", quantile(a));
+        let max_quantile = if kind == NoiseKind::Normal { 8.5 } else { 6f64.sqrt() };
+        prop_assert!(quantile(a).abs() <= max_quantile && (quantile(a) > 0.0) == (a > 0.0), "{}", quantile(a));
         // The quantile function is an approximation. Its error may reverse the order of neighbouring quantiles.
         let [low, high] = [a.min(b), a.max(b)].map(quantile);
         prop_assert!(low <= high + 2e-15 * high.abs(), "{} {}", low, high);
@@ -111,8 +111,8 @@ proptest! {
     #[test]
     fn exponential_likelihoods_are_never_nan(alphas in alphas(), u in commands(), x in start_poses(), next in start_poses()) {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
-        let tangent = TangentNoiseModel::from_velocity(&model, &u).expect("variances of settings");
-        let log_prob = tangent.log_prob(&next, &u, &x);
+        let tangent_model = TangentNoiseModel::from_velocity(&model, &u).expect("variances of settings");
+        let log_prob = tangent_model.log_prob(&next, &u, &x);
         prop_assert!(!log_prob.is_nan(), "{}", log_prob);
     }
 }

@@ -25,8 +25,8 @@ proptest! {
         let max_turn = PI * (1.0 + 2.0 * f64::EPSILON);
         prop_assert!(turn.abs() <= max_turn && last_turn.abs() <= max_turn, "{:?}", inversion);
         let (forward, left) = chord(length, turn);
-        let end = x * SE2::new(forward, left, turn + last_turn);
-        assert_same_pose(&end, &next, TOLERANCE_UNITS, position_extent(&x) + position_extent(&next))?;
+        let end_pose = x * SE2::new(forward, left, turn + last_turn);
+        assert_same_pose(&end_pose, &next, TOLERANCE_UNITS, position_extent(&x) + position_extent(&next))?;
     }
 
     /// The start is the origin, whose coordinates add no rounding. Turns stay below half a turn, where rounding would decide
@@ -48,14 +48,14 @@ proptest! {
     /// With any number of additional full turns the arc ends at the same place.
     #[test]
     fn arcs_with_additional_full_turns_end_at_the_same_position(x in -50.0..50.0, y in -50.0..50.0, near_turn in -300.0..300.0) {
-        let next = SE2::new(x, y, 0.0);
-        let (length, turn) = arc_with_turn_near(&SE2::identity(), &next, near_turn);
+        let target_pose = SE2::new(x, y, 0.0);
+        let (length, turn) = arc_with_turn_near(&SE2::identity(), &target_pose, near_turn);
         // The circle of a nearly straight arc is so long that its end cannot be represented.
         prop_assume!(length.abs() < 1e6);
         prop_assert!(turn == 0.0 || (turn - near_turn).abs() <= PI * (1.0 + 1e-12), "{}", turn);
-        let end = Arc { start: SE2::identity(), length, turn }.end();
-        let distance = (end.x() - x).hypot(end.y() - y);
-        prop_assert!(distance <= TOLERANCE_UNITS * f64::EPSILON * (length.abs() + position_extent(&next)), "{:e}", distance);
+        let end_pose = Arc { start: SE2::identity(), length, turn }.end();
+        let distance = (end_pose.x() - x).hypot(end_pose.y() - y);
+        prop_assert!(distance <= TOLERANCE_UNITS * f64::EPSILON * (length.abs() + position_extent(&target_pose)), "{:e}", distance);
     }
 
     /// A displacement below a nanometre counts as 0 in an odometry reading.

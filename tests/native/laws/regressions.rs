@@ -63,10 +63,10 @@ fn a_displacement_with_a_subnormal_square_counts_as_zero() {
 #[test]
 fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     let u = VelocityCmd { v: 56.0, omega: 0.0, dt: 1e-6 };
-    let tangent =
+    let tangent_model =
         TangentNoiseModel::from_velocity(&model_with_alphas([0.0, 0.0, 0.0, 0.0, 2.2e-308, 0.0]), &u)
             .expect("variances");
-    let log_prob = tangent.log_prob(&SE2::new(-8.9e17, 0.0, 1e-6), &u, &SE2::identity());
+    let log_prob = tangent_model.log_prob(&SE2::new(-8.9e17, 0.0, 1e-6), &u, &SE2::identity());
     assert!(log_prob < 0.0, "{log_prob}");
 }
 

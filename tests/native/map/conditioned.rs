@@ -13,12 +13,12 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 pub const SAMPLERS: [Sampler; 3] = [Sampler::Endpoint, Sampler::WholeArc, Sampler::SubStepped(4)];
 pub const STRAIGHT_COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
 
-fn model() -> VelocityModel {
+fn velocity_model() -> VelocityModel {
     VelocityModel { alphas: VelocityAlphas(alphas_of_noise_level(0.12)), noise: NoiseKind::Normal }
 }
 
 fn conditioned_model(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
-    MapConditioned { model: model(), plan, clearance: 0.13, sampler }
+    MapConditioned { model: velocity_model(), plan, clearance: 0.13, sampler }
 }
 
 fn start_of_preset(name: &str) -> SE2 {
@@ -53,16 +53,19 @@ fn fractions_equal_the_published_ones() {
         ("corridor", 0.0, 0.840, 0.242),
         ("doorway", 0.6, 0.781, 0.398),
     ] {
-        let (start, command) = (start_of_preset(name), VelocityCmd { omega, ..STRAIGHT_COMMAND });
+        let (start_pose, command) = (start_of_preset(name), VelocityCmd { omega, ..STRAIGHT_COMMAND });
         let mut rng = seeded_rng(5);
-        let draws: Vec<_> = (0..DRAW_COUNT)
-            .map(|_| endpoint_model.draw_tester(&command, &start).test_draw(unit_noise(&mut rng)))
+        let tested_draws: Vec<_> = (0..DRAW_COUNT)
+            .map(|_| endpoint_model.draw_tester(&command, &start_pose).test_draw(unit_noise(&mut rng)))
             .collect();
-        let accepted_count = draws.iter().filter(|draw| draw.end.free).count();
-        let through_wall_count = draws.iter().filter(|draw| draw.end.free && !draw.path.free).count();
+        let accepted_count = tested_draws.iter().filter(|draw| draw.end.free).count();
+        let through_wall_count = tested_draws.iter().filter(|draw| draw.end.free && !draw.path.free).count();
         assert_fraction(name, accepted_count, DRAW_COUNT, published_acceptance);
         assert_fraction(name, through_wall_count, accepted_count, published_through_wall);
-        assert!(draws.iter().all(|draw| draw.end.free || !draw.path.free), "the end is part of the path");
+        assert!(
+            tested_draws.iter().all(|draw| draw.end.free || !draw.path.free),
+            "the end is part of the path"
+        );
     }
 }
 
@@ -74,19 +77,20 @@ fn fractions_equal_the_published_ones() {
 fn samples_are_those_of_table_5_7() {
     let plan = FloorPlan::apartment();
     let command = VelocityCmd { omega: 0.2, ..STRAIGHT_COMMAND };
-    for conditioned in [Sampler::Endpoint, Sampler::WholeArc] {
+    for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         for (name, _) in PRESETS {
-            let (start, conditioned) = (start_of_preset(name), conditioned_model(&plan, conditioned));
+            let (start_pose, conditioned) = (start_of_preset(name), conditioned_model(&plan, sampler));
             let (mut rng, mut expected_rng) = (seeded_rng(9), seeded_rng(9));
             for _ in 0..1000 {
-                let sample = conditioned.sample(&command, &start, &mut rng).expect("it fits");
+                let sample = conditioned.sample(&command, &start_pose, &mut rng).expect("it fits");
                 let mut draw_count = 0;
                 let pose = loop {
                     let mut noise_rng = expected_rng.clone();
-                    let pose = model().sample(&command, &start, &mut expected_rng);
-                    let executed_motion = model().executed_motion(&command, unit_noise(&mut noise_rng));
+                    let pose = velocity_model().sample(&command, &start_pose, &mut expected_rng);
+                    let executed_motion =
+                        velocity_model().executed_motion(&command, unit_noise(&mut noise_rng));
                     let arc = Arc {
-                        start,
+                        start: start_pose,
                         length: 2.0 * executed_motion.v_hat,
                         turn: 2.0 * executed_motion.omega_hat,
                     };
@@ -115,10 +119,10 @@ pub fn too_small_room() -> FloorPlan {
 #[test]
 fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
     let plan = too_small_room();
-    let start = SE2::new(2.1, 2.1, 0.0);
+    let start_pose = SE2::new(2.1, 2.1, 0.0);
     for sampler in SAMPLERS {
         let error = conditioned_model(&plan, sampler)
-            .sample(&STRAIGHT_COMMAND, &start, &mut seeded_rng(12))
+            .sample(&STRAIGHT_COMMAND, &start_pose, &mut seeded_rng(12))
             .expect_err("no room");
         assert_eq!(error.0.draws, MAX_DRAWS);
         assert_eq!(error.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");

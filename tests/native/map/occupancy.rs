@@ -14,7 +14,7 @@ const BLACK: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
 const WHITE: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
 
 /// Description of a grid by its cells.
-struct Cells {
+struct GridCells {
     width: usize,
     height: usize,
     /// Cells row by row from the top, as in the image.
@@ -24,7 +24,7 @@ struct Cells {
     origin: [f64; 3],
 }
 
-impl Cells {
+impl GridCells {
     fn random(rng: &mut impl Rng) -> Self {
         let (width, height) = (1 + (rng.next_u32() % 12) as usize, 1 + (rng.next_u32() % 12) as usize);
         let density = uniform(rng, 0.05, 0.9);
@@ -48,16 +48,16 @@ impl Cells {
     }
 
     /// Returns the distance (m) from a point to the nearest occupied cell, which is 0 inside of a cell.
-    fn distance(&self, [x, y]: [f64; 2]) -> f64 {
-        let ([x0, y0, yaw], size) = (self.origin, self.resolution);
+    fn distance_to_occupied(&self, [x, y]: [f64; 2]) -> f64 {
+        let ([x0, y0, yaw], cell_side) = (self.origin, self.resolution);
         let u = (x - x0) * yaw.cos() + (y - y0) * yaw.sin();
         let v = (y - y0) * yaw.cos() - (x - x0) * yaw.sin();
         let distance_outside = |at: f64, cell: usize| {
-            let low = cell as f64 * size;
-            (low - at).max(at - low - size).max(0.0)
+            let cell_start = cell as f64 * cell_side;
+            (cell_start - at).max(at - cell_start - cell_side).max(0.0)
         };
-        let occupied = (0..self.occupied.len()).filter(|i| self.occupied[*i]);
-        occupied
+        let occupied_indices = (0..self.occupied.len()).filter(|i| self.occupied[*i]);
+        occupied_indices
             .map(|i| {
                 distance_outside(u, i % self.width)
                     .hypot(distance_outside(v, self.height - 1 - i / self.width))
@@ -74,7 +74,7 @@ fn distances_to_walls_equal_distances_to_cells() {
     let mut rng = seeded_rng(9900);
     let (mut inside_count, mut outside_count) = (0, 0);
     for _ in 0..100 {
-        let cells = Cells::random(&mut rng);
+        let cells = GridCells::random(&mut rng);
         let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
         let [left, bottom, right, top] = plan.bounds();
         for _ in 0..50 {
@@ -82,7 +82,7 @@ fn distances_to_walls_equal_distances_to_cells() {
             let row = uniform(&mut rng, 0.0, cells.height as f64);
             let point = cells.to_map(column, row);
             assert!((left..=right).contains(&point[0]) && (bottom..=top).contains(&point[1]));
-            let cell_distance = cells.distance(point);
+            let cell_distance = cells.distance_to_occupied(point);
             if cell_distance == 0.0 {
                 assert!(
                     cells.grid().is_blocked_at(point) && !plan.test_point(point, 0.0).free,
@@ -111,9 +111,9 @@ fn distances_to_walls_equal_distances_to_cells() {
 /// Neighbouring sides of cells form one wall. Between two occupied cells there is no wall, and walls meet at corners.
 #[test]
 fn sides_of_neighbouring_cells_form_one_wall() {
-    let rows = ["##.", "#..", "..#"];
-    let occupied = rows.iter().flat_map(|row| row.chars().map(|cell| cell == '#')).collect();
-    let cells = Cells { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
+    let drawn_rows = ["##.", "#..", "..#"];
+    let occupied = drawn_rows.iter().flat_map(|row| row.chars().map(|cell| cell == '#')).collect();
+    let cells = GridCells { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
     let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
     let mut walls: Vec<[f64; 4]> =
         plan.walls().iter().map(|Segment { from, to }| [from[0], from[1], to[0], to[1]]).collect();
@@ -132,7 +132,7 @@ fn sides_of_neighbouring_cells_form_one_wall() {
     ];
     assert_eq!(walls, expected_walls);
     assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
-    let rotated_cells = Cells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
+    let rotated_cells = GridCells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
     let bounds = FloorPlan::from_grid(rotated_cells.grid()).expect("a small grid").bounds();
     for (bound, expected_walls) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
         assert!((bound - expected_walls).abs() < 1e-15, "{bounds:?}");
@@ -145,8 +145,13 @@ fn a_grid_of_too_many_walls_is_refused() {
     let occupied = (0..cells_per_side * cells_per_side)
         .map(|i| i / cells_per_side % 2 == 0 && i % cells_per_side % 2 == 0)
         .collect();
-    let single_cells =
-        Cells { width: cells_per_side, height: cells_per_side, occupied, resolution: 0.05, origin: [0.0; 3] };
+    let single_cells = GridCells {
+        width: cells_per_side,
+        height: cells_per_side,
+        occupied,
+        resolution: 0.05,
+        origin: [0.0; 3],
+    };
     // The grid has 160 · 160 single cells with four sides each.
     let error = FloorPlan::from_grid(single_cells.grid()).err();
     assert_eq!(error, Some(FloorPlanError::TooManySides(20_001)));
@@ -161,7 +166,7 @@ fn a_grid_of_too_many_walls_is_refused() {
 #[test]
 fn a_grid_outside_the_range_of_coordinates_is_refused() {
     let grid_at = |resolution, origin| {
-        Cells { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.grid()
+        GridCells { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.grid()
     };
     assert!(FloorPlan::from_grid(grid_at(0.5, [-1e6, 1e6 - 1.0, 0.0])).is_ok());
     for (resolution, origin) in [(0.5, [1e6 - 1.0, 0.0, 0.0]), (4e4, [0.0; 3]), (0.004, [0.0; 3])] {
@@ -176,7 +181,7 @@ fn a_grid_outside_the_range_of_coordinates_is_refused() {
 
 /// Returns a grid with cells of 10 cm that are drawn as `#` (occupied), `?` (unknown) and `.` (free). The first row is at the
 /// top.
-fn grid_of(rows: &[&str], unknown: UnknownCells) -> OccupancyGrid {
+fn grid_from_drawing(rows: &[&str], unknown: UnknownCells) -> OccupancyGrid {
     let shade = |cell| match cell {
         '#' => 0.0,
         '?' => 0.5,
@@ -192,7 +197,7 @@ fn grid_of(rows: &[&str], unknown: UnknownCells) -> OccupancyGrid {
 /// cells do not count as free.
 #[test]
 fn the_free_pose_is_in_the_largest_free_square() {
-    let rows = [
+    let drawn_rows = [
         "????????????????",
         "????????????????",
         "##########??????",
@@ -203,7 +208,7 @@ fn the_free_pose_is_in_the_largest_free_square() {
         "##########??????",
     ];
     for unknown_cells in [UnknownCells::Free, UnknownCells::Blocked] {
-        let plan = FloorPlan::from_grid(grid_of(&rows, unknown_cells)).expect("a small grid");
+        let plan = FloorPlan::from_grid(grid_from_drawing(&drawn_rows, unknown_cells)).expect("a small grid");
         let free_pose = plan.find_free_pose(0.1).expect("there is room");
         // The pose is in the middle of the first square of four free cells, and heads through the door.
         assert!((free_pose.x() - 0.3).abs() + (free_pose.y() - 0.3).abs() < 1e-12, "{free_pose:?}");
@@ -212,15 +217,15 @@ fn the_free_pose_is_in_the_largest_free_square() {
         assert!(plan.test_arc(&straight_arc, 0.0).free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
     }
     // A robot that just fits cannot move. The heading is then 0.
-    let one_cell_plan =
-        FloorPlan::from_grid(grid_of(&["###", "#.#", "###"], UnknownCells::Free)).expect("a small grid");
+    let one_cell_plan = FloorPlan::from_grid(grid_from_drawing(&["###", "#.#", "###"], UnknownCells::Free))
+        .expect("a small grid");
     assert_eq!(one_cell_plan.find_free_pose(0.0499).expect("there is room").theta(), 0.0);
     // All cells are unknown, and count as free or blocked as the setting says.
-    let unknown_grid = grid_of(&["???", "???", "???"], UnknownCells::Free);
+    let unknown_grid = grid_from_drawing(&["???", "???", "???"], UnknownCells::Free);
     let free_pose =
         FloorPlan::from_grid(unknown_grid).expect("no walls").find_free_pose(0.1).expect("there is room");
     assert!((free_pose.x() - 0.05).abs() + (free_pose.y() - 0.05).abs() < 1e-12, "the first: {free_pose:?}");
-    let blocked_grid = grid_of(&["???", "???", "???"], UnknownCells::Blocked);
+    let blocked_grid = grid_from_drawing(&["???", "???", "???"], UnknownCells::Blocked);
     assert!(blocked_grid.cells().all(|cell| cell == Cell::Unknown), "the cells themselves are unchanged");
     assert_eq!(FloorPlan::from_grid(blocked_grid).expect("four walls").find_free_pose(0.1), None);
 }

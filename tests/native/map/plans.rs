@@ -29,21 +29,24 @@ fn random_arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
     Arc { start: SE2::new(start[0], start[1], uniform(rng, -PI, PI)), length, turn }
 }
 
-/// Returns walls whose coordinates extend by at most `size` m, a third of them along the axes.
+/// Returns walls whose coordinates extend by at most `max_extent` m, a third of them along the axes.
 fn random_walls(count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
     let [left, bottom, right, top] = bounds;
     (0..count)
         .map(|_| {
-            let start = random_point(bounds, rng);
-            let mut end = [
-                start[0] + uniform(rng, -max_extent, max_extent),
-                start[1] + uniform(rng, -max_extent, max_extent),
+            let start_point = random_point(bounds, rng);
+            let mut end_point = [
+                start_point[0] + uniform(rng, -max_extent, max_extent),
+                start_point[1] + uniform(rng, -max_extent, max_extent),
             ];
             if rng.next_u32().is_multiple_of(3) {
                 let axis = (rng.next_u32() % 2) as usize;
-                end[axis] = start[axis];
+                end_point[axis] = start_point[axis];
             }
-            Segment { from: start, to: [end[0].clamp(left, right), end[1].clamp(bottom, top)] }
+            Segment {
+                from: start_point,
+                to: [end_point[0].clamp(left, right), end_point[1].clamp(bottom, top)],
+            }
         })
         .collect()
 }
@@ -96,9 +99,9 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
         let corners = plan.grid().map_or(box_corners, OccupancyGrid::corners);
         let mut verdict_counts = [0; 3];
         for _ in 0..3_000 {
-            let start = random_point(plan.bounds(), &mut rng);
+            let start_point = random_point(plan.bounds(), &mut rng);
             let length_factor = signed_log_uniform(&mut rng, 1e-3, 1.0);
-            let arc = random_arc_from(start, &mut rng);
+            let arc = random_arc_from(start_point, &mut rng);
             let turn = if rng.next_u32().is_multiple_of(3) { 2.0 * arc.turn } else { arc.turn };
             let arc = Arc { length: length_factor * arc.length, turn, ..arc };
             let clearance = [0.0, 0.01, 0.13, 0.4][(rng.next_u32() % 4) as usize];
@@ -123,9 +126,9 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
             let is_in_occupied_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
             let is_end_free =
                 is_on_map(arc_end) && !is_in_occupied_cell(arc_end) && distance_to_end > clearance;
-            let is_path_free = is_on_map(start)
+            let is_path_free = is_on_map(start_point)
                 && !does_cross_edge
-                && !is_in_occupied_cell(start)
+                && !is_in_occupied_cell(start_point)
                 && is_end_free
                 && distance_to_arc > clearance;
             assert_eq!(

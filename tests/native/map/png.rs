@@ -22,8 +22,8 @@ fn encoded_png(format: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
         let row_bits: String =
             row.iter().map(|sample| format!("{sample:0width$b}", width = format.bits as usize)).collect();
         let row_bytes = row_bits.as_bytes().chunks(8).map(|byte| {
-            let digits = byte.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
-            digits << (8 - byte.len())
+            let byte_value = byte.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
+            byte_value << (8 - byte.len())
         });
         raster.extend(row_bytes);
     }
@@ -84,7 +84,7 @@ fn every_kind_of_image_is_decoded_exactly() {
                 };
                 let max_sample = f64::from((1u32 << bits) - 1);
                 let to_byte = |sample: u16| (255.0 * f64::from(sample) / max_sample).round() as u8;
-                let expected: Vec<[u8; 4]> = samples
+                let expected_pixels: Vec<[u8; 4]> = samples
                     .chunks(color.samples())
                     .map(|pixel| {
                         let opacity = if has_transparent_colour && pixel == first_pixel { 0 } else { 255 };
@@ -110,7 +110,7 @@ fn every_kind_of_image_is_decoded_exactly() {
                     .collect();
                 let image = read_png(&encoded_png(&format, width, &samples)).expect("an image");
                 assert_eq!((image.width, image.height), (width as usize, height));
-                assert_eq!(image.pixels, expected, "{color:?} {bits} {width} {has_transparency}");
+                assert_eq!(image.pixels, expected_pixels, "{color:?} {bits} {width} {has_transparency}");
             }
         }
     }
@@ -141,7 +141,7 @@ fn an_image_that_is_cut_short_is_refused() {
 #[test]
 fn an_image_that_is_too_large_is_refused_by_its_header() {
     let mut file = Vec::new();
-    let side = 1 + (MAX_PIXELS as f64).sqrt() as u32;
-    drop(Encoder::new(&mut file, side, side).write_header().expect("a header"));
-    assert_eq!(read_png(&file), Err(PngError::TooLarge { width: side, height: side }));
+    let side_pixels = 1 + (MAX_PIXELS as f64).sqrt() as u32;
+    drop(Encoder::new(&mut file, side_pixels, side_pixels).write_header().expect("a header"));
+    assert_eq!(read_png(&file), Err(PngError::TooLarge { width: side_pixels, height: side_pixels }));
 }

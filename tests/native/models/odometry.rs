@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 const ALPHAS: OdomAlphas = OdomAlphas([0.05, 0.02, 0.01, 0.03]);
 
-fn model(noise: NoiseKind) -> OdometryModel {
+fn odometry_model(noise: NoiseKind) -> OdometryModel {
     OdometryModel { alphas: ALPHAS, noise }
 }
 
@@ -56,7 +56,7 @@ fn a_spin_on_the_spot_counts_as_the_second_rotation() {
     assert_eq!(reading_at(1e-9f64.next_down()), odom_delta(0.0, 0.0, 0.5));
     assert_eq!(reading_at(1e-9), odom_delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
     let u = odom_delta(0.0, 0.0, 0.8);
-    assert_eq!(model(NoiseKind::Normal).pose_density(&u.apply(&prev), &u, &prev), None);
+    assert_eq!(odometry_model(NoiseKind::Normal).pose_density(&u.apply(&prev), &u, &prev), None);
 }
 
 /// Table 5.5 computes its variances from the hypothetical motion, not from the reading.
@@ -73,7 +73,7 @@ fn prob_is_the_score_of_table_5_5() {
                 let expected_score = kind.prob(u.rot1 - executed_legs.rot1, Variance(r1))
                     * kind.prob(u.trans - executed_legs.trans, Variance(t))
                     * kind.prob(u.rot2 - executed_legs.rot2, Variance(r2));
-                let score = model(kind).prob(&executed_legs.apply(&x), &u, &x);
+                let score = odometry_model(kind).prob(&executed_legs.apply(&x), &u, &x);
                 assert!(
                     (score - expected_score).abs() <= 1e-9 * (1.0 + expected_score),
                     "{executed_legs:?} for {u:?}: {score}, not {expected_score}"
@@ -98,12 +98,16 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
                 0.0
             );
             assert_eq!(noise_free_model.pose_density(&noise_free_end, &u, &x), None);
-            assert!(model(kind).pose_density(&noise_free_end, &u, &x).is_some());
-            assert_eq!(model(kind).tangent_cov(&u), None, "noise of three legs is not one Gaussian in se(2)");
+            assert!(odometry_model(kind).pose_density(&noise_free_end, &u, &x).is_some());
+            assert_eq!(
+                odometry_model(kind).tangent_cov(&u),
+                None,
+                "noise of three legs is not one Gaussian in se(2)"
+            );
         }
         let no_motion = odom_delta(0.0, 0.0, 0.0);
-        assert_eq!(model(kind).sample(&no_motion, &x, &mut rng), x);
-        assert_eq!(model(kind).prob(&x, &no_motion, &x), 1.0);
+        assert_eq!(odometry_model(kind).sample(&no_motion, &x, &mut rng), x);
+        assert_eq!(odometry_model(kind).prob(&x, &no_motion, &x), 1.0);
     }
 }
 
@@ -117,11 +121,13 @@ fn the_pose_density_divides_by_the_jacobian() {
         for u in odometry_readings() {
             let table_variances = table_variances(&u, f64::abs);
             for _ in 0..100 {
-                let noise = table_variances.map(|b2| uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
-                let executed_legs = odom_delta(u.rot1 - noise[0], u.trans - noise[1], u.rot2 - noise[2]);
-                let [r1, t, r2] = [0, 1, 2].map(|leg| kind.prob(noise[leg], Variance(table_variances[leg])));
+                let leg_noise = table_variances.map(|b2| uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
+                let executed_legs =
+                    odom_delta(u.rot1 - leg_noise[0], u.trans - leg_noise[1], u.rot2 - leg_noise[2]);
+                let [r1, t, r2] =
+                    [0, 1, 2].map(|leg| kind.prob(leg_noise[leg], Variance(table_variances[leg])));
                 let expected_density = r1 * t * r2 / executed_legs.trans;
-                let density = model(kind).pose_density(&executed_legs.apply(&x), &u, &x).unwrap();
+                let density = odometry_model(kind).pose_density(&executed_legs.apply(&x), &u, &x).unwrap();
                 // Other legs that lead to the same pose, in reverse or with full turns, add less than 1e-6 with this noise.
                 assert!(
                     (density / expected_density - 1.0).abs() < 1e-6,
@@ -147,10 +153,10 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
         (NoiseKind::Normal, 1e-6, odometry_readings()[5]),
         (NoiseKind::Triangular, 1e-3, odom_delta(0.7, 0.8, -0.4)),
     ] {
-        let model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise: kind };
+        let odometry_model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise: kind };
         let radius = u.trans + 7.0 * (1.1 * u.trans.powi(2) + 0.4 * (u.rot1.powi(2) + u.rot2.powi(2))).sqrt();
         let integral = PolarGrid::around_start(&x, 1.0, radius, [14, 8, 8])
-            .integral(|pose| model.pose_density(pose, &u, &x).unwrap());
+            .integral(|pose| odometry_model.pose_density(pose, &u, &x).unwrap());
         assert!((integral - 1.0).abs() < tolerance, "{kind:?} {u:?}: {integral}");
     }
 }
@@ -160,11 +166,12 @@ fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
     for (seed, u) in (100..).zip([odometry_readings()[0], odometry_readings()[3]]) {
         for kind in NOISE_KINDS {
-            let model = model(kind);
+            let odometry_model = odometry_model(kind);
             let mut rng = seeded_rng(seed);
-            let poses: Vec<SE2> = (0..SAMPLE_COUNT).map(|_| model.sample(&u, &x, &mut rng)).collect();
+            let poses: Vec<SE2> =
+                (0..SAMPLE_COUNT).map(|_| odometry_model.sample(&u, &x, &mut rng)).collect();
             let (chi_square, chi_square_limit) = box_around(&u, &x, table_variances(&u, f64::abs))
-                .chi_square(&poses, |pose| model.pose_density(pose, &u, &x).unwrap());
+                .chi_square(&poses, |pose| odometry_model.pose_density(pose, &u, &x).unwrap());
             assert!(
                 chi_square < chi_square_limit,
                 "{kind:?} {u:?}: χ² = {chi_square}, limit {chi_square_limit}"
@@ -176,10 +183,10 @@ fn sampler_and_density_agree() {
 #[test]
 fn cartesian_cov_is_the_linearized_motion() {
     let x = SE2::new(4.0, 1.0, -1.2);
-    let model = model(NoiseKind::Normal);
+    let odometry_model = odometry_model(NoiseKind::Normal);
     for u in odometry_readings() {
-        let jacobian = derivative_by_noise([0.0; 3], |unit| model.apply_noise(&u, &x, unit));
-        let cov = model.cartesian_cov(&u, &x);
+        let jacobian = derivative_by_noise([0.0; 3], |unit| odometry_model.apply_noise(&u, &x, unit));
+        let cov = odometry_model.cartesian_cov(&u, &x);
         assert!((cov - jacobian * jacobian.transpose()).amax() < 1e-8, "{u:?}\n{cov}");
     }
 }
@@ -192,7 +199,7 @@ fn reverse_aware_noise_excludes_half_turns() {
     assert!(backward_reading.rot1.abs() > 3.0 && backward_reading.rot2.abs() > 3.0, "{backward_reading:?}");
     let effective_angle = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
     for kind in NOISE_KINDS {
-        let (unaware_model, aware_model) = (model(kind), ReverseAware(model(kind)));
+        let (unaware_model, aware_model) = (odometry_model(kind), ReverseAware(odometry_model(kind)));
         let mut rng = seeded_rng(110);
         let cloud: Vec<SE2> =
             (0..SAMPLE_COUNT).map(|_| aware_model.sample(&backward_reading, &x, &mut rng)).collect();

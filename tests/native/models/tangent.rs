@@ -40,23 +40,23 @@ fn start_poses() -> [SE2; 2] {
 fn log_prob_is_a_gaussian_in_exponential_coordinates() {
     let mut rng = seeded_rng(120);
     for x in start_poses() {
-        let model = TangentNoiseModel::new(full_cov()).unwrap();
+        let tangent_model = TangentNoiseModel::new(full_cov()).unwrap();
         for _ in 0..500 {
             let deviation = Vector3::from_fn(|_, _| uniform(&mut rng, -1.0, 1.0));
-            let next = x.boxplus(Vector3::new(1.0, 0.0, 0.5) + deviation);
-            let (log_prob, expected) =
-                (model.log_prob(&next, &U, &x), log_gaussian_density(&deviation, &full_cov()));
-            assert!((log_prob - expected).abs() < 1e-8, "{log_prob}, not {expected}");
+            let next_pose = x.boxplus(Vector3::new(1.0, 0.0, 0.5) + deviation);
+            let (log_prob, expected_log_prob) =
+                (tangent_model.log_prob(&next_pose, &U, &x), log_gaussian_density(&deviation, &full_cov()));
+            assert!((log_prob - expected_log_prob).abs() < 1e-8, "{log_prob}, not {expected_log_prob}");
         }
     }
     // Wheels have no lateral noise. The density is then concentrated on a thin sheet.
-    let model = TangentNoiseModel::from_velocity(
+    let tangent_model = TangentNoiseModel::from_velocity(
         &velocity_model(VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
         &U,
     );
-    let model = model.unwrap();
+    let tangent_model = tangent_model.unwrap();
     let log_prob_at = |deviation: Vector3<f64>| {
-        model.log_prob(&SE2::exp(&(Vector3::new(1.0, 0.0, 0.5) + deviation)), &U, &SE2::identity())
+        tangent_model.log_prob(&SE2::exp(&(Vector3::new(1.0, 0.0, 0.5) + deviation)), &U, &SE2::identity())
     };
     let peak = log_prob_at(Vector3::zeros());
     assert!((log_prob_at(Vector3::new(0.1, 0.0, 0.1)) - peak + 0.5 * 2.0 * 0.01 / 0.025).abs() < 1e-6);
@@ -75,8 +75,8 @@ fn without_noise_in_the_arc_the_density_is_finite() {
             0.01,
             0.01,
         ]);
-        let model = TangentNoiseModel::from_velocity(&velocity_model(alphas), &U).unwrap();
-        let log_prob = model.log_prob(&SE2::exp(&TangentNoiseModel::twist(&U)), &U, &SE2::identity());
+        let tangent_model = TangentNoiseModel::from_velocity(&velocity_model(alphas), &U).unwrap();
+        let log_prob = tangent_model.log_prob(&SE2::exp(&TangentNoiseModel::twist(&U)), &U, &SE2::identity());
         let variances = Vector3::new(along_variance.max(1e-12), turn_variance.max(1e-12), 0.0125);
         // The volume factors of chart and arc cancel, except for one factor of 2.
         let expected_log_prob =
@@ -96,18 +96,18 @@ fn the_tangent_form_has_the_density_of_the_velocity_model() {
     for x in start_poses() {
         for (v, omega) in [(1.0, 0.5), (1.0, -0.5), (-1.0, 0.5), (-0.8, -1.0)] {
             let u = VelocityCmd { v, omega, dt: 1.2 };
-            let model = TangentNoiseModel::from_velocity(&velocity_model(alphas), &u).unwrap();
+            let tangent_model = TangentNoiseModel::from_velocity(&velocity_model(alphas), &u).unwrap();
             for _ in 0..200 {
                 let unit_noise = [(); 3].map(|()| uniform(&mut rng, -2.0, 2.0));
-                let next = velocity_model(alphas).apply_noise(&u, &x, unit_noise);
-                let half_turn = 0.5 * next.boxminus(&x).z;
+                let next_pose = velocity_model(alphas).apply_noise(&u, &x, unit_noise);
+                let half_turn = 0.5 * next_pose.boxminus(&x).z;
                 let log_volume = 2.0 * (half_turn.sin() / half_turn).ln();
                 let expected_log_prob =
-                    velocity_model(alphas).pose_density(&next, &u, &x).unwrap().ln() + log_volume;
-                let log_prob = model.log_prob(&next, &u, &x);
+                    velocity_model(alphas).pose_density(&next_pose, &u, &x).unwrap().ln() + log_volume;
+                let log_prob = tangent_model.log_prob(&next_pose, &u, &x);
                 assert!(
                     (log_prob - expected_log_prob).abs() < 1e-6,
-                    "{u:?} at {next:?}: {log_prob}, not {expected_log_prob}"
+                    "{u:?} at {next_pose:?}: {log_prob}, not {expected_log_prob}"
                 );
             }
         }
@@ -119,12 +119,12 @@ fn the_tangent_form_has_the_density_of_the_velocity_model() {
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(1.0, 2.0, -0.7);
-    let model = TangentNoiseModel::new(full_cov()).unwrap();
+    let tangent_model = TangentNoiseModel::new(full_cov()).unwrap();
     let mut rng = seeded_rng(122);
     let inverse_cov_root = full_cov().cholesky().unwrap().l().try_inverse().unwrap();
     let tau = Vector3::new(1.0, 0.0, 0.5);
     let whitened_samples: Vec<Vector3<f64>> = (0..SAMPLE_COUNT)
-        .map(|_| inverse_cov_root * (model.sample(&U, &x, &mut rng).boxminus(&x) - tau))
+        .map(|_| inverse_cov_root * (tangent_model.sample(&U, &x, &mut rng).boxminus(&x) - tau))
         .collect();
     for axis in 0..3 {
         let component = whitened_samples.iter().map(|w| w[axis]).collect();
@@ -150,7 +150,7 @@ fn sampler_and_density_agree() {
 fn compound_is_the_chapters_recursion() {
     let mut rng = seeded_rng(124);
     for r in [full_cov(), Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025))] {
-        let model = TangentNoiseModel::new(r).unwrap();
+        let tangent_model = TangentNoiseModel::new(r).unwrap();
         for _ in 0..100 {
             let mut draw_within = |limit: f64| uniform(&mut rng, -limit, limit);
             let tau = Vector3::new(draw_within(2.0), draw_within(2.0), draw_within(3.0));
@@ -158,15 +158,15 @@ fn compound_is_the_chapters_recursion() {
             let sigma = sigma_root * sigma_root.transpose();
             let inverse_adjoint = SE2::exp(&tau).adjoint().try_inverse().unwrap();
             let expected_cov = inverse_adjoint * sigma * inverse_adjoint.transpose() + r;
-            let compounded = model.compound(&sigma, &tau);
+            let compounded = tangent_model.compound(&sigma, &tau);
             assert!((compounded - expected_cov).amax() < 1e-12, "{compounded}{expected_cov}");
-            assert_eq!(model.propagate(&sigma, &tau, Compounding::Chapter), compounded);
+            assert_eq!(tangent_model.propagate(&sigma, &tau, Compounding::Chapter), compounded);
         }
     }
     // The chapter's R contains the variance of γ̂.
-    let model = TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &U).unwrap();
+    let tangent_model = TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &U).unwrap();
     let expected_cov = Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.03125));
-    assert!((model.compound(&Matrix3::zeros(), &Vector3::zeros()) - expected_cov).amax() < 1e-16);
+    assert!((tangent_model.compound(&Matrix3::zeros(), &Vector3::zeros()) - expected_cov).amax() < 1e-16);
 }
 
 /// A step from an exact pose transforms noise inside the arc to J_r R J_rᵀ. Noise of γ̂, which turns the robot after the arc, stays as it is.
@@ -205,14 +205,15 @@ fn cov_after_twenty_steps(model: &TangentNoiseModel, order: Compounding) -> Matr
 
 #[test]
 fn twenty_steps_match_the_references() {
-    let model = TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &STEP_COMMAND).unwrap();
+    let tangent_model =
+        TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &STEP_COMMAND).unwrap();
     let table = ReferenceTable::parse(include_str!("../../reference/compounding.csv"));
     for (row, order) in
         table.rows().zip([Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder])
     {
         let [aa, ab, aw, bb, bw, ww] = row.all(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
         let expected_cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
-        let sigma = cov_after_twenty_steps(&model, order);
+        let sigma = cov_after_twenty_steps(&tangent_model, order);
         assert!((sigma - expected_cov).amax() < 1e-14, "{}: {sigma}{expected_cov}", row.text("order"));
     }
 }

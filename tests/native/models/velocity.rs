@@ -7,8 +7,8 @@ use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel}
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
-const WITHOUT_LAST_TURN: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]);
-const WITH_LAST_TURN: VelocityAlphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
+const ALPHAS_WITHOUT_LAST_TURN: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]);
+const ALPHAS_WITH_LAST_TURN: VelocityAlphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
 
 fn velocity_model(alphas: VelocityAlphas, noise: NoiseKind) -> VelocityModel {
     VelocityModel { alphas, noise }
@@ -19,10 +19,10 @@ fn velocity_command(v: f64, omega: f64, dt: f64) -> VelocityCmd {
 }
 
 fn noise_free_end(u: &VelocityCmd, x: &SE2) -> SE2 {
-    velocity_model(WITHOUT_LAST_TURN, NoiseKind::Normal).apply_noise(u, x, [0.0; 3])
+    velocity_model(ALPHAS_WITHOUT_LAST_TURN, NoiseKind::Normal).apply_noise(u, x, [0.0; 3])
 }
 
-/// Returns commands with all signs of v and ω, straight ones, and spins on the spot.
+/// Returns commands with all signs of v and ω, straight drives, and turns on the spot.
 fn commands() -> Vec<VelocityCmd> {
     let signs = [(1.0, 0.5), (1.0, -0.5), (-1.0, 0.5), (-1.0, -0.5)];
     let mut all_commands: Vec<_> = signs.map(|(v, omega)| velocity_command(v, omega, 1.0)).to_vec();
@@ -43,7 +43,7 @@ fn prob_falls_off_as_the_noise_does() {
     for (kind, expected_ratio) in
         [(NoiseKind::Normal, (-0.5f64).exp()), (NoiseKind::Triangular, 1.0 - 1.0 / 6f64.sqrt())]
     {
-        let velocity_model = velocity_model(WITH_LAST_TURN, kind);
+        let velocity_model = velocity_model(ALPHAS_WITH_LAST_TURN, kind);
         for u in commands().into_iter().filter(|u| u.v != 0.0) {
             for x in start_poses() {
                 let peak = velocity_model.prob(&noise_free_end(&u, &x), &u, &x);
@@ -80,19 +80,24 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
                 );
                 assert_eq!(noise_free_model.pose_density(&end_pose, &u, &x), None);
                 assert_eq!(
-                    velocity_model(WITHOUT_LAST_TURN, kind).pose_density(&end_pose, &u, &x),
+                    velocity_model(ALPHAS_WITHOUT_LAST_TURN, kind).pose_density(&end_pose, &u, &x),
                     None,
                     "γ̂ has no variance"
                 );
-                assert!(velocity_model(WITH_LAST_TURN, kind).pose_density(&end_pose, &u, &x).is_some());
+                assert!(
+                    velocity_model(ALPHAS_WITH_LAST_TURN, kind).pose_density(&end_pose, &u, &x).is_some()
+                );
             }
         }
         // Noise is proportional to motion. A parked robot has none.
         let parked_command = velocity_command(0.0, 0.0, 1.0);
         for x in start_poses() {
-            assert_eq!(velocity_model(WITH_LAST_TURN, kind).sample(&parked_command, &x, &mut rng), x);
-            assert_eq!(velocity_model(WITH_LAST_TURN, kind).prob(&x, &parked_command, &x), 1.0);
-            assert_eq!(velocity_model(WITH_LAST_TURN, kind).pose_density(&x, &parked_command, &x), None);
+            assert_eq!(velocity_model(ALPHAS_WITH_LAST_TURN, kind).sample(&parked_command, &x, &mut rng), x);
+            assert_eq!(velocity_model(ALPHAS_WITH_LAST_TURN, kind).prob(&x, &parked_command, &x), 1.0);
+            assert_eq!(
+                velocity_model(ALPHAS_WITH_LAST_TURN, kind).pose_density(&x, &parked_command, &x),
+                None
+            );
         }
     }
 }
@@ -106,15 +111,15 @@ fn samples_far_from_the_origin_have_a_positive_score() {
         (100.0, velocity_command(-0.05, 0.05, 0.01)),
         (10.0, velocity_command(0.01, 0.0, 0.02)),
     ] {
-        for alphas in [WITHOUT_LAST_TURN, VelocityAlphas([0.0; 6])] {
+        for alphas in [ALPHAS_WITHOUT_LAST_TURN, VelocityAlphas([0.0; 6])] {
             for _ in 0..1000 {
                 let mut draw_within = |limit: f64| uniform(&mut rng, -limit, limit);
                 let x = SE2::new(draw_within(distance), draw_within(distance), draw_within(PI));
                 let unit_noise = [draw_within(2.0), draw_within(2.0), 0.0];
-                let end = velocity_model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit_noise);
+                let end_pose = velocity_model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit_noise);
                 assert!(
-                    velocity_model(alphas, NoiseKind::Normal).prob(&end, &u, &x) > 0.0,
-                    "{u:?} from {x:?} to {end:?}"
+                    velocity_model(alphas, NoiseKind::Normal).prob(&end_pose, &u, &x) > 0.0,
+                    "{u:?} from {x:?} to {end_pose:?}"
                 );
             }
         }
@@ -182,8 +187,8 @@ fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
 #[test]
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
-    let small_alphas = VelocityAlphas(WITH_LAST_TURN.0.map(|alpha| 0.1 * alpha));
-    let cases = [(WITH_LAST_TURN, -1.0, 0.5), (small_alphas, 0.9, 3.6)];
+    let small_alphas = VelocityAlphas(ALPHAS_WITH_LAST_TURN.0.map(|alpha| 0.1 * alpha));
+    let cases = [(ALPHAS_WITH_LAST_TURN, -1.0, 0.5), (small_alphas, 0.9, 3.6)];
     for (seed, (alphas, v, omega)) in (60..).zip(cases) {
         let u = velocity_command(v, omega, 1.0);
         for kind in NOISE_KINDS {
@@ -205,7 +210,7 @@ fn sampler_and_density_agree() {
 #[test]
 fn the_tables_prob_differs_from_the_density_by_a_few_percent() {
     let (u, x) = (velocity_command(1.0, 0.5, 1.0), SE2::identity());
-    let velocity_model = velocity_model(WITH_LAST_TURN, NoiseKind::Normal);
+    let velocity_model = velocity_model(ALPHAS_WITH_LAST_TURN, NoiseKind::Normal);
     let polar_grid = box_around(&velocity_model, &u, &x);
     let density_masses = polar_grid.cell_masses(|pose| velocity_model.pose_density(pose, &u, &x).unwrap());
     let score_masses = polar_grid.cell_masses(|pose| velocity_model.prob(pose, &u, &x));
@@ -219,7 +224,7 @@ fn the_tables_prob_differs_from_the_density_by_a_few_percent() {
 fn cartesian_cov_is_the_linearized_arc() {
     for u in commands() {
         for x in start_poses() {
-            for alphas in [WITHOUT_LAST_TURN, WITH_LAST_TURN] {
+            for alphas in [ALPHAS_WITHOUT_LAST_TURN, ALPHAS_WITH_LAST_TURN] {
                 let velocity_model = velocity_model(alphas, NoiseKind::Normal);
                 let jacobian = derivative_by_noise([0.0; 3], |unit_noise| {
                     velocity_model.apply_noise(&u, &x, unit_noise)

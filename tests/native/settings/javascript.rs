@@ -59,7 +59,7 @@ fn settings_js() -> String {
     let banana::Settings { velocity_alphas, odometry_alphas, .. } = banana::Settings::default();
     format!(
         "{SETTINGS_JS_HEAD}
-/** @type {{Record<string, Declaration[]>}} settings of each widget, by its tag, in the order in which they are declared */
+/** @type {{Record<string, Declaration[]>}} declared settings of each widget by its tag, in order */
 export const settings = {{
   'banana-machine': [
 {}  ],
@@ -90,16 +90,16 @@ export const presets = {{
   'alpha-calibrator': [],
 }};
 
-/** The noise parameters that each model opens with. */
+/** Initial noise parameters of each model. */
 export const openingAlphas = {{ velocity: {velocity_alphas:?}, odometry: {odometry_alphas:?} }};
 
 /**
- * Limits of the core. `cells` and `bytes` are the largest numbers of cells of a grid or pixels of an image, and of bytes of its file.
- * `trial` limits samples times parts in a call of `MapSqueeze.trial`. `ramp` is the number of colours of a ramp.
+ * Limits of the core. `cells` is the maximum number of cells of a grid and of pixels of an image. `bytes` is the maximum size of an image
+ * file. `trial` is the maximum product of samples and parts in a call of `MapSqueeze.trial`. `ramp` is the number of colours of a ramp.
  */
 export const limits = {{ cells: {MAX_PIXELS}, bytes: {MAX_BYTES}, trial: {MAX_TRIAL_PARTS}, ramp: {RAMP_STEPS} }};
 
-/** Bits of a verdict of Map Squeeze. */
+/** Bits of a verdict on an attempt of Map Squeeze. */
 export const verdict = {{ endFree: {END_FREE_BIT}, pathFree: {PATH_FREE_BIT}, accepted: {ACCEPTED_BIT} }};
 ",
         declaration_lines(banana::Settings::default(), &banana::ALPHA_SENTENCES),
@@ -129,27 +129,27 @@ export const verdict = {{ endFree: {END_FREE_BIT}, pathFree: {PATH_FREE_BIT}, ac
 }
 
 const SETTINGS_JS_HEAD: &str = "\
-// Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test native settings`: not to be edited.
+// Generated from the declarations in src/sim by `UPDATE_SETTINGS=1 cargo test --test native settings`. Do not edit it.
 
 /**
  * Declaration of a setting.
  *
  * @typedef {object} Declaration
- * @property {string} key its name, as attribute, property and in states
- * @property {string} [in] the group or list that it is a part of
- * @property {string} [of] the setting that it sets, in another form
- * @property {number[]} [weights] the shares of it that the last numbers of that setting have
- * @property {string} [field] its name in that group, where another group has one of the same
- * @property {number} [index] its place in that list, from 0
+ * @property {string} key name of the setting as attribute, as property and in states
+ * @property {string} [in] key of the group or list that contains the setting
+ * @property {string} [of] key of another setting that this setting sets in another form
+ * @property {number[]} [weights] ratios of the last numbers of that other setting to this setting
+ * @property {string} [field] key in the group, if a field of another group has the same key
+ * @property {number} [index] index in the list, from 0
  * @property {'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group'} type
- * @property {string[]} [words] those that are allowed
- * @property {string[]} [fields] the keys of a group
+ * @property {string[]} [words] allowed words
+ * @property {string[]} [fields] keys of the fields of a group
  * @property {string} [unit]
- * @property {boolean} [nullable] whether it may be null
- * @property {number} [min] least value allowed, of a list that of each number
- * @property {number} [max] greatest value allowed
- * @property {string | number | boolean | number[] | null} [default] the value that the widget opens with
- * @property {string} sentence what it is
+ * @property {boolean} [nullable] true if the value may be null
+ * @property {number} [min] minimum of the number, or of each number of a list
+ * @property {number} [max] maximum of the number, or of each number of a list
+ * @property {string | number | boolean | number[] | null} [default] initial value
+ * @property {string} sentence description
  */
 ";
 
@@ -201,38 +201,43 @@ fn append_setting(
     let unit = if unit.is_empty() { String::new() } else { format!("unit: '{unit}', ") };
     let mut append = |text: String| objects.push(format!("key: '{key}', {of}{text}, sentence: '{sentence}'"));
     match setting {
-        Setting::Number(value, allowed) => {
-            append(format!("type: 'number', {unit}{}, default: {value}", range_entries(&allowed)));
+        Setting::Number(default_value, allowed) => {
+            append(format!("type: 'number', {unit}{}, default: {default_value}", range_entries(&allowed)));
         }
-        Setting::Integer(value, allowed) => {
-            append(format!("type: 'whole', {unit}{}, default: {}", range_entries(&allowed), value.get()));
-        }
-        Setting::OptionalInteger(value, allowed) => {
-            let value = value.map_or("null".to_owned(), |value| value.to_string());
+        Setting::Integer(default_value, allowed) => {
             append(format!(
-                "type: 'whole', nullable: true, {unit}{}, default: {value}",
+                "type: 'whole', {unit}{}, default: {}",
+                range_entries(&allowed),
+                default_value.get()
+            ));
+        }
+        Setting::OptionalInteger(default_value, allowed) => {
+            let default_value =
+                default_value.map_or("null".to_owned(), |default_value| default_value.to_string());
+            append(format!(
+                "type: 'whole', nullable: true, {unit}{}, default: {default_value}",
                 range_entries(&allowed)
             ));
         }
-        Setting::Boolean(value) => append(format!("type: 'boolean', default: {value}")),
+        Setting::Boolean(default_value) => append(format!("type: 'boolean', default: {default_value}")),
         Setting::Keyword(word) => {
             append(format!("type: 'word', words: {}, default: '{}'", js_array(word.all()), word.get()));
         }
         Setting::Level(level, allowed) => {
-            let value = level.get().map_or("null".to_owned(), |level| level.to_string());
+            let default_value = level.get().map_or("null".to_owned(), |level| level.to_string());
             let weights = level.weights();
             append(format!(
-                "weights: {weights:?}, type: 'number', nullable: true, {unit}{}, default: {value}",
+                "weights: {weights:?}, type: 'number', nullable: true, {unit}{}, default: {default_value}",
                 range_entries(&allowed)
             ));
         }
         Setting::Numbers(values, allowed) => {
             append(format!("type: 'numbers', {}, default: {values:?}", range_entries(&allowed)));
-            for (index, (value, sentence)) in values.iter().zip(number_sentences).enumerate() {
+            for (index, (default_value, sentence)) in values.iter().zip(number_sentences).enumerate() {
                 // The last numbers are null in models with fewer α's.
                 let nullable = if sentence == &number_sentences[0] { "" } else { "nullable: true, " };
                 objects.push(format!(
-                    "key: 'alpha{}', in: '{key}', index: {index}, type: 'number', {nullable}{}, default: {value}, \
+                    "key: 'alpha{}', in: '{key}', index: {index}, type: 'number', {nullable}{}, default: {default_value}, \
                      sentence: '{sentence}'",
                     index + 1,
                     range_entries(&allowed),
@@ -243,7 +248,7 @@ fn append_setting(
             let keys = group.fields().iter().map(|field| field.declaration.key).collect();
             append(format!("type: 'group', fields: {}", js_array(keys)));
             for (i, field) in group.fields().iter().enumerate() {
-                let value = *group.number(i);
+                let default_value = *group.number(i);
                 let Declaration { key: field_key, sentence, unit, .. } = field.declaration;
                 let key_entries = if shared_keys.contains(&field_key) {
                     let (initial, remaining_key) = field_key.split_at(1);
@@ -255,7 +260,7 @@ fn append_setting(
                     format!("key: '{field_key}', in: '{key}'")
                 };
                 objects.push(format!(
-                    "{key_entries}, type: 'number', unit: '{unit}', {}, default: {value}, \
+                    "{key_entries}, type: 'number', unit: '{unit}', {}, default: {default_value}, \
                      sentence: '{sentence}'",
                     range_entries(&field.allowed),
                 ));

@@ -183,8 +183,8 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     let leg_view = simulation.leg(leg_index).expect("a leg");
     let [start_pose, end_pose] =
         calibration.legs[leg_index].reference.map(|pose| pose * calibration.corrected.base());
-    let motion = start_pose.inverse() * end_pose;
-    assert_eq!(leg_view.ended, [motion.x(), motion.y(), motion.theta()]);
+    let leg_motion = start_pose.inverse() * end_pose;
+    assert_eq!(leg_view.ended, [leg_motion.x(), leg_motion.y(), leg_motion.theta()]);
     let [rot1, trans, rot2] = calibration.observations[leg_index].reading;
     let odometry_end = OdomDelta { rot1, trans, rot2 }.apply(&SE2::identity());
     assert!(

@@ -9,16 +9,24 @@ use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityModel};
 #[test]
 fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
     for (level, are_low_corners_cut_off) in [(0.4, true), (0.6, false)] {
-        let lines = level_set(&[1.0, 0.0, 0.0, 1.0], 2, level);
-        assert_eq!(lines.len(), 2);
+        let contour_lines = level_set(&[1.0, 0.0, 0.0, 1.0], 2, level);
+        assert_eq!(contour_lines.len(), 2);
         // Two lines cut off either both low corners or both high corners.
         let is_cut_off = |corner: [f64; 2]| {
-            lines
+            contour_lines
                 .iter()
                 .any(|line| line.iter().all(|[x, y]| (x - corner[0]).abs() + (y - corner[1]).abs() < 1.0))
         };
-        assert_eq!(is_cut_off([1.0, 0.0]) && is_cut_off([0.0, 1.0]), are_low_corners_cut_off, "{lines:?}");
-        assert_eq!(is_cut_off([0.0, 0.0]) && is_cut_off([1.0, 1.0]), !are_low_corners_cut_off, "{lines:?}");
+        assert_eq!(
+            is_cut_off([1.0, 0.0]) && is_cut_off([0.0, 1.0]),
+            are_low_corners_cut_off,
+            "{contour_lines:?}"
+        );
+        assert_eq!(
+            is_cut_off([0.0, 0.0]) && is_cut_off([1.0, 1.0]),
+            !are_low_corners_cut_off,
+            "{contour_lines:?}"
+        );
     }
 }
 
@@ -35,9 +43,9 @@ fn contours_of_noise_contain_every_crossing() {
         crossing_count += if i % columns + 1 < columns { is_crossed(i + 1) } else { 0 };
         crossing_count += if i / columns + 1 < rows { is_crossed(i + columns) } else { 0 };
     }
-    let lines = level_set(&field, columns, 0.2);
+    let contour_lines = level_set(&field, columns, 0.2);
     let mut point_count = 0;
-    for line in &lines {
+    for line in &contour_lines {
         let is_closed = line.len() > 2 && line.first() == line.last();
         point_count += line.len() - usize::from(is_closed);
         let is_on_rim =

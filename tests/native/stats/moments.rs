@@ -58,8 +58,8 @@ fn the_exponential_contour_covers_two_deviations() {
         assert!((squared_sigmas - 4.0).abs() < 1e-9, "{squared_sigmas}");
         for (scale, is_inside) in [(0.99, true), (1.01, false)] {
             let v = 1.0 + scale * (inversion.v_hat - 1.0);
-            let turn = 0.5 + scale * (inversion.omega_hat - 0.5);
-            assert_eq!(contour.contains(&start_pose.boxplus(Vector3::new(v, 0.0, turn))), is_inside);
+            let omega = 0.5 + scale * (inversion.omega_hat - 0.5);
+            assert_eq!(contour.contains(&start_pose.boxplus(Vector3::new(v, 0.0, omega))), is_inside);
         }
     }
 }
@@ -107,22 +107,22 @@ fn predicted_skews_match_the_references() {
 
 const MOMENT_COLUMNS: [&str; 8] = ["mx", "my", "sxx", "sxy", "syy", "sxt", "syt", "stt"];
 
-fn assert_moments_of_row(exact: &ExactMoments, row: &crate::common::Row<'_>) {
+fn assert_moments_of_row(exact_moments: &ExactMoments, row: &crate::common::Row<'_>) {
     let computed = [
-        exact.mean.x,
-        exact.mean.y,
-        exact.cov[(0, 0)],
-        exact.cov[(0, 1)],
-        exact.cov[(1, 1)],
-        exact.cov[(0, 2)],
-        exact.cov[(1, 2)],
-        exact.cov[(2, 2)],
+        exact_moments.mean.x,
+        exact_moments.mean.y,
+        exact_moments.cov[(0, 0)],
+        exact_moments.cov[(0, 1)],
+        exact_moments.cov[(1, 1)],
+        exact_moments.cov[(0, 2)],
+        exact_moments.cov[(1, 2)],
+        exact_moments.cov[(2, 2)],
     ];
     for (name, value) in MOMENT_COLUMNS.into_iter().zip(computed) {
         assert!((value - row.get(name)).abs() < 1e-14, "{name}: {value}, not {}", row.get(name));
     }
-    assert!((exact.cov - exact.cov.transpose()).amax() < 1e-15);
-    let skew = exact.cross_track_skew;
+    assert!((exact_moments.cov - exact_moments.cov.transpose()).amax() < 1e-15);
+    let skew = exact_moments.cross_track_skew;
     assert!((skew - row.get("skew")).abs() < 1e-12, "skew {skew}, not {}", row.get("skew"));
 }
 
@@ -132,17 +132,17 @@ fn exact_moments_match_the_references() {
         let alphas = VelocityAlphas(row.all(["a1", "a2", "a3", "a4", "a5", "a6"]));
         let [v, omega, dt] = row.all(["v", "omega", "dt"]);
         let model = VelocityModel { alphas, noise: row.kind() };
-        let exact = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt });
-        assert!((exact.mean.z - wrap_angle(omega * dt)).abs() < 1e-15);
-        assert_moments_of_row(&exact, &row);
+        let exact_moments = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt });
+        assert!((exact_moments.mean.z - wrap_angle(omega * dt)).abs() < 1e-15);
+        assert_moments_of_row(&exact_moments, &row);
     }
     for row in ReferenceTable::parse(include_str!("../../reference/odometry_moments.csv")).rows() {
         let [rot1, trans, rot2] = row.all(["rot1", "trans", "rot2"]);
         let model =
             OdometryModel { alphas: OdomAlphas(row.all(["a1", "a2", "a3", "a4"])), noise: row.kind() };
-        let exact = ExactMoments::of_odometry(&model, &OdomDelta { rot1, trans, rot2 });
-        assert!((exact.mean.z - wrap_angle(rot1 + rot2)).abs() < 1e-15);
-        assert_moments_of_row(&exact, &row);
+        let exact_moments = ExactMoments::of_odometry(&model, &OdomDelta { rot1, trans, rot2 });
+        assert!((exact_moments.mean.z - wrap_angle(rot1 + rot2)).abs() < 1e-15);
+        assert_moments_of_row(&exact_moments, &row);
     }
 }
 

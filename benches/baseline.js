@@ -10,7 +10,7 @@
  * @typedef {import('./scene.js').Picture} Picture
  */
 
-/** Names of the sums of the first pass, in order. */
+/** Names of the sums of the first pass, in order: x, y, length, lateral, turn, sine and cosine of the turn, and products. */
 const SUM_NAMES = ['x', 'y', 'l', 'm', 't', 's', 'c', 'xx', 'xy', 'yy', 'xt', 'yt', 'tt', 'll', 'lm', 'mm', 'lt', 'mt'];
 
 export class Baseline {
@@ -80,7 +80,7 @@ export class Baseline {
     };
   }
 
-  /** Colours the counts by a table of all counts up to the largest. @param {Uint8Array} ramp @param {number} maxCount */
+  /** Paints the pixels by a table of the colours of all counts. @param {Uint8Array} ramp @param {number} maxCount */
   #paint(ramp, maxCount) {
     const { counts, pixels } = this;
     const colours = new Uint32Array(ramp.buffer, ramp.byteOffset, 256);
@@ -113,7 +113,7 @@ function driveCloud(noise, cloud, command, deviations, origin) {
     const y = chord * Math.sin(halfTurn);
     let t = 2 * halfTurn + sdGamma * noise[i + 2] * dt - t0;
     if (t > Math.PI || t < -Math.PI) t -= 2 * Math.PI * Math.round(t / (2 * Math.PI));
-    // Exponential coordinates: length along the arc and lateral offset.
+    // l and m are exponential coordinates: the length along the arc and the lateral offset.
     const halfAngle = 0.5 * (t0 + t);
     const stretch = halfAngle === 0 ? 1 : halfAngle / Math.tan(halfAngle);
     const l = stretch * x + halfAngle * y - l0;

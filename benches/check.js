@@ -7,7 +7,7 @@
 import { Baseline } from './baseline.js';
 import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, readDensityPixels, readStatsAndContours } from './scene.js';
 
-/** Largest accepted difference (m, rad or a fraction) between both implementations, which add in different orders. */
+/** Maximum difference (m, rad or a fraction) between both implementations, which add numbers in different orders. */
 const TOLERANCE = 1e-9;
 
 /** Returns the names and values of the statistics in which the core and the baseline differ. @param {import('../www/types.d.ts').Motion} motion @param {number} samples */
@@ -21,7 +21,7 @@ export function differencesFromCore(motion, samples) {
     const baselineResult = baseline.refresh(commandAt(event), PICTURE_VIEW, COLOUR_RAMP);
     for (const [name, value] of numbersWithPaths(baselineResult.stats)) {
       const coreValue = name.split('.').reduce((part, key) => part[key], /** @type {any} */ (stats));
-      // NaN is a difference too.
+      // The negation also reports NaN.
       if (!(Math.abs(value - coreValue) <= TOLERANCE)) differenceTexts.push(`${name}: ${value}, core ${coreValue}`);
     }
     const pixels = readDensityPixels(simulation);
@@ -42,7 +42,7 @@ export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, 
   return executed.map((value, i) => (value - [v, omega, 0][i % 3]) / stdDevs[i % 3]);
 }
 
-/** Returns every number by its path. @param {object | number} value @param {string[]} path @returns {[string, number][]} */
+/** Returns every number of an object with its path. @param {object | number} value @param {string[]} path @returns {[string, number][]} */
 function numbersWithPaths(value, ...path) {
   if (typeof value === 'number') return [[path.join('.'), value]];
   return Object.entries(value).flatMap(([key, member]) => numbersWithPaths(member, ...path, key));

@@ -1,6 +1,6 @@
 /**
- * Times of the steps of a drag, at the initial sample counts and with a processor four times slower. Three times are measured: that of the
- * frame that paints the picture (JavaScript, WebAssembly, style, layout and paint), that until the text is updated, and that between frames.
+ * Durations of the steps of a drag, at the initial sample counts and with a processor four times slower: of the frame that paints the picture
+ * (JavaScript, WebAssembly, style, layout and paint), until the text is updated, and between frames.
  *
  * @module
  */
@@ -8,7 +8,7 @@
 /** Factor by which Chromium slows the processor. */
 export const SLOWDOWN = 4;
 
-/** Selector of sliders and handles. Handles of walls are excluded, because they change the map and no setting. */
+/** Selector of sliders and handles. Handles of walls are excluded, because they change the map instead of a setting. */
 const DRAGGED_SELECTOR = '.slider input[type=range], .handle:not(.jamb, .side)';
 
 /**
@@ -64,14 +64,14 @@ async function timeDrag({ widget, selector, i, steps }) {
     pictureCount++;
     clearRect.apply(this, box);
   };
-  /** Returns the time at which the page has finished the current frame, which is that of the first message after it. @returns {Promise<number>} */
+  /** Returns the time at which the page has finished the current frame, when it reads the first message after it. @returns {Promise<number>} */
   const untilFrameDone = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => resolve(performance.now());
       port2.postMessage(undefined);
     });
-  /** Returns the time of the next frame after a text changes, also one for screen readers only. @returns {Promise<number>} */
+  /** Returns the end of the frame in which a text changes, including texts for screen readers. @returns {Promise<number>} */
   const waitForTextChange = () =>
     new Promise((resolve) => {
       const observer = new MutationObserver(() => {
@@ -87,13 +87,13 @@ async function timeDrag({ widget, selector, i, steps }) {
       else draggedElement.stepDown();
       draggedElement.dispatchEvent(new InputEvent('input', { bubbles: true, composed: true }));
     } else {
-      // Keys move a handle as a pointer does, by steps.
+      // Arrow keys move a handle by steps, with the same effects as a pointer.
       draggedElement.dispatchEvent(new KeyboardEvent('keydown', { key: step % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true, composed: true }));
     }
   };
   /** @type {{ picture: number[], text: number[], steady: number[] }} */
   const durations = { picture: [], text: [], steady: [] };
-  // During the first steps the browser compiles the code that later steps run.
+  // During the first six steps, which are not counted, the browser compiles the code.
   for (let step = -6; step < steps; step++) {
     await new Promise(requestAnimationFrame);
     const [configBefore, picturesBefore] = [JSON.stringify(figure.simulation.config), pictureCount];

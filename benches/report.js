@@ -22,7 +22,7 @@ import { SLOWDOWN } from './drag.js';
 /** Duration of a frame at 60 Hz, ms. */
 const FRAME_MS = 16.7;
 
-/** Returns the report as text. @param {Results} results */
+/** Returns the report as Markdown. @param {Results} results */
 export function formatReport({ ranOn, quick, node, chromium, start, drags }) {
   const slowestDrag = drags.reduce((slowestSoFar, drag) => (quantileOf(drag.picture) > quantileOf(slowestSoFar.picture) ? drag : slowestSoFar));
   const valuesByRuntime = (/** @type {(timings: Timings) => number[]} */ valuesOf) => ({ Node: valuesOf(node), Chromium: valuesOf(chromium) });
@@ -64,8 +64,8 @@ function quantileOf(values, share = 0.5) {
 
 /** Returns the median and the quartiles as text. @param {number[]} values @param {string} [unit] */
 function cellTextOf(values, unit = '') {
-  const [lower, middle, upper] = [0.25, 0.5, 0.75].map((share) => formatDigits(quantileOf(values, share)));
-  return values.length > 0 ? `${`${middle} ${unit}`.trim()} [${lower} to ${upper}]` : '';
+  const [lowerQuartile, median, upperQuartile] = [0.25, 0.5, 0.75].map((share) => formatDigits(quantileOf(values, share)));
+  return values.length > 0 ? `${`${median} ${unit}`.trim()} [${lowerQuartile} to ${upperQuartile}]` : '';
 }
 
 /** Rounds to three significant digits. @param {number} value */

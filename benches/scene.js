@@ -1,5 +1,5 @@
 /**
- * Model, slider and picture of a refresh, which are the same for the core and the baseline.
+ * Model, slider and picture of a refresh. They are the same for the core and the baseline.
  *
  * @module
  */
@@ -7,7 +7,7 @@
 /** @typedef {import('../www/types.d.ts').BananaMachine} BananaMachine */
 /** @typedef {import('../www/types.d.ts').Command} Command */
 
-/** α's of the preset Gentle arc: none of the six is 0. */
+/** α's of the preset Gentle arc, in which none of the six is 0. */
 export const ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 /** View with 400 pixels per metre around the whole cloud. */
@@ -23,7 +23,7 @@ export const COLOUR_RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
   return Math.round(i % 4 === 3 ? 255 * (0.15 + 0.85 * shadeShare) : sparseColour[i % 4] + inkShare * (denseColour[i % 4] - sparseColour[i % 4]));
 });
 
-/** Command at an event. The slider goes up and down and never stays. @param {number} event @returns {Command} */
+/** Returns the command at an event. The slider moves up and down and never stays. @param {number} event @returns {Command} */
 export function commandAt(event) {
   return { v: 1, omega: 0.5 + 0.001 * Math.abs(50 - (event % 100)), dt: 1 };
 }
@@ -40,7 +40,7 @@ export function readDensityPixels(simulation, { xMin, yMin, xMax, yMax, columns,
 }
 
 /**
- * Reads everything that a page needs after an event, except for the picture.
+ * Returns everything that a page needs after an event, except for the picture.
  *
  * @param {BananaMachine} simulation
  * @param {number} event

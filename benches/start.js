@@ -4,7 +4,7 @@
  * @module
  */
 
-/** Stages that end with each mark, in order. */
+/** Stage that ends with each mark, in order. */
 const STAGE_OF_MARK = /** @type {const} */ ({
   evaluated: 'the script is evaluated',
   drawn: 'module, simulation, first rendering, first samples drawn',
@@ -41,7 +41,7 @@ export async function timeStarts(browser, address, loads) {
 
 /** Marks the ends of stages that the page does not mark itself. Runs before the page's scripts. */
 function markStages() {
-  // The cloud is on screen once an image of its density is drawn, or this number of dots.
+  // The cloud is drawn once an image of its density or this number of dots is drawn.
   const DOTS_OF_CLOUD = 100;
   let dotCount = 0;
   const { prototype } = CanvasRenderingContext2D;
@@ -54,7 +54,7 @@ function markStages() {
       if (!(canvasRoot instanceof ShadowRoot) || canvasRoot.host.localName !== 'banana-machine') return;
       if ((methodName === 'arc' && ++dotCount < DOTS_OF_CLOUD) || performance.getEntriesByName('drawn').length > 0) return;
       performance.mark('drawn');
-      // A message is read once the frame that is being made has been handed to the screen.
+      // The message is read once the current frame has been handed to the screen.
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => performance.mark('shown');
       port2.postMessage(undefined);

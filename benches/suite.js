@@ -1,5 +1,5 @@
 /**
- * Measurements that run in Node and in a page alike.
+ * Measurements that run both in Node and in a page.
  *
  * @module
  */

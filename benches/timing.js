@@ -5,11 +5,11 @@
  * @module
  */
 
-/** Minimum duration of a turn, ms: the clock's step in an isolated page, 5 µs, is half a per cent of it. */
+/** Minimum duration of a turn in ms. The clock's step in an isolated page, 5 µs, is half a per cent of it. */
 const MIN_TURN_MS = 1;
-/** Number of warm-up turns: afterwards V8 compiles nothing more. */
+/** Number of warm-up turns, after which V8 compiles nothing more. */
 const WARM_UP_TURNS = 8;
-/** Limits of the number of turns: fewer have no meaningful quartiles, and more change nothing. */
+/** Limits of the number of turns. Fewer turns have no meaningful quartiles, and more turns change nothing. */
 const [MIN_TURNS, MAX_TURNS] = [5, 60];
 
 /**
